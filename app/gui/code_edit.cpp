@@ -137,6 +137,27 @@ void CodeEdit::show_marks() {
     setExtraSelections(all);
 }
 
+QString CodeEdit::text() const {
+    // toPlainText() would make blanks of blanks that do not break
+    QString out = document()->toRawText();
+    return out.replace(QChar::ParagraphSeparator, '\n').replace(QChar::LineSeparator, '\n');
+}
+
+void CodeEdit::change(const std::vector<TextChange>& changes) {
+    const QByteArray bytes = text().toUtf8();
+    const auto sign = [&](size_t byte) {
+        return static_cast<int>(QString::fromUtf8(bytes.left(static_cast<int>(byte))).size());
+    };
+    QTextCursor cursor = textCursor();  // undoing goes back to where this is now
+    cursor.beginEditBlock();
+    for (auto change = changes.rbegin(); change != changes.rend(); ++change) {
+        cursor.setPosition(sign(change->at));
+        cursor.setPosition(sign(change->at + change->length), QTextCursor::KeepAnchor);
+        cursor.insertText(QString::fromStdString(change->text));
+    }
+    cursor.endEditBlock();
+}
+
 void CodeEdit::go_to(int line) {
     setTextCursor(QTextCursor(document()->findBlockByNumber(line - 1)));
     centerCursor();
@@ -157,13 +178,13 @@ bool CodeEdit::viewportEvent(QEvent* event) {
 /// `anyhow`: also where no word has begun.
 void CodeEdit::ask_for_words(bool anyhow) {
     if (isReadOnly()) return;
-    const WordPlace place = word_place(toPlainText(), textCursor().position());
+    const WordPlace place = word_place(text(), textCursor().position());
     if (anyhow || (place.is_key && !place.has_colon && !place.typed.isEmpty()))
         Q_EMIT words_wanted(place);
 }
 
 void CodeEdit::offer(const WordPlace& place, const std::vector<Choice>& words) {
-    const WordPlace now = word_place(toPlainText(), textCursor().position());
+    const WordPlace now = word_place(text(), textCursor().position());
     if (now.asking != place.asking || !hasFocus()) return;  // another place by now
     auto& model = static_cast<QStandardItemModel&>(*words_->model());
     model.clear();
@@ -211,6 +232,7 @@ void CodeEdit::keyPressEvent(QKeyEvent* event) {
         return event->ignore();  // the list takes it
     if (event->key() == Qt::Key_Space && event->modifiers().testFlag(Qt::ControlModifier))
         return ask_for_words(true);
+    if (event->modifiers().testFlag(Qt::AltModifier)) Q_EMIT step_wanted(*event);
     if (event->key() == Qt::Key_Tab) {
         insertPlainText("  ");
         return;
@@ -224,7 +246,7 @@ void CodeEdit::keyPressEvent(QKeyEvent* event) {
     }
     QPlainTextEdit::keyPressEvent(event);
     if (event->text().isEmpty()) return;
-    const WordPlace now = word_place(toPlainText(), textCursor().position());
+    const WordPlace now = word_place(text(), textCursor().position());
     if (choosing && now.asking == offered_.asking) return show_words(now);
     words_->popup()->hide();
     ask_for_words(false);

@@ -6,6 +6,7 @@
 #include <QPlainTextEdit>
 #include <map>
 
+#include "base/written.h"
 #include "word_finder.h"
 
 namespace dihaptic::gui {
@@ -20,12 +21,19 @@ class CodeEdit : public QPlainTextEdit {
     void mark(const std::map<int, QString>& problems);
     /// Puts the cursor into a line, counted from 1, and shows it.
     void go_to(int line);
+    /// The text as it stands, with a line feed behind each line but the last.
+    QString text() const;
+    /// Replaces parts of text(), by its bytes in UTF-8: one step of undo. The cursor stays where it
+    /// is.
+    void change(const std::vector<TextChange>& changes);
     /// Offers words for the place where the cursor still is, if there are any that fit.
     void offer(const WordPlace& place, const std::vector<Choice>& words);
 
   Q_SIGNALS:
     /// Who types wants to know which words may stand at the cursor, or began one.
     void words_wanted(const dihaptic::gui::WordPlace& place);
+    /// A key was pressed, with Alt, that may move a body.
+    void step_wanted(const QKeyEvent& event);
 
   protected:
     void resizeEvent(QResizeEvent* event) override;

@@ -7,20 +7,24 @@
 #include <QSaveFile>
 #include <QVBoxLayout>
 
+#include "scene/body_text.h"
+
 namespace dihaptic::gui {
 namespace {
 
 constexpr int kPause = 400;  // [ms]
+constexpr int kLook = 100;   // [ms]
+constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
 
-QString content_of(const QString& file) {
+QByteArray content_of(const QString& file) {
     QFile in(file);
-    return in.open(QIODevice::ReadOnly) ? QString::fromUtf8(in.readAll()) : QString();
+    return in.open(QIODevice::ReadOnly) ? in.readAll() : QByteArray();
 }
 
 /// Writes a file as a whole; returns why it could not.
-QString write(const QString& file, const QString& text) {
+QString write(const QString& file, const QByteArray& content) {
     QSaveFile out(file);
-    if (!out.open(QIODevice::WriteOnly) || out.write(text.toUtf8()) < 0 || !out.commit())
+    if (!out.open(QIODevice::WriteOnly) || out.write(content) < 0 || !out.commit())
         return out.errorString();
     return "";
 }
@@ -50,6 +54,14 @@ Composer::Composer(QWidget* parent)
         Q_EMIT modified(changed);
     });
     connect(&pause_, &QTimer::timeout, this, &Composer::edited);
+    look_.setSingleShot(true);
+    look_.setInterval(kLook);
+    connect(edit_, &QPlainTextEdit::cursorPositionChanged, &look_, qOverload<>(&QTimer::start));
+    connect(edit_, &QPlainTextEdit::textChanged, &look_, qOverload<>(&QTimer::start));
+    connect(&look_, &QTimer::timeout, this, &Composer::cursor_moved);
+    connect(edit_, &QPlainTextEdit::undoAvailable, this, &Composer::undo_available);
+    connect(edit_, &QPlainTextEdit::redoAvailable, this, &Composer::redo_available);
+    connect(edit_, &CodeEdit::step_wanted, this, &Composer::step_wanted);
     connect(edit_, &CodeEdit::words_wanted, this,
             [this](const WordPlace& place) { finder_.find(file_, place); });
     connect(&finder_, &WordFinder::found, edit_, &CodeEdit::offer);
@@ -76,12 +88,12 @@ void Composer::remove_draft() {
 }
 
 void Composer::open(const QString& file) {
-    const QString text = content_of(file);
-    if (file == file_ && (changed() || text == read_)) return;
+    const QByteArray content = content_of(file);
+    if (file == file_ && (changed() || content == read_)) return;
     remove_draft();
     file_ = file;
-    read_ = text;
-    edit_->setPlainText(text);
+    read_ = content;
+    edit_->setPlainText(QString::fromUtf8(content));
     edit_->document()->setModified(false);
     pause_.stop();  // nobody typed this
     edit_->setReadOnly(!QFileInfo(file).isWritable());
@@ -90,9 +102,15 @@ void Composer::open(const QString& file) {
                                         : "");
 }
 
+QByteArray Composer::content() const {
+    QString text = edit_->text();
+    if (read_.contains("\r\n")) text.replace("\n", "\r\n");
+    return (read_.startsWith(kByteOrderMark) ? kByteOrderMark : "") + text.toUtf8();
+}
+
 QString Composer::source() {
     if (!changed()) return file_;
-    const QString why = write(draft(), edit_->toPlainText());
+    const QString why = write(draft(), content());
     if (why.isEmpty()) return draft();
     state_->setText(QString("The text cannot be checked as you type: %1: %2").arg(draft(), why));
     return file_;
@@ -105,14 +123,36 @@ bool Composer::go_to(const Place& place) {
     return true;
 }
 
+std::string Composer::body() const {
+    const QString text = edit_->text();
+    const QByteArray before = text.left(edit_->textCursor().position()).toUtf8();
+    return scene::body_at(text.toStdString(), static_cast<size_t>(before.size()));
+}
+
+bool Composer::move(const std::string& body, const BodyWay& way) {
+    if (edit_->isReadOnly()) return false;  // it says so all the time
+    if (body.empty()) {
+        state_->setText("The cursor is not in the lines of a body: nothing moves.");
+        return false;
+    }
+    try {
+        edit_->change(scene::moved_body(edit_->text().toStdString(), body, way.way, way.turn));
+        state_->setText(problems_);
+        return true;
+    } catch (const Error& e) {
+        state_->setText(e.what());
+        return false;
+    }
+}
+
 bool Composer::save() {
     if (!changed()) return true;
-    const QString text = edit_->toPlainText();
-    if (const QString why = write(file_, text); !why.isEmpty()) {
+    const QByteArray written = content();
+    if (const QString why = write(file_, written); !why.isEmpty()) {
         state_->setText(QString("%1 cannot be written: %2").arg(file_, why));
         return false;
     }
-    read_ = text;
+    read_ = written;
     pause_.stop();
     edit_->document()->setModified(false);
     remove_draft();
@@ -121,7 +161,7 @@ bool Composer::save() {
 }
 
 bool Composer::save_as(const QString& file) {
-    if (const QString why = write(file, edit_->toPlainText()); !why.isEmpty()) {
+    if (const QString why = write(file, content()); !why.isEmpty()) {
         state_->setText(QString("%1 cannot be written: %2").arg(file, why));
         return false;
     }
@@ -148,7 +188,8 @@ void Composer::show_problems(const QStringList& problems) {
         all += here ? QString("line %1: %2").arg(match.captured(2), match.captured(3)) : problem;
     }
     edit_->mark(marks);
-    if (!edit_->isReadOnly()) state_->setText(all.join("\n"));
+    problems_ = all.join("\n");
+    if (!edit_->isReadOnly()) state_->setText(problems_);
 }
 
 }  // namespace dihaptic::gui

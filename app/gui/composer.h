@@ -7,6 +7,7 @@
 #include <QTimer>
 #include <QWidget>
 
+#include "body_drag.h"
 #include "code_edit.h"
 
 namespace dihaptic::gui {
@@ -27,6 +28,13 @@ class Composer : public QWidget {
     void take_focus() { edit_->setFocus(); }
     /// Puts the cursor where that was written; false: it was written in another file.
     bool go_to(const Place& place);
+    /// Name of the body in whose lines the cursor is; empty: none.
+    std::string body() const;
+    /// Has the text put a body elsewhere; false, and says why, if it cannot. A way of nothing: says
+    /// only whether it can.
+    bool move(const std::string& body, const BodyWay& way);
+    void undo() { edit_->undo(); }
+    void redo() { edit_->redo(); }
     /// Writes the file; false, and says why, if it cannot.
     bool save();
     /// Writes the text to another file and leaves this one as it was; false, and says why, if it
@@ -44,20 +52,30 @@ class Composer : public QWidget {
     /// The text has changed, and is to be checked and shown.
     void edited();
     void saved();
-    /// Whether there is something to save.
+    /// Whether there is something to save, to undo, to redo.
     void modified(bool changed);
+    void undo_available(bool available);
+    void redo_available(bool available);
+    /// The cursor went, or the text changed: it may be in another body's lines.
+    void cursor_moved();
+    /// CodeEdit's.
+    void step_wanted(const QKeyEvent& event);
 
   private:
     QString draft() const;
     void remove_draft();
+    /// The text as it is written: with line ends, and a byte order mark, as the file was read.
+    QByteArray content() const;
 
     QString file_;
-    QString read_;  // text of the file as it was read or saved last
+    QByteArray read_;   // the file as it was read or saved last
+    QString problems_;  // of the text, as they are shown
     CodeEdit* edit_;
     QLabel* state_;
     QPushButton* save_;
     WordFinder finder_;
     QTimer pause_;  // until who types pauses
+    QTimer look_;   // until the cursor stands still
 };
 
 }  // namespace dihaptic::gui

@@ -2,6 +2,7 @@
 #include "operator_window.h"
 
 #include <QDir>
+#include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMessageBox>
@@ -16,6 +17,13 @@ void OperatorWindow::connect_files() {
     connect(composer_, &Composer::edited, this, &OperatorWindow::reload);
     connect(composer_, &Composer::saved, this, &OperatorWindow::reload);
     connect(composer_, &Composer::modified, save_action_, &QAction::setEnabled);
+    connect(composer_, &Composer::undo_available, undo_action_, &QAction::setEnabled);
+    connect(composer_, &Composer::redo_available, redo_action_, &QAction::setEnabled);
+    connect(composer_, &Composer::cursor_moved, this, &OperatorWindow::mark_picked);
+    connect(composer_, &Composer::step_wanted, this, [this](const QKeyEvent& event) {
+        if (const auto step = step_of(event, scene_->camera())) step_body(*step);
+    });
+    connect(compose_dock_, &QDockWidget::visibilityChanged, this, &OperatorWindow::mark_picked);
     connect(start_page_, &StartPage::chosen, this, &OperatorWindow::open);
     connect(start_page_, &StartPage::open_requested, this, &OperatorWindow::choose_file);
     connect(start_page_, &StartPage::sessions_requested, this, &OperatorWindow::choose_session);
@@ -114,6 +122,37 @@ void OperatorWindow::reload() {
     composer_->open(file_);
     loader_.load({request(composer_->source()), false, false, ""});
     update_state();
+}
+
+void OperatorWindow::pick(size_t body) {
+    if (!plan_ || !compose_dock_->isVisible()) return;
+    const scene::Body& picked = plan_->scene.bodies[body];
+    if (composer_->go_to(picked.place)) {
+        composer_->move(picked.name, {});  // says now if it can not
+    } else {
+        log(QString("%1 is in %2: open that to change it.")
+                .arg(QString::fromStdString(picked.name),
+                     QString::fromStdString(picked.place.file)));
+    }
+}
+
+void OperatorWindow::move_body(const std::string& name, const BodyWay& way, bool shown) {
+    if (!composer_->move(name, way)) {
+        scene_->show_frame(frame_);  // where it was
+    } else if (!shown) {
+        scene_->move_picked(way);
+    }
+}
+
+void OperatorWindow::step_body(const Vec3& step) {
+    mark_picked();  // the cursor may have gone on since
+    move_body(composer_->body(), {step, 0}, false);
+}
+
+void OperatorWindow::mark_picked() {
+    const bool composes = plan_ && compose_dock_->isVisible() && !runner_.running();
+    const int body = composes ? plan_->scene.find(composer_->body()) : -1;
+    scene_->set_picked(body < 0 ? std::nullopt : std::optional(static_cast<size_t>(body)));
 }
 
 void OperatorWindow::opened(const Opened& opened) {

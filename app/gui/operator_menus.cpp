@@ -28,6 +28,12 @@ void OperatorWindow::make_file_menu() {
         compose_dock_->show();
         composer_->take_focus();
     });
+    undo_action_ =
+        file->addAction("&Undo", QKeySequence::Undo, this, [this] { composer_->undo(); });
+    redo_action_ =
+        file->addAction("Re&do", QKeySequence::Redo, this, [this] { composer_->redo(); });
+    undo_action_->setEnabled(false);
+    redo_action_->setEnabled(false);
     save_action_ =
         file->addAction("Sa&ve", QKeySequence::Save, this, [this] { composer_->save(); });
     save_action_->setEnabled(false);

@@ -20,7 +20,7 @@
 namespace dihaptic::gui {
 namespace {
 
-constexpr int kRefresh = 16;          // time between pictures [ms]: sixty a second
+constexpr int kPictureTime = 16;      // time between pictures [ms]: sixty a second
 constexpr double kLongestStep = 0.1;  // of squeezing: the grip is known from the last picture [s]
 
 /// The texts that the task shows, a line each.
@@ -77,7 +77,7 @@ OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop
     connect_reports();
     connect_files();
     connect(&timer_, &QTimer::timeout, this, &OperatorWindow::refresh);
-    timer_.start(kRefresh);
+    timer_.start(kPictureTime);
     since_refresh_.start();
     restore();
     update_state();
@@ -128,14 +128,11 @@ void OperatorWindow::connect_scene() {
     connect(scene_, &SceneWidget::failed, this, [this](const QString& why) { log(why, true); });
     connect(scene_, &SceneWidget::draws_in_software, this,
             [this](const QString& what) { log(what); });
-    connect(scene_, &SceneWidget::picked, this, [this](size_t body) {
-        if (!plan_ || !compose_dock_->isVisible()) return;
-        const scene::Body& picked = plan_->scene.bodies[body];
-        if (!composer_->go_to(picked.place))
-            log(QString("%1 is in %2: open that to change it.")
-                    .arg(QString::fromStdString(picked.name),
-                         QString::fromStdString(picked.place.file)));
+    connect(scene_, &SceneWidget::picked, this, &OperatorWindow::pick);
+    connect(scene_, &SceneWidget::dragged, this, [this](size_t body, const BodyWay& way) {
+        move_body(plan_->scene.bodies[body].name, way, true);
     });
+    connect(scene_, &SceneWidget::stepped, this, &OperatorWindow::step_body);
     connect(scene_, &SceneWidget::hand_moved, this, [this] { move_hand(0); });
     connect(scene_, &SceneWidget::camera_moved, this, &OperatorWindow::turn_workspaces);
     connect(scene_, &SceneWidget::presented, this, [this](qint64 tick) {
@@ -443,6 +440,7 @@ void OperatorWindow::update_state() {
                                  !plan_->rig.displays.empty());
     session_->set_state(now, has_trials());
     tuning_->setEnabled(plan_.has_value());
+    mark_picked();
     scene_->set_banner(banner());
     scene_->set_page(page_text(), page_picture());
     show_question();

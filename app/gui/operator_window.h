@@ -75,6 +75,15 @@ class OperatorWindow : public QMainWindow {
     void choose_session();
     void play_sessions(const QStringList& folders);
     void reload();
+    /// Shows where the text has a body that was clicked.
+    void pick(size_t body);
+    /// Has the text put a body elsewhere, and shows it there until it has been read again; `shown`:
+    /// it already is.
+    void move_body(const std::string& name, const BodyWay& way, bool shown);
+    /// Moves the body in whose lines the text's cursor is.
+    void step_body(const Vec3& step);
+    /// Puts a box about the body in whose lines the text's cursor is.
+    void mark_picked();
     void opened(const Opened& opened);
     void refused(const QStringList& problems);
     void start();
@@ -172,6 +181,8 @@ class OperatorWindow : public QMainWindow {
     QDockWidget* compose_dock_ = nullptr;
     QAction* open_action_ = nullptr;
     QAction* edit_action_ = nullptr;
+    QAction* undo_action_ = nullptr;
+    QAction* redo_action_ = nullptr;
     QAction* save_action_ = nullptr;
     QAction* start_page_action_ = nullptr;
     QAction* start_action_ = nullptr;

@@ -10,12 +10,12 @@
 #include "base/diagnostics.h"
 #include "label_fit.h"
 #include "servo/displayed.h"
-#include "view/pick.h"
 
 namespace dihaptic::gui {
 namespace {
 
 constexpr double kOrbit = 0.006;     // [rad/pixel]
+constexpr double kStill = 3;         // way of the pointer that is none [px]
 constexpr double kCoarse = 2.0 / 3;  // detail of pictures where that is needed
 constexpr size_t kPath = 300;        // length of the path [pictures]: five seconds
 
@@ -63,6 +63,11 @@ void SceneWidget::set_scene(const scene::Scene& scene, const servo::Frame& frame
     workspaces_ = std::move(workspaces);
     turn_ = turn;
     path_.clear();
+    // who drags a body goes on, though what was typed before is shown only now
+    const auto is_same = [&](size_t body) {
+        return body < scene.bodies.size() && scene.bodies[body].name == scene_.bodies[body].name;
+    };
+    if (picked_ && !is_same(*picked_)) set_picked({});
     scene_ = scene;
     frame_ = frame;
     const std::vector<view::Camera> before = std::exchange(cameras_, view::cameras(scene_));
@@ -98,6 +103,20 @@ void SceneWidget::set_hand(MouseHand* hand, bool squeezes) {
     keys_ = MouseHand::Squeeze::none;
     set_staying(false);
     if (hand_ != nullptr) setFocus();
+}
+
+void SceneWidget::set_picked(std::optional<size_t> body) {
+    if (body == picked_) return;
+    picked_ = body;
+    drag_.reset();
+    update();
+}
+
+void SceneWidget::move_picked(const BodyWay& way) {
+    if (!picked_) return;
+    Pose& X_WB = frame_.bodies[*picked_].X_WB;
+    X_WB = way.of(X_WB);
+    update();
 }
 
 void SceneWidget::set_staying(bool stays) {
@@ -243,6 +262,7 @@ void SceneWidget::draw_scene() {
     overlays.grip_axis = layers_.grip_axis;
     overlays.joints = layers_.joints;
     overlays.hand = layers_.hand;
+    overlays.picked = picked_;
     // a screen shows no depth, and a mouse feels none
     overlays.drop_lines = layers_.drop_lines || hand_ != nullptr;
     overlays.patch = patch_;
@@ -282,27 +302,44 @@ void SceneWidget::enterEvent(QEnterEvent* event) {
     pointer_ = event->position();
 }
 
-void SceneWidget::mousePressEvent(QMouseEvent* event) {
-    pointer_ = pressed_ = event->position();
+view::Ray SceneWidget::ray_to(const QPointF& pointer) const {
+    const double half = height() / 2.0;
+    return view::ray_through(camera_, (pointer.x() - width() / 2.0) / half, 1 - pointer.y() / half);
 }
 
-/// A click that moved neither the camera nor a hand picks what is there.
+void SceneWidget::mousePressEvent(QMouseEvent* event) {
+    pointer_ = pressed_ = event->position();
+    if (event->button() != Qt::LeftButton || !picked_ || hand_ != nullptr || display_) return;
+    const view::Ray ray = ray_to(pointer_);
+    const auto seen = view::seen_first(scene_, frame_, ray);
+    if (!seen || seen->body != *picked_) return;
+    drag_.emplace(*seen, ray);
+    X_WB_dragged_ = frame_.bodies[*picked_].X_WB;
+}
+
+void SceneWidget::drag(const QPointF& way, Qt::KeyboardModifiers keys) {
+    if (drag_->way().none() && (pointer_ - pressed_).manhattanLength() <= kStill) return;
+    drag_->follow(ray_to(pointer_), way, keys);
+    frame_.bodies[*picked_].X_WB = drag_->way().of(X_WB_dragged_);
+    update();
+}
+
+/// A click that moved neither the camera, nor a body or a hand, picks what is there.
 void SceneWidget::mouseReleaseEvent(QMouseEvent* event) {
-    constexpr double kStill = 3;  // [px]
+    if (event->button() != Qt::LeftButton) return;
+    const auto drag = std::exchange(drag_, std::nullopt);
+    if (drag && !drag->way().none()) return Q_EMIT dragged(*picked_, drag->way());
     const QPointF way = event->position() - pressed_;
-    if (event->button() != Qt::LeftButton || hand_ != nullptr || display_ || cameras_.empty() ||
-        way.manhattanLength() > kStill)
-        return;
-    const double half = height() / 2.0;
-    const view::Ray ray = view::ray_through(camera_, (event->position().x() - width() / 2.0) / half,
-                                            1 - event->position().y() / half);
-    if (const auto body = view::seen_first(scene_, frame_, ray)) Q_EMIT picked(*body);
+    if (hand_ != nullptr || display_ || cameras_.empty() || way.manhattanLength() > kStill) return;
+    if (const auto seen = view::seen_first(scene_, frame_, ray_to(event->position())))
+        Q_EMIT picked(seen->body);
 }
 
 void SceneWidget::mouseMoveEvent(QMouseEvent* event) {
     const QPointF way = event->position() - pointer_;
     pointer_ = event->position();
     if (display_) return;  // eyes do not move by mouse
+    if (drag_) return drag(way, event->modifiers());
     const bool shift = event->modifiers().testFlag(Qt::ShiftModifier);
     const bool left = event->buttons().testFlag(Qt::LeftButton);
     const bool orbit = event->buttons().testFlag(Qt::RightButton) || (left && hand_ == nullptr);
@@ -350,6 +387,7 @@ void SceneWidget::set_key(const QKeyEvent& event, bool down) {
 }
 
 void SceneWidget::keyPressEvent(QKeyEvent* event) {
+    if (const auto step = step_of(*event, camera_); step && picked_) return Q_EMIT stepped(*step);
     set_key(*event, true);
     if (hand_ != nullptr && event->key() == Qt::Key_H && !event->isAutoRepeat())
         set_staying(!stays_);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "body_drag.h"
 #include "mouse_hand.h"
 #include "page_view.h"
 #include "rating_view.h"
@@ -33,6 +34,10 @@ class SceneWidget : public QOpenGLWidget {
     /// The mouse moves this hand; if it is null, the camera. `squeezes`: whether the wheel
     /// squeezes.
     void set_hand(MouseHand* hand, bool squeezes);
+    /// The mouse drags this body, which has a box about it, and keys move it; nullopt: none.
+    void set_picked(std::optional<size_t> body);
+    /// Shows the picked body moved, until the next frame or scene.
+    void move_picked(const BodyWay& way);
     /// The squeezing by keys that are held now.
     MouseHand::Squeeze keys() const { return keys_; }
 
@@ -81,6 +86,10 @@ class SceneWidget : public QOpenGLWidget {
     void camera_moved();
     /// A body of the scene was clicked.
     void picked(size_t body);
+    /// The picked body was dragged, and is shown where it was left.
+    void dragged(size_t body, const dihaptic::gui::BodyWay& way);
+    /// A key was pressed that moves the picked body by a step [m].
+    void stepped(const dihaptic::Vec3& step);
     /// OpenGL draws in software, and so in less detail; in words. Sent once.
     void draws_in_software(const QString& what);
     /// OpenGL cannot draw: why, and what to do.
@@ -103,6 +112,8 @@ class SceneWidget : public QOpenGLWidget {
     void set_key(const QKeyEvent& event, bool down);
     void set_staying(bool stays);
     void move_hand(const QPointF& pixels, bool in_depth);
+    view::Ray ray_to(const QPointF& pointer) const;
+    void drag(const QPointF& way, Qt::KeyboardModifiers keys);
     void place_labels();
     void make_view();
     void draw_scene();
@@ -117,6 +128,9 @@ class SceneWidget : public QOpenGLWidget {
     /// Holds page, question and texts where each eye, or a mirror, has to see them the right way;
     /// null: they lie over the scene.
     std::unique_ptr<QWidget> words_;
+    std::optional<size_t> picked_;
+    std::optional<BodyDrag> drag_;  // of the picked body, while the button is down
+    Pose X_WB_dragged_;             // of that body as the drag began
     Layers layers_;
     std::optional<view::PatchLook> patch_;
     std::optional<bool> fine_;  // unset: by what draws

@@ -48,6 +48,7 @@ class BodyText {
     /// Replaces, or adds, a field of the body.
     void move(const WrittenField& field, const Vec3& way) {
         const auto [list, unit] = find_vector(body_, field);
+        if (list == nullptr && way.isZero(0)) return;
         if (list == nullptr) return add(field, way);
         const Vec3 now = numbers(field, *list, unit);
         for (int i = 0; i < 3; ++i) {
@@ -211,7 +212,7 @@ std::vector<TextChange> moved_body(const std::string& text, const std::string& n
         body.move(field, by);
         wanted.emplace_back(field, body.value(field) + by);
     };
-    if (!way.isZero(0)) move(kWrittenPosition, way);
+    move(kWrittenPosition, way);
     if (turn != 0) {
         const double now = body.value(kWrittenRotation).z();
         move(kWrittenRotation, {0, 0, wrapped(now + turn) - now});

@@ -18,6 +18,7 @@ std::string body_at(const std::string& text, size_t at);
 /// The changes by which the text has the body of this name moved by `way` [m] and turned by `turn`
 /// about the vertical [rad]; what moves at all ends at whole 0.1 mm, what turns at whole 0.1
 /// degrees. A position or rotation that the text does not have is added. In the order of the text.
+/// A way of nothing changes nothing, and tells whether the body can be moved.
 /// Throws Error, which says why and what to do, when the text does not have the body, or has its
 /// numbers not as numbers that are its own: by an alias or an anchor, in quotes, from a lattice.
 std::vector<TextChange> moved_body(const std::string& text, const std::string& name,

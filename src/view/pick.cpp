@@ -37,6 +37,19 @@ double length_to(const Triangles& surface, const Vec3& from, const Vec3& along) 
     return nearest;
 }
 
+/// Nobody drags by what is farther away, toward the horizon [m].
+constexpr double kHorizon = 5;
+/// A line of sight whose level part is shorter shows nothing of heights.
+constexpr double kSteep = 0.05;
+
+/// Where a ray meets a plane; nullopt: nowhere, or beyond the horizon.
+std::optional<Vec3> meeting(const Ray& ray, const Vec3& through_W, const Vec3& normal) {
+    const double toward = ray.along_W.dot(normal);
+    const double length = (through_W - ray.from_W).dot(normal) / toward;
+    if (!(length > 0 && length < kHorizon)) return {};
+    return ray.from_W + length * ray.along_W;
+}
+
 }  // namespace
 
 Ray ray_through(const Camera& camera, double right, double up) {
@@ -45,9 +58,9 @@ Ray ray_through(const Camera& camera, double right, double up) {
     return {X_WV.p, (X_WV.R * Vec3(half * right, half * up, -1)).normalized()};
 }
 
-std::optional<size_t> seen_first(const scene::Scene& scene, const servo::Frame& frame,
-                                 const Ray& ray) {
-    std::optional<size_t> out;
+std::optional<Seen> seen_first(const scene::Scene& scene, const servo::Frame& frame,
+                               const Ray& ray) {
+    std::optional<Seen> out;
     double nearest = std::numeric_limits<double>::infinity();
     for (size_t i = 0; i < scene.bodies.size(); ++i) {
         if (!servo::is_displayed(frame, i)) continue;
@@ -58,9 +71,20 @@ std::optional<size_t> seen_first(const scene::Scene& scene, const servo::Frame& 
                                                X_BW * ray.from_W / size, X_BW.R * ray.along_W);
         if (length >= nearest) continue;
         nearest = length;
-        out = i;
+        out = Seen{i, ray.from_W + length * ray.along_W};
     }
     return out;
+}
+
+std::optional<Vec3> dragged(const Vec3& held_W, const Ray& from, const Ray& to, bool upright) {
+    // along z it is the pointer's way in the upright plane that faces who looks
+    const Vec3 level(to.along_W.x(), to.along_W.y(), 0);
+    if (upright && level.norm() < kSteep) return {};
+    const Vec3 normal = upright ? Vec3(level.normalized()) : Vec3(Vec3::UnitZ());
+    const auto a = meeting(from, held_W, normal), b = meeting(to, held_W, normal);
+    if (!a || !b) return {};
+    const Vec3 way = *b - *a;
+    return upright ? Vec3(0, 0, way.z()) : Vec3(way.x(), way.y(), 0);
 }
 
 }  // namespace dihaptic::view

@@ -1,4 +1,4 @@
-// Which body a person points at in a picture.
+// Which body a person points at in a picture, and where it goes when it is dragged there.
 #pragma once
 
 #include <optional>
@@ -17,8 +17,17 @@ struct Ray {
 /// shares of half its height.
 Ray ray_through(const Camera& camera, double right, double up);
 
-/// Index of the body that is seen first along a ray, as it is drawn; nullopt: none.
-std::optional<size_t> seen_first(const scene::Scene& scene, const servo::Frame& frame,
-                                 const Ray& ray);
+/// What is seen first along a ray, as it is drawn; nullopt: nothing.
+struct Seen {
+    size_t body = 0;  ///< its index
+    Vec3 p_W = Vec3::Zero();
+};
+std::optional<Seen> seen_first(const scene::Scene& scene, const servo::Frame& frame,
+                               const Ray& ray);
+
+/// How far something goes that is held at a point, while the line of sight to the pointer changes
+/// from one to the other: in the table's plane or, `upright`, along z [m]. Nullopt: that is beyond
+/// what one can see of that plane.
+std::optional<Vec3> dragged(const Vec3& held_W, const Ray& from, const Ray& to, bool upright);
 
 }  // namespace dihaptic::view

@@ -71,8 +71,8 @@ Pose along(const Vec3& a, const Vec3& b) {
     return {Quat(Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), b - a)), a};
 }
 
-/// Adds the edges of a workspace's box.
-void add_workspace(Solids& out, const Workspace& workspace) {
+/// Adds the edges of a box about the origin of A.
+void add_box(Solids& out, const Pose& X_WA, const Vec3& size, double radius, const Vec3& tint) {
     for (int axis = 0; axis < 3; ++axis) {
         for (int corner = 0; corner < 4; ++corner) {
             Vec3 a;
@@ -81,8 +81,7 @@ void add_workspace(Solids& out, const Workspace& workspace) {
             a[(axis + 2) % 3] = (corner >> 1) - 0.5;
             Vec3 b = a;
             b[axis] = 0.5;
-            out.add_line(workspace.X_WD * a.cwiseProduct(workspace.size),
-                         workspace.X_WD * b.cwiseProduct(workspace.size), 0.0005, ink("#5b6675"));
+            out.add_line(X_WA * a.cwiseProduct(size), X_WA * b.cwiseProduct(size), radius, tint);
         }
     }
 }
@@ -120,6 +119,8 @@ struct SceneView::Parts {
         double radius = 0;
         double lowest = 0;  // z at the start [m]
         double highest = -std::numeric_limits<double>::infinity();
+        Vec3 low_B = Vec3::Constant(std::numeric_limits<double>::infinity());
+        Vec3 high_B = -low_B;
         Vec3 colour = Vec3::Ones();
         bool ground = false;
         bool plane = false;
@@ -194,6 +195,8 @@ struct SceneView::Parts {
         for (const Vertex& v : all.vertices) {
             const Vec3 p_B = v.p.cast<double>();
             thing.radius = std::max(thing.radius, p_B.norm());
+            thing.low_B = thing.low_B.cwiseMin(p_B);
+            thing.high_B = thing.high_B.cwiseMax(p_B);
             thing.lowest = std::min(thing.lowest, (X_WB * p_B).z());
             thing.highest = std::max(thing.highest, (X_WB * p_B).z());
         }
@@ -327,6 +330,7 @@ struct SceneView::Parts {
                        bool hand) const;
     void draw_overlays(const servo::Frame& frame, const Overlays& overlays) const;
     void add_drop_lines(Solids& out, const servo::Frame& frame) const;
+    void add_picked(Solids& out, const servo::Frame& frame, size_t body) const;
     void add_contacts(Solids& out, const servo::Frame& frame, const Overlays& overlays) const;
     void draw_solids(const Solids& solids) const;
     void draw_targets(const servo::Frame& frame) const;
@@ -564,12 +568,25 @@ void SceneView::Parts::add_drop_lines(Solids& out, const servo::Frame& frame) co
     }
 }
 
+/// A box a little larger than the body, so that its edges lie free.
+void SceneView::Parts::add_picked(Solids& out, const servo::Frame& frame, size_t body) const {
+    constexpr double kFree = 0.002, kRadius = 0.0005;  // [m]
+    const Thing& thing = bodies[body];
+    const double scale = servo::displayed_size(frame, body);
+    Pose X_WA = servo::displayed_body(frame, body);
+    X_WA.p = X_WA * (scale * (thing.low_B + thing.high_B) / 2);
+    const Vec3 size = scale * (thing.high_B - thing.low_B) + Vec3::Constant(2 * kFree);
+    add_box(out, X_WA, size, kRadius, ink("#e69f00"));
+}
+
 void SceneView::Parts::draw_overlays(const servo::Frame& frame, const Overlays& overlays) const {
     Solids solids;
     if (!overlays.path.empty()) solids.add(tube(overlays.path, 0.0009), {}, ink("#cc3d7a"));
     add_contacts(solids, frame, overlays);
     if (overlays.grip_axis && fingers.size() > 1) add_grip_axis(solids, frame, fingers.size());
-    for (const Workspace& workspace : overlays.workspaces) add_workspace(solids, workspace);
+    for (const Workspace& workspace : overlays.workspaces)
+        add_box(solids, workspace.X_WD, workspace.size, 0.0005, ink("#5b6675"));
+    if (overlays.picked) add_picked(solids, frame, *overlays.picked);
     if (overlays.drop_lines) add_drop_lines(solids, frame);
     if (overlays.joints) {
         for (const JointMark& joint : joints) joint.add_to(solids, frame, ball);

@@ -45,6 +45,7 @@ struct Overlays {
     std::optional<PatchLook> patch;         ///< once, whatever the panes
     bool drop_lines = false;                ///< from each proxy down to the table
     bool hand = false;                      ///< one whose thumb and index finger the proxies are
+    std::optional<size_t> picked;           ///< a body that gets a box about it
 };
 
 /// The number of the frame that was shown, and its time.

@@ -1,6 +1,7 @@
 """The open file's text beside the scene: checked and shown as one types, and saved when one wants it."""
 import glob
 import pathlib
+import re
 import time
 import unittest
 
@@ -108,6 +109,90 @@ class Compose(Window):
         self.key("ctrl+s")
         self.wait("the line", lambda: " # picked" in self.text())
         self.assertIn(" # picked", next(text for text in self.text().splitlines() if "name: block" in text))
+        self.quit()
+
+    def position(self):
+        """Of the block, as its file has it, all else of which must be as it was [mm]."""
+        now, before = self.text().splitlines(), SCENE.splitlines()
+        self.assertEqual(len(now), len(before))
+        changed = [i for i in range(len(now)) if now[i] != before[i]]
+        block = next(i for i, text in enumerate(before) if "name: block" in text)
+        line = next(i for i in range(block, len(before)) if "position_mm" in before[i])
+        self.assertLessEqual(set(changed), {line})
+        return [float(x) for x in re.fullmatch(r"    position_mm: \[(.*), (.*), (.*)\]", now[line]).groups()]
+
+    def saved(self, what, condition):
+        self.key("ctrl+s")
+        self.wait(what, lambda: condition(self.position()))
+        self.settle()
+        return self.position()
+
+    def drag(self, start, end, key=None):
+        self.xdotool("mousemove", *map(str, start), "mousedown", "1")
+        if key:
+            self.xdotool("keydown", key)
+        for i in range(1, 11):
+            self.xdotool("mousemove", *(str(round(a + (b - a) * i / 10)) for a, b in zip(start, end)))
+            time.sleep(0.03)
+        self.screenshot("compose-dragged-" + (key or "plain"))
+        self.xdotool("mouseup", "1")
+        if key:
+            self.xdotool("keyup", key)
+        time.sleep(0.2)
+
+    def test_a_body_is_moved_by_mouse_and_keys_and_its_numbers_are_written(self):
+        self.open()
+        self.key("ctrl+e")
+        self.settle()
+        held = [715, 490]
+        self.xdotool("mousemove", *map(str, held), "click", "1")
+        time.sleep(0.5)
+        self.screenshot("compose-marked")
+        self.drag(held, [815, 470])
+        x, y, z = self.saved("the drag", lambda p: p[0] > 20)
+        self.assertEqual(z, 20)
+        self.key("Right", "shift+Down")  # the scene has the keyboard since
+        self.assertEqual(self.saved("steps", lambda p: p[1] < y - 5), [round(x + 1, 1), round(y - 10, 1), 20])
+        self.key("ctrl+z", "ctrl+z")
+        self.saved("what was before the steps", lambda p: p == [x, y, z])
+        self.key("ctrl+z")
+        self.saved("what was before the drag", lambda p: p == [0, 0, 20])
+        self.drag(held, [715, 400], "shift")
+        x, y, z = self.saved("the drag upward", lambda p: p[2] > 30)
+        self.assertEqual([x, y], [0, 0])
+        self.key("ctrl+e", "alt+shift+Prior", "alt+Left")
+        self.assertEqual(self.saved("steps from the text", lambda p: p[0] == -1), [-1, 0, round(z + 10, 1)])
+        self.screenshot("compose-moved")
+        self.drag([715, 410], [765, 410], "ctrl")
+        self.key("ctrl+s")
+        self.wait("the turn", lambda: "  - name: block\n    rotation_deg: [0, 0, 22.9]\n" in self.text())  # 0.4 rad
+        self.quit()
+
+    def test_what_it_cannot_move_is_said(self):
+        text = SCENE.replace("bodies:\n", "bodies:\n  - { name: cap, shape: box, size_mm: [40, 40, 10], mass_g: 20, "
+                             "position_mm: &top [0, 0, 45] }\n")
+        pathlib.Path(self.scene).write_text(text)
+        self.open()
+        self.key("ctrl+e")
+        self.settle()
+        self.xdotool("mousemove", "715", "415", "click", "1")
+        time.sleep(0.5)
+        self.screenshot("compose-fixed-picked")
+        self.drag([715, 415], [800, 415])
+        self.key("ctrl+s")
+        time.sleep(1)
+        self.screenshot("compose-fixed")
+        self.assertEqual(self.text(), text)
+        self.quit()
+
+    def test_a_file_keeps_its_line_ends(self):
+        content = b"\xef\xbb\xbf" + SCENE.replace("a table", "a\u00a0table").replace("\n", "\r\n").encode()
+        pathlib.Path(self.scene).write_bytes(content)
+        self.open()
+        self.key("ctrl+e", "ctrl+End", "space", "BackSpace", "ctrl+Home")
+        self.type("# ")
+        self.key("ctrl+s")
+        self.wait("the file", lambda: pathlib.Path(self.scene).read_bytes() == content[:3] + b"# " + content[3:])
         self.quit()
 
 

@@ -179,6 +179,8 @@ TEST(BodyText, SaysWhyItMovesNothing) {
         return "at: &there [0, 0, 0]\nbodies:\n  - name: a\n    " + position + "\n";
     };
     EXPECT_NE(refusal(with("position_mm: *there"), "a").find("alias"), std::string::npos);
+    EXPECT_THROW(moved(with("position_mm: *there"), "a", Vec3::Zero()), Error);
+    EXPECT_EQ(moved("bodies:\n- name: a\n", "a", Vec3::Zero()), "bodies:\n- name: a\n");
     EXPECT_NE(refusal(with("position_mm: &mine [0, 0, 0]"), "a").find("anchor"), std::string::npos);
     for (const char* position : {"position_mm: [0, 0, '0']", "position_mm: [0, 0, &z 0]",
                                  "position_mm: [x, 0, 0]", "position_mm: [0, 0, !!float 0]"})

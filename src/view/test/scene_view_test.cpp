@@ -311,13 +311,14 @@ TEST(SceneView, EachOverlayShowsAndLeavesNothing) {
     const Image plain = look({});
     const std::vector<Vec3> path{{0, 0, 0.02}, {0, 0, 0.07}};
     const std::array<Workspace, 1> workspaces{Workspace{{}, {0.2, 0.15, 0.16}}};
-    std::vector<Overlays> layers(6);
+    std::vector<Overlays> layers(7);
     layers[0].handles = true;
     layers[1].forces = true;
     layers[2].contacts = true;
     layers[3].grip_axis = true;
     layers[4].path = path;
     layers[5].workspaces = workspaces;
+    layers[6].picked = 0;
     for (size_t i = 0; i < layers.size(); ++i) {
         const Image with = look(layers[i]);
         size_t changed = 0;
@@ -326,6 +327,32 @@ TEST(SceneView, EachOverlayShowsAndLeavesNothing) {
         EXPECT_GT(changed, 20) << i;
     }
     EXPECT_EQ(look({}).rgb, plain.rgb);
+}
+
+TEST(SceneView, APickedBodyHasABoxAboutItWhereItIsShown) {
+    scene::Scene scene = on_table({box("block", {0.04, 0.06, 0.02}, {0, 0, 0.01})});
+    scene.bodies[1].colour = "#b0b0b0";
+    servo::Frame frame = start(scene);
+    frame.bodies[1].X_WB.p = {0.03, -0.01, 0.05};
+    Camera camera;
+    camera.position = {0, -0.2, 0.3};
+    camera.look_at = frame.bodies[1].X_WB.p;
+    Overlays overlays;
+    overlays.picked = 1;
+    constexpr int kSize = 400;
+    const Image plain = picture(scene, frame, camera, kSize, kSize);
+    const Image with = picture(scene, frame, camera, kSize, kSize, overlays);
+    const Eigen::Matrix4d clip = projection(camera, 1, 0.01, 10);
+    // the middles of the upper edges in front, behind and on the right: 2 mm from the body's own
+    for (const Vec3& edge :
+         {Vec3(0, -0.032, 0.012), Vec3(0, 0.032, 0.012), Vec3(0.022, 0, 0.012)}) {
+        const Vec3 p_W = frame.bodies[1].X_WB * edge;
+        const Eigen::Vector4d at = clip * p_W.homogeneous();
+        const int x = static_cast<int>((at.x() / at.w() + 1) / 2 * kSize);
+        const int y = static_cast<int>((1 - at.y() / at.w()) / 2 * kSize);
+        EXPECT_GT(with.at(x, y)[0], with.at(x, y)[2] + 60) << edge.transpose();  // orange
+        EXPECT_LT(std::abs(plain.at(x, y)[0] - plain.at(x, y)[2]), 40) << edge.transpose();
+    }
 }
 
 TEST(SceneView, EveryKindOfJointHasAMark) {

@@ -1,0 +1,46 @@
+// Moves the picked body of a scene in the picture, by mouse or a step at a time.
+//
+//     drag                in the plane of the table
+//     drag with Shift     up and down
+//     drag with Ctrl      turns it about the vertical
+//     arrows, Page Up and Down     1 mm to each side, up and down; with Shift 10 mm
+#pragma once
+
+#include <QKeyEvent>
+#include <QPointF>
+#include <optional>
+
+#include "view/pick.h"
+
+namespace dihaptic::gui {
+
+/// How far a body goes: what it is moved by in W [m], and turned about z [rad].
+struct BodyWay {
+    Vec3 way = Vec3::Zero();
+    double turn = 0;
+
+    bool none() const { return way.isZero(0) && turn == 0; }
+    Pose of(const Pose& X_WB) const;
+};
+
+class BodyDrag {
+  public:
+    /// The body is held where the ray to the pointer meets it.
+    BodyDrag(const view::Seen& held, const view::Ray& ray) : held_W_(held.p_W), ray_(ray) {}
+
+    /// The pointer went so many pixels, and a ray to it is this one.
+    void follow(const view::Ray& ray, const QPointF& pixels, Qt::KeyboardModifiers keys);
+    const BodyWay& way() const { return way_; }
+
+  private:
+    static constexpr double kTurn = 0.008;  // [rad/pixel]
+    Vec3 held_W_;
+    view::Ray ray_;  // to the pointer, as it was when the body last followed it
+    BodyWay way_;
+};
+
+/// The step that a key asks for, along the axes of W to which what is right and away in the
+/// camera's picture is nearest [m]; nullopt: it is another key.
+std::optional<Vec3> step_of(const QKeyEvent& event, const view::Camera& camera);
+
+}  // namespace dihaptic::gui
