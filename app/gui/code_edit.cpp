@@ -98,8 +98,11 @@ void CodeEdit::lay_out() {
 }
 
 void CodeEdit::resizeEvent(QResizeEvent* event) {
+    // problems that are told below the text take lines from it, not the one that is written
+    const bool seen = QRect(QPoint(), event->oldSize()).contains(cursorRect().center());
     QPlainTextEdit::resizeEvent(event);
     lay_out();
+    if (seen) ensureCursorVisible();
 }
 
 void CodeEdit::draw_margin(QPaintEvent& event) {
@@ -197,7 +200,9 @@ void CodeEdit::offer(const WordPlace& place, const std::vector<Choice>& words) {
         item->setData(name, Qt::UserRole);
         model.appendRow(item);
     }
-    show_words(now);
+    WordPlace here = place;
+    here.typed = now.typed;
+    show_words(here);
 }
 
 void CodeEdit::show_words(const WordPlace& place) {
@@ -242,12 +247,15 @@ void CodeEdit::keyPressEvent(QKeyEvent* event) {
         const QString line = textCursor().block().text();
         const auto length = static_cast<int>(leading.match(line).capturedLength());
         insertPlainText("\n" + QString(length, ' '));
-        return;
+        return ensureCursorVisible();
     }
     QPlainTextEdit::keyPressEvent(event);
     if (event->text().isEmpty()) return;
     const WordPlace now = word_place(text(), textCursor().position());
-    if (choosing && now.asking == offered_.asking) return show_words(now);
+    if (choosing && now.asking == offered_.asking) {
+        offered_.typed = now.typed;
+        return show_words(offered_);
+    }
     words_->popup()->hide();
     ask_for_words(false);
 }

@@ -4,15 +4,97 @@
 #include <QFile>
 #include <QFileInfo>
 #include <QRegularExpression>
+#include <utility>
 
 #include "session/check.h"
 
 namespace dihaptic::gui {
 namespace {
 
+/// Of a word: block.z is one.
 bool is_letter(QChar c) {
-    return c.isLetterOrNumber() || c == '_';
+    return c.isLetterOrNumber() || c == '_' || c == '.';
 }
+
+/// What is around a place of a text, by what stands before it.
+struct Around {
+    QChar bracket;   // the innermost that is open; null: none
+    QChar quote;     // in which the place is; null: in none
+    QString before;  // of the same item in brackets or, outside of them, of the same line
+    QString close;   // what closes quotes and brackets
+
+    QString dashes() const {
+        static const QRegularExpression leading(R"(^\s*(-\s+)*)");
+        return leading.match(before).captured();
+    }
+    /// Whether a word there is a key, or may be one.
+    bool takes_key() const {
+        static const QRegularExpression key(R"(:\s)");
+        if (!quote.isNull()) return false;
+        return bracket == '{' ? !before.contains(key)
+                              : bracket.isNull() && dashes().size() == before.size();
+    }
+    /// Whether it may be an item of a list with dashes.
+    bool takes_item() const { return bracket.isNull() && dashes().contains('-'); }
+};
+
+class AroundFinder {
+  public:
+    AroundFinder(const QString& text, int at) : text_(text), at_(at) {}
+
+    Around find() {
+        for (int i = 0; i < at_; ++i) take(i);
+        const int item = open_.empty() ? line_ : open_.back().second;
+        Around out{open_.empty() ? QChar() : open_.back().first, quote_,
+                   text_.mid(item, at_ - item), ""};
+        if (!quote_.isNull()) out.close += quote_;
+        for (auto open = open_.rbegin(); open != open_.rend(); ++open)
+            out.close += open->first == '[' ? ']' : '}';
+        return out;
+    }
+
+  private:
+    void take(int i) {
+        const QChar c = text_[i];
+        const bool ends_word = i + 1 >= at_ || text_[i + 1].isSpace();
+        if (!quote_.isNull()) {
+            const bool escaped = quote_ == '"' && text_[i - 1] == '\\';
+            if (c == quote_ && !escaped) quote_ = QChar();
+        } else if (c == '\n') {
+            comment_ = false;
+            begins_ = true;
+            line_ = i + 1;
+        } else if (comment_ || (c == '#' && (i == 0 || text_[i - 1].isSpace()))) {
+            comment_ = true;
+        } else if (!c.isSpace()) {
+            take_sign(i, c, ends_word);
+        }
+    }
+    void take_sign(int i, QChar c, bool ends_word) {
+        const bool began = std::exchange(begins_, false);
+        if (began && (c == '"' || c == '\'')) {
+            quote_ = c;
+        } else if (began && (c == '[' || c == '{')) {
+            open_.emplace_back(c, i + 1);
+            begins_ = true;
+        } else if (!open_.empty() && (c == ']' || c == '}')) {
+            open_.pop_back();
+        } else if (!open_.empty() && c == ',') {
+            open_.back().second = i + 1;
+            begins_ = true;
+        } else {
+            begins_ = ends_word && (c == ':' || (c == '-' && began));
+        }
+    }
+
+    const QString& text_;
+    int at_;
+    std::vector<std::pair<QChar, int>> open_;  // brackets, and where the item in each begins
+    QChar quote_;
+    int line_ = 0;
+    bool comment_ = false;
+    bool begins_ = true;  // a value or a key may begin here, in quotes or brackets
+};
 
 /// What the readers know where a text has kNoWord.
 std::vector<Choice> words_in(const QString& file, const QString& text) {
@@ -25,8 +107,10 @@ std::vector<Choice> words_in(const QString& file, const QString& text) {
     if (out.error() == QFileDevice::NoError) session::check_file(file.toStdString(), diagnostics);
     QFile::remove(file);
     for (const Problem& problem : diagnostics.problems()) {
-        const bool here = problem.key == kNoWord ||
-                          problem.what.find(std::string("'") + kNoWord + "'") != std::string::npos;
+        const auto names = [&](const char* quote) {
+            return problem.what.find(quote + std::string(kNoWord) + quote) != std::string::npos;
+        };
+        const bool here = problem.key == kNoWord || names("'") || names("\"");
         if (here && !problem.choices.empty()) return problem.choices;
     }
     return {};
@@ -40,14 +124,17 @@ WordPlace word_place(const QString& text, int cursor) {
     while (end < text.size() && is_letter(text[end])) ++end;
     WordPlace out;
     out.typed = text.mid(start, cursor - start);
-    const int line = static_cast<int>(text.lastIndexOf('\n', start - 1)) + 1;
-    const QString before = text.mid(line, start - line);
-    static const QRegularExpression after_key(R"(:\s+$)");
-    out.is_key = !before.contains(after_key);
     out.has_colon = end < text.size() && text[end] == ':';
-    QString word = kNoWord;
-    if (out.is_key && !out.has_colon) word += ": 0";
-    out.asking = text.left(start) + word + text.mid(end);
+    const Around around = AroundFinder(text, start).find();
+    out.is_key = around.takes_key();
+    const auto with = [&](const QString& word) { return text.left(start) + word + text.mid(end); };
+    const bool alone = out.is_key && !out.has_colon;
+    const QString word = alone ? QString(kNoWord) + ": 0" : kNoWord;
+    out.asking = with(word);
+    if (alone && around.takes_item()) out.otherwise.emplace_back(with(kNoWord), false);
+    const bool ends_line = text.mid(end, text.indexOf('\n', end) - end).trimmed().isEmpty();
+    if (ends_line && !around.close.isEmpty())
+        out.otherwise.emplace_back(with(word + around.close), out.is_key);
     return out;
 }
 
@@ -61,9 +148,15 @@ void WordFinder::find(const QString& file, const WordPlace& place) {
     const QString beside =
         info.dir().filePath(QString(".%1.words-%2.yaml").arg(info.completeBaseName()).arg(number));
     pool_.start([this, number, beside, place] {
+        WordPlace where = place;
         std::vector<Choice> words = words_in(beside, place.asking);
-        QMetaObject::invokeMethod(this, [this, number, place, words = std::move(words)] {
-            if (number == asked_) Q_EMIT found(place, words);
+        for (const auto& [text, is_key] : place.otherwise) {
+            if (!words.empty()) break;
+            words = words_in(beside, text);
+            where.is_key = is_key;
+        }
+        QMetaObject::invokeMethod(this, [this, number, where, words = std::move(words)] {
+            if (number == asked_) Q_EMIT found(where, words);
         });
     });
 }

@@ -1,10 +1,12 @@
-// Finds the words that may stand at a place of a file's text: keys and names. The readers of files
-// know them: what they say of a word that is none has all that are.
+// Finds the words that may stand at a place of a file's text: keys, names, and what the file itself
+// gives a name. The readers of files know them: what they say of a word that is none has all that
+// are.
 #pragma once
 
 #include <QObject>
 #include <QString>
 #include <QThreadPool>
+#include <utility>
 #include <vector>
 
 #include "base/diagnostics.h"
@@ -17,6 +19,9 @@ struct WordPlace {
     bool is_key = false;     ///< otherwise, what stands after a key
     bool has_colon = false;  ///< of a key, behind it
     QString asking;          ///< the text with a word in its place that no file knows
+    /// What else to ask if the readers know nothing then, and whether the word is a key in it: it
+    /// may be an item of a list, or in brackets that are not closed yet.
+    std::vector<std::pair<QString, bool>> otherwise;
 };
 /// The place where a cursor is, in characters from the text's start.
 WordPlace word_place(const QString& text, int cursor);

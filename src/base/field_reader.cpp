@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/choices.h"
 #include "base/text_file.h"
 
 namespace dihaptic {
@@ -22,12 +23,6 @@ std::vector<std::string> keys_of(const std::string& name, Quantity quantity) {
 std::string alternatives(const std::vector<std::string>& words) {
     if (words.size() == 1) return words.front();
     return fmt::format("{} or {}", fmt::join(words.begin(), words.end() - 1, ", "), words.back());
-}
-
-std::vector<Choice> choices_of(const std::vector<std::string_view>& words) {
-    std::vector<Choice> out;
-    for (const std::string_view word : words) out.push_back({std::string(word), ""});
-    return out;
 }
 
 std::string origin_of(const Place& place) {

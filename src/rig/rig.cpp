@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <set>
 
+#include "base/choices.h"
 #include "base/field_writer.h"
 #include "base/text_file.h"
 #include "rig/corrected_devices.h"
@@ -46,7 +47,8 @@ void check(const Rig& rig, Diagnostics& diagnostics) {
             if (!device.backend.empty()) {
                 diagnostics.error(device.place, "backend",
                                   fmt::format("'{}' is not known", device.backend),
-                                  fmt::format("Known: {}.", fmt::join(backend_names(), ", ")));
+                                  fmt::format("Known: {}.", fmt::join(backend_names(), ", ")),
+                                  choices_of(backend_names()));
             }
             continue;
         }

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <set>
 
+#include "base/choices.h"
 #include "scene/colour.h"
 #include "scene/mesh.h"
 #include "scene/relief_picture.h"
@@ -216,17 +217,23 @@ void check_names(const Scene& scene, Diagnostics& diagnostics) {
 
 void check_references(const Scene& scene, Diagnostics& diagnostics) {
     std::vector<std::string> known = finger_names(scene);
-    for (const Body& body : scene.bodies) known.push_back(body.name);
-    const auto must_exist = [&](const std::string& name, const char* key, const Place& place) {
+    std::vector<std::string> movable;
+    for (const Body& body : scene.bodies) {
+        known.push_back(body.name);
+        if (body.moves_at_all()) movable.push_back(body.name);
+    }
+    const auto must_exist = [&](const std::string& name, const char* key, const Place& place,
+                                const std::vector<std::string>& choices) {
         if (std::find(known.begin(), known.end(), name) != known.end()) return;
         const std::string guess = nearest(name, known);
         diagnostics.error(place, key, fmt::format("there is no body or finger '{}'", name),
                           guess.empty() ? fmt::format("There are {}.", fmt::join(known, ", "))
-                                        : fmt::format("Did you mean {}?", guess));
+                                        : fmt::format("Did you mean {}?", guess),
+                          choices_of(choices));
     };
     std::set<std::pair<std::string, std::string>> pairs;
     for (const Pair& pair : scene.pairs) {
-        for (const std::string& name : pair.between) must_exist(name, "between", pair.place);
+        for (const std::string& name : pair.between) must_exist(name, "between", pair.place, known);
         if (pair.between.size() != 2) {
             diagnostics.error(pair.place, "between", "must be two names",
                               "Write between: [block, thumb].");
@@ -244,7 +251,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
     }
     if (scene.object.empty()) return;
     if (const int object = scene.find(scene.object); object < 0) {
-        must_exist(scene.object, "object", scene.object_place);
+        must_exist(scene.object, "object", scene.object_place, movable);
         if (std::find(known.begin(), known.end(), scene.object) != known.end()) {
             diagnostics.error(scene.object_place, "object",
                               fmt::format("'{}' is a finger", scene.object), "Name a body.");
@@ -509,7 +516,8 @@ void report_unknown_body(const std::string& name, const Scene& scene, const Plac
     const std::string guess = nearest(name, bodies);
     diagnostics.error(place, key, fmt::format("there is no body '{}'", name),
                       guess.empty() ? fmt::format("There are {}.", fmt::join(bodies, ", "))
-                                    : fmt::format("Did you mean {}?", guess));
+                                    : fmt::format("Did you mean {}?", guess),
+                      choices_of(bodies));
 }
 
 int Scene::find(const std::string& name) const {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <string>
 
+#include "base/choices.h"
 #include "task/expression_parts.h"
 
 namespace dihaptic::task {
@@ -166,7 +167,8 @@ class Compiler : Parts {
         const std::string guess = nearest(text, levels);
         throw Fault{quoted.column, fmt::format("it is never \"{}\"", text),
                     guess.empty() ? fmt::format("It may be: {}.", fmt::join(levels, ", "))
-                                  : fmt::format("Did you mean \"{}\"?", guess)};
+                                  : fmt::format("Did you mean \"{}\"?", guess),
+                    levels};
     }
 
     Value sum() {
@@ -340,10 +342,12 @@ class Compiler : Parts {
         if (find_unit_in_si(name.text))
             return {name.column, fmt::format("'{}' is a unit", name.text),
                     fmt::format("Write it behind a number: 1 {}.", name.text)};
-        const std::string guess = nearest(name.text, quantities_.names());
+        const std::vector<std::string> names = quantities_.names();
+        const std::string guess = nearest(name.text, names);
         return {name.column, fmt::format("'{}' is no quantity", name.text),
                 guess.empty() ? "docs/files.md (conditions) says what has a name."
-                              : fmt::format("Did you mean {}?", guess)};
+                              : fmt::format("Did you mean {}?", guess),
+                names};
     }
 
     // functions
@@ -368,7 +372,8 @@ class Compiler : Parts {
         const std::string guess = nearest(name.text, known);
         throw Fault{name.column, fmt::format("'{}' is no function", name.text),
                     guess.empty() ? fmt::format("Known: {}.", fmt::join(known, ", "))
-                                  : fmt::format("Did you mean {}?", guess)};
+                                  : fmt::format("Did you mean {}?", guess),
+                    known};
     }
     std::vector<Value> arguments(const Token& name, int least, int most) {
         std::vector<Value> out;
@@ -442,7 +447,8 @@ class Compiler : Parts {
         const std::string guess = nearest(name, known);
         throw Fault{column, fmt::format("'{}' is not {}", name, wanted),
                     guess.empty() ? fmt::format("Known: {}.", fmt::join(known, ", "))
-                                  : fmt::format("Did you mean {}?", guess)};
+                                  : fmt::format("Did you mean {}?", guess),
+                    known};
     }
     Quantities::Thing thing_argument() {
         const size_t column = token().column;
@@ -583,7 +589,8 @@ Expression Expression::compile(std::string_view text, Quantities& quantities, co
         return Compiler(text, quantities).compile();
     } catch (const Fault& fault) {
         diagnostics.error(place, std::string(key),
-                          fmt::format("column {}: {}", fault.column, fault.what), fault.remedy);
+                          fmt::format("column {}: {}", fault.column, fault.what), fault.remedy,
+                          choices_of(fault.known));
         return {};
     }
 }

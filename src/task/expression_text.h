@@ -12,6 +12,7 @@ struct Fault {
     size_t column;  // from 1
     std::string what;
     std::string remedy;
+    std::vector<std::string> known = {};  // what may stand there
 };
 
 struct Token {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/choices.h"
 #include "base/diagnostics.h"
 #include "base/geometry.h"
 
@@ -42,7 +43,8 @@ inline int look_up(const std::vector<std::string>& names, const std::string& nam
                       name.empty() ? "is missing" : fmt::format("'{}' is {}", name, what),
                       names.empty()    ? "There is none to name: add one first."
                       : !guess.empty() ? fmt::format("Did you mean {}?", guess)
-                                       : fmt::format("Known: {}.", fmt::join(names, ", ")));
+                                       : fmt::format("Known: {}.", fmt::join(names, ", ")),
+                      choices_of(names));
     return -1;
 }
 

@@ -87,7 +87,8 @@ std::optional<TextNumber> SeenPlanner::number(const std::string& name, const Pla
                            ? fmt::format("Known: {}, and numbers that expressions may name, e.g. "
                                          "a variable or grip_force.",
                                          fmt::join(figures, ", "))
-                           : fmt::format("Did you mean {}?", guess));
+                           : fmt::format("Did you mean {}?", guess),
+                       choices_of(names));
     return {};
 }
 

@@ -137,8 +137,8 @@ class Planner {
         return out;
     }
     void error(const Place& place, const std::string& key, const std::string& what,
-               const std::string& remedy) {
-        diagnostics_.error(place, key, what, remedy);
+               const std::string& remedy, std::vector<Choice> choices = {}) {
+        diagnostics_.error(place, key, what, remedy, std::move(choices));
     }
 
     void check_lists() {
@@ -480,9 +480,13 @@ class Planner {
         for (size_t i = 0; i < static_cast<size_t>(When::expression); ++i)
             words.emplace_back(kWhenTable[i].name);
         const std::string guess = nearest(text, words);
+        std::vector<Choice> choices = choices_of(words);
+        for (const Choice& quantity : choices_of(plan_.quantities.names()))
+            choices.push_back(quantity);
         error(exit.place, "when", fmt::format("'{}' is not known", text),
               guess.empty() ? fmt::format("Use {}, or an expression.", fmt::join(words, ", "))
-                            : fmt::format("Did you mean {}?", guess));
+                            : fmt::format("Did you mean {}?", guess),
+              std::move(choices));
     }
 
     /// Looks up the names in the exit's condition.

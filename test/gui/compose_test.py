@@ -10,7 +10,7 @@ from window import SCENE, Window, patient
 
 class Compose(Window):
     def type(self, text):
-        self.xdotool("type", "--delay", "30", text)
+        self.xdotool("type", "--delay", "30", "--", text)
 
     def text(self):
         return pathlib.Path(self.scene).read_text()
@@ -109,6 +109,27 @@ class Compose(Window):
         self.key("ctrl+s")
         self.wait("the line", lambda: " # picked" in self.text())
         self.assertIn(" # picked", next(text for text in self.text().splitlines() if "name: block" in text))
+        self.quit()
+
+    def test_offers_the_names_that_the_file_gives(self):
+        self.open()
+        self.key("ctrl+e", "ctrl+End")
+        self.type("pairs:")
+        self.key("Return")
+        self.type("- between: [bl")
+        self.key("ctrl+space")
+        time.sleep(1)
+        self.screenshot("compose-names")
+        self.key("Return")
+        self.type(", tab")
+        self.key("ctrl+space")
+        time.sleep(1)
+        self.key("Return")
+        self.type("]")
+        self.key("Return")
+        self.type("friction: 0.5")
+        self.key("ctrl+s")
+        self.wait("the names", lambda: self.text() == SCENE + "pairs:\n- between: [block, table]\n  friction: 0.5")
         self.quit()
 
     def position(self):

@@ -6,6 +6,7 @@
 #include <QCoreApplication>
 #include <QDeadlineTimer>
 
+#include "base/text_file.h"
 #include "testing/files.h"
 
 namespace dihaptic::gui::word_finder_test {
@@ -77,6 +78,93 @@ TEST_F(WordFinderTest, OffersNamesBehindAKey) {
 TEST_F(WordFinderTest, OffersKeysOfRigs) {
     EXPECT_TRUE(
         Words("devices:\n  - finger: index\n    backend: simulated\nheads|\n").has("headset"));
+}
+
+const char* const kScene =
+    "object: block\n"
+    "bodies:\n"
+    "  - { name: table, shape: plane, fixed: yes }\n"
+    "  - { name: block, shape: box, size_mm: [40, 40, 40], mass_g: 100, position_mm: [0, 0, 20] }\n"
+    "  - { name: bar 1, shape: box, size_mm: [40, 40, 40], mass_g: 100, position_mm: [0, 0, 70] "
+    "}\n";
+
+TEST_F(WordFinderTest, OffersBodiesWhereTheyMayStand) {
+    const QString scene(kScene);
+    const Words object(QString(scene).replace("object: block", "object: |"));
+    EXPECT_FALSE(object.place.is_key);
+    EXPECT_TRUE(object.has("block"));
+    EXPECT_TRUE(object.has("bar 1"));
+    EXPECT_FALSE(object.has("table")) << "it cannot move";
+    for (const char* between :
+         {"pairs:\n  - between: [block, |]\n    friction: 1\n",
+          "pairs:\n  - { between: [|, block], friction: 1 }\n",
+          "pairs:\n  - friction: 1\n    between: [\n      block,\n      b|\n",
+          "pairs:\n  - friction: 1\n    between:\n      - block\n      - |\n"}) {
+        const Words pair(scene + between);
+        EXPECT_TRUE(!pair.place.is_key || !pair.place.otherwise.empty()) << between;
+        EXPECT_TRUE(pair.has("table")) << between;
+        EXPECT_TRUE(pair.has("index")) << between;
+    }
+    const Words joint(scene + "joints:\n  - { name: j, kind: ball, between: [table, |] }\n");
+    EXPECT_TRUE(joint.has("block"));
+    EXPECT_FALSE(joint.has("index")) << "no joint holds a finger";
+    EXPECT_TRUE(Words(scene + "joints:\n  - { name: j, kind: ball, between: [block], in: | }\n")
+                    .has("bar 1"));
+}
+
+TEST_F(WordFinderTest, OffersWordsInBracketsThatAreNotClosedYet) {
+    const Words key("bodies:\n  - { name: a, sha|\n  - { name: b, shape: plane, fixed: yes }\n");
+    EXPECT_TRUE(key.has("shape"));
+    EXPECT_TRUE(
+        Words(QString(kScene) + "joints:\n  - { name: j, kind: ball, between: [b|\n").has("block"));
+}
+
+TEST_F(WordFinderTest, KnowsWhetherAKeyOrAValueStandsThere) {
+    const auto is_key = [](QString text) {
+        const auto cursor = static_cast<int>(text.indexOf('|'));
+        return word_place(text.remove(cursor, 1), cursor).is_key;
+    };
+    EXPECT_TRUE(is_key("a:\n  |"));
+    EXPECT_TRUE(is_key("a:\n  - - b|"));
+    EXPECT_TRUE(is_key("{ a: [1, 2], b|"));
+    EXPECT_TRUE(is_key("a: {\n  \"b: {\": 1,\n  c|"));
+    EXPECT_TRUE(is_key("a: it's [ # not { \n|"));
+    EXPECT_TRUE(is_key("a: 'it''s { \\'\n|"));
+    EXPECT_TRUE(is_key("a: \"\\\"{\"\n|"));
+    EXPECT_FALSE(is_key("a: b|"));
+    EXPECT_FALSE(is_key("a: b > c|"));
+    EXPECT_FALSE(is_key("- b > c|"));
+    EXPECT_FALSE(is_key("a: [b, c|"));
+    EXPECT_FALSE(is_key("{ a: b|"));
+    EXPECT_FALSE(is_key("{ a: \"f(x, y|"));
+    EXPECT_FALSE(is_key("\"a|"));
+}
+
+/// Words where `from` in a shipped experiment is replaced by `to`.
+Words in_experiment(const QString& from, const QString& to) {
+    QString text = QString::fromStdString(read_text_file("experiments/first-trials.yaml"));
+    const QString here = QString::fromStdString(std::filesystem::current_path().string());
+    EXPECT_TRUE(text.contains(from)) << from.toStdString();
+    text.replace("../", here + "/");
+    return Words(text.replace(text.indexOf(from), from.size(), to));
+}
+
+TEST_F(WordFinderTest, OffersWhatAnExperimentGivesAName) {
+    EXPECT_TRUE(in_experiment("to: hold", "to: |").has("put down"));
+    EXPECT_TRUE(in_experiment("show: [away]", "show: [aw|]").has("away"));
+    EXPECT_TRUE(in_experiment("region: away", "region: |").has("away"));
+    EXPECT_TRUE(in_experiment("perturb: thrice", "perturb: |").has("twice"));
+    EXPECT_TRUE(in_experiment("body: { body: block", "body: { body: |").has("block"));
+    EXPECT_TRUE(in_experiment("when: lifted, body: block", "when: lifted, body: |").has("block"));
+    const Words when = in_experiment("when: inside, region: away", "when: |");
+    EXPECT_TRUE(when.has("lifted"));
+    EXPECT_TRUE(when.has("grip_force"));
+    const Words member = in_experiment("when: inside, region: away", "when: block.| > 2 mm");
+    EXPECT_EQ(member.place.typed, "block.");
+    EXPECT_TRUE(member.has("block.z"));
+    EXPECT_TRUE(
+        in_experiment("when: inside, region: away", "when: \"inside(block, |)\"").has("away"));
+    EXPECT_TRUE(in_experiment("\"Lift {trial_num}", "\"Lift {tr|}").has("trials"));
 }
 
 TEST_F(WordFinderTest, HasNothingToOfferInATextThatIsNoYaml) {
