@@ -1,6 +1,8 @@
 #include "application.h"
 
 #include <QKeyEvent>
+#include <QLibraryInfo>
+#include <QLocale>
 
 namespace dihaptic::gui {
 
@@ -11,6 +13,14 @@ bool Application::notify(QObject* receiver, QEvent* event) {
         event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress;
     if (press && static_cast<QKeyEvent*>(event)->key() == Qt::Key_Escape) Q_EMIT escape_pressed();
     return QApplication::notify(receiver, event);
+}
+
+void Application::translate(const QString& folder) {
+    const QLocale language;
+    if (!texts_.load(language, "dihaptic", "_", folder)) return;
+    installTranslator(&texts_);
+    const QString of_qt = QLibraryInfo::path(QLibraryInfo::TranslationsPath);
+    if (texts_of_qt_.load(language, "qtbase", "_", of_qt)) installTranslator(&texts_of_qt_);
 }
 
 }  // namespace dihaptic::gui

@@ -1,8 +1,9 @@
-// The Qt application object, which sees Escape before any widget: a dialog, a menu or a field that
-// has the keyboard would use the key up.
+// The Qt application object. It sees Escape before any widget: a dialog, a menu or a field that has
+// the keyboard would use the key up. And it speaks the system's language if there is a translation.
 #pragma once
 
 #include <QApplication>
+#include <QTranslator>
 
 namespace dihaptic::gui {
 
@@ -12,10 +13,17 @@ class Application : public QApplication {
   public:
     using QApplication::QApplication;
     bool notify(QObject* receiver, QEvent* event) override;
+    /// From now on texts are in the system's language, if the folder has dihaptic_LANGUAGE.qm:
+    /// those of the window and those that Qt has of its own.
+    void translate(const QString& folder);
 
   Q_SIGNALS:
     /// Sent before the key has any other effect; may be sent more than once for a press.
     void escape_pressed();
+
+  private:
+    QTranslator texts_;
+    QTranslator texts_of_qt_;
 };
 
 }  // namespace dihaptic::gui

@@ -29,7 +29,7 @@ void Calibrator::calibrate(const QString& rig_file) {
     }
     auto found = std::make_shared<rig::CalibrationResult>();
     auto* guide = new GuideDialog(
-        "Calibration: " + QString::fromStdString(rig.title), "&Give up",
+        tr("Calibration: %1").arg(QString::fromStdString(rig.title)), tr("&Give up"),
         [rig, found](const rig::Guide& person) {
             *found = rig::calibrate(rig::lead_calibration(rig, person));
             found->calibration.date = recording::iso_now().substr(0, 10);
@@ -48,7 +48,7 @@ void Calibrator::ask_to_store(const rig::Rig& rig, const rig::CalibrationResult&
                               const std::string& rig_file, const std::string& file) {
     auto* dialog = new QDialog(window_);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setWindowTitle("What the calibration found");
+    dialog->setWindowTitle(tr("What the calibration found"));
     auto* words = new QLabel(QString::fromStdString(rig::describe(result)));
     words->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
     words->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -57,15 +57,15 @@ void Calibrator::ask_to_store(const rig::Rig& rig, const rig::CalibrationResult&
     picture->setMinimumSize(picture->sizeHint());
     auto* buttons = new QDialogButtonBox;
     const bool named = !rig.calibration.empty();
-    buttons->addButton(named ? "&Store" : "&Store and use", QDialogButtonBox::AcceptRole)
+    buttons->addButton(named ? tr("&Store") : tr("&Store and use"), QDialogButtonBox::AcceptRole)
         ->setDefault(true);
-    buttons->addButton("&Discard", QDialogButtonBox::RejectRole)->setAutoDefault(false);
+    buttons->addButton(tr("&Discard"), QDialogButtonBox::RejectRole)->setAutoDefault(false);
     auto* layout = new QVBoxLayout(dialog);
     layout->addWidget(words);
     layout->addWidget(picture, 1);
-    QString where = "It goes to " + QString::fromStdString(file);
-    if (!named) where += ", and the rig file gets a line that names it";
-    layout->addWidget(new QLabel(where + "."));
+    const QString where = named ? tr("It goes to %1.")
+                                : tr("It goes to %1, and the rig file gets a line that names it.");
+    layout->addWidget(new QLabel(where.arg(QString::fromStdString(file))));
     layout->addWidget(buttons);
     connect(buttons, &QDialogButtonBox::accepted, dialog, &QDialog::accept);
     connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::reject);
@@ -77,7 +77,7 @@ void Calibrator::ask_to_store(const rig::Rig& rig, const rig::CalibrationResult&
             Q_EMIT logged(e.what(), true);
             return;
         }
-        Q_EMIT logged("calibration stored: " + QString::fromStdString(file), false);
+        Q_EMIT logged(tr("calibration stored: %1").arg(QString::fromStdString(file)), false);
         Q_EMIT stored();
     });
     dialog->open();
@@ -92,13 +92,13 @@ void Calibrator::register_display(const QString& rig_file) {
     const rig::Display& display = rig.displays.front();
     auto* crosses = new QSvgWidget;
     crosses->setAttribute(Qt::WA_DeleteOnClose);
-    crosses->setWindowTitle("Dihaptic: crosses");
+    crosses->setWindowTitle(tr("Dihaptic: crosses"));
     crosses->load(QByteArray::fromStdString(rig::cross_picture(display)));
     const QString wrong = show_on(*crosses, QString::fromStdString(display.monitor), *window_);
     if (!wrong.isEmpty()) Q_EMIT logged(wrong, true);
     auto found = std::make_shared<rig::RegistrationResult>();
     auto* guide = new GuideDialog(
-        "Registration: " + QString::fromStdString(display.name), "&Give up",
+        tr("Registration: %1").arg(QString::fromStdString(display.name)), tr("&Give up"),
         [rig, display, found](const rig::Guide& person) {
             const std::string finger = rig::held_fingers(rig).front();
             *found =
@@ -118,7 +118,7 @@ void Calibrator::register_display(const QString& rig_file) {
 
 void Calibrator::store(const rig::Rig& rig, const rig::Display& display,
                        const rig::RegistrationResult& result, const std::string& rig_file) {
-    auto* question = new QMessageBox(QMessageBox::Question, "What the registration found",
+    auto* question = new QMessageBox(QMessageBox::Question, tr("What the registration found"),
                                      QString::fromStdString(rig::describe(result)),
                                      QMessageBox::Save | QMessageBox::Discard, window_);
     question->setAttribute(Qt::WA_DeleteOnClose);
@@ -133,9 +133,9 @@ void Calibrator::store(const rig::Rig& rig, const rig::Display& display,
             Q_EMIT logged(e.what(), true);
             return;
         }
-        QString told = "registration stored: " + QString::fromStdString(file);
+        QString told = tr("registration stored: %1").arg(QString::fromStdString(file));
         if (display.registration.empty())
-            told += QString(". In the rig file, under %1, write: %2")
+            told += tr(". In the rig file, under %1, write: %2")
                         .arg(QString::fromStdString(display.name),
                              QString::fromStdString(rig::registration_line(rig_file, file)));
         Q_EMIT logged(told, false);
@@ -147,7 +147,7 @@ void Calibrator::store(const rig::Rig& rig, const rig::Display& display,
 std::function<std::vector<Problem>(devices::DeviceGroup&)> Calibrator::together_check(
     const rig::Rig& rig, const std::vector<std::string>& fingers,
     const std::function<bool()>& ends) {
-    auto* dialog = new GuideDialog("Does the calibration still hold?", "&Skip", window_);
+    auto* dialog = new GuideDialog(tr("Does the calibration still hold?"), tr("&Skip"), window_);
     dialog->open();
     check_ = dialog;
     return [this, dialog, rig, fingers, ends](devices::DeviceGroup& devices) {
@@ -170,11 +170,13 @@ std::function<std::vector<Problem>(devices::DeviceGroup&)> Calibrator::together_
             }
             dialog->finish(GuideDialog::Outcome::done);
         } catch (const rig::GivenUp&) {
-            tell("the calibration was not checked", false);
+            tell(tr("the calibration was not checked"), false);
             dialog->finish(GuideDialog::Outcome::given_up);
         } catch (const Ended&) {
             dialog->finish(GuideDialog::Outcome::given_up);
-            throw Error("The session was ended before it began: nothing was recorded", "");
+            throw Error(
+                tr("The session was ended before it began: nothing was recorded").toStdString(),
+                "");
         } catch (const std::exception& e) {
             dialog->finish(GuideDialog::Outcome::failed, QString::fromStdString(e.what()));
             throw;

@@ -9,16 +9,16 @@
 namespace dihaptic::gui {
 namespace {
 
-const char* name_of(session::Remedy remedy) {
+QString name_of(session::Remedy remedy) {
     switch (remedy) {
         case session::Remedy::calibrate:
-            return "&Calibrate ...";
+            return QObject::tr("&Calibrate ...");
         case session::Remedy::register_display:
-            return "Re&gister ...";
+            return QObject::tr("Re&gister ...");
         case session::Remedy::choose_folder:
-            return "Another &folder ...";
+            return QObject::tr("Another &folder ...");
         case session::Remedy::allow_real_time:
-            return "How &to allow it";
+            return QObject::tr("How &to allow it");
         case session::Remedy::none:
             break;
     }
@@ -31,7 +31,7 @@ Checklist::Checklist(const std::vector<session::Finding>& findings, bool before_
                      QWidget* parent)
     : QDialog(parent) {
     setAttribute(Qt::WA_DeleteOnClose);
-    setWindowTitle("Before the session");
+    setWindowTitle(tr("Before the session"));
     auto* rows = new QGridLayout;
     rows->setColumnStretch(2, 1);
     for (const session::Finding& finding : findings) add(*rows, finding);
@@ -39,7 +39,7 @@ Checklist::Checklist(const std::vector<session::Finding>& findings, bool before_
     if (before_start) {
         const bool good = std::all_of(findings.begin(), findings.end(),
                                       [](const session::Finding& f) { return f.good; });
-        QPushButton* start = buttons->addButton(good ? "&Start" : "&Start all the same",
+        QPushButton* start = buttons->addButton(good ? tr("&Start") : tr("&Start all the same"),
                                                 QDialogButtonBox::AcceptRole);
         start->setDefault(true);
         buttons->addButton(QDialogButtonBox::Cancel)->setAutoDefault(false);
@@ -58,7 +58,7 @@ Checklist::Checklist(const std::vector<session::Finding>& findings, bool before_
 void Checklist::add(QGridLayout& rows, const session::Finding& finding) {
     const int row = rows.rowCount();
     auto* mark = new QLabel(finding.good ? "\u2713" : "!");
-    mark->setAccessibleName(finding.good ? "good" : "to be looked at");
+    mark->setAccessibleName(finding.good ? tr("good") : tr("to be looked at"));
     mark->setStyleSheet(finding.good ? "color: #009e73; font-weight: bold"
                                      : "color: #d55e00; font-weight: bold");
     auto* text = new QLabel(

@@ -32,8 +32,11 @@ QString write(const QString& file, const QByteArray& content) {
 }  // namespace
 
 Composer::Composer(QWidget* parent)
-    : QWidget(parent), edit_(new CodeEdit), state_(new QLabel), save_(new QPushButton("Sa&ve")) {
-    edit_->setAccessibleName("File's text");
+    : QWidget(parent),
+      edit_(new CodeEdit),
+      state_(new QLabel),
+      save_(new QPushButton(tr("Sa&ve"))) {
+    edit_->setAccessibleName(tr("File's text"));
     state_->setWordWrap(true);
     state_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     save_->setToolTip("Ctrl+S");
@@ -97,8 +100,8 @@ void Composer::open(const QString& file) {
     edit_->document()->setModified(false);
     pause_.stop();  // nobody typed this
     edit_->setReadOnly(!QFileInfo(file).isWritable());
-    state_->setText(edit_->isReadOnly() ? "This file may not be written: copy it to a folder of "
-                                          "your own, and open the copy."
+    state_->setText(edit_->isReadOnly() ? tr("This file may not be written: copy it to a folder of "
+                                             "your own, and open the copy.")
                                         : "");
 }
 
@@ -112,7 +115,7 @@ QString Composer::source() {
     if (!changed()) return file_;
     const QString why = write(draft(), content());
     if (why.isEmpty()) return draft();
-    state_->setText(QString("The text cannot be checked as you type: %1: %2").arg(draft(), why));
+    state_->setText(tr("The text cannot be checked as you type: %1: %2").arg(draft(), why));
     return file_;
 }
 
@@ -132,7 +135,7 @@ std::string Composer::body() const {
 bool Composer::move(const std::string& body, const BodyWay& way) {
     if (edit_->isReadOnly()) return false;  // it says so all the time
     if (body.empty()) {
-        state_->setText("The cursor is not in the lines of a body: nothing moves.");
+        state_->setText(tr("The cursor is not in the lines of a body: nothing moves."));
         return false;
     }
     try {
@@ -149,7 +152,7 @@ bool Composer::save() {
     if (!changed()) return true;
     const QByteArray written = content();
     if (const QString why = write(file_, written); !why.isEmpty()) {
-        state_->setText(QString("%1 cannot be written: %2").arg(file_, why));
+        state_->setText(tr("%1 cannot be written: %2").arg(file_, why));
         return false;
     }
     read_ = written;
@@ -162,7 +165,7 @@ bool Composer::save() {
 
 bool Composer::save_as(const QString& file) {
     if (const QString why = write(file, content()); !why.isEmpty()) {
-        state_->setText(QString("%1 cannot be written: %2").arg(file, why));
+        state_->setText(tr("%1 cannot be written: %2").arg(file, why));
         return false;
     }
     forget();
@@ -185,7 +188,7 @@ void Composer::show_problems(const QStringList& problems) {
         const bool here =
             match.hasMatch() && (match.captured(1) == file_ || match.captured(1) == draft());
         if (here) marks[match.captured(2).toInt()] = match.captured(3);
-        all += here ? QString("line %1: %2").arg(match.captured(2), match.captured(3)) : problem;
+        all += here ? tr("line %1: %2").arg(match.captured(2), match.captured(3)) : problem;
     }
     edit_->mark(marks);
     problems_ = all.join("\n");

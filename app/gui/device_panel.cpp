@@ -11,14 +11,15 @@ namespace {
 enum Column { kFinger, kModel, kForce, kBar, kStatus, kColumns };
 
 QString words(uint32_t status) {
-    return status == 0 ? "well" : QString::fromStdString(dihaptic::words(status));
+    return status == 0 ? QObject::tr("well") : QString::fromStdString(dihaptic::words(status));
 }
 
 }  // namespace
 
 DevicePanel::DevicePanel(QWidget* parent)
     : QWidget(parent), table_(new QTableWidget(0, kColumns)), loop_(new QLabel) {
-    table_->setHorizontalHeaderLabels({"Finger", "Device", "Force / limit", "", "Status"});
+    table_->setHorizontalHeaderLabels(
+        {tr("Finger"), tr("Device"), tr("Force / limit"), "", tr("Status")});
     table_->verticalHeader()->hide();
     table_->horizontalHeader()->setStretchLastSection(true);
     table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -39,7 +40,7 @@ void DevicePanel::set_devices(const std::vector<Device>& devices) {
         const Device& device = devices[static_cast<size_t>(i)];
         table_->setItem(i, kFinger, new QTableWidgetItem(device.finger));
         table_->setItem(i, kModel, new QTableWidgetItem(device.model));
-        table_->setItem(i, kStatus, new QTableWidgetItem("at rest"));
+        table_->setItem(i, kStatus, new QTableWidgetItem(tr("at rest")));
         auto* bar = new QProgressBar;
         bar->setRange(0, 1000);
         bar->setTextVisible(false);  // the end of the bar would cut through the figures
@@ -83,11 +84,11 @@ void DevicePanel::show_frame(const servo::Frame& frame) {
     follow(lateness_, frame.lateness);
     follow(tick_, frame.tick_duration);
     loop_->setText(
-        QString("Loop: tick %1 us, wake-up late by %2 us, overruns among the frames shown: %3. %4")
+        tr("Loop: tick %1 us, wake-up late by %2 us, overruns among the frames shown: %3. %4")
             .arg(tick_ * 1e6, 0, 'f', 0)
             .arg(lateness_ * 1e6, 0, 'f', 0)
             .arg(overruns_)
-            .arg((frame.status & servo::kForceOff) != 0 ? "Force is off." : ""));
+            .arg((frame.status & servo::kForceOff) != 0 ? tr("Force is off.") : ""));
 }
 
 }  // namespace dihaptic::gui

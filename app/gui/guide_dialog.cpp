@@ -32,9 +32,9 @@ GuideDialog::GuideDialog(const QString& title, const QString& leave, QWidget* pa
     measured_->setWordWrap(true);
     progress_->setRange(0, 1000);
     auto* buttons = new QDialogButtonBox;
-    done_ = buttons->addButton("&Done", QDialogButtonBox::ActionRole);
+    done_ = buttons->addButton(tr("&Done"), QDialogButtonBox::ActionRole);
     done_->setDefault(true);
-    done_->setToolTip("Enter");
+    done_->setToolTip(tr("Enter"));
     leave_ = buttons->addButton(leave, QDialogButtonBox::RejectRole);
     leave_->setAutoDefault(false);
     auto* layout = new QVBoxLayout(this);
@@ -82,7 +82,7 @@ void GuideDialog::work() {
 
 void GuideDialog::show_guidance(const rig::Guidance& now) {
     if (ended_) return;
-    step_->setText(now.step > 0 ? QString("Step %1 of %2").arg(now.step).arg(now.steps) : "");
+    step_->setText(now.step > 0 ? tr("Step %1 of %2").arg(now.step).arg(now.steps) : "");
     text_->setText(QString::fromStdString(now.text));
     measured_->setText(QString::fromStdString(now.measured));
     progress_->setVisible(now.step == 0 || !now.measured.empty());
@@ -102,11 +102,11 @@ void GuideDialog::end(Outcome outcome, const QString& why) {
     if (outcome == Outcome::done) return accept();
     if (outcome == Outcome::given_up) return QDialog::reject();
     Q_EMIT failed(why);
-    step_->setText("It came to an end:");
+    step_->setText(tr("It came to an end:"));
     text_->setText(why);
     measured_->clear();
     done_->hide();
-    leave_->setText("Close");
+    leave_->setText(tr("Close"));
 }
 
 }  // namespace dihaptic::gui

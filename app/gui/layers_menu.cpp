@@ -17,17 +17,17 @@ void add_layer(QMenu& menu, SceneWidget& scene, const QString& name,
 }
 
 void add_layers(QMenu& menu, SceneWidget& scene) {
-    add_layer(menu, scene, "&Handles", &SceneWidget::Layers::handles);
-    add_layer(menu, scene, "&Forces", &SceneWidget::Layers::forces);
-    add_layer(menu, scene, "C&ontacts", &SceneWidget::Layers::contacts);
-    add_layer(menu, scene, "&Grip axis", &SceneWidget::Layers::grip_axis);
-    add_layer(menu, scene, "P&ath of the object", &SceneWidget::Layers::path);
-    add_layer(menu, scene, "&Joints", &SceneWidget::Layers::joints);
-    add_layer(menu, scene, "Th&e hand", &SceneWidget::Layers::hand);
+    add_layer(menu, scene, QObject::tr("&Handles"), &SceneWidget::Layers::handles);
+    add_layer(menu, scene, QObject::tr("&Forces"), &SceneWidget::Layers::forces);
+    add_layer(menu, scene, QObject::tr("C&ontacts"), &SceneWidget::Layers::contacts);
+    add_layer(menu, scene, QObject::tr("&Grip axis"), &SceneWidget::Layers::grip_axis);
+    add_layer(menu, scene, QObject::tr("P&ath of the object"), &SceneWidget::Layers::path);
+    add_layer(menu, scene, QObject::tr("&Joints"), &SceneWidget::Layers::joints);
+    add_layer(menu, scene, QObject::tr("Th&e hand"), &SceneWidget::Layers::hand);
 }
 
 QAction* add_fine_pictures(QMenu& menu, SceneWidget& scene) {
-    QAction* const action = menu.addAction("F&ine pictures");
+    QAction* const action = menu.addAction(QObject::tr("F&ine pictures"));
     action->setCheckable(true);
     action->setChecked(true);
     QObject::connect(action, &QAction::triggered, &scene, &SceneWidget::set_fine);

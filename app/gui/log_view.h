@@ -12,7 +12,7 @@ class LogView : public QPlainTextEdit {
     LogView() {
         setReadOnly(true);
         setMaximumBlockCount(5000);
-        setAccessibleName("Log");
+        setAccessibleName(QObject::tr("Log"));
     }
     /// Adds a line with the time of day; a problem is bold.
     void add(const QString& text, bool problem) {

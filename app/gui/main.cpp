@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
     QApplication::setApplicationName("dihaptic");
     QApplication::setApplicationVersion(
         QString::fromStdString(dihaptic::recording::program_version()));
+    app.translate(QApplication::applicationDirPath() + "/translations");
 
     QCommandLineParser parser;
     parser.setApplicationDescription(

@@ -41,15 +41,15 @@ void OperatorWindow::choose_file() {
     start_when_opened_ = false;
     starts_.reset();
     const QString start = file_.isEmpty() ? QString("experiments") : QFileInfo(file_).path();
-    const QString file = QFileDialog::getOpenFileName(this, "Open a scene or an experiment", start,
-                                                      "Scenes and experiments (*.yaml)");
+    const QString file = QFileDialog::getOpenFileName(this, tr("Open a scene or an experiment"),
+                                                      start, tr("Scenes and experiments (*.yaml)"));
     if (!file.isEmpty()) open(file);
 }
 
 void OperatorWindow::save_as() {
     if (file_.isEmpty() || !open_action_->isEnabled()) return;
-    const QString file =
-        QFileDialog::getSaveFileName(this, "Save as", file_, "Scenes and experiments (*.yaml)");
+    const QString file = QFileDialog::getSaveFileName(this, tr("Save as"), file_,
+                                                      tr("Scenes and experiments (*.yaml)"));
     if (!file.isEmpty() && composer_->save_as(file)) open(file);
 }
 
@@ -89,7 +89,7 @@ void OperatorWindow::show_start_page() {
 bool OperatorWindow::may_leave_text() {
     if (!composer_->changed()) return true;
     const auto answer = QMessageBox::question(
-        this, "Save?", QString("%1 has changes that were not saved.").arg(file_),
+        this, tr("Save?"), tr("%1 has changes that were not saved.").arg(file_),
         QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
     return answer == QMessageBox::Discard || (answer == QMessageBox::Save && composer_->save());
 }
@@ -130,7 +130,7 @@ void OperatorWindow::pick(size_t body) {
     if (composer_->go_to(picked.place)) {
         composer_->move(picked.name, {});  // says now if it can not
     } else {
-        log(QString("%1 is in %2: open that to change it.")
+        log(tr("%1 is in %2: open that to change it.")
                 .arg(QString::fromStdString(picked.name),
                      QString::fromStdString(picked.place.file)));
     }
@@ -190,7 +190,7 @@ void OperatorWindow::opened(const Opened& opened) {
         const recording::Participant asked = *std::exchange(starts_, std::nullopt);
         return run(*plan_, opened.participant.value_or(asked), std::move(devices));
     }
-    if (!composer_->changed()) log(QString("opened %1: %2").arg(file_, title));
+    if (!composer_->changed()) log(tr("opened %1: %2").arg(file_, title));
     update_state();
     if (start_when_opened_) start();
 }
@@ -203,17 +203,17 @@ void OperatorWindow::refused(const QStringList& problems) {
     if (!composer_->changed()) {  // who types sees what is wrong where it is
         complaint_ = problems.front();
         for (const QString& problem : problems) log(problem, true);
-        if (plan_) log("What was open stays as it is.");
+        if (plan_) log(tr("What was open stays as it is."));
     }
     update_state();
     if (changed_) reload();
 }
 
 void OperatorWindow::choose_folder() {
-    const QString folder = QFileDialog::getExistingDirectory(this, "Where sessions go", out_);
+    const QString folder = QFileDialog::getExistingDirectory(this, tr("Where sessions go"), out_);
     if (folder.isEmpty()) return;
     out_ = folder;
-    log("sessions go to " + folder);
+    log(tr("sessions go to %1").arg(folder));
 }
 
 }  // namespace dihaptic::gui

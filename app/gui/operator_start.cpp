@@ -15,15 +15,19 @@
 namespace dihaptic::gui {
 namespace {
 
-const QString kMouseHelp =
-    "Move the mouse: the hand moves.   Shift + move: toward you and away.\n"
-    "Wheel down, or hold Space: squeeze.   Wheel up, or hold V: let go.\n"
-    "Drag: turn.   Right drag: look around.   Ctrl + wheel: zoom.\n"
-    "H: the hand stays, or moves on.   F4: it goes back to its start.   Escape: force off.";
-const QString kFingerHelp =
-    "Move the mouse: the finger moves.   Wheel, or Shift + move: toward you and away.\n"
-    "Right drag: look around.   Ctrl + wheel: zoom.\n"
-    "H: the finger stays, or moves on.   F4: it goes back to its start.   Escape: force off.";
+QString mouse_help() {
+    return QObject::tr(
+        "Move the mouse: the hand moves.   Shift + move: toward you and away.\n"
+        "Wheel down, or hold Space: squeeze.   Wheel up, or hold V: let go.\n"
+        "Drag: turn.   Right drag: look around.   Ctrl + wheel: zoom.\n"
+        "H: the hand stays, or moves on.   F4: it goes back to its start.   Escape: force off.");
+}
+QString finger_help() {
+    return QObject::tr(
+        "Move the mouse: the finger moves.   Wheel, or Shift + move: toward you and away.\n"
+        "Right drag: look around.   Ctrl + wheel: zoom.\n"
+        "H: the finger stays, or moves on.   F4: it goes back to its start.   Escape: force off.");
+}
 
 /// A simulated person, unless the operator gives it another name.
 const std::string kSimulated = "sim-001";
@@ -33,9 +37,9 @@ QString question_of(const session::Unfinished& session, const std::string& parti
         QDateTime::fromString(QString::fromStdString(session.started), Qt::ISODate).toLocalTime();
     const QString done =
         session.done == 0
-            ? QString("not finished")
-            : QString("stopped after %1 of %2 trials").arg(session.done).arg(session.trials);
-    return QString(
+            ? QObject::tr("not finished")
+            : QObject::tr("stopped after %1 of %2 trials").arg(session.done).arg(session.trials);
+    return QObject::tr(
                "%1 began this experiment on %2, and the session was %3. %4\n\nGo on with it in the "
                "same way, or start anew?")
         .arg(QString::fromStdString(participant), QLocale().toString(started, "d MMMM, HH:mm"),
@@ -74,7 +78,7 @@ void OperatorWindow::start() {
 }
 
 void OperatorWindow::refuse_to_start() {
-    log("The text has errors: it was not saved, and no session starts.", true);
+    log(tr("The text has errors: it was not saved, and no session starts."), true);
 }
 
 void OperatorWindow::show_checklist(bool before_start) {
@@ -134,10 +138,10 @@ void OperatorWindow::begin_or_go_on(const recording::Participant& participant) {
     if (sessions.empty()) return begin(participant);
     auto* box = new QMessageBox(this);
     box->setAttribute(Qt::WA_DeleteOnClose);
-    box->setWindowTitle("Go on?");
+    box->setWindowTitle(tr("Go on?"));
     box->setText(question_of(sessions.front(), participant.id));
-    QPushButton* go_on = box->addButton("&Go on", QMessageBox::AcceptRole);
-    QPushButton* anew = box->addButton("Start &anew", QMessageBox::DestructiveRole);
+    QPushButton* go_on = box->addButton(tr("&Go on"), QMessageBox::AcceptRole);
+    QPushButton* anew = box->addButton(tr("Start &anew"), QMessageBox::DestructiveRole);
     box->addButton(QMessageBox::Cancel);
     box->setDefaultButton(go_on);
     connect(box, &QMessageBox::buttonClicked, this,
@@ -183,13 +187,13 @@ void OperatorWindow::run(const session::Plan& made, const recording::Participant
         mouse_.emplace(plan.mouse->goal(), MouseHand::grip_of(least_peak(plan)));
         const bool squeezes = plan.scene.fingers.size() > 1;
         scene_->set_hand(&*mouse_, squeezes);
-        scene_->set_help(squeezes ? kMouseHelp : kFingerHelp);
+        scene_->set_help(squeezes ? mouse_help() : finger_help());
     }
     turn_workspaces();
     scene_->setFocus();
-    log("started: " + QString::fromStdString(plan.title));
+    log(tr("started: %1").arg(QString::fromStdString(plan.title)));
     if (session_->hand() == SessionPanel::Hand::person && !plan.task)
-        log("Simulated people do trials, and this file has none: its script moves the hand.");
+        log(tr("Simulated people do trials, and this file has none: its script moves the hand."));
     update_state();
 }
 
@@ -202,7 +206,7 @@ QString OperatorWindow::rig_file() const {
 void OperatorWindow::calibrate() {
     if (runner_.running() || loader_.loading()) return;
     const QString rig = rig_file();
-    if (rig.isEmpty()) return log("There is no rig file to calibrate: choose a rig.", true);
+    if (rig.isEmpty()) return log(tr("There is no rig file to calibrate: choose a rig."), true);
     calibrator_->calibrate(rig);
 }
 

@@ -86,17 +86,18 @@ OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop
 OperatorWindow::~OperatorWindow() = default;
 
 void OperatorWindow::make_docks() {
-    // `entry`: of the menu; the panel's title is the same without its mnemonic
-    const auto add = [&](const QString& entry, QWidget* widget, Qt::DockWidgetArea area) {
-        const QString title = QString(entry).remove('&');
-        auto* dock = new QDockWidget(title);
-        dock->setObjectName(title);  // saveState() needs it
+    // `name`: for saveState(), in any language; `entry`: of the menu. The panel's title is the same
+    // without its mnemonic.
+    const auto add = [&](const char* name, const QString& entry, QWidget* widget,
+                         Qt::DockWidgetArea area) {
+        auto* dock = new QDockWidget(QString(entry).remove('&'));
+        dock->setObjectName(name);
         dock->toggleViewAction()->setText(entry);
         dock->setWidget(widget);
         addDockWidget(area, dock);
         return dock;
     };
-    add("&Session", session_, Qt::RightDockWidgetArea);
+    add("Session", tr("&Session"), session_, Qt::RightDockWidgetArea);
     // a laptop's screen is too low for all of a panel
     const auto scrolled = [](QWidget* widget) {
         auto* area = new QScrollArea;
@@ -105,17 +106,19 @@ void OperatorWindow::make_docks() {
         area->setFrameShape(QFrame::NoFrame);
         return area;
     };
-    QDockWidget* tuning_dock = add("&Tuning", scrolled(tuning_), Qt::RightDockWidgetArea);
-    QDockWidget* plots = add("&Plots", scrolled(plots_), Qt::RightDockWidgetArea);
-    QDockWidget* trials = add("T&rials", trials_, Qt::RightDockWidgetArea);
-    QDockWidget* seen = add("&What the subject sees", mirror_, Qt::RightDockWidgetArea);
+    QDockWidget* tuning_dock =
+        add("Tuning", tr("&Tuning"), scrolled(tuning_), Qt::RightDockWidgetArea);
+    QDockWidget* plots = add("Plots", tr("&Plots"), scrolled(plots_), Qt::RightDockWidgetArea);
+    QDockWidget* trials = add("Trials", tr("T&rials"), trials_, Qt::RightDockWidgetArea);
+    QDockWidget* seen = add("What the subject sees", tr("&What the subject sees"), mirror_,
+                            Qt::RightDockWidgetArea);
     seen->hide();
     tabifyDockWidget(plots, trials);
     tabifyDockWidget(trials, seen);
     plots->raise();
-    QDockWidget* devices = add("&Devices", devices_, Qt::BottomDockWidgetArea);
-    QDockWidget* log = add("&Log", log_, Qt::BottomDockWidgetArea);
-    compose_dock_ = add("&File", composer_, Qt::LeftDockWidgetArea);
+    QDockWidget* devices = add("Devices", tr("&Devices"), devices_, Qt::BottomDockWidgetArea);
+    QDockWidget* log = add("Log", tr("&Log"), log_, Qt::BottomDockWidgetArea);
+    compose_dock_ = add("File", tr("&File"), composer_, Qt::LeftDockWidgetArea);
     compose_dock_->hide();
     resizeDocks({devices, log}, {148, 148}, Qt::Vertical);
     resizeDocks({tuning_dock, plots}, {236, 240}, Qt::Vertical);  // shows all of the first
@@ -145,8 +148,8 @@ void OperatorWindow::connect_subjects() {
     const auto mirror = [this] {
         mirror_->follow(subjects_.first(),
                         subjects_.headset() != nullptr
-                            ? "The pictures in a headset are not shown here."
-                            : "The subject has no window of its own: View > Subject's window.");
+                            ? tr("The pictures in a headset are not shown here.")
+                            : tr("The subject has no window of its own: View > Subject's window."));
     };
     mirror();
     connect(&subjects_, &SubjectWindows::changed, this, mirror);
@@ -159,7 +162,7 @@ void OperatorWindow::connect_subjects() {
         subject_action_->setChecked(false);
         if (!runner_.running() || runner_.paused()) return;
         pause(true);
-        complaint_ = "The headset shows nothing more.";
+        complaint_ = tr("The headset shows nothing more.");
         update_state();
     });
     connect(&subjects_, &SubjectWindows::shown_in_headset, this,
@@ -201,13 +204,13 @@ void OperatorWindow::connect_tuning() {
 void OperatorWindow::connect_reports() {
     connect(&reporter_, &Reporter::failed, this, [this](const QString& why) { log(why, true); });
     connect(&reporter_, &Reporter::written, this, [this](const QString& page) {
-        log("report: " + page);
+        log(tr("report: %1").arg(page));
         QDesktopServices::openUrl(QUrl::fromLocalFile(QFileInfo(page).absoluteFilePath()));
     });
 }
 
 void OperatorWindow::report() {
-    if (recorded_.isEmpty()) return log("There is no session of this file yet to report.");
+    if (recorded_.isEmpty()) return log(tr("There is no session of this file yet to report."));
     reporter_.write(recorded_);
 }
 
@@ -221,7 +224,7 @@ void OperatorWindow::stop() {
 void OperatorWindow::skip() {
     if (!runner_.running() || !runner_.plan().task || runner_.paused()) return;
     runner_.skip();
-    log("trial skipped");
+    log(tr("trial skipped"));
 }
 
 void OperatorWindow::click(double share) {
@@ -247,11 +250,11 @@ void OperatorWindow::pause(bool paused) {
     if (!runner_.running() || runner_.finishing()) return;
     runner_.set_paused(paused);
     complaint_.clear();
-    log(!paused ? "goes on"
+    log(!paused ? tr("goes on")
         : runner_.on_virtual_clock()
-            ? "paused. F6 goes on, Ctrl+. does one tick, F7 ends the session."
-            : "paused: force is off. F6 goes on, F7 ends the session.");
-    if (paused) devices_->rest("paused");
+            ? tr("paused. F6 goes on, Ctrl+. does one tick, F7 ends the session.")
+            : tr("paused: force is off. F6 goes on, F7 ends the session."));
+    if (paused) devices_->rest(tr("paused"));
     update_state();
 }
 
@@ -282,8 +285,8 @@ void OperatorWindow::session_ended(const SessionEnd& end) {
     session_->set_trial("");
     for (const QString& message : end.messages) log(message, !end.good);
     recorded_ = end.folder;
-    if (!end.folder.isEmpty()) log("recorded in " + end.folder);
-    devices_->rest("at rest");
+    if (!end.folder.isEmpty()) log(tr("recorded in %1").arg(end.folder));
+    devices_->rest(tr("at rest"));
     if (plan_ && plan_->rig.patch) first_scene().set_patch(view::PatchLook{*plan_->rig.patch});
     update_state();
     if (closing_) {
@@ -396,14 +399,15 @@ QString OperatorWindow::banner() const {
     if (runner_.running())
         return complaint_ +
                (!complaint_.isEmpty()        ? "\n"
-                : runner_.on_virtual_clock() ? "Time stands still.   Ctrl+.: one tick.\n"
-                                             : "Force is off.\n") +
-               "F6: go on.   F7: end the session.";
-    if (loader_.loading()) return "Opening " + file_ + " ...";
+                : runner_.on_virtual_clock() ? tr("Time stands still.   Ctrl+.: one tick.") + "\n"
+                                             : tr("Force is off.") + "\n") +
+               tr("F6: go on.   F7: end the session.");
+    if (loader_.loading()) return tr("Opening %1 ...").arg(file_);
     if (!complaint_.isEmpty()) return complaint_;
     if (!recorded_.isEmpty())
-        return "Recorded in " + recorded_ + "\nCtrl+R: its report.   F5: start again";
-    return plan_ ? "Press F5 to start" : "Open a scene or an experiment: Ctrl+O";
+        return tr("Recorded in %1").arg(recorded_) + "\n" +
+               tr("Ctrl+R: its report.   F5: start again");
+    return plan_ ? tr("Press F5 to start") : tr("Open a scene or an experiment: Ctrl+O");
 }
 
 QString OperatorWindow::message() const {
@@ -461,7 +465,7 @@ void OperatorWindow::closeEvent(QCloseEvent* event) {
         // the window closes when the session's files are written
         closing_ = true;
         runner_.end();
-        log("ending the session ...");
+        log(tr("ending the session ..."));
         event->ignore();
         return;
     }

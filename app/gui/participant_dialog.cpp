@@ -18,27 +18,28 @@ ParticipantDialog::ParticipantDialog(const recording::Participant& known, bool n
       age_(new QLineEdit(QString::fromStdString(known.age))),
       sex_(new QComboBox),
       handedness_(new QComboBox) {
-    setWindowTitle("Who does the trials?");
+    setWindowTitle(tr("Who does the trials?"));
     set_up_identifier(*id_);
-    age_->setPlaceholderText("not told");
+    age_->setPlaceholderText(tr("not told"));
     age_->setValidator(new QIntValidator(0, 150, this));
-    sex_->addItem("not told", "U");
+    sex_->addItem(tr("not told"), "U");
     for (const char* sex : {"F", "M", "O"}) sex_->addItem(sex, sex);
     sex_->setCurrentIndex(std::max(0, sex_->findData(QString::fromStdString(known.sex))));
-    handedness_->addItem("not told", "");
-    for (const char* hand : {"right", "left", "both"}) handedness_->addItem(hand, hand);
+    handedness_->addItem(tr("not told"), "");
+    for (const char* hand : {QT_TR_NOOP("right"), QT_TR_NOOP("left"), QT_TR_NOOP("both")})
+        handedness_->addItem(tr(hand), hand);
     handedness_->setCurrentIndex(
         std::max(0, handedness_->findData(QString::fromStdString(known.handedness))));
 
     auto* form = new QFormLayout(this);
-    form->addRow("S&ubject", id_);
+    form->addRow(tr("S&ubject"), id_);
     if (needs_number)
-        form->addRow(new QLabel("It has to end in a number, which orders the trials."));
-    form->addRow("&Age in years", age_);
-    form->addRow("&Sex", sex_);
-    form->addRow("&Handedness", handedness_);
+        form->addRow(new QLabel(tr("It has to end in a number, which orders the trials.")));
+    form->addRow(tr("&Age in years"), age_);
+    form->addRow(tr("&Sex"), sex_);
+    form->addRow(tr("&Handedness"), handedness_);
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Cancel);
-    start_ = buttons->addButton("S&tart", QDialogButtonBox::AcceptRole);
+    start_ = buttons->addButton(tr("S&tart"), QDialogButtonBox::AcceptRole);
     start_->setDefault(true);
     buttons->button(QDialogButtonBox::Cancel)->setAutoDefault(false);  // Enter must not cancel
     form->addRow(buttons);

@@ -66,7 +66,7 @@ void PlotsPanel::set_scene(const scene::Scene& scene) {
     const servo::Term load = term_of(&servo::Frame::load_force);
     const servo::Term force = term_of(&servo::FingerFrame::f_sent_W);
     const servo::Term position = term_of(&servo::FingerFrame::p_WH);
-    grasp_ = new StripChart("Grasp", grip.unit,
+    grasp_ = new StripChart(tr("Grasp"), grip.unit,
                             {{grip.name, palette::kGrip}, {load.name, palette::kLoad}}, 1);
     fingers_ = new StripChart(QString("|%1|").arg(force.name), force.unit, fingers, 1);
     heights_ = new StripChart(QString("%1, z").arg(position.name),

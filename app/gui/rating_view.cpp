@@ -36,7 +36,7 @@ std::vector<std::pair<double, QString>> labels_of(const task::AskSpec& question)
 }  // namespace
 
 RatingView::RatingView(QWidget* parent) : QWidget(parent) {
-    setAccessibleName("Scale");
+    setAccessibleName(tr("Scale"));
     setMouseTracking(true);
     setCursor(Qt::PointingHandCursor);
     hide();

@@ -27,7 +27,7 @@ SceneWidget::SceneWidget(QWidget* parent)
       rating_(new RatingView(this)),
       banner_(new QLabel(this)),
       help_(new QLabel(this)) {
-    setAccessibleName("Scene");
+    setAccessibleName(tr("Scene"));
     setFocusPolicy(Qt::StrongFocus);
     setMouseTracking(true);
     setMinimumSize(320, 240);
@@ -244,9 +244,9 @@ void SceneWidget::make_view() {
     const std::string renderer = view::renderer();
     if (!fine_ && view::is_software(renderer)) {
         fine_ = false;
-        Q_EMIT draws_in_software(QString("there is no graphics card to draw with (%1): the scene "
-                                         "has two thirds of the window's pixels each way. View > "
-                                         "Fine pictures shows all, more slowly.")
+        Q_EMIT draws_in_software(tr("there is no graphics card to draw with (%1): the scene "
+                                    "has two thirds of the window's pixels each way. View > "
+                                    "Fine pictures shows all, more slowly.")
                                      .arg(QString::fromStdString(renderer)));
     }
     if (fine_ == false) view_->set_detail(kCoarse);

@@ -8,51 +8,51 @@
 namespace dihaptic::gui {
 
 void set_up_identifier(QLineEdit& field) {
-    field.setPlaceholderText("e.g. S07");
+    field.setPlaceholderText(QObject::tr("e.g. S07"));
     field.setValidator(
         new QRegularExpressionValidator(QRegularExpression("[A-Za-z0-9_-]{0,40}"), &field));
 }
 
 SessionPanel::SessionPanel(QWidget* parent)
     : QWidget(parent),
-      file_(new QLabel("none")),
+      file_(new QLabel(tr("none"))),
       rig_(new QComboBox),
       participant_(new QLineEdit),
       hand_(new QComboBox),
       pace_(new QComboBox),
-      open_(new QPushButton("&Open ...")),
-      start_(new QPushButton("Start")),
-      pause_(new QPushButton("Pause")),
-      skip_(new QPushButton("Skip")),
-      stop_(new QPushButton("Stop")),
+      open_(new QPushButton(tr("&Open ..."))),
+      start_(new QPushButton(tr("Start"))),
+      pause_(new QPushButton(tr("Pause"))),
+      skip_(new QPushButton(tr("Skip"))),
+      stop_(new QPushButton(tr("Stop"))),
       trial_(new QLabel),
       progress_(new QProgressBar) {
     file_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    rig_->addItem("as the file says", QString());
+    rig_->addItem(tr("as the file says"), QString());
     rig_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     set_up_identifier(*participant_);
     set_up_hand();
     pause_->setCheckable(true);
     start_->setToolTip("F5");
-    pause_->setToolTip("F6, or Escape: time stands still, and no force acts");
-    skip_->setToolTip("F8: this trial is over and counts as skipped; the next one begins");
+    pause_->setToolTip(tr("F6, or Escape: time stands still, and no force acts"));
+    skip_->setToolTip(tr("F8: this trial is over and counts as skipped; the next one begins"));
     // of fixed height and as wide as there is room, so that nothing jumps under the pointer
     trial_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     trial_->hide();
-    stop_->setToolTip("F7: ends the session in order");
+    stop_->setToolTip(tr("F7: ends the session in order"));
     progress_->setTextVisible(true);
 
     auto* form = new QFormLayout;
     auto* file_row = new QHBoxLayout;
     file_row->addWidget(file_, 1);
     file_row->addWidget(open_);
-    form->addRow("File", file_row);
-    form->addRow("&Rig", rig_);
-    form->addRow("S&ubject", participant_);
+    form->addRow(tr("File"), file_row);
+    form->addRow(tr("&Rig"), rig_);
+    form->addRow(tr("S&ubject"), participant_);
     auto* hand_row = new QHBoxLayout;
     hand_row->addWidget(hand_, 1);
     hand_row->addWidget(pace_, 1);
-    auto* hand_label = new QLabel("&Hand moved by");
+    auto* hand_label = new QLabel(tr("&Hand moved by"));
     hand_label->setBuddy(hand_);
     form->addRow(hand_label, hand_row);
     auto* buttons = new QHBoxLayout;
@@ -75,18 +75,18 @@ SessionPanel::SessionPanel(QWidget* parent)
 
 /// Who moves simulated hands, and how fast their time goes by.
 void SessionPanel::set_up_hand() {
-    hand_->addItems({"the mouse", "the file's script", "a simulated person"});
-    hand_->setToolTip(
+    hand_->addItems({tr("the mouse"), tr("the file's script"), tr("a simulated person")});
+    hand_->setToolTip(tr(
         "Who holds simulated devices. A simulated person does the trials of an experiment: it "
         "sees, "
-        "feels, adapts and answers (dihaptic run --simulate). Real devices are held by a person.");
+        "feels, adapts and answers (dihaptic run --simulate). Real devices are held by a person."));
     for (const auto& [name, pace] :
-         {std::pair("in real time", 1.0), std::pair("10 times faster", 10.0),
-          std::pair("as fast as it goes", 0.0), std::pair("10 times slower", 0.1)})
+         {std::pair(tr("in real time"), 1.0), std::pair(tr("10 times faster"), 10.0),
+          std::pair(tr("as fast as it goes"), 0.0), std::pair(tr("10 times slower"), 0.1)})
         pace_->addItem(name, pace);
     pace_->setToolTip(
-        "How fast a simulated hand's time goes by. Nothing that is computed depends on "
-        "it. While the session is paused, Ctrl+. does one tick.");
+        tr("How fast a simulated hand's time goes by. Nothing that is computed depends on "
+           "it. While the session is paused, Ctrl+. does one tick."));
     connect(hand_, &QComboBox::activated, this, &SessionPanel::choice_changed);
     connect(hand_, &QComboBox::currentIndexChanged, this,
             [this] { pace_->setVisible(hand() != Hand::mouse); });
@@ -118,7 +118,7 @@ void SessionPanel::set_state(State state, bool trials) {
     pause_->setEnabled(running);
     pause_->setChecked(state == State::paused);
     stop_->setEnabled(running || opening);
-    stop_->setText(opening ? "Cancel" : "Stop");
+    stop_->setText(opening ? tr("Cancel") : tr("Stop"));
     skip_->setEnabled(state == State::running && trials);
     skip_->setVisible(trials);
     trial_->setVisible(trials);
@@ -129,7 +129,7 @@ void SessionPanel::set_state(State state, bool trials) {
         // an end again
         progress_->setRange(0, 1);
         progress_->setValue(0);
-        progress_->setFormat(opening ? "opening" : state == State::ready ? "ready" : "");
+        progress_->setFormat(opening ? tr("opening") : state == State::ready ? tr("ready") : "");
     }
 }
 
@@ -147,7 +147,7 @@ void SessionPanel::set_trial(const QString& text) {
 void SessionPanel::set_finishing(double share) {
     progress_->setRange(0, 1000);
     progress_->setValue(static_cast<int>(1000 * share));
-    progress_->setFormat("writing files: %p %");
+    progress_->setFormat(tr("writing files: %p %"));
 }
 
 }  // namespace dihaptic::gui

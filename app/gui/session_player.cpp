@@ -105,14 +105,14 @@ QWidget* SessionPlayer::make_controls() {
         layout->addWidget(out);
         return out;
     };
-    button("|<", "Moment before (Page Up)", [this] { next_moment(-1); });
-    button("<", "Tick before (Left)", [this] { step(-1); });
-    play_ = button("Play", "Play, or stop (Space)", [this] { play(!timer_.isActive()); });
+    button("|<", tr("Moment before (Page Up)"), [this] { next_moment(-1); });
+    button("<", tr("Tick before (Left)"), [this] { step(-1); });
+    play_ = button(tr("Play"), tr("Play, or stop (Space)"), [this] { play(!timer_.isActive()); });
     play_->setFixedWidth(70);
-    button(">", "Next tick (Right)", [this] { step(1); });
-    button(">|", "Next moment (Page Down)", [this] { next_moment(1); });
+    button(">", tr("Next tick (Right)"), [this] { step(1); });
+    button(">|", tr("Next moment (Page Down)"), [this] { next_moment(1); });
     auto* speed = new QComboBox;
-    speed->setAccessibleName("Speed");
+    speed->setAccessibleName(tr("Speed"));
     speed->setFocusPolicy(Qt::NoFocus);
     for (const double times : {0.05, 0.1, 0.25, 0.5, 1.0, 2.0, 5.0, 10.0})
         speed->addItem(QString("%1 x").arg(times), times);
@@ -121,7 +121,7 @@ QWidget* SessionPlayer::make_controls() {
             [this, speed] { speed_ = speed->currentData().toDouble(); });
     layout->addWidget(speed);
     slider_ = new QSlider(Qt::Horizontal);
-    slider_->setAccessibleName("Time");
+    slider_->setAccessibleName(tr("Time"));
     slider_->setRange(0, kSliderSteps);
     slider_->setMinimumWidth(120);
     slider_->setFocusPolicy(Qt::NoFocus);
@@ -132,10 +132,10 @@ QWidget* SessionPlayer::make_controls() {
     where_ = new QLabel;
     statusBar()->addPermanentWidget(where_);
     curves_ = new QLineEdit(expressions_.join("; "));
-    curves_->setAccessibleName("Curves");
+    curves_->setAccessibleName(tr("Curves"));
     curves_->setToolTip(
-        "What is drawn below: names of docs/quantities.md, or expressions of them, separated by "
-        "semicolons: grip_force; block.z - 20 mm; distance(thumb, index)");
+        tr("What is drawn below: names of docs/quantities.md, or expressions of them, separated by "
+           "semicolons: grip_force; block.z - 20 mm; distance(thumb, index)"));
     curves_->setMinimumWidth(160);
     connect(curves_, &QLineEdit::returnPressed, this, [this] {
         expressions_.clear();
@@ -148,17 +148,18 @@ QWidget* SessionPlayer::make_controls() {
 }
 
 void SessionPlayer::make_menus() {
-    QMenu* file = menuBar()->addMenu("&File");
-    file->addAction("Save &picture ...", QKeySequence::Save, this, &SessionPlayer::save_picture);
-    file->addAction("&Close", QKeySequence::Close, this, &QWidget::close);
-    QMenu* view = menuBar()->addMenu("&View");
+    QMenu* file = menuBar()->addMenu(tr("&File"));
+    file->addAction(tr("Save &picture ..."), QKeySequence::Save, this,
+                    &SessionPlayer::save_picture);
+    file->addAction(tr("&Close"), QKeySequence::Close, this, &QWidget::close);
+    QMenu* view = menuBar()->addMenu(tr("&View"));
     for (const view::Camera& camera : view_->cameras())
         view->addAction(QString::fromStdString(camera.name), this,
                         [this, name = camera.name] { view_->set_camera(name); });
     view->addSeparator();
-    together_ = view->addAction("&Together with other sessions");
+    together_ = view->addAction(tr("&Together with other sessions"));
     together_->setCheckable(true);
-    together_->setToolTip("Goes to the same time of the same trial");
+    together_->setToolTip(tr("Goes to the same time of the same trial"));
     for (QDockWidget* dock : findChildren<QDockWidget*>())
         view->addAction(dock->toggleViewAction());
     view->addSeparator();
@@ -169,23 +170,26 @@ void SessionPlayer::make_menus() {
 /// Lists what the session's tables say of when something happened.
 void SessionPlayer::make_moments() {
     list_ = new QTreeWidget;
-    list_->setAccessibleName("Moments");
+    list_->setAccessibleName(tr("Moments"));
     list_->setRootIsDecorated(false);
-    list_->setHeaderLabels({"s", "what"});
+    list_->setHeaderLabels({"s", tr("what")});
     list_->setFocusPolicy(Qt::ClickFocus);
     if (const auto trials = table_of(folder_, "trials.csv")) {
         read_starts(*trials);
-        add_moments(*trials, "start_time", "trial", {"trial_num", "condition", "outcome"});
+        add_moments(*trials, "start_time", tr("trial"), {"trial_num", "condition", "outcome"});
     }
     if (const auto events = table_of(folder_, "events.csv"))
         add_moments(*events, "time_s", "", {"event", "detail"});
     if (const auto episodes = table_of(folder_, "episodes.csv"))
         add_moments(*episodes, "start_time", "", {"episode", "slip_mm", "rise_mm"});
     if (const auto lifts = table_of(folder_, "lifts.csv")) {
-        for (const char* moment : {"touch_s", "load_onset_s", "lift_off_s", "first_slip_s",
-                                   "replacement_s", "release_s"})
-            add_moments(*lifts, moment, QString(moment).chopped(2).replace('_', ' ') + ", trial",
-                        {"trial_num"});
+        const std::pair<const char*, QString> moments[]{{"touch_s", tr("touch, trial")},
+                                                        {"load_onset_s", tr("load onset, trial")},
+                                                        {"lift_off_s", tr("lift off, trial")},
+                                                        {"first_slip_s", tr("first slip, trial")},
+                                                        {"replacement_s", tr("replacement, trial")},
+                                                        {"release_s", tr("release, trial")}};
+        for (const auto& [column, name] : moments) add_moments(*lifts, column, name, {"trial_num"});
     }
     list_->sortItems(0, Qt::AscendingOrder);
     list_->header()->resizeSection(0, 80);
@@ -193,7 +197,7 @@ void SessionPlayer::make_moments() {
     chart_->set_moments(moments_);
     connect(list_, &QTreeWidget::itemClicked, this,
             [this](QTreeWidgetItem* item) { go_to(item->data(0, Qt::UserRole).toDouble()); });
-    auto* dock = new QDockWidget("Moments");
+    auto* dock = new QDockWidget(tr("Moments"));
     dock->setWidget(list_);
     addDockWidget(Qt::RightDockWidgetArea, dock);
     resizeDocks({dock}, {300}, Qt::Horizontal);
@@ -262,7 +266,7 @@ void SessionPlayer::list_moment(double seconds, const QString& what) {
     if (QTreeWidgetItem* const same = limit ? limits_[what] : nullptr) {
         const int times = same->data(1, Qt::UserRole).toInt() + 1;
         same->setData(1, Qt::UserRole, times);
-        same->setText(1, QString("%1 (%2 times)").arg(what).arg(times));
+        same->setText(1, tr("%1 (%2 times)").arg(what).arg(times));
         return;
     }
     auto* item = new QTreeWidgetItem(list_, {QString("%1").arg(seconds, 8, 'f', 3), what});
@@ -313,11 +317,11 @@ void SessionPlayer::go_to(double time) {
     chart_->set_cursor(time_);
     slider_->setValue(static_cast<int>(kSliderSteps * (time_ - log_.begin()) /
                                        std::max(1e-9, log_.end() - log_.begin())));
-    QString where = QString("%1 s of %2 s, tick %3")
+    QString where = tr("%1 s of %2 s, tick %3")
                         .arg(seconds(frame.time), 0, 'f', 3)
                         .arg(log_.end(), 0, 'f', 3)
                         .arg(frame.sequence);
-    if (frame.trial > 0) where += QString(", trial %1").arg(frame.trial);
+    if (frame.trial > 0) where += tr(", trial %1").arg(frame.trial);
     where_->setText(where);
     if (following_ || !together_->isChecked()) return;
     for (QWidget* window : QApplication::topLevelWidgets()) {
@@ -327,7 +331,7 @@ void SessionPlayer::go_to(double time) {
 }
 
 void SessionPlayer::play(bool on) {
-    play_->setText(on ? "Stop" : "Play");
+    play_->setText(on ? tr("Stop") : tr("Play"));
     if (!on) return timer_.stop();
     if (time_ >= log_.end()) go_to(log_.begin());
     clock_.start();
@@ -363,10 +367,11 @@ void SessionPlayer::save_picture() {
     const QString usual =
         QString::fromStdString(folder_.path()) + QString("/at-%1-s.png").arg(time_, 0, 'f', 3);
     const QString file =
-        QFileDialog::getSaveFileName(this, "Save the picture", usual, "Pictures (*.png)");
+        QFileDialog::getSaveFileName(this, tr("Save the picture"), usual, tr("Pictures (*.png)"));
     if (file.isEmpty()) return;
     const bool saved = view_->grabFramebuffer().save(file);
-    statusBar()->showMessage((saved ? "picture: " : "could not be written: ") + file);
+    statusBar()->showMessage(
+        (saved ? tr("picture: %1") : tr("could not be written: %1")).arg(file));
 }
 
 void SessionPlayer::keyPressEvent(QKeyEvent* event) {

@@ -15,16 +15,17 @@ namespace dihaptic::gui {
 SessionsDialog::SessionsDialog(const QString& folder, QWidget* parent)
     : QDialog(parent), list_(new QTreeWidget) {
     setAttribute(Qt::WA_DeleteOnClose);
-    setWindowTitle("Recorded sessions");
-    list_->setAccessibleName("Sessions");
+    setWindowTitle(tr("Recorded sessions"));
+    list_->setAccessibleName(tr("Sessions"));
     list_->setRootIsDecorated(false);
     list_->setSelectionMode(QAbstractItemView::ExtendedSelection);
-    list_->setHeaderLabels(
-        {"started", "title", "participant", "moved by", "state", "ticks", "folder"});
+    list_->setHeaderLabels({tr("started"), tr("title"), tr("participant"), tr("moved by"),
+                            tr("state"), tr("ticks"), tr("folder")});
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Open | QDialogButtonBox::Close);
     auto* layout = new QVBoxLayout(this);
-    auto* where = new QLabel("Sessions in " + QDir(folder).absolutePath() +
-                             ". Two that are chosen (Ctrl + click) are shown side by side.");
+    auto* where =
+        new QLabel(tr("Sessions in %1. Two that are chosen (Ctrl + click) are shown side by side.")
+                       .arg(QDir(folder).absolutePath()));
     where->setWordWrap(true);
     layout->addWidget(where);
     layout->addWidget(list_, 1);
@@ -43,7 +44,7 @@ void SessionsDialog::fill(const QString& folder) {
     for (const QFileInfo& entry : all) {
         const QString path = entry.filePath();
         recording::SessionInfo info;
-        QString state = "cannot be read";
+        QString state = tr("cannot be read");
         try {
             info = recording::SessionFolder::open(path.toStdString()).read_info();
             state = QString::fromLatin1(enum_name(info.state).data());

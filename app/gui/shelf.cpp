@@ -16,7 +16,7 @@ namespace {
 QString length_of(const session::Plan& plan) {
     if (plan.task) {
         const auto trials = plan.task->trials.size();
-        return QString("%1 trial%2").arg(trials).arg(trials == 1 ? "" : "s");
+        return trials == 1 ? QObject::tr("1 trial") : QObject::tr("%1 trials").arg(trials);
     }
     if (plan.open_ended()) return "";
     return QString("%1 s").arg(plan.driver->duration(), 0, 'f', 0);

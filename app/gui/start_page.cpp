@@ -43,15 +43,15 @@ QString head_of(const QString& file) {
 }  // namespace
 
 StartPage::StartPage(QWidget* parent) : QWidget(parent), tabs_(new QTabWidget) {
-    auto* title = new QLabel(
-        "<h1>Dihaptic</h1><p>Choose what to begin with. Without devices, the "
-        "mouse moves the hand.</p>");
-    auto* open = new QPushButton("&Open another file ...");
-    auto* sessions = new QPushButton("&Recorded sessions ...");
-    begin_ = add_list("&Begin");
-    experiments_ = add_list("&Experiments");
-    scenes_ = add_list("S&cenes");
-    recent_ = add_list("Rece&nt");
+    auto* title =
+        new QLabel(tr("<h1>Dihaptic</h1><p>Choose what to begin with. Without devices, the "
+                      "mouse moves the hand.</p>"));
+    auto* open = new QPushButton(tr("&Open another file ..."));
+    auto* sessions = new QPushButton(tr("&Recorded sessions ..."));
+    begin_ = add_list(tr("&Begin"));
+    experiments_ = add_list(tr("&Experiments"));
+    scenes_ = add_list(tr("S&cenes"));
+    recent_ = add_list(tr("Rece&nt"));
     auto* buttons = new QHBoxLayout;
     buttons->addWidget(open);
     buttons->addWidget(sessions);

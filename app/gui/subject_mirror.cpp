@@ -12,7 +12,7 @@ constexpr int kBetween = 250;
 }  // namespace
 
 SubjectMirror::SubjectMirror() {
-    setAccessibleName("What the subject sees");
+    setAccessibleName(tr("What the subject sees"));
     setMinimumSize(160, 100);
     wait_.setSingleShot(true);
     wait_.setInterval(kBetween);

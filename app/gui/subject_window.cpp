@@ -18,7 +18,7 @@ char task_key(const QKeyEvent& event) {
 }
 
 SubjectWindow::SubjectWindow() : scene_(new SceneWidget) {
-    setWindowTitle("Dihaptic: subject");
+    setWindowTitle(tr("Dihaptic: subject"));
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(scene_);
@@ -38,7 +38,7 @@ QString show_on(QWidget& window, const QString& monitor, const QWidget& operator
     window.resize(800, 600);
     window.show();
     if (monitor.isEmpty()) return "";
-    return QString("there is no monitor '%1'; there are %2. Name one of these in the rig file.")
+    return QObject::tr("there is no monitor '%1'; there are %2. Name one of these in the rig file.")
         .arg(monitor, names.join(", "));
 }
 

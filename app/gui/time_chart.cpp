@@ -22,7 +22,7 @@ QColor colour_of(size_t row) {
 }  // namespace
 
 TimeChart::TimeChart(QWidget* parent) : QWidget(parent) {
-    setAccessibleName("Curves");
+    setAccessibleName(tr("Curves"));
     setMouseTracking(false);
 }
 
@@ -107,7 +107,7 @@ void TimeChart::paintEvent(QPaintEvent*) {
     painter.drawLine(QPointF(x(cursor_), in.top()), QPointF(x(cursor_), in.bottom()));
     if (share_ < 1)
         painter.drawText(in, Qt::AlignRight | Qt::AlignTop,
-                         QString("reading, %1 % ").arg(std::lround(100 * share_)));
+                         tr("reading, %1 % ").arg(std::lround(100 * share_)));
 }
 
 void TimeChart::draw_row(QPainter& painter, const RecordedCurve& curve, size_t row,
@@ -156,7 +156,7 @@ void TimeChart::draw_row(QPainter& painter, const RecordedCurve& curve, size_t r
                               : QString();
     painter.setPen(colour_of(row));
     painter.drawText(in.adjusted(6, 0, 0, 0), Qt::AlignLeft | Qt::AlignTop,
-                     value.isEmpty() ? curve.name + "   has no value here"
+                     value.isEmpty() ? tr("%1   has no value here").arg(curve.name)
                                      : QString("%1   %2 %3").arg(curve.name, value, curve.unit));
 }
 

@@ -37,7 +37,7 @@ struct TrialChart::Axes {
 };
 
 TrialChart::TrialChart(QWidget* parent) : QWidget(parent) {
-    setAccessibleName("Chart of trials");
+    setAccessibleName(QObject::tr("Chart of trials"));
 }
 
 void TrialChart::set_points(const QString& name, const QStringList& outcomes,

@@ -37,11 +37,11 @@ std::vector<Number> numbers_of(const task::TaskPlan& plan) {
 
 TrialsPanel::TrialsPanel(QWidget* parent)
     : QWidget(parent), chart_(new TrialChart), table_(new QTreeWidget) {
-    table_->setAccessibleName("Trials");
+    table_->setAccessibleName(tr("Trials"));
     table_->setRootIsDecorated(false);
     table_->setUniformRowHeights(true);
     table_->header()->setSectionsClickable(true);
-    table_->header()->setToolTip("A click on a column of numbers shows it in the chart.");
+    table_->header()->setToolTip(tr("A click on a column of numbers shows it in the chart."));
     auto* parts = new QSplitter(Qt::Vertical);
     parts->addWidget(chart_);
     parts->addWidget(table_);
@@ -56,8 +56,8 @@ void TrialsPanel::set_plan(std::shared_ptr<const task::TaskPlan> plan) {
     table_->clear();
     ends_.clear();
     plan_ = std::move(plan);
-    QStringList names{"trial",   "block", "condition", "attempt",
-                      "outcome", "s",     "grip N",    "force N"};
+    QStringList names{tr("trial"),   tr("block"), tr("condition"), tr("attempt"),
+                      tr("outcome"), "s",         tr("grip N"),    tr("force N")};
     units_.clear();
     if (plan_) {
         for (const Number& number : numbers_of(*plan_)) {
