@@ -335,6 +335,15 @@ void SceneWidget::mouseReleaseEvent(QMouseEvent* event) {
         Q_EMIT picked(seen->body);
 }
 
+void SceneWidget::look(const QPointF& way, bool pan) {
+    set_camera(pan ? view::panned(camera_, way.x() / height(), -way.y() / height())
+                   : view::orbited(camera_, -kOrbit * way.x(), kOrbit * way.y()));
+}
+
+void SceneWidget::zoom(double notches) {
+    set_camera(view::zoomed(camera_, std::pow(0.9, notches)));
+}
+
 void SceneWidget::mouseMoveEvent(QMouseEvent* event) {
     const QPointF way = event->position() - pointer_;
     pointer_ = event->position();
@@ -344,10 +353,8 @@ void SceneWidget::mouseMoveEvent(QMouseEvent* event) {
     const bool left = event->buttons().testFlag(Qt::LeftButton);
     const bool orbit = event->buttons().testFlag(Qt::RightButton) || (left && hand_ == nullptr);
     const bool pan = event->buttons().testFlag(Qt::MiddleButton) || (orbit && shift);
-    if (pan) {
-        set_camera(view::panned(camera_, way.x() / height(), -way.y() / height()));
-    } else if (orbit) {
-        set_camera(view::orbited(camera_, -kOrbit * way.x(), kOrbit * way.y()));
+    if (pan || orbit) {
+        look(way, pan);
     } else if (hand_ != nullptr) {
         setFocus();  // keys belong to the hand while the pointer is here
         if (stays_) return;
@@ -368,7 +375,7 @@ void SceneWidget::wheelEvent(QWheelEvent* event) {
             Q_EMIT hand_moved();
         }
     } else {
-        set_camera(view::zoomed(camera_, std::pow(0.9, notches)));
+        zoom(notches);
     }
     event->accept();
 }
@@ -386,7 +393,27 @@ void SceneWidget::set_key(const QKeyEvent& event, bool down) {
     }
 }
 
+bool SceneWidget::look_by_key(const QKeyEvent& event) {
+    if (!event.modifiers().testFlag(Qt::ControlModifier) || display_) return false;
+    constexpr double kWay = 30;  // of a mouse that a key stands for [px]
+    QPointF way;
+    if (event.key() == Qt::Key_Left) way.rx() = -kWay;
+    if (event.key() == Qt::Key_Right) way.rx() = kWay;
+    if (event.key() == Qt::Key_Up) way.ry() = -kWay;
+    if (event.key() == Qt::Key_Down) way.ry() = kWay;
+    const bool nearer = event.key() == Qt::Key_Plus || event.key() == Qt::Key_Equal;
+    if (nearer || event.key() == Qt::Key_Minus) {
+        zoom(nearer ? 1 : -1);
+    } else if (!way.isNull()) {
+        look(way, event.modifiers().testFlag(Qt::ShiftModifier));
+    } else {
+        return false;
+    }
+    return true;
+}
+
 void SceneWidget::keyPressEvent(QKeyEvent* event) {
+    if (look_by_key(*event)) return;
     if (const auto step = step_of(*event, camera_); step && picked_) return Q_EMIT stepped(*step);
     set_key(*event, true);
     if (hand_ != nullptr && event->key() == Qt::Key_H && !event->isAutoRepeat())

@@ -110,10 +110,15 @@ class SceneWidget : public QOpenGLWidget {
   private:
     void release();
     void set_key(const QKeyEvent& event, bool down);
+    /// Keys do to the camera what the mouse does; false: this is none of them.
+    bool look_by_key(const QKeyEvent& event);
     void set_staying(bool stays);
     void move_hand(const QPointF& pixels, bool in_depth);
     view::Ray ray_to(const QPointF& pointer) const;
     void drag(const QPointF& way, Qt::KeyboardModifiers keys);
+    /// The camera follows a mouse that went so many pixels.
+    void look(const QPointF& way, bool pan);
+    void zoom(double notches);
     void place_labels();
     void make_view();
     void draw_scene();

@@ -38,6 +38,27 @@ class Looks(Window):
         time.sleep(4)
         self.screenshot("layers")
 
+    def test_the_camera_moves_by_keys(self):
+        self.open()
+        self.xdotool("mousemove", "200", "300", "click", "1")  # the scene has the keyboard
+
+        def look():
+            self.settle()
+            return self.pixels(0, 30, 980, 700).astype(int)
+
+        def differs(key):
+            self.key(key)
+            return np.abs(look() - before).mean()
+
+        before = look()
+        for there, back in (("ctrl+Left", "ctrl+Right"), ("ctrl+Up", "ctrl+Down"), ("ctrl+plus", "ctrl+minus"),
+                            ("ctrl+shift+Left", "ctrl+shift+Right"), ("ctrl+shift+Up", "ctrl+shift+Down")):
+            with self.subTest(there):
+                self.assertGreater(differs(there), 0.5)
+                self.assertLess(differs(back), 0.1)
+        self.key("ctrl+Left", "ctrl+Left")
+        self.assertLess(differs("Home"), 0.1)
+        self.quit()
 
     def test_shows_the_operator_what_the_subject_sees(self):
         self.open()
