@@ -6,13 +6,18 @@
 
 namespace dihaptic::scene {
 
-int32_t read_colour(const std::string& text, const Place& place, Diagnostics& diagnostics) {
-    if (text.empty()) return -1;
+std::optional<int32_t> colour_of(const std::string& text) {
+    if (text.size() != 7 || text[0] != '#') return std::nullopt;
     int32_t rgb = -1;
     const char* const end = text.data() + text.size();
-    const bool starts = text.size() == 7 && text[0] == '#';
     const auto [at, error] = std::from_chars(text.data() + 1, end, rgb, 16);
-    if (starts && error == std::errc() && at == end && rgb >= 0) return rgb;
+    if (error != std::errc() || at != end || rgb < 0) return std::nullopt;
+    return rgb;
+}
+
+int32_t read_colour(const std::string& text, const Place& place, Diagnostics& diagnostics) {
+    if (text.empty()) return -1;
+    if (const std::optional<int32_t> rgb = colour_of(text)) return *rgb;
     diagnostics.error(place, "colour", fmt::format("'{}' is no colour", text),
                       "Write red, green and blue in hexadecimal, e.g. colour: \"#d55e00\".");
     return -1;

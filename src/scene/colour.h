@@ -2,14 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "base/diagnostics.h"
 
 namespace dihaptic::scene {
 
-/// 65536 red + 256 green + blue. -1 of an empty text, and of one that is no colour, of which
-/// `diagnostics` is told.
+/// 65536 red + 256 green + blue of "#rrggbb"; none of any other text.
+std::optional<int32_t> colour_of(const std::string& text);
+
+/// The same; -1 of an empty text, and of one that is no colour, of which `diagnostics` is told.
 int32_t read_colour(const std::string& text, const Place& place, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::scene

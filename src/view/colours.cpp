@@ -1,10 +1,10 @@
 #include "view/colours.h"
 
 #include <array>
-#include <charconv>
 #include <cmath>
 
 #include "base/palette.h"
+#include "scene/colour.h"
 
 namespace dihaptic::view {
 namespace {
@@ -15,10 +15,7 @@ constexpr const char* kFixed = "#c4c1b9";
 }  // namespace
 
 Vec3 linear_colour(const std::string& hex) {
-    uint32_t value = 0x999999;
-    if (hex.size() == 7 && hex[0] == '#')
-        std::from_chars(hex.data() + 1, hex.data() + hex.size(), value, 16);
-    return linear_colour(value);
+    return linear_colour(static_cast<uint32_t>(scene::colour_of(hex).value_or(0x999999)));
 }
 
 Vec3 linear_colour(uint32_t rgb) {
