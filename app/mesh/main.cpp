@@ -1,14 +1,19 @@
 // dihaptic-mesh FORMAT: reads a mesh (obj, stl, ply or off) from standard input and writes its
-// triangles to standard output: a line "dihaptic mesh 1"; the numbers of vertices and of faces, as
-// 64-bit integers; the vertices, three doubles each; the faces, three 32-bit indices each; all as
-// in this machine's memory. The program dihaptic calls it, under limits, because the library that
-// reads meshes crashes on damaged ones; there is no need to call it by hand.
+// triangles to standard output: a line "dihaptic mesh 2"; the numbers of vertices, of faces and of
+// parts, as 64-bit integers; the vertices, three doubles each; the faces, three 32-bit indices
+// each; the vertices' colours, 65536 red + 256 green + blue, as 32-bit integers, -1 where there is
+// none; the number of vertices in each part, as 64-bit integers; all as in this machine's memory.
+// Then the name of each part's material, each ended by a zero. The program dihaptic calls it, under
+// limits, because the library that reads meshes crashes on damaged ones; there is no need to call
+// it by hand.
 #include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <array>
 #include <assimp/Importer.hpp>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <iostream>
@@ -21,8 +26,8 @@ namespace {
 /// How the program ends (base/companion.h).
 enum Status : int { kDone = 0, kRefused = 1, kOutOfMemory = 3 };
 
-/// Lets the library read the mesh, and no file that it names: a session keeps only the mesh, and
-/// has to read the same from it.
+/// Lets the library read the mesh, and no file that it names: materials that it knows would change
+/// the order of vertices, and with them what is felt.
 class OneFile final : public Assimp::MemoryIOSystem {
   public:
     OneFile(const std::string& bytes, std::string name)
@@ -40,7 +45,30 @@ class OneFile final : public Assimp::MemoryIOSystem {
 struct Surface {
     std::vector<std::array<double, 3>> vertices;
     std::vector<std::array<uint32_t, 3>> faces;
+    std::vector<int32_t> colours;
+    std::vector<uint64_t> parts;
+    std::string materials;
 };
+
+/// Adds the colours of a part's vertices. Files have them from 0 to 1 or, as some OFF files, to
+/// 255.
+void add_colours(const aiMesh& part, std::vector<int32_t>& out) {
+    const aiColor4D* const colours = part.mColors[0];
+    if (colours == nullptr) {
+        out.insert(out.end(), part.mNumVertices, -1);
+        return;
+    }
+    const bool is_whole = std::any_of(colours, colours + part.mNumVertices,
+                                      [](const auto& c) { return c.r > 1 || c.g > 1 || c.b > 1; });
+    const auto byte = [&](float share) {
+        const float value = is_whole ? share : 255 * share;
+        return value > 0 ? static_cast<int32_t>(std::lround(std::min(value, 255.F))) : 0;
+    };
+    for (unsigned i = 0; i < part.mNumVertices; ++i) {
+        const aiColor4D& c = colours[i];
+        out.push_back(byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b));
+    }
+}
 
 Surface surface_of(const aiScene& scene) {
     Surface out;
@@ -57,6 +85,11 @@ Surface surface_of(const aiScene& scene) {
             out.faces.push_back(
                 {offset + face.mIndices[0], offset + face.mIndices[1], offset + face.mIndices[2]});
         }
+        add_colours(part, out.colours);
+        out.parts.push_back(part.mNumVertices);
+        if (part.mMaterialIndex < scene.mNumMaterials)
+            out.materials += scene.mMaterials[part.mMaterialIndex]->GetName().C_Str();
+        out.materials += '\0';
     }
     return out;
 }
@@ -69,9 +102,9 @@ std::string standard_input() {
     return bytes;
 }
 
-template <class Item>
-bool write(const std::vector<Item>& items) {
-    return std::fwrite(items.data(), sizeof(Item), items.size(), stdout) == items.size();
+template <class Items>
+bool write(const Items& items) {
+    return std::fwrite(items.data(), sizeof(items[0]), items.size(), stdout) == items.size();
 }
 
 Status read(const std::string& format) {
@@ -84,10 +117,12 @@ Status read(const std::string& format) {
                                     aiProcess_PreTransformVertices);
     if (scene == nullptr) return kRefused;
     const Surface surface = surface_of(*scene);
-    const std::vector<uint64_t> counts{surface.vertices.size(), surface.faces.size()};
-    std::fputs("dihaptic mesh 1\n", stdout);
+    const std::array<uint64_t, 3> counts{surface.vertices.size(), surface.faces.size(),
+                                         surface.parts.size()};
+    std::fputs("dihaptic mesh 2\n", stdout);
     const bool written = write(counts) && write(surface.vertices) && write(surface.faces) &&
-                         std::fflush(stdout) == 0;
+                         write(surface.colours) && write(surface.parts) &&
+                         write(surface.materials) && std::fflush(stdout) == 0;
     // no destructors: they may crash on what was read from a damaged file
     std::_Exit(written ? kDone : kRefused);
 }

@@ -6,11 +6,13 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <sstream>
 
 #include "base/companion.h"
 #include "base/regular_file.h"
+#include "scene/materials.h"
 
 namespace dihaptic::scene {
 
@@ -78,25 +80,62 @@ class Reader {
         at_ += sizeof(Item);
         return true;
     }
+    /// Text up to the next zero, or to the end.
+    std::string word() {
+        const size_t end = std::min(bytes_.find('\0', at_), bytes_.size());
+        std::string out = bytes_.substr(at_, end - at_);
+        at_ = std::min(end + 1, bytes_.size());
+        return out;
+    }
 
   private:
     const std::string& bytes_;
     size_t at_ = 0;
 };
 
+/// Vertices that follow each other and have one material.
+struct MeshPart {
+    size_t vertices = 0;
+    std::string material;
+};
+
+struct MeshParts {
+    Mesh mesh;
+    std::vector<MeshPart> parts;
+};
+
+/// Reads colours and parts of a mesh, which end what dihaptic-mesh writes; false if the parts are
+/// not the mesh's.
+bool read_colours(Reader& in, uint64_t count, MeshParts& out) {
+    const size_t vertices = out.mesh.vertices.size();
+    out.mesh.colours.reserve(vertices);
+    for (int32_t c = -1; out.mesh.colours.size() < vertices && in.next(c);)
+        out.mesh.colours.push_back(c);
+    size_t left = vertices;
+    for (uint64_t size = 0; out.parts.size() < count && in.next(size);) {
+        if (size > left) return false;
+        left -= size;
+        out.parts.push_back({size, ""});
+    }
+    for (MeshPart& part : out.parts) part.material = in.word();
+    return left == 0 && in.left() == 0;
+}
+
 /// The mesh that dihaptic-mesh has written (app/mesh/main.cpp); nullopt if the bytes are not one.
-std::optional<Mesh> mesh_of(const std::string& bytes, double unit) {
+std::optional<MeshParts> mesh_of(const std::string& bytes, double unit) {
     using Vertex = std::array<double, 3>;
     using Face = std::array<uint32_t, 3>;
     Reader in(bytes);
-    std::array<uint64_t, 2> counts{};
-    if (!in.starts_with("dihaptic mesh 1\n") || !in.next(counts)) return std::nullopt;
-    const auto [vertices, faces] = counts;
+    std::array<uint64_t, 3> counts{};
+    if (!in.starts_with("dihaptic mesh 2\n") || !in.next(counts)) return std::nullopt;
+    const auto [vertices, faces, parts] = counts;
     constexpr uint64_t kMost = INT32_MAX;
-    if (vertices > kMost || faces > kMost ||
-        in.left() != vertices * sizeof(Vertex) + faces * sizeof(Face))
+    if (vertices > kMost || faces > kMost || parts > kMost ||
+        in.left() < vertices * (sizeof(Vertex) + sizeof(int32_t)) + faces * sizeof(Face) +
+                        parts * sizeof(uint64_t))
         return std::nullopt;
-    Mesh mesh;
+    MeshParts out;
+    Mesh& mesh = out.mesh;
     mesh.vertices.reserve(vertices);
     mesh.faces.reserve(faces);
     for (Vertex v; mesh.vertices.size() < vertices && in.next(v);)
@@ -107,7 +146,28 @@ std::optional<Mesh> mesh_of(const std::string& bytes, double unit) {
         }
         mesh.faces.emplace_back(f.begin(), f.end());
     }
-    return mesh;
+    if (!read_colours(in, parts, out)) return std::nullopt;
+    return out;
+}
+
+/// Colours the vertices that have no colour by their materials, and leaves none where all have
+/// none.
+void add_materials(MeshParts& read) {
+    Mesh& mesh = read.mesh;
+    std::map<std::string, int32_t> materials;
+    if (!mesh.materials.empty()) materials = read_materials(mesh.materials);
+    auto vertex = mesh.colours.begin();
+    for (const MeshPart& part : read.parts) {
+        const auto material = materials.find(part.material);
+        const auto end = vertex + static_cast<std::ptrdiff_t>(part.vertices);
+        if (material != materials.end()) std::replace(vertex, end, -1, material->second);
+        vertex = end;
+    }
+    if (std::all_of(mesh.colours.begin(), mesh.colours.end(), [](int32_t c) { return c < 0; })) {
+        mesh.colours.clear();
+    } else if (materials.empty()) {
+        mesh.materials.clear();
+    }
 }
 
 }  // namespace
@@ -137,16 +197,21 @@ Mesh read_mesh(const std::string& file, double unit, const Place& asked_at,
         kReader, {format}, limits_for(bytes.size()), "reading the mesh " + file, kRemedy, asked_at,
         "file",  stop};
     const std::optional<std::string> answer = run_companion(task, bytes);
-    std::optional<Mesh> mesh = answer ? mesh_of(*answer, unit) : std::nullopt;
-    const bool none = !mesh || mesh->faces.empty();
+    std::optional<MeshParts> read = answer ? mesh_of(*answer, unit) : std::nullopt;
+    const bool none = !read || read->mesh.faces.empty();
     if (const std::string missing = none ? missing_in(bytes, format) : ""; !missing.empty())
         throw refused(missing, kRemedy);
-    if (!mesh) throw refused("cannot be read as a mesh", kRemedy);
-    for (const Vec3& v : mesh->vertices) {
+    if (!read) throw refused("cannot be read as a mesh", kRemedy);
+    Mesh& mesh = read->mesh;
+    for (const Vec3& v : mesh.vertices) {
         if (!v.allFinite()) throw refused("has a vertex that is no number", "Export it again.");
     }
-    if (mesh->faces.empty()) throw refused("has no triangles", "Export it again with its surface.");
-    return *std::move(mesh);
+    if (mesh.faces.empty()) throw refused("has no triangles", "Export it again with its surface.");
+    // STL has none: programs use its spare bytes each in their own way
+    if (format == "stl") std::fill(mesh.colours.begin(), mesh.colours.end(), -1);
+    if (format == "obj") mesh.materials = materials_of(file, bytes);
+    add_materials(*read);
+    return std::move(mesh);
 }
 
 }  // namespace dihaptic::scene

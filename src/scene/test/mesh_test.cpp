@@ -73,7 +73,7 @@ TEST(MeshReading, CoordinatesAreTheFilesToTheBit) {
     EXPECT_EQ(most, 1e-3 * static_cast<double>(12345.678F));
 }
 
-TEST(MeshReading, ReadsNoOtherFileThatAMeshNames) {
+TEST(MeshReading, GivesTheSameTrianglesWhateverTheMaterials) {
     const testing::TemporaryFolder folder;
     const std::string text =
         "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl b\nf 1 3 2\nf 1 2 4\nusemtl a\n"

@@ -1,0 +1,23 @@
+// Reads the colours of an OBJ mesh's materials from the MTL file that the mesh names. The program
+// that reads meshes does not (mesh.h): materials that it knows would change the order of vertices.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace dihaptic::scene {
+
+/// Path of the MTL file that the OBJ mesh in `file` names, of which `text` is the content; "" if it
+/// names none. The file lies beside the mesh, under the name that the mesh has for it or, as
+/// sessions keep it, under the mesh's own.
+std::string materials_of(const std::string& file, std::string_view text);
+/// The name that a copy of an MTL file has beside the copy of its mesh.
+std::string materials_beside(const std::string& file);
+
+/// Diffuse colours (Kd) by the names of materials, as in scene/colour.h; empty when the file cannot
+/// be read.
+std::map<std::string, int32_t> read_materials(const std::string& file);
+
+}  // namespace dihaptic::scene
