@@ -1,13 +1,11 @@
 #include "scene/relief_picture.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
-#include "base/image.h"
+#include "scene/picture.h"
 
 namespace dihaptic::scene {
 namespace {
@@ -67,20 +65,7 @@ ReliefPicture::Value ReliefPicture::at(double x, double y) const noexcept {
 }
 
 ReliefPicture read_relief(const std::string& file, const Place& place) {
-    Image image;
-    try {
-        image = read_png(file);
-    } catch (const Error& e) {
-        throw Error(place, "file",
-                    fmt::format("the picture {}: {}", file, e.problems().front().what),
-                    "Name a PNG file, relative to this one.");
-    }
-    const auto [least, most] = std::minmax(image.width, image.height);
-    if (least < ReliefPicture::kFewest || most > ReliefPicture::kMost)
-        throw Error(
-            place, "file",
-            fmt::format("the picture {} has {} x {} pixels", file, image.width, image.height),
-            fmt::format("Make each edge {} to {}.", ReliefPicture::kFewest, ReliefPicture::kMost));
+    const Image image = read_picture(file, ReliefPicture::kFewest, ReliefPicture::kMost, place);
     std::vector<float> grey;
     grey.reserve(image.rgb.size() / 3);
     for (size_t i = 0; i + 2 < image.rgb.size(); i += 3)

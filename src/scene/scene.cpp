@@ -20,18 +20,6 @@ namespace {
 constexpr double kImplausibleSize = 3.0;   // [m]
 constexpr double kImplausibleMass = 20.0;  // [kg]
 
-double metres(MeshUnit unit) {
-    switch (unit) {
-        case MeshUnit::m:
-            return 1;
-        case MeshUnit::cm:
-            return 1e-2;
-        case MeshUnit::mm:
-            return 1e-3;
-    }
-    return 1;
-}
-
 std::vector<Finger> default_fingers() {
     // pads of 20 x 20 x 5 mm whose faces point along x
     Finger thumb;
@@ -42,9 +30,16 @@ std::vector<Finger> default_fingers() {
     return {thumb, index};
 }
 
-void load_meshes(Shape& shape, const std::string& folder, Diagnostics& diagnostics,
+void keep_colours(Shape& shape, const Mesh& mesh, const std::string& file,
+                  Diagnostics& diagnostics) {
+    check_materials(mesh, file, shape.file_place, diagnostics);
+    if (!mesh.colours.empty()) shape.coloured = std::make_shared<const Mesh>(mesh);
+}
+
+/// `coloured`: the colours of meshes are drawn.
+void load_meshes(Shape& shape, bool coloured, const std::string& folder, Diagnostics& diagnostics,
                  const std::stop_token& stop) {
-    for (Part& part : shape.parts) load_meshes(part.shape, folder, diagnostics, stop);
+    for (Part& part : shape.parts) load_meshes(part.shape, coloured, folder, diagnostics, stop);
     if (shape.kind != ShapeKind::mesh || shape.file.empty()) return;
     const std::string file =
         (std::filesystem::path(folder) / shape.file).lexically_normal().string();
@@ -64,6 +59,7 @@ void load_meshes(Shape& shape, const std::string& folder, Diagnostics& diagnosti
                               "Give the unit of its coordinates: m, cm or mm.");
             return;
         }
+        if (coloured) keep_colours(shape, mesh, file, diagnostics);
         if (shape.concave) {
             shape.surface = closed(mesh, file, place);
             shape.solid = integrate(shape.surface.vertices, shape.surface.faces);
@@ -85,7 +81,7 @@ void load_meshes(Shape& shape, const std::string& folder, Diagnostics& diagnosti
     }
 }
 
-void load_picture(Surface& surface, const std::string& folder, Diagnostics& diagnostics) {
+void load_relief(Surface& surface, const std::string& folder, Diagnostics& diagnostics) {
     if (!surface.texture || surface.texture->file.empty()) return;
     const std::string file =
         (std::filesystem::path(folder) / surface.texture->file).lexically_normal().string();
@@ -584,13 +580,14 @@ void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics,
     std::stable_partition(scene.joints.begin(), scene.joints.end(),
                           [](const Joint& joint) { return joint.recorded; });
     for (Body& body : scene.bodies) {
-        load_meshes(body.shape, folder, diagnostics, stop);
-        load_picture(body.surface, folder, diagnostics);
+        load_meshes(body.shape, has_own_colours(body) && !body.seen, folder, diagnostics, stop);
+        load_relief(body.surface, folder, diagnostics);
         check_parts(body.shape, body.place, diagnostics);
         check_body(body, diagnostics);
     }
+    load_looks(scene, folder, diagnostics, stop);
     for (Finger& finger : scene.fingers) {
-        load_meshes(finger.shape, folder, diagnostics, stop);
+        load_meshes(finger.shape, false, folder, diagnostics, stop);
         check_parts(finger.shape, finger.place, diagnostics);
         check_plausible(finger.shape, finger.place, diagnostics);
         if (finger.shape.kind == ShapeKind::plane) {

@@ -12,6 +12,7 @@
 #include "scene/camera.h"
 #include "scene/joint.h"
 #include "scene/lattice.h"
+#include "scene/look.h"
 #include "scene/shape.h"
 #include "scene/surface.h"
 
@@ -48,9 +49,12 @@ struct Body {
         Axes::xyz;  ///< world axes along which it may move: z is a bead on an upright string
     Axes turns = Axes::xyz;  ///< world axes about which it may turn: none, one, or xyz
     Surface surface;
-    std::string group;     ///< bodies of one group do not touch each other; empty: of none
-    std::string colour;    ///< "#rrggbb"; empty: the view chooses
-    Place place;           ///< in the scene file
+    std::string group;   ///< bodies of one group do not touch each other; empty: of none
+    std::string colour;  ///< "#rrggbb"; empty: the mesh's own, or the view chooses
+    Finish finish = Finish::satin;
+    std::optional<Picture> picture;  ///< in place of a colour
+    std::optional<SeenMesh> seen;    ///< drawn in place of the shape
+    Place place;                     ///< in the scene file
     bool weighed = false;  ///< the file has a key for its mass or density, even if a wrong one
 
     template <class Visitor>
@@ -86,7 +90,12 @@ struct Body {
         v("turns", turns, says("World axes about which it may turn: none, one, or xyz."));
         v("group", group,
           Field::text().says("A word; bodies with the same one do not touch each other."));
-        v("colour", colour, says("Colour, as \"#rrggbb\"; left out, the view chooses."));
+        v("colour", colour,
+          says("Colour, as \"#rrggbb\"; left out, that of its mesh, or the view chooses."));
+        v("finish", finish,
+          says("How it reflects: as satin plastic, not at all, or as a metal of its colour."));
+        v("picture", picture, says("Picture of known size over it, in place of a colour."));
+        v("seen", seen, says("Mesh that is drawn in place of its shape, which is felt."));
         if constexpr (requires { v.place(); }) {
             place = v.place();
             weighed = v.mentions("mass") || v.mentions("density");
@@ -243,8 +252,8 @@ Scene read_scene(const std::string& file, Diagnostics& diagnostics,
 void report_unknown_body(const std::string& name, const Scene& scene, const Place& place,
                          const char* key, Diagnostics& diagnostics);
 
-/// Fills in the default fingers, loads meshes, and checks the scene as a whole. Paths of mesh files
-/// are relative to `folder`.
+/// Fills in the default fingers, loads meshes and pictures, and checks the scene as a whole. Paths
+/// of files are relative to `folder`.
 void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics,
               const std::stop_token& stop = {});
 

@@ -52,6 +52,18 @@ double hull_depth(const Hull& hull, const Vec3& p) {
 
 }  // namespace
 
+double metres(MeshUnit unit) {
+    switch (unit) {
+        case MeshUnit::m:
+            return 1;
+        case MeshUnit::cm:
+            return 1e-2;
+        case MeshUnit::mm:
+            return 1e-3;
+    }
+    return 1;
+}
+
 Shape Shape::box(const Vec3& size) {
     Shape shape;
     shape.kind = ShapeKind::box;

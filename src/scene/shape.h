@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,9 @@ enum class MeshUnit { m, cm, mm };
 constexpr auto enum_names(MeshUnit) {
     return std::array{"m", "cm", "mm"};
 }
+
+/// How long one is [m].
+double metres(MeshUnit unit);
 
 /// Limits of lengths, radii and meshes; beyond them contacts are lost in rounding [m].
 constexpr double kSmallest = 1e-4;
@@ -49,6 +53,7 @@ struct Shape {
     Pieces pieces;            ///< concave mesh: convex pieces that fill it
     VolumeIntegrals solid;    ///< concave mesh: integrals over the mesh itself
     Place file_place;         ///< mesh: where the scene file names its file
+    std::shared_ptr<const Mesh> coloured;  ///< mesh: as its file has it, if its colours are drawn
 
     template <class Visitor>
     void visit(Visitor& v) {

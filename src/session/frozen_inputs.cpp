@@ -4,9 +4,11 @@
 
 #include <filesystem>
 #include <functional>
+#include <map>
 
 #include "base/field_table.h"
 #include "base/text_file.h"
+#include "scene/materials.h"
 
 namespace dihaptic::session {
 namespace {
@@ -21,6 +23,15 @@ std::string copied(const fs::path& file, const std::string& kind, size_t number,
     return name;
 }
 
+/// Copies the materials whose colours a mesh has beside the copy of the mesh, which is of that
+/// name.
+void freeze_materials(const scene::Mesh* mesh, const std::string& copy,
+                      const recording::SessionFolder& folder, std::vector<std::string>& names) {
+    if (mesh == nullptr || mesh->colours.empty() || mesh->materials.empty()) return;
+    names.push_back(scene::materials_beside(copy));
+    fs::copy_file(mesh->materials, folder.file(names.back()));
+}
+
 /// Copies the scene's meshes to the session's folder, and makes the scene name the copies.
 std::vector<std::string> freeze_meshes(scene::Scene& scene, const std::string& from,
                                        const recording::SessionFolder& folder) {
@@ -31,6 +42,7 @@ std::vector<std::string> freeze_meshes(scene::Scene& scene, const std::string& f
         if (shape.kind != scene::ShapeKind::mesh) return;
         shape.file = copied(fs::path(from) / shape.file, "mesh", ++count, folder);
         names.push_back(shape.file);
+        freeze_materials(shape.coloured.get(), shape.file, folder, names);
         if (!shape.concave) return;
         // a replay uses these pieces, even if another version would cut the mesh differently
         names.push_back(scene::pieces_file(shape.file));
@@ -50,6 +62,33 @@ std::vector<std::string> freeze_textures(scene::Scene& scene, const std::string&
         std::string& file = body.surface.texture->file;
         file = copied(fs::path(from) / file, "texture", names.size() + 1, folder);
         names.push_back(file);
+    }
+    return names;
+}
+
+/// Copies the pictures and meshes that bodies are drawn with, and makes the scene name the copies.
+/// A picture is copied once, whatever wears it.
+std::vector<std::string> freeze_looks(scene::Scene& scene, const std::string& from,
+                                      const recording::SessionFolder& folder) {
+    std::vector<std::string> names;
+    std::map<std::string, std::string> pictures;
+    size_t meshes = 0;
+    for (scene::Body& body : scene.bodies) {
+        if (body.picture) {
+            std::string& copy = pictures[body.picture->file];
+            if (copy.empty()) {
+                copy =
+                    copied(fs::path(from) / body.picture->file, "picture", pictures.size(), folder);
+                names.push_back(copy);
+            }
+            body.picture->file = copy;
+        }
+        if (body.seen) {
+            std::string& file = body.seen->file;
+            file = copied(fs::path(from) / file, "seen", ++meshes, folder);
+            names.push_back(file);
+            freeze_materials(body.seen->mesh.get(), file, folder, names);
+        }
     }
     return names;
 }
@@ -107,6 +146,8 @@ std::vector<recording::InputFile> freeze_inputs(const Plan& plan,
     std::vector<std::string> names = freeze_meshes(scene, plan.scene_folder, folder);
     const std::vector<std::string> textures = freeze_textures(scene, plan.scene_folder, folder);
     names.insert(names.end(), textures.begin(), textures.end());
+    const std::vector<std::string> looks = freeze_looks(scene, plan.scene_folder, folder);
+    names.insert(names.end(), looks.begin(), looks.end());
     write_file(to_yaml(write_fields(scene)), folder.file("scene.yaml"));
     rig::Rig rig = plan.rig;
     if (rig.calibrated) {

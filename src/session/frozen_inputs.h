@@ -9,8 +9,8 @@
 
 namespace dihaptic::session {
 
-/// Writes the plan's scene with its meshes, its rig, settings, movement, task and person to the
-/// session's folder. Returns the files written.
+/// Writes the plan's scene with its meshes and pictures, its rig, settings, movement, task and
+/// person to the session's folder. Returns the files written.
 std::vector<recording::InputFile> freeze_inputs(const Plan& plan,
                                                 const recording::SessionFolder& folder);
 

@@ -37,6 +37,17 @@ Program::Program(const std::string& vertex, const std::string& fragment)
                 "Update the driver, or draw in software: LIBGL_ALWAYS_SOFTWARE=1 dihaptic ...");
 }
 
+Texture make_texture(const Image& image) {
+    Texture texture = make_texture();
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8, image.width, image.height, 0, GL_RGB, GL_UNSIGNED_BYTE,
+                 image.rgb.data());
+    glGenerateMipmap(GL_TEXTURE_2D);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    return texture;
+}
+
 Model::Model(const Triangles& triangles) : count_(static_cast<GLsizei>(triangles.indices.size())) {
     GLuint name = 0;
     glGenVertexArrays(1, &name);
@@ -52,10 +63,17 @@ Model::Model(const Triangles& triangles) : count_(static_cast<GLsizei>(triangles
                      triangles.vertices.size() * sizeof(Vertex));
     indices_ = fill(GL_ELEMENT_ARRAY_BUFFER, triangles.indices.data(),
                     triangles.indices.size() * sizeof(uint32_t));
-    for (const GLuint attribute : {0U, 1U}) {
+    const auto describe = [](GLuint attribute, size_t stride, size_t offset) {
         glEnableVertexAttribArray(attribute);
-        glVertexAttribPointer(attribute, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex),
-                              reinterpret_cast<const void*>(attribute * sizeof(Eigen::Vector3f)));
+        glVertexAttribPointer(attribute, 3, GL_FLOAT, GL_FALSE, static_cast<GLsizei>(stride),
+                              reinterpret_cast<const void*>(offset));
+    };
+    describe(0, sizeof(Vertex), 0);
+    describe(1, sizeof(Vertex), sizeof(Eigen::Vector3f));
+    if (!triangles.colours.empty()) {
+        colours_ = fill(GL_ARRAY_BUFFER, triangles.colours.data(),
+                        triangles.colours.size() * sizeof(Eigen::Vector3f));
+        describe(2, sizeof(Eigen::Vector3f), 0);
     }
     glBindVertexArray(0);
 }

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/geometry.h"
+#include "base/image.h"
 #include "view/triangles.h"
 
 namespace dihaptic::view::gl {
@@ -73,6 +74,9 @@ inline Renderbuffer make_renderbuffer() {
     return Renderbuffer(n);
 }
 
+/// A picture that repeats, for shaders to read in linear light.
+Texture make_texture(const Image& image);
+
 /// A vertex and a fragment shader, linked; given as source without the line "#version 330 core".
 class Program {
   public:
@@ -100,7 +104,8 @@ class Program {
     Name<delete_program> name_;
 };
 
-/// Triangles in OpenGL's memory: positions are attribute 0, normals attribute 1.
+/// Triangles in OpenGL's memory: positions are attribute 0, normals attribute 1, and colours, if
+/// there are any, attribute 2.
 class Model {
   public:
     Model() = default;
@@ -110,6 +115,7 @@ class Model {
   private:
     VertexArray array_;
     Buffer vertices_;
+    Buffer colours_;
     Buffer indices_;
     GLsizei count_ = 0;
 };

@@ -67,8 +67,8 @@ std::optional<Seen> seen_first(const scene::Scene& scene, const servo::Frame& fr
         // in the measure of the body, which may be shown larger
         const Pose X_BW = servo::displayed_body(frame, i).inverse();
         const double size = servo::displayed_size(frame, i);
-        const double length = size * length_to(triangles(scene.bodies[i].shape),
-                                               X_BW * ray.from_W / size, X_BW.R * ray.along_W);
+        const double length = size * length_to(triangles(scene.bodies[i]), X_BW * ray.from_W / size,
+                                               X_BW.R * ray.along_W);
         if (length >= nearest) continue;
         nearest = length;
         out = Seen{i, ray.from_W + length * ray.along_W};

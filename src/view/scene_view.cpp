@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <functional>
+#include <map>
 #include <span>
 
 #include "base/diagnostics.h"
@@ -16,6 +17,7 @@
 #include "view/shaders.h"
 #include "view/shadow_map.h"
 #include "view/solids.h"
+#include "view/thing.h"
 
 namespace dihaptic::view {
 namespace {
@@ -24,15 +26,6 @@ constexpr int kSamples = 4;
 constexpr int kShadowMap = 512;  // texels across; half of them for pictures in less detail
 constexpr double kArrowPerNewton = 0.025;  // [m/N]
 constexpr double kDepthRange = 4;          // of the light [m]
-constexpr double kPlaneSize = 6;           // [m]
-
-/// Planes, and fixed bodies larger than this, are ground on which others stand: they get the grid,
-/// and the shadow map is not widened for them.
-constexpr double kGround = 0.3;  // [m]
-bool is_ground(const scene::Body& body) {
-    return body.shape.kind == scene::ShapeKind::plane ||
-           (body.fixed && scene::extent(body.shape) > kGround);
-}
 
 /// Rotation R_LW into the light's frame: z is the depth, away from the light.
 Mat3 light_rotation() {
@@ -91,6 +84,14 @@ void add_grip_axis(Solids& out, const servo::Frame& frame, size_t fingers) {
     out.add_line(place(0), model::opposing_point(fingers, place), 0.0006, ink("#7b4ea3"));
 }
 
+/// A program that lights and shadows surfaces. What it can is a matter of #define instead of
+/// uniforms: a software renderer runs both sides of a branch.
+gl::Program surface_program(Shadows shadows, const std::string& defined) {
+    const std::string defines = defined + (shadows == Shadows::plain ? "#define PLAIN\n" : "");
+    return {defines + shaders::kSurfaceVertex,
+            defines + shaders::kBackground + shaders::kSurfaceFragment};
+}
+
 void check_version() {
     if (epoxy_gl_version() >= 33) return;
     throw Error("OpenGL 3.3 is needed, and this context offers an older one",
@@ -114,17 +115,6 @@ Vec3 SceneView::light() {
 }
 
 struct SceneView::Parts {
-    struct Thing {
-        gl::Model model;
-        double radius = 0;
-        double lowest = 0;  // z at the start [m]
-        double highest = -std::numeric_limits<double>::infinity();
-        Vec3 low_B = Vec3::Constant(std::numeric_limits<double>::infinity());
-        Vec3 high_B = -low_B;
-        Vec3 colour = Vec3::Ones();
-        bool ground = false;
-        bool plane = false;
-    };
     std::vector<Thing> bodies;
     std::vector<Thing> fingers;
     Shadows kind;
@@ -136,6 +126,8 @@ struct SceneView::Parts {
     double start_radius = 0.1;  // of a ball about it that holds them [m]
     ShadowMap shadow_map{kShadowMap};
     gl::Program surface;
+    std::optional<gl::Program> looks;  // the same of metals, pictures and own colours
+    std::map<const Image*, gl::Texture> pictures;
     gl::Program background;
     gl::VertexArray nothing;
     gl::Model ball;  // of radius 1
@@ -156,10 +148,7 @@ struct SceneView::Parts {
 
     Parts(const scene::Scene& scene, Shadows shadows)
         : kind(shadows),
-          // a #define instead of a uniform: a software renderer runs both sides of a branch
-          surface(shaders::kSurfaceVertex,
-                  std::string(shadows == Shadows::plain ? "#define PLAIN\n" : "") +
-                      shaders::kBackground + shaders::kSurfaceFragment),
+          surface(surface_program(shadows, "")),
           background(shaders::kBlurVertex,
                      std::string(shaders::kBackground) + shaders::kBackgroundFragment) {
         GLuint name = 0;
@@ -169,15 +158,14 @@ struct SceneView::Parts {
         rod = gl::Model(tube(std::array{Vec3(0, 0, 0), Vec3(0, 0, 1)}, kRod));
         skin.colour = linear_colour("#c9a58f");
         for (size_t i = 0; i < scene.bodies.size(); ++i) {
-            const scene::Body& body = scene.bodies[i];
-            Thing& thing =
-                bodies.emplace_back(make_thing(body.shape, body.pose(), body_colour(scene, i)));
-            thing.ground = is_ground(body);
+            const Thing& thing =
+                bodies.emplace_back(thing_of(scene, i, texture_of(scene.bodies[i].picture)));
             if (thing.ground) table_top = thing.highest;
-            thing.plane = body.shape.kind == scene::ShapeKind::plane;
+            if (thing.has_looks(nullptr) && !looks)
+                looks = surface_program(shadows, "#define LOOKS\n");
         }
         for (size_t i = 0; i < scene.fingers.size(); ++i) {
-            fingers.push_back(make_thing(scene.fingers[i].shape, {}, finger_colour(i)));
+            fingers.emplace_back(triangles(scene.fingers[i].shape), Pose{}, finger_colour(i));
             if (scene.fingers[i].name == "thumb") thumb = static_cast<int>(i);
             if (scene.fingers[i].name == "index") index = static_cast<int>(i);
         }
@@ -187,20 +175,12 @@ struct SceneView::Parts {
         find_start(scene);
     }
 
-    static Thing make_thing(const scene::Shape& shape, const Pose& X_WB, const Vec3& tone) {
-        const Triangles all = triangles(shape, kPlaneSize);
-        Thing thing;
-        thing.model = gl::Model(all);
-        thing.colour = tone;
-        for (const Vertex& v : all.vertices) {
-            const Vec3 p_B = v.p.cast<double>();
-            thing.radius = std::max(thing.radius, p_B.norm());
-            thing.low_B = thing.low_B.cwiseMin(p_B);
-            thing.high_B = thing.high_B.cwiseMax(p_B);
-            thing.lowest = std::min(thing.lowest, (X_WB * p_B).z());
-            thing.highest = std::max(thing.highest, (X_WB * p_B).z());
-        }
-        return thing;
+    /// Each picture is one texture, whatever wears it.
+    GLuint texture_of(const std::optional<scene::Picture>& picture) {
+        if (!picture || !picture->image) return 0;
+        gl::Texture& texture = pictures[picture->image.get()];
+        if (texture == 0) texture = gl::make_texture(*picture->image);
+        return texture;
     }
 
     void find_start(const scene::Scene& scene) {
@@ -270,16 +250,17 @@ struct SceneView::Parts {
                                   resolved_colour);
     }
 
-    using Prepare = std::function<void(const Thing&, const Vec3& tint)>;
+    /// Makes a program ready to draw a thing; `tint` is what an experiment colours it with, or
+    /// null.
+    using Prepare = std::function<const gl::Program&(const Thing&, const Vec3* tint)>;
 
-    void draw_hand(const servo::Frame& frame, const gl::Program& program,
-                   const Prepare& prepare) const {
+    void draw_hand(const servo::Frame& frame, const Prepare& prepare) const {
         const auto is_seen = [&](int finger) {
             return finger >= 0 &&
                    servo::is_displayed(frame, bodies.size() + static_cast<size_t>(finger));
         };
         if (!is_seen(thumb) || !is_seen(index)) return;
-        prepare(skin, skin.colour);
+        const gl::Program& program = prepare(skin, nullptr);
         const auto put = [&](const gl::Model& model, const Pose& X, const Vec3& size) {
             program.set("world_from_model", placed(X, size));
             model.draw();
@@ -294,14 +275,14 @@ struct SceneView::Parts {
         }
     }
 
-    void draw_models(const servo::Frame& frame, bool hand, const gl::Program& program,
-                     const Prepare& prepare) const {
+    void draw_models(const servo::Frame& frame, bool hand, const Prepare& prepare) const {
         const auto draw = [&](const Thing& thing, size_t body, const Pose& X) {
             if (!servo::is_displayed(frame, body)) return;
             const servo::LookFrame* look = servo::item_of(frame.task.looks, body);
             const bool tinted = look != nullptr && look->colour >= 0;
-            prepare(thing,
-                    tinted ? linear_colour(static_cast<uint32_t>(look->colour)) : thing.colour);
+            const Vec3 tint =
+                tinted ? linear_colour(static_cast<uint32_t>(look->colour)) : Vec3::Zero();
+            const gl::Program& program = prepare(thing, tinted ? &tint : nullptr);
             program.set("world_from_model",
                         placed(X, Vec3::Constant(servo::displayed_size(frame, body))));
             thing.model.draw();
@@ -310,7 +291,7 @@ struct SceneView::Parts {
             draw(bodies[i], i, servo::displayed_body(frame, i));
         for (size_t i = 0; i < fingers.size(); ++i)
             draw(fingers[i], bodies.size() + i, servo::displayed_proxy(frame, i));
-        if (hand) draw_hand(frame, program, prepare);
+        if (hand) draw_hand(frame, prepare);
     }
 
     /// How the shadow map sees the world.
@@ -434,12 +415,14 @@ SceneView::Parts::Lamp SceneView::Parts::render_shadows(const servo::Frame& fram
     out.light_from_world.topRightCorner<3, 1>() =
         -out.light_from_world.topLeftCorner<3, 3>() * start;
     out.texel = 2 * half / shadow_map.size();
-    shadow_map.render(out.light_from_world, kDepthRange, out.texel, kind == Shadows::variance,
-                      [&](const gl::Program& program) {
-                          program.set("world_from_model", gl::matrix(X_WF));
-                          floor.draw();
-                          draw_models(frame, hand, program, [](const Thing&, const Vec3&) {});
-                      });
+    shadow_map.render(
+        out.light_from_world, kDepthRange, out.texel, kind == Shadows::variance,
+        [&](const gl::Program& program) {
+            program.set("world_from_model", gl::matrix(X_WF));
+            floor.draw();
+            draw_models(frame, hand,
+                        [&](const Thing&, const Vec3*) -> const gl::Program& { return program; });
+        });
     return out;
 }
 
@@ -462,26 +445,32 @@ void SceneView::Parts::draw_surfaces(const servo::Frame& frame, const Viewpoint&
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
     glClearBufferfv(GL_DEPTH, 0, &furthest);
-    surface.use();
-    surface.set("corner", corner);
-    surface.set("size", size);
-    surface.set("clip_from_world", viewpoint.clip_from_world);
-    surface.set("eye", viewpoint.eye_W);
-    surface.set("middle", start);
-    surface.set("light", light());
-    surface.set("light_from_world", lamp.light_from_world);
-    surface.set("texel", lamp.texel);
-    surface.set("shadowed", 1);
-    surface.set("moments", 0);
-    surface.set("alpha", 1.0);
+    const auto begin = [&](const gl::Program& program) {
+        program.use();
+        program.set("corner", corner);
+        program.set("size", size);
+        program.set("clip_from_world", viewpoint.clip_from_world);
+        program.set("eye", viewpoint.eye_W);
+        program.set("middle", start);
+        program.set("light", light());
+        program.set("light_from_world", lamp.light_from_world);
+        program.set("texel", lamp.texel);
+        program.set("shadowed", 1);
+        program.set("moments", 0);
+        program.set("picture", 1);
+        program.set("alpha", 1.0);
+    };
+    if (looks) begin(*looks);
+    begin(surface);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, shadow_map.texture());
-    draw_models(frame, hand, surface, [&](const Thing& thing, const Vec3& tint) {
-        surface.set("albedo", tint);
-        surface.set("gloss", thing.ground ? 0.25 : 1.0);
-        surface.set("grid", thing.ground ? 0.28 : 0.0);
-        surface.set("fade", thing.plane ? 1.2 : 0.0);
+    draw_models(frame, hand, [&](const Thing& thing, const Vec3* tint) -> const gl::Program& {
+        const gl::Program& program = thing.has_looks(tint) ? *looks : surface;
+        program.use();
+        thing.set(program, tint);
+        return program;
     });
+    surface.use();
 }
 
 /// Draws targets transparent, so that what is in them can be seen.

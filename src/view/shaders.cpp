@@ -79,7 +79,18 @@ uniform mat4 world_from_model;
 uniform mat4 clip_from_world;
 out vec3 p_W;
 out vec3 n_W;
+#ifdef LOOKS
+layout(location = 2) in vec3 own;
+out vec3 p_B;
+out vec3 n_B;
+out vec3 own_colour;
+#endif
 void main() {
+#ifdef LOOKS
+    p_B = position;
+    n_B = normal;
+    own_colour = own;
+#endif
     vec4 p = world_from_model * vec4(position, 1);
     p_W = p.xyz;
     n_W = mat3(world_from_model) * normal;
@@ -104,6 +115,50 @@ uniform vec3 light;        // toward it
 uniform mat4 light_from_world;
 uniform sampler2D moments;
 uniform float texel;       // of the map's finest level [m]
+
+#ifdef LOOKS
+in vec3 p_B;
+in vec3 n_B;
+in vec3 own_colour;
+uniform bool metal;
+uniform bool coloured;      // by the model's own colours
+uniform bool pictured;
+uniform vec2 picture_size;  // [m]
+uniform sampler2D picture;
+
+// The picture's colour where it is projected along the axis that the surface looks along most. The
+// surface is continuous where the axis changes, and with it the derivatives that choose the level.
+vec3 from_picture() {
+    vec3 a = abs(n_B);
+    vec3 right = vec3(0, n_B.x < 0.0 ? -1 : 1, 0);
+    vec3 up = vec3(0, 0, 1);
+    if (a.z >= max(a.x, a.y)) {
+        right = vec3(1, 0, 0);
+        up = vec3(0, n_B.z < 0.0 ? -1 : 1, 0);
+    } else if (a.y >= a.x) {
+        right = vec3(n_B.y < 0.0 ? 1 : -1, 0, 0);
+    }
+    mat2x3 axes = mat2x3(right / picture_size.x, -up / picture_size.y);  // rows go down
+    return textureGrad(picture, 0.5 + p_B * axes, dFdx(p_B) * axes, dFdy(p_B) * axes).rgb;
+}
+
+// What a metal mirrors in the direction r: brighter above the horizon than further up, where windows
+// are, and on the lamp's side; in the mean it is what other surfaces receive.
+vec3 room(vec3 r, vec3 ground, vec3 sky) {
+    float up = 1.7 - 1.4 * smoothstep(0.1, 0.9, r.z);
+    float side = dot(r.xy, normalize(light.xy));
+    return mix(ground, sky * up, smoothstep(-0.25, 0.25, r.z)) *
+           (0.7 + 0.6 * smoothstep(-0.9, 0.9, side));
+}
+
+const float kPolish = 60.0;  // exponent of a metal's highlight
+
+// A metal has no diffuse light. Of what it reflects, its colour is the share that comes straight
+// back, and Schlick's law has the rest.
+vec3 reflectance(vec3 straight, float cosine) {
+    return straight + (1.0 - straight) * pow(1.0 - max(cosine, 0.0), 5.0);
+}
+#endif
 
 const float kLeast = 1.0e-7;     // variance [m^2]: a third of a millimetre
 const float kBleeding = 0.35;    // what is darker than this is black
@@ -151,6 +206,10 @@ void main() {
     vec3 n = normalize(n_W);
     vec3 v = normalize(eye - p_W);
     vec3 base = albedo;
+#ifdef LOOKS
+    if (coloured) base = own_colour;
+    if (pictured) base = from_picture();
+#endif
     if (grid > 0.0 && n.z > 0.99) {
         float drawn = max(0.55 * line(p_W.xy, 0.025, 0.00015),
                           line(p_W.xy, 0.1, 0.0003));
@@ -166,9 +225,16 @@ void main() {
     vec3 h = normalize(light + v);
     float fresnel = 0.04 + 0.96 * pow(1.0 - max(dot(n, v), 0.0), 5.0);
     vec3 r = reflect(-v, n);
-    vec3 coat = fresnel * 0.5 * mix(ground, sky, smoothstep(-0.3, 0.7, r.z)) * mix(0.4, 1.0, seen.y);
+    vec3 mirrored = mix(ground, sky, smoothstep(-0.3, 0.7, r.z)) * mix(0.4, 1.0, seen.y);
+    vec3 coat = fresnel * 0.5 * mirrored;
     coat += key * 0.35 * pow(max(dot(n, h), 0.0), 70.0) * seen.x * step(0.0, dot(n, light));
     vec3 out_linear = base * (around + direct) + gloss * coat;
+#ifdef LOOKS
+    if (metal)
+        out_linear = reflectance(base, dot(n, v)) * room(r, ground, sky) * mix(0.4, 1.0, seen.y) +
+                     reflectance(base, dot(v, h)) * direct * (kPolish + 8.0) / 8.0 *
+                         pow(max(dot(n, h), 0.0), kPolish);
+#endif
     if (fade > 0.0)
         out_linear = mix(out_linear, background(), smoothstep(0.3 * fade, fade, length(p_W.xy - middle.xy)));
     colour = vec4(encode(out_linear), alpha);

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
+
+#include "view/colours.h"
 
 namespace dihaptic::view {
 namespace {
@@ -168,10 +171,33 @@ Triangles polyhedron(std::span<const Vec3> vertices, std::span<const std::vector
     return out;
 }
 
+const Eigen::Vector3f kNoColour =
+    Eigen::Vector3f::Constant(std::numeric_limits<float>::quiet_NaN());
+
+Triangles coloured(const scene::Mesh& mesh) {
+    Triangles out = polyhedron(mesh.vertices, mesh.faces);
+    if (mesh.colours.empty()) return out;
+    // each corner of each face is a vertex of its own
+    for (const std::vector<int>& face : mesh.faces) {
+        for (const int v : face) {
+            const int32_t rgb = mesh.colours[static_cast<size_t>(v)];
+            out.colours.push_back(
+                rgb < 0 ? kNoColour
+                        : linear_colour(static_cast<uint32_t>(rgb)).cast<float>().eval());
+        }
+    }
+    return out;
+}
+
 }  // namespace
 
 void Triangles::append(const Triangles& other, const Pose& X) {
     const auto offset = static_cast<uint32_t>(vertices.size());
+    if (!colours.empty() || !other.colours.empty()) {
+        colours.resize(vertices.size(), kNoColour);
+        colours.insert(colours.end(), other.colours.begin(), other.colours.end());
+        colours.resize(vertices.size() + other.vertices.size(), kNoColour);
+    }
     for (const Vertex& v : other.vertices) {
         vertices.push_back(
             {(X * v.p.cast<double>()).cast<float>(), (X.R * v.n.cast<double>()).cast<float>()});
@@ -192,6 +218,7 @@ Triangles triangles(const scene::Shape& shape, double plane_size) {
         case scene::ShapeKind::plane:
             return square(plane_size);
         case scene::ShapeKind::mesh:
+            if (shape.coloured) return coloured(*shape.coloured);
             return shape.concave ? polyhedron(shape.surface.vertices, shape.surface.faces)
                                  : polyhedron(shape.hull.vertices, shape.hull.faces);
         case scene::ShapeKind::compound: {
@@ -202,6 +229,11 @@ Triangles triangles(const scene::Shape& shape, double plane_size) {
         }
     }
     return {};
+}
+
+Triangles triangles(const scene::Body& body, double plane_size) {
+    if (body.seen && body.seen->mesh) return coloured(*body.seen->mesh);
+    return triangles(body.shape, plane_size);
 }
 
 Triangles square(double size) {

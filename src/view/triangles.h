@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/shape.h"
+#include "scene/scene.h"
 
 namespace dihaptic::view {
 
@@ -18,14 +18,19 @@ struct Vertex {
 struct Triangles {
     std::vector<Vertex> vertices;
     std::vector<uint32_t> indices;
+    /// Own ones of each vertex, linear, NaN where there is none; empty if no vertex has one.
+    std::vector<Eigen::Vector3f> colours;
 
     void append(const Triangles& other, const Pose& X);
 };
 
 /// The surface of a shape in its body's frame. Edges of boxes and cylinders are rounded inward, by
 /// 1.2 mm at most, so that they catch light. A concave mesh is drawn as it is, any other as its
-/// convex hull: what is seen is what is felt. A plane is a square of `plane_size` [m].
+/// convex hull: what is seen is what is felt. A mesh whose colours are drawn is drawn as its file
+/// has it. A plane is a square of `plane_size` [m].
 Triangles triangles(const scene::Shape& shape, double plane_size = 8);
+/// What is seen of a body: its shape, or a mesh in its place.
+Triangles triangles(const scene::Body& body, double plane_size = 8);
 
 /// A square at z = 0 about the origin, facing up [m].
 Triangles square(double size);

@@ -75,6 +75,15 @@ TEST_F(WordFinderTest, OffersNamesBehindAKey) {
     EXPECT_TRUE(words.has("plane"));
 }
 
+TEST_F(WordFinderTest, OffersHowABodyMayLook) {
+    const QString box = "bodies:\n  - name: b\n    shape: box\n    size_mm: [9, 9, 9]\n    ";
+    const Words keys(box + "pict|\n");
+    for (const char* key : {"finish", "picture", "seen"}) EXPECT_TRUE(keys.has(key)) << key;
+    EXPECT_TRUE(Words(box + "finish: |\n").has("metal"));
+    EXPECT_TRUE(Words(box + "picture: { file: a.png, | }\n").has("width_mm"));
+    EXPECT_TRUE(Words(box + "seen: { file: a.ply, unit: | }\n").has("mm"));
+}
+
 TEST_F(WordFinderTest, OffersKeysOfRigs) {
     EXPECT_TRUE(
         Words("devices:\n  - finger: index\n    backend: simulated\nheads|\n").has("headset"));

@@ -1,0 +1,54 @@
+// Describes how a body looks beside its shape and its colour. Nothing of it is felt.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "base/diagnostics.h"
+#include "base/field.h"
+#include "scene/picture.h"
+#include "scene/shape.h"
+
+namespace dihaptic::scene {
+
+/// How a surface reflects: as plastic, not at all, or as a metal of its colour.
+enum class Finish { satin, matt, metal };
+constexpr auto enum_names(Finish) {
+    return std::array{"satin", "matt", "metal"};
+}
+
+/// A mesh that is drawn in place of a body's shape.
+struct SeenMesh {
+    std::string file;  ///< OBJ, STL, PLY or OFF, relative to the scene file
+    MeshUnit unit = MeshUnit::m;
+    std::shared_ptr<const Mesh> mesh;  ///< without colours if others are drawn
+    Place place;                       ///< where the scene file names its file
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("file", file,
+          Field::text().required().says(
+              "Mesh file (OBJ, STL, PLY or OFF), relative to this file; its coordinates are in the "
+              "body's frame."));
+        v("unit", unit, Field::text().required().says("Unit of the mesh's coordinates."));
+        if constexpr (requires { v.place(); }) place = v.place_of("file");
+    }
+};
+
+struct Body;
+struct Scene;
+
+/// Whether the colours of a mesh are drawn: nothing else colours the body.
+bool has_own_colours(const Body& body);
+
+/// Warns that a mesh has no colours though it names a file for them.
+void check_materials(const Mesh& mesh, const std::string& file, const Place& place,
+                     Diagnostics& diagnostics);
+
+/// Reads the pictures and meshes that bodies are drawn with, whose files are relative to `folder`,
+/// until `stop`.
+void load_looks(Scene& scene, const std::string& folder, Diagnostics& diagnostics,
+                const std::stop_token& stop);
+
+}  // namespace dihaptic::scene

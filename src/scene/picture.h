@@ -1,0 +1,42 @@
+// Describes a picture that a body wears in place of a colour.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/diagnostics.h"
+#include "base/field.h"
+#include "base/image.h"
+#include "scene/shape.h"
+
+namespace dihaptic::scene {
+
+/// An image of known size that repeats over a body. It is projected along the axes of the body's
+/// frame, onto each place along the axis that the surface there looks along most. Its middle is at
+/// the body's origin; up on it is z, but on what looks along z, y as it is seen from above, and -y
+/// from below.
+struct Picture {
+    static constexpr int kMostPixels = 4096;  ///< along an edge
+
+    std::string file;                    ///< PNG, relative to the scene file
+    double width = 0;                    ///< after which it repeats; its height follows [m]
+    std::shared_ptr<const Image> image;  ///< shared by bodies that name the same file
+    Place place;                         ///< where the scene file names it
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("file", file, Field::text().required().says("PNG file, relative to this one."));
+        v("width", width,
+          Field::length()
+              .within(kSmallest, kLargest)
+              .required()
+              .says("Width of the picture, after which it repeats."));
+        if constexpr (requires { v.place(); }) place = v.place_of("file");
+    }
+};
+
+/// Reads a PNG file whose edges have `fewest` to `most` pixels. Throws Error, with that place and
+/// the key `file`, when it is none or is of another size.
+Image read_picture(const std::string& file, int fewest, int most, const Place& place);
+
+}  // namespace dihaptic::scene

@@ -1,0 +1,45 @@
+// A body or a finger as SceneView draws it: its triangles, and how they look. For the sources of
+// this folder only.
+#pragma once
+
+#include <limits>
+
+#include "view/gl.h"
+
+namespace dihaptic::view {
+
+constexpr double kPlaneSize = 6;  // [m]
+
+/// What is drawn at one pose.
+struct Thing {
+    gl::Model model;
+    double radius = 0;
+    double lowest = 0;  // z at the start [m]
+    double highest = -std::numeric_limits<double>::infinity();
+    Vec3 low_B = Vec3::Constant(std::numeric_limits<double>::infinity());  // its box [m]
+    Vec3 high_B = -low_B;
+    Vec3 colour = Vec3::Ones();
+    bool own_colours = false;  // the model's, in place of `colour`
+    bool ground = false;       // on which others stand
+    double gloss = 1;          // of its coat, 0 to 1
+    double grid = 0;           // how dark the lines on its upper side are, 0 to 1
+    double fade = 0;           // distance at which it has become the background; 0: never [m]
+    bool metal = false;
+    GLuint picture = 0;                                           // 0: none
+    Eigen::Vector2d picture_size = Eigen::Vector2d::Constant(1);  // [m]
+
+    Thing() = default;
+    /// What is drawn as `all`, in the colour `tone`; `X_WB` is its pose at the start.
+    Thing(Triangles all, const Pose& X_WB, const Vec3& tone);
+
+    /// Sets what a program draws of this thing. `tint`: that an experiment gives it now, in place
+    /// of its colours and its picture; null: none.
+    void set(const gl::Program& program, const Vec3* tint) const;
+    /// Whether set() needs a program that knows of metals, pictures and own colours (LOOKS).
+    bool has_looks(const Vec3* tint) const;
+};
+
+/// A body's thing; `picture` is the texture of its picture, if it has one.
+Thing thing_of(const scene::Scene& scene, size_t body, GLuint picture);
+
+}  // namespace dihaptic::view
