@@ -98,6 +98,32 @@ def stone():
     return [(1.1 * x + 0.15 * z, 0.85 * y - 0.1 * z, z) for x, y, z in vertices], faces
 
 
+def apple():
+    """For the eye alone, about the origin, as large as a sphere of 36 mm that a finger feels in its place: vertices,
+    faces and the vertices' colours."""
+    bottom, top = (-28, 0.12), (22, 0.3)  # height of the dimple and its width
+    sides, rings = 40, 26
+    profile = [(0, bottom[0])]
+    for k in range(1, rings):
+        angle = math.pi * k / rings  # from the bottom
+        height = -34 * math.cos(angle) - 1
+        for end, (depth, width) in ((angle, bottom), (math.pi - angle, top)):
+            height += (depth - math.copysign(35, depth) + 1) * math.exp(-(end / (2 * width)) ** 2)
+        profile.append((36 * math.sin(angle) ** 0.9 * (1 + 0.06 * math.cos(math.pi - angle)), height))
+    profile.append((0, top[0]))
+    vertices, faces = lathe(profile, sides)
+    colours = []
+    for x, y, z in vertices:
+        angle, r = math.atan2(y, x), math.hypot(x, y)
+        sun = 0.5 + 0.5 * math.cos(angle + 1) + 0.18 * math.sin(9 * angle + z / 9) + 0.1 * math.sin(23 * angle)
+        red = min(max(sun + z / 90, 0), 1) * min(r / 14, 1)
+        colours.append(tuple(round(a + (b - a) * red) for a, b in zip((186, 190, 84), (178, 32, 38))))
+    stem, stem_faces = lathe([(1.4, 18), (1.2, 28), (1.9, 40)], 8)
+    faces += [[v + len(vertices) for v in face] for face in stem_faces]
+    vertices = vertices + [(x + 0.004 * (z - 18) ** 2, y, z) for x, y, z in stem]
+    return vertices, faces, colours + [(92, 66, 40)] * len(stem)
+
+
 MESHES = {
     # convex
     "pad": prism([(-2.5, -10), (2.5, -10), (2.5, 10), (-2.5, 10)], [(0, 1, 2), (0, 2, 3)], 20),
@@ -117,6 +143,17 @@ def number(value):
     return f"{value:.6f}".rstrip("0").rstrip(".") if abs(value) >= 5e-7 else "0"
 
 
+def ply(vertices, faces, colours):
+    """A mesh with colours, as text."""
+    head = ["ply", "format ascii 1.0", "comment in millimetres; written by make_meshes.py",
+            f"element vertex {len(vertices)}", *(f"property float {axis}" for axis in "xyz"),
+            *(f"property uchar {colour}" for colour in ("red", "green", "blue")),
+            f"element face {len(faces)}", "property list uchar int vertex_indices", "end_header"]
+    corners = [" ".join([f"{x:.2f}" for x in vertex] + [str(c) for c in colour])
+               for vertex, colour in zip(vertices, colours)]
+    return "\n".join(head + corners + [" ".join(map(str, [len(face), *face])) for face in faces]) + "\n"
+
+
 def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else os.path.dirname(os.path.abspath(__file__))
     for name, (vertices, faces) in MESHES.items():
@@ -126,6 +163,8 @@ def main():
                 file.write("v " + " ".join(map(number, vertex)) + "\n")
             for face in faces:
                 file.write("f " + " ".join(str(v + 1) for v in face) + "\n")
+    with open(os.path.join(folder, "apple.ply"), "w", encoding="ascii") as file:
+        file.write(ply(*apple()))
 
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ class Meshes(unittest.TestCase):
     def test_they_are_what_the_generator_writes(self):
         with tempfile.TemporaryDirectory() as folder:
             subprocess.run([sys.executable, "meshes/make_meshes.py", folder], check=True)
-            shipped = sorted(os.path.basename(name) for name in glob.glob("meshes/*.obj"))
+            shipped = sorted(os.path.basename(name) for name in glob.glob("meshes/*.obj") + glob.glob("meshes/*.ply"))
             self.assertEqual(sorted(os.listdir(folder)), shipped)
             for name in shipped:
                 self.assertTrue(filecmp.cmp(f"{folder}/{name}", f"meshes/{name}", shallow=False), name)
@@ -24,6 +24,13 @@ class Meshes(unittest.TestCase):
             subprocess.run([sys.executable, "textures/make_braille.py", "dihaptic", file], check=True)
             # another zlib may pack the same rows otherwise
             self.assertEqual(rows(file), rows("textures/braille.png"))
+
+    def test_and_so_are_the_pictures_that_bodies_wear(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("wood", "checker"):
+                file = f"{folder}/{name}.png"
+                subprocess.run([sys.executable, "textures/make_looks.py", name, file], check=True)
+                self.assertEqual(rows(file), rows(f"textures/{name}.png"))
 
 
 def rows(file):

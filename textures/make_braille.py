@@ -6,9 +6,9 @@ The picture is 160 x 30 mm with 4 pixels a millimetre. Cells are twice as large 
 that the finger of a device feels them one by one; a dot is a cosine 3 mm wide.
 """
 import math
-import struct
 import sys
-import zlib
+
+from png_file import png
 
 WIDTH, HEIGHT, PER_MM = 640, 120, 4
 CELL, DOT, RADIUS = 12, 5, 1.5  # [mm]
@@ -30,15 +30,6 @@ def rows(word):
                 if r < RADIUS:
                     out[row][column] = round(255 * (1 + math.cos(math.pi * r / RADIUS)) / 2)
     return out
-
-
-def png(rows):
-    def chunk(kind, data):
-        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
-
-    head = struct.pack(">IIBBBBB", len(rows[0]), len(rows), 8, 0, 0, 0, 0)  # grey, 8 bits
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", head) +
-            chunk(b"IDAT", zlib.compress(b"".join(b"\0" + row for row in rows), 9)) + chunk(b"IEND", b""))
 
 
 if __name__ == "__main__":

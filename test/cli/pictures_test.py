@@ -5,6 +5,7 @@ Usage: pictures_test.py PROGRAM, from the project's folder.
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -30,6 +31,27 @@ class Commands(unittest.TestCase):
             recorded = pathlib.Path(file).read_bytes()
             self.assertEqual(dihaptic("picture", "scenes/block-on-table.yaml", "--time", "2.5", *small).returncode, 0)
             self.assertEqual(pathlib.Path(file).read_bytes(), recorded)
+
+    def test_a_session_keeps_what_its_bodies_look_like(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = folder + "/looks.png"
+            small = ["--size", "96x64", "-o", file]
+            for name in ("scenes", "textures", "meshes"):
+                os.mkdir(f"{folder}/{name}")
+            for name in ("scenes/looks.yaml", "textures/wood.png", "textures/checker.png", "meshes/apple.ply"):
+                shutil.copy(name, f"{folder}/{name}")
+            self.assertEqual(dihaptic("picture", folder + "/scenes/looks.yaml", *small).returncode, 0)
+            looks = pathlib.Path(file).read_bytes()
+            self.assertEqual(dihaptic("run", folder + "/scenes/looks.yaml", "--out", folder + "/out").returncode, 0)
+            for name in ("scenes", "textures", "meshes"):
+                shutil.rmtree(f"{folder}/{name}")
+            session = session_of(folder + "/out")
+            result = dihaptic("picture", session, "--time", "0", *small)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(pathlib.Path(file).read_bytes(), looks)
+            self.assertEqual(dihaptic("replay", session).returncode, 0)
+            shutil.copy("textures/braille.png", session + "/picture-1-wood.png")
+            self.assertIn("picture-1-wood.png", dihaptic("replay", session).stderr)
 
     def test_a_path_is_the_fingers_where_there_is_no_object(self):
         with tempfile.TemporaryDirectory() as folder:

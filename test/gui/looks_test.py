@@ -60,6 +60,15 @@ class Looks(Window):
         self.assertLess(differs("Home"), 0.1)
         self.quit()
 
+    def test_draws_pictures_metals_and_meshes_with_colours(self):
+        self.open("scenes/looks.yaml")
+        self.key("F5")
+        time.sleep(3)
+        self.screenshot("materials")
+        red, green, blue = self.pixels(0, 0, 1000, 800, "rgb24").astype(int).transpose(2, 0, 1)
+        self.assertGreater(((red > green + 40) & (green > blue + 20)).sum(), 50_000)  # oak
+        self.assertGreater(((red > 110) & (red > 3 * green)).sum(), 1000)  # the apple's red cheek
+
     def test_shows_the_operator_what_the_subject_sees(self):
         self.open()
         self.key("alt+v", "n", "Down", "Down", "Down", "Return")

@@ -137,12 +137,12 @@ class Window(unittest.TestCase):
                         self.environment["DISPLAY"], "-frames:v", "1", f"{SCREENSHOTS}/{name}.png"], check=True,
                        timeout=patient(60))
 
-    def pixels(self, left, top, width, height):
-        """Grey levels of a part of the display, by row."""
+    def pixels(self, left, top, width, height, of="gray"):
+        """Grey levels of a part of the display, by row; or its red, green and blue, of "rgb24"."""
         raw = subprocess.run(["ffmpeg", "-loglevel", "error", "-f", "x11grab", "-video_size", f"{width}x{height}", "-i",
                               f"{self.environment['DISPLAY']}+{left},{top}", "-frames:v", "1", "-f", "rawvideo", "-pix_fmt",
-                              "gray", "-"], check=True, capture_output=True, timeout=patient(60)).stdout
-        return np.frombuffer(raw, np.uint8).reshape(height, width)
+                              of, "-"], check=True, capture_output=True, timeout=patient(60)).stdout
+        return np.frombuffer(raw, np.uint8).reshape((height, width) if of == "gray" else (height, width, 3))
 
     def recording(self):
         """Folder of the session that runs, or the last one."""
