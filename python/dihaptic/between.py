@@ -15,6 +15,8 @@ from typing import Any
 
 import pandas as pd
 
+from .errors import error
+
 
 @dataclass(frozen=True)
 class Attempt:
@@ -53,8 +55,8 @@ class BetweenTrials:
     for a second, in which no trial begins; a later one, and one that raises, leave the trials as the
     file has them, and the session's notes say so. On the virtual clock the session waits for it.
 
-    The variables are those of the task (`variables:` in the experiment's file), whose formulas use
-    them. What was decided is recorded, so that a replay needs no Python.
+    The variables are those of the task: `variables: [{ name: load }]` in the experiment's file, whose
+    formulas name them, as in `body: { body: block, weight_scale: load }` of a perturbation. What was decided is recorded, so that a replay needs no Python.
 
     >>> import dihaptic as dh
     >>> class Heavier(dh.BetweenTrials):
@@ -87,6 +89,8 @@ class BetweenTrials:
     @property
     def session(self) -> Path:
         """Folder of the running session."""
+        if "_session" not in self.__dict__:
+            raise error("no session has begun", "Give the rules to run().")
         return Path(self.__dict__["_session"])
 
     @property
@@ -138,19 +142,31 @@ class BetweenTrials:
                         lines.flush()
 
 
+def _check(rules: BetweenTrials) -> None:
+    if not isinstance(rules, BetweenTrials):
+        raise error(f"{rules!r} decides nothing", "Give an object of a class that derives from BetweenTrials.")
+    texts = rules.messages
+    if not isinstance(texts, (list, tuple)) or len(texts) > 64 or not all(isinstance(text, str) for text in texts):
+        raise error("are not a list of at most 64 texts", "List each text that decide() may show.", key="messages")
+
+
 @contextlib.contextmanager
 def listening(rules: BetweenTrials | None) -> Iterator[list[str]]:
     """The options of `dihaptic run` by which rules are asked, while they are."""
     if rules is None:
         yield []
         return
+    _check(rules)
     with tempfile.TemporaryDirectory(prefix="dihaptic-") as folder, socket.socket(socket.AF_UNIX) as server:
         path = f"{folder}/between"
-        server.bind(path)
+        try:
+            server.bind(path)
+        except OSError:
+            raise error("is too long a path for a socket", "Set TMPDIR to a shorter one.", file=folder) from None
         server.listen(1)
         thread = threading.Thread(target=rules._serve, args=(server,), daemon=True)
         thread.start()
         yield ["--between", path]
         with contextlib.suppress(OSError):
             server.shutdown(socket.SHUT_RDWR)  # a session that never began has not connected
-        thread.join()
+        thread.join(timeout=1)  # decide() may never return

@@ -48,6 +48,8 @@ def plot(
     """
     if not names:
         raise error("no quantity is named", 'Name one, e.g. session.plot("grip_force").')
+    if by is not None and align is None:
+        raise error("groups what is aligned", 'Add align="lift_off", or another moment.', key="by")
     if axes is None:
         import matplotlib.pyplot as plt
 
@@ -99,7 +101,7 @@ def _moments(session: Session, align: str, by: str | None) -> list[tuple[str, fl
             f"Those are {', '.join(_LIFT_MOMENTS)}; start_time and stop_time of trials.",
         )
     if by is not None and by not in table:
-        raise NotThere(by, "is no column of the trials", list(table.columns), "")
+        raise NotThere(by, "is no column of the trials", list(table.columns), "Session.trials has them.")
     groups = table[by].fillna("none").astype(str) if by is not None else pd.Series("", index=table.index)
     found = [(g, float(t)) for g, t in zip(groups, table[column]) if np.isfinite(t)]
     if not found:

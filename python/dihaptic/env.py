@@ -111,15 +111,18 @@ class Grasps:
         self._zero = np.zeros(n)  # of the object's height or angle, at the start
         self._held = np.zeros(n)
         self._passed = np.zeros(n)
+        self._began = np.zeros(n, dtype=bool)
 
-    def reset(self, which: Sequence[int] | None = None, *, seed: int | None = None) -> tuple[Array, Info]:
-        """Begins all episodes anew, or those of `which` worlds; each gets a goal of its own."""
+    def reset(self, which: Sequence[int] | npt.NDArray[Any] | None = None, *, seed: int | None = None) -> tuple[Array, Info]:
+        """Begins all episodes anew, or those of `which` worlds (their numbers, or an array such as
+        `terminated | truncated`); each gets a goal of its own."""
         if seed is not None:
             self._random = np.random.default_rng(seed)
-        chosen = np.arange(len(self.worlds)) if which is None else np.asarray(which, dtype=int)
+        chosen = self._chosen(which if self._began.all() else None)
         for i in chosen:
             self.worlds[i].reset()
             self.worlds[i].step()
+        self._began[:] = True
         self._goal[chosen] = self._random.uniform(*self._goals, size=len(chosen))
         self._held[chosen] = 0
         self._passed[chosen] = 0
@@ -131,9 +134,25 @@ class Grasps:
         self._zero[chosen] = self._value(seen)[chosen]
         return self._with_goal(seen), self._info(seen)
 
+    def _chosen(self, which: Sequence[int] | npt.NDArray[Any] | None) -> npt.NDArray[np.int_]:
+        n = len(self.worlds)
+        given = np.arange(n) if which is None else np.atleast_1d(np.asarray(which))
+        if given.dtype == bool and given.shape == (n,):
+            given = np.flatnonzero(given)
+        if len(given) == 0:
+            return np.array([], dtype=int)
+        if given.ndim != 1 or given.dtype.kind not in "iu" or given.min() < 0 or given.max() >= n:
+            raise error(f"is {which}", f"Give numbers from 0 to {n - 1}, or {n} times True or False.", key="which")
+        out: npt.NDArray[np.int_] = np.unique(given)
+        return out
+
     def step(self, actions: npt.ArrayLike) -> tuple[Array, Array, npt.NDArray[np.bool_], npt.NDArray[np.bool_], Info]:
         """What is seen, the rewards, which episodes are terminated, which truncated, and info."""
+        if not self._began.all():
+            raise error("an episode has not begun", "Call reset() first.")
         given = np.asarray(actions, dtype=float).reshape(len(self.worlds), self._fingers, 3)
+        if not np.isfinite(given).all():
+            raise error("an action has a component that is no number", "Give numbers from -1 to 1.")
         velocity = _FASTEST * np.clip(given, -1, 1)
         self._targets[:, :, :3] += velocity * self.step_time
         self._targets[:, :, 3:] = velocity

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 
 @dataclass(frozen=True)
@@ -43,6 +44,16 @@ class Error(ValueError):
     def __init__(self, problems: list[Problem]) -> None:
         super().__init__("\n".join(problem.text() for problem in problems))
         self.problems = problems
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _again, (type(self), self.problems)
+
+
+def _again(kind: type[Error], problems: list[Problem]) -> Error:
+    """An error that another process has raised."""
+    again = kind.__new__(kind)
+    Error.__init__(again, problems)
+    return again
 
 
 def error(what: str, remedy: str, *, file: str = "", line: int = 0, key: str = "") -> Error:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import copy
 import keyword
 import os
 import re
@@ -86,6 +87,9 @@ class Part:
     def __dir__(self) -> list[str]:
         return [*object.__dir__(self), *self._keys, *self.known()]
 
+    def __copy__(self: P) -> P:
+        return copy.deepcopy(self)  # one that shared its lists would be no copy
+
     def __repr__(self) -> str:
         names = {key: key.isidentifier() and not keyword.iskeyword(key) for key in self._keys}
         items = [f"{key}={self._keys[key]!r}" for key, is_name in names.items() if is_name]
@@ -140,6 +144,8 @@ class File(Part):
 
     _folder: Path
     _name: str
+    #: A key that tells what kind of file it is.
+    _must_have = ""
 
     def __init__(self, **keys: Any) -> None:
         super().__init__(**keys)
@@ -157,6 +163,9 @@ class File(Part):
         raw = _native.read_yaml(str(file))
         if not isinstance(raw, dict):
             raise error("has no keys", "Name a scene, a rig or an experiment.", file=str(file))
+        if cls._must_have not in raw:
+            what = cls.__name__.lower()
+            raise error(f"is no {what}: it has no {cls._must_have}", f"Name a {what}.", file=str(file))
         out = cls._of(raw)
         object.__setattr__(out, "_folder", Path(file).resolve().parent)
         object.__setattr__(out, "_name", Path(file).name)
@@ -175,12 +184,22 @@ class File(Part):
         []
         """
         path = Path(file)
-        names = {key: f"{path.stem}.{key}.yaml" for key in self._parts()}
-        for key, part in self._parts().items():
-            part.save(path.with_name(names[key]))
-        raw = _moved(self._to_raw(), self._folder, path.resolve().parent)
-        path.write_text(_native.write_yaml({**raw, **names}), encoding="utf-8")
+        # all is there before any file is touched, and each takes the place of an older one whole
+        written = self._written(path)
+        for name, text in written.items():
+            name.with_name(f".{name.name}.new").write_text(text, encoding="utf-8")
+        for name in written:
+            os.replace(name.with_name(f".{name.name}.new"), name)
         return path
+
+    def _written(self, path: Path) -> dict[Path, str]:
+        """The texts of the file and of those of its parts."""
+        names = {key: f"{path.stem}.{key}.yaml" for key in self._parts()}
+        raw = _moved(self._to_raw(), self._folder, path.resolve().parent)
+        out = {path: _native.write_yaml({**raw, **names})}
+        for key, part in self._parts().items():
+            out |= part._written(path.with_name(names[key]))
+        return out
 
     def check(self) -> list[Problem]:
         """What is wrong with it, as `dihaptic check` says it; instead of a line, the object's path.
@@ -259,6 +278,8 @@ class Scene(File):
     >>> world = dh.World(scene)
     """
 
+    _must_have = "bodies"
+
 
 class Rig(File):
     """A rig: its devices, where they stand, its display (docs/files.md).
@@ -267,6 +288,8 @@ class Rig(File):
     >>> dh.Rig.load("rigs/ideal-pair.yaml").check()
     []
     """
+
+    _must_have = "devices"
 
 
 class Experiment(File):
@@ -282,6 +305,8 @@ class Experiment(File):
     >>> len(session.trials)
     5
     """
+
+    _must_have = "scene"
 
 
 Input = Union[str, Path, File]

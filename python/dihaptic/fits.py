@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native
+from .errors import error
 
 Numbers = Union[Sequence[float], npt.NDArray[Any]]
 Interval = tuple[float, float]
@@ -178,21 +179,44 @@ def fit_psychometric(
     3.0
     """
     if answers is not None:
-        counts = _native.count_answers(_floats(levels), [bool(answer) for answer in answers])
+        counts = _native.count_answers(_floats(levels), _truths(answers, "answers"))
+    elif yes is None or trials is None:
+        raise error("there are no answers", "Give answers, or yes and trials.")
+    elif not len(levels) == len(yes) == len(trials):
+        raise error("levels, yes and trials have different lengths", "Give one of each a level.")
     else:
-        counts = [
-            (float(level), int(y), int(n)) for level, y, n in zip(levels, yes or [], trials or [], strict=True)
-        ]
+        counts = list(zip(_floats(levels), _wholes(yes, "yes"), _wholes(trials, "trials")))
     return PsychometricFit(**_native.fit_psychometric(counts, sigmoid, guess, max_lapse, shape))
 
 
 def _floats(values: Numbers) -> list[float]:
-    return [float(value) for value in values]
+    out = [float(value) for value in values]
+    if any(np.isinf(value) for value in out):
+        raise error("a value is infinite", "Give NaN where nothing was measured.")
+    return out
+
+
+def _wholes(values: Sequence[int] | npt.NDArray[Any], key: str) -> list[int]:
+    if any(value != int(value) for value in values):
+        raise error("has a number that is not whole", "Give counts.", key=key)
+    return [int(value) for value in values]
+
+
+_WORDS = {"yes": True, "1": True, "True": True, "no": False, "0": False, "False": False}
+
+
+def _truths(values: Sequence[Any] | npt.NDArray[Any], key: str) -> list[bool]:
+    """Of bools, of 0 and 1, and of yes and no, as tables have them."""
+    words = [str(value.item() if isinstance(value, np.generic) else value).removesuffix(".0") for value in values]
+    for word in words:
+        if word not in _WORDS:
+            raise error(f"has '{word}'", "Give True or False, 1 or 0, yes or no.", key=key)
+    return [_WORDS[word] for word in words]
 
 
 def _trials(
     compensation: Numbers, perturbation: Numbers, clamp: Sequence[bool] | npt.NDArray[Any] | None
 ) -> tuple[list[float], list[float], list[bool]]:
     perturbed = _floats(perturbation)
-    clamped = [False] * len(perturbed) if clamp is None else [bool(c) for c in clamp]
+    clamped = [False] * len(perturbed) if clamp is None else _truths(clamp, "clamp")
     return _floats(compensation), perturbed, clamped

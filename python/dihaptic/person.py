@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _native, vocabulary
-from .errors import NotThere
+from .errors import NotThere, error
 
 if TYPE_CHECKING:
     from .session import Session
@@ -83,15 +83,12 @@ class Seen:
         return force
 
     def __getitem__(self, name: str) -> Any:
-        value = self._sitting.read("", 0, name) if vocabulary.find(name) else None
-        item, _, term = name.rpartition(".")
-        lists = {"fingers": self._fingers, "turns": self._fingers, "bodies": self._bodies, "joints": self._joints}
-        for of_list, items in lists.items():
-            if item in items and vocabulary.find(term, of_list):
-                value = self._sitting.read(of_list, items.index(item), term)
-        if value is None:
+        lists = [("fingers", self._fingers), ("turns", self._fingers), ("bodies", self._bodies), ("joints", self._joints)]
+        place = vocabulary.place_of(name, lists)
+        if place is None:
             raise NotThere(name, "is not there", [], "dihaptic.quantities() lists what there is.")
-        return value
+        value = self._sitting.read(place.of, place.item, place.quantity.name)
+        return value if place.component is None else value[place.component]
 
 
 class Person:
@@ -130,19 +127,29 @@ class Person:
 
         The hand's muscles pull the handle there (the experiment's `hand.impedance`).
         """
-        fingers = self.__dict__["_fingers"]
+        sitting, fingers = self._seat()
         if finger not in fingers:
             raise NotThere(finger, "is no finger of the scene", fingers, "")
-        self.__dict__["_sitting"].lead(fingers.index(finger), position, velocity)
+        sitting.lead(fingers.index(finger), position, velocity)
 
     def press(self, key: str) -> None:
         """Presses a key of the keyboard."""
-        self.__dict__["_sitting"].press(key)
+        self._seat()[0].press(key)
+
+    def _seat(self) -> tuple[_native.Sitting, list[str]]:
+        if "_sitting" not in self.__dict__:
+            raise error("nobody sits at an experiment", "Give the person to run(); act within act().")
+        return self.__dict__["_sitting"], self.__dict__["_fingers"]
 
     def _do(self, sitting: _native.Sitting, out: str | Path) -> Session:
         from .session import Session
 
+        if not 1e-4 <= self.every <= 1:
+            raise error(f"is {self.every}", "Give the time between two looks, 0.0001 to 1 s.", key="every")
         self.__dict__.update(_sitting=sitting, _fingers=sitting.fingers())
         seen = Seen(sitting)
-        folder = sitting.run(lambda: self.act(seen), self.every, type(self).__name__, str(out))
+        try:
+            folder = sitting.run(lambda: self.act(seen), self.every, type(self).__name__, str(out))
+        finally:
+            del self.__dict__["_sitting"]
         return Session(folder)

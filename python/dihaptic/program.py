@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import threading
@@ -53,6 +54,8 @@ def shipped(name: str) -> Path:
     >>> dh.shipped("scenes/block-on-table.yaml").is_file()
     True
     """
+    if Path(name).is_absolute() or ".." in Path(name).parts:
+        raise error("is a path of yours", "Name a file such as scenes/block-on-table.yaml.", file=name)
     source = Path(__file__).resolve().parents[2]
     for folder in (source, Path("/usr/share/dihaptic")):
         if (folder / name).is_file():
@@ -80,15 +83,19 @@ def run(
     trials. `person`: a simulated one of your own does them, in this process. With real devices, what
     the command prints and asks is printed and asked here, and Escape and Ctrl-C switch force off. A
     session that was interrupted, or whose force went off, is returned too, with a warning that says
-    why. Raises Error for whatever is wrong with the files.
+    why. Ctrl-C ends the session in order, and is raised again once its files are made. Raises Error
+    for whatever is wrong with the files.
 
     >>> import dihaptic as dh
     >>> session = dh.run("experiments/lift-block.yaml", out=folder, progress=False)
     >>> session.lifts.lift.item()
     'complete'
     """
-    given = [f"{key}={value}" for key, value in (settings or {}).items()]
+    given = [f"{key}={_setting(value)}" for key, value in (settings or {}).items()]
+    out = out or "sessions"
     if person is not None:
+        if not isinstance(person, Person):
+            raise error(f"{person!r} is nobody", "Give an object of a class that derives from Person.")
         if between is not None or movement:
             raise error("a person of one's own does the trials alone", "Leave out between and movement.")
         with on_disk(file) as path, on_disk(rig) as rig_path:
@@ -123,11 +130,16 @@ def resume(session: Session | str | Path, *, progress: bool = True) -> Session:
 def replay(session: Session | str | Path, *, progress: bool = True) -> bool:
     """Whether a session's forces, computed again from what its devices said, are the same to the bit.
 
+    If they are not, or the session is of another version or damaged, a warning says what differs.
+
     >>> import dihaptic as dh
     >>> dh.replay(lift_session, progress=False)
     True
     """
-    return _call(["replay", _folder(session)], progress).code == 0
+    answer = _call(["replay", _folder(session)], progress)
+    if answer.code != 0:
+        warnings.warn("\n".join([*answer.said, *answer.output]), stacklevel=2)
+    return answer.code == 0
 
 
 def recover(session: Session | str | Path, *, progress: bool = True) -> Session:
@@ -154,7 +166,7 @@ def report(session: Session | str | Path, *, progress: bool = True) -> Path:
     return Path(folder) / "report.html"
 
 
-def check(*files: Input, rig: str | Path = "") -> list[Problem]:
+def check(*files: Input, rig: Input = "") -> list[Problem]:
     """What `dihaptic check` finds in files or objects: errors and warnings; none: all is in order.
 
     >>> import dihaptic as dh
@@ -166,8 +178,8 @@ def check(*files: Input, rig: str | Path = "") -> list[Problem]:
         if isinstance(given, File) and not rig:
             found += given.check()
             continue
-        with on_disk(given) as file:
-            found += [Problem(*row[:6]) for row in _native.check_file(str(file), str(rig))]
+        with on_disk(given) as file, on_disk(rig) as rig_file:
+            found += [Problem(*row[:6]) for row in _native.check_file(str(file), str(rig_file) if rig else "")]
     return found
 
 
@@ -240,6 +252,10 @@ class Rehearsal:
         return self.table("people")
 
 
+def _setting(value: Any) -> Any:
+    return "yes" if value is True else "no" if value is False else value
+
+
 class _Answer:
     """What a command printed, and how it ended."""
 
@@ -259,19 +275,33 @@ def _call(command: Sequence[str], progress: bool, echo: bool = False) -> _Answer
         said: list[str] = []
         watcher = threading.Thread(target=_watch, args=(process.stderr, said, progress))
         watcher.start()
-        text = ""
-        while some := process.stdout.read(1 if echo else -1):
-            text += some
-            if echo:
-                sys.stdout.write(some)
-                sys.stdout.flush()
-        output = text.splitlines()
-        watcher.join()
+        try:
+            output = _read(process.stdout, echo)
+        except KeyboardInterrupt:
+            # it ends in order, with its files made, and force off
+            process.send_signal(signal.SIGINT)
+            process.stdout.read()
+            raise
+        finally:
+            watcher.join()
     if process.returncode == _BAD_INPUT:
         raise Error(_problems(said + output) or [Problem("error", "", 0, "", "\n".join(said), "")])
     if process.returncode < 0:
-        raise error(f"dihaptic {command[0]} was ended by signal {-process.returncode}", "")
+        raise error(
+            f"dihaptic {command[0]} was ended by signal {-process.returncode}",
+            "What it had recorded stays in its folder: recover() makes a session of it.",
+        )
     return _Answer(process.returncode, output, said)
+
+
+def _read(stream: IO[str], echo: bool) -> list[str]:
+    text = ""
+    while some := stream.read(1 if echo else -1):
+        text += some
+        if echo:
+            sys.stdout.write(some)
+            sys.stdout.flush()
+    return text.splitlines()
 
 
 def _watch(stream: IO[str], said: list[str], progress: bool) -> None:

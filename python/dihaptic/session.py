@@ -13,7 +13,7 @@ import numpy.typing as npt
 import pandas as pd
 
 from . import _native, vocabulary
-from .errors import NotThere, error
+from .errors import Error, NotThere, error
 from .tables import read_table
 
 if TYPE_CHECKING:
@@ -25,8 +25,8 @@ Array = npt.NDArray[Any]
 def load(folder: str | Path) -> Session:
     """Opens a session by its folder, or by a file in it. Nothing is read before it is asked for.
 
-    Raises Error when it is no session, or when its session.nwb has not been made, because the
-    session still runs or was killed.
+    Raises Error when it is no session. One that still runs, or was killed, has no session.nwb yet:
+    to ask it for a quantity raises Error, too.
 
     >>> import dihaptic as dh
     >>> session = dh.load(lift_session)
@@ -63,6 +63,9 @@ class Session:
                 file=str(folder),
             )
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Session, (self.folder,)
+
     def __repr__(self) -> str:
         return f"<Session {self.folder.name}: {self.info.get('title', '')}, {self.info.get('state', '')}>"
 
@@ -76,7 +79,7 @@ class Session:
         >>> dh.load(lift_session).info["state"]
         'complete'
         """
-        info: dict[str, Any] = _native.read_yaml(str(self.folder / "session.yaml"))
+        info: dict[str, Any] = _native.read_yaml(str(self.folder / "session.yaml")) or {}
         return info
 
     @cached_property
@@ -168,8 +171,11 @@ class Session:
         if name in vocabulary.lists():
             return self._list(name)
         series, component = self._find(name)
-        data = self._series(series)["data"]
-        values: Array = data[...] if component is None else data[:, component]
+        try:
+            data = self._series(series)["data"]
+            values: Array = data[...] if component is None else data[:, component]
+        except (OSError, KeyError, RuntimeError) as why:
+            raise _damaged(self.folder, why) from None
         return values
 
     def exact(self, name: str) -> Array:
@@ -181,10 +187,16 @@ class Session:
         >>> bool((session.exact("grip_force").astype("f4") == session["grip_force"]).all())
         True
         """
-        of_list, item, term, index = self._place_of(name)
-        values = _native.log_values(str(self.folder / "raw.log"), of_list, item, term)
+        place = self._place_of(name)
+        values = _native.log_values(str(self.folder / "raw.log"), place.of, place.item, place.quantity.name)
         out = np.array(values)
-        return out if index is None else out[:, index]
+        if len(out) != len(self.t):
+            raise error(
+                f"raw.log has {len(out)} ticks, session.nwb {len(self.t)}",
+                "Make session.nwb anew: dihaptic.recover().",
+                file=str(self.folder),
+            )
+        return out if place.component is None else out[:, place.component]
 
     def __contains__(self, name: object) -> bool:
         if not isinstance(name, str):
@@ -241,10 +253,7 @@ class Session:
         'N'
         """
         self._find(name)
-        list_name, _, term, _ = self._place_of(name)
-        q = vocabulary.find(term, list_name)
-        assert q is not None
-        return q.unit
+        return self._place_of(name).quantity.unit
 
     def between(self, begin: float, end: float) -> slice:
         """The ticks from `begin` to before `end` [s], to cut an array of the session's by.
@@ -279,10 +288,13 @@ class Session:
         if not file.is_file():
             raise error(
                 "has no session.nwb: the session still runs, or was killed",
-                f"If it does not run, make its files: dihaptic recover {self.folder}.",
+                "If it does not run, make its files: dihaptic.recover(), or dihaptic recover.",
                 file=str(self.folder),
             )
-        return h5py.File(file, "r")
+        try:
+            return h5py.File(file, "r")
+        except OSError as why:
+            raise _damaged(self.folder, why) from None
 
     def _items(self) -> list[tuple[str, list[str]]]:
         return [
@@ -305,28 +317,22 @@ class Session:
         # no tick is missing
         return np.arange(len(series["data"])) * self.tick
 
-    def _place_of(self, name: str) -> tuple[str, int, str, int | None]:
-        """Of a name: the list ("": a tick has it once), the item, the quantity's own name, and the
-        component that the name ends with, if any."""
-        if vocabulary.find(name):
-            return "", 0, name, None
-        for list_name, items in self._items():
-            for i, item in enumerate(items):
-                term, _, component = name.removeprefix(item + ".").partition(".")
-                q = vocabulary.find(term, list_name)
-                if not name.startswith(item + ".") or q is None:
-                    continue
-                if not component or component in q.components:
-                    return list_name, i, term, q.components.index(component) if component else None
-        raise NotThere(name, "is not recorded", self.keys(), "Session.quantities lists them.")
+    def _place_of(self, name: str) -> vocabulary.Place:
+        if name in vocabulary.lists():
+            raise error("is a list, not a quantity", f'Its columns are session["{name}"].', key=name)
+        place = vocabulary.place_of(name, self._items())
+        if place is None:
+            raise NotThere(name, "is not recorded", self.keys(), "Session.quantities lists them.")
+        return place
 
     def _find(self, name: str) -> tuple[str, int | None]:
         """The series of a name, and the column of its component, if it names one."""
-        list_name, item, term, index = self._place_of(name)
-        series = f"{dict(self._items())[list_name][item]}_{term}" if list_name else term
+        place = self._place_of(name)
+        term = place.quantity.name
+        series = f"{dict(self._items())[place.of][place.item]}_{term}" if place.of else term
         if not self._has(series):
             raise NotThere(name, "is not recorded", self.keys(), "Session.quantities lists them.")
-        return series, index
+        return series, place.component
 
     def _list(self, name: str) -> pd.DataFrame:
         columns = [c for q in vocabulary.of_list(name) for c in q.columns()]
@@ -338,6 +344,14 @@ class Session:
         table = pd.DataFrame(rows, columns=columns[: rows.shape[1]])
         table.insert(0, "time", self._times(series))
         return table
+
+
+def _damaged(folder: Path, why: Exception) -> Error:
+    return error(
+        f"session.nwb is damaged: {why}",
+        "Make it anew from raw.log: dihaptic.recover(), or dihaptic recover.",
+        file=str(folder),
+    )
 
 
 def _group_of(list_name: str) -> str:

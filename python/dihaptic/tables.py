@@ -9,6 +9,8 @@ import pandas as pd
 from . import _native
 from .errors import error
 
+#: Columns of names, which may look like numbers.
+_TEXTS = {"ppid": str, "id": str, "group": str}
 #: Columns that stand for yes and no.
 _YES = {"yes": True, "no": False}
 
@@ -17,8 +19,8 @@ def read_table(file: str | Path) -> pd.DataFrame:
     """Reads a table of the program's (docs/tables.md), or any CSV file of one's own.
 
     `attrs["units"]` has the unit of each column whose name ends in one, and `attrs["meanings"]` a
-    few words on each column of a table that docs/tables.md lists. An empty cell is NaN, or None in
-    a column of texts. Raises Error when the file cannot be read.
+    few words on each column of trials, phases, events, episodes and lifts. An empty cell is NaN.
+    Raises Error when the file cannot be read.
 
     >>> import dihaptic as dh
     >>> lifts = dh.read_table(f"{lift_session}/lifts.csv")
@@ -29,7 +31,7 @@ def read_table(file: str | Path) -> pd.DataFrame:
     """
     path = Path(file)
     try:
-        table = pd.read_csv(path, keep_default_na=False, na_values=[""], dtype={"ppid": str})
+        table = pd.read_csv(path, keep_default_na=False, na_values=[""], dtype=_TEXTS)
     except (OSError, pd.errors.EmptyDataError, pd.errors.ParserError, UnicodeDecodeError) as why:
         raise error(f"cannot be read as a table: {why}", "Name a CSV file.", file=str(path)) from None
     if "simulated" in table:

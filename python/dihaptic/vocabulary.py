@@ -61,6 +61,35 @@ def find(name: str, list_name: str = "") -> Quantity | None:
     return _BY_LIST.get(list_name, {}).get(name)
 
 
+@dataclass(frozen=True)
+class Place:
+    """Where a quantity is: in which list, of which item, and which of its components."""
+
+    of: str  #: the list; "": a tick has it once
+    item: int
+    quantity: Quantity
+    component: int | None  #: None: all of them
+
+
+def place_of(name: str, items: list[tuple[str, list[str]]]) -> Place | None:
+    """The place of a name such as "grip_force", "thumb.force_sent" or "block.position.z", given the
+    names of the items of each list; None if nothing is called so."""
+    once = find(name)
+    if once is not None:
+        return Place("", 0, once, None)
+    for list_name, names in items:
+        for i, item in enumerate(names):
+            term, _, component = name.removeprefix(item + ".").partition(".")
+            q = find(term, list_name)
+            if not name.startswith(item + ".") or q is None:
+                continue
+            if not component:
+                return Place(list_name, i, q, None)
+            if len(component) == 1 and component in q.components:
+                return Place(list_name, i, q, q.components.index(component))
+    return None
+
+
 def lists() -> list[str]:
     """Names of all lists that have a series as a whole: contacts, targets, loads, ..."""
     return [name for name in _BY_LIST if name and name not in NAMED_LISTS]

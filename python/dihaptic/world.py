@@ -73,8 +73,9 @@ class World:
 
         What a director orders (leads, pushes, places, scales) acts in the same tick; a finger's lead
         in the next, since the devices have been read by then. What it reads is of the tick before,
-        so there must have been one. Its exceptions end the step. Raises Error once the world has
-        stopped, for instance because the force grew beyond what is safe.
+        so there must have been one. Its exceptions end the step. Raises Error once force is off,
+        because something was not safe: a finger, for instance, was led farther at once than a hand
+        can go. Lead it in steps, with their velocity.
 
         >>> import dihaptic as dh
         >>> world = dh.World("scenes/block-on-table.yaml")
@@ -108,17 +109,15 @@ class World:
         if name in vocabulary.lists():
             columns = [c for q in vocabulary.of_list(name) for c in q.columns()]
             return pd.DataFrame(self._world.rows(name), columns=columns)
-        value = None
-        if vocabulary.find(name):
-            value = self._world.read("", 0, name)
-        item, _, term = name.rpartition(".")
-        for of_list, items in self._items():
-            if item in items and vocabulary.find(term, of_list):
-                value = self._world.read(of_list, items.index(item), term)
-        if value is None:
+        place = vocabulary.place_of(name, self._items())
+        if place is None:
             known = [q.name for q in vocabulary.of_list("")]
             raise NotThere(name, "is not there", known, "dihaptic.quantities() lists what there is.")
-        return value
+        value = self._world.read(place.of, place.item, place.quantity.name)
+        return value if place.component is None else value[place.component]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        raise TypeError("a World cannot be copied: make another, or reset() it")
 
     def _items(self) -> list[tuple[str, list[str]]]:
         fingers = [finger.name for finger in self.fingers]
@@ -258,8 +257,9 @@ class Body:
         friction: float = 1.0,
     ) -> None:
         """Scales its inertia (by one factor, or one for each of the world's axes), weight, moments of
-        inertia and friction from now on; without arguments, they are the scene's again."""
-        axes = (mass, mass, mass) if isinstance(mass, (int, float)) else mass
+        inertia and friction from now on; without arguments, they are the scene's again. A body of
+        twice the density has mass=2, weight=2, turning=2."""
+        axes = np.broadcast_to(np.asarray(mass, dtype=float), 3)
         self._world._world.scale(self._index, axes, weight, turning, friction)
 
 

@@ -43,8 +43,19 @@ std::vector<model::AdaptationTrial> trials(const std::vector<double>& perturbati
     if (perturbation.size() != clamp.size())
         throw Error("perturbation and clamp have different lengths", "Give one of each a trial.");
     std::vector<model::AdaptationTrial> out;
-    for (size_t i = 0; i < perturbation.size(); ++i)
+    for (size_t i = 0; i < perturbation.size(); ++i) {
+        if (!clamp[i] && !std::isfinite(perturbation[i])) {
+            throw Error({}, "perturbation", "is no number in a trial that is no clamp",
+                        "Give what the trial showed, 0 for none.");
+        }
         out.push_back({clamp[i] ? 0 : perturbation[i], clamp[i]});
+    }
+    const bool any = std::any_of(out.begin(), out.end(),
+                                 [](const auto& trial) { return trial.perturbation != 0; });
+    if (!any) {
+        throw Error({}, "perturbation", "is 0 in all trials: nothing was to be learned",
+                    "Give what the trials showed.");
+    }
     return out;
 }
 

@@ -1,7 +1,9 @@
 #include "analysis/lifts.h"
 
-#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
 
 #include "base/diagnostics.h"
 #include "base/figure.h"
@@ -61,6 +63,15 @@ py::dict find_lift(const Array& grip, const Array& load, const Array& height, do
         throw Error("there is no sample, or no digit", "Give a row a sample and a column a digit.");
     if (friction.size() != static_cast<size_t>(grip.shape(1)))
         throw Error({}, "friction", "has another length than there are digits", "One for each.");
+    for (const double coefficient : friction) {
+        if (!(coefficient > 0 && coefficient <= 100))
+            throw Error({}, "friction", "is not above 0", "Give the coefficient of each digit.");
+    }
+    for (const Array* values : {&grip, &load, &height}) {
+        if (!std::all_of(values->data(), values->data() + values->size(),
+                         [](double x) { return std::isfinite(x); }))
+            throw Error("a force or a height is no number", "Cut the trial to what was measured.");
+    }
     if (!(tick > 0 && tick <= 0.02))
         throw Error({}, "tick", "is not between 0 and 20 ms",
                     "Give the time between samples in s.");

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <exception>
 #include <thread>
+#include <utility>
 
 #include "frame_values.h"
 #include "haptics/safety.h"
@@ -46,11 +47,12 @@ void check(const char* what, const Vec3& value) {
         throw Error({}, what, "has a component that is no number", "Give three finite numbers.");
 }
 
-/// Of a body's inertia, weight and friction: a world with less than none of them has no solution.
-void check_factor(const char* what, double value, bool zero) {
-    if (std::isfinite(value) && (value > 0 || (zero && value == 0))) return;
+/// Of a body's inertia, weight and friction: beyond these bounds nothing is like what was meant.
+void check_factor(const char* what, double value, double least) {
+    constexpr double kMost = 1000;
+    if (value >= least && value <= kMost) return;
     throw Error({}, what, fmt::format("is {}", value),
-                zero ? "Give a factor of at least 0." : "Give a factor above 0.");
+                fmt::format("Give a factor from {} to {}.", least, kMost));
 }
 
 session::Plan plan_of(const std::string& file, const std::string& rig,
@@ -80,8 +82,28 @@ class World {
         begin();
     }
 
+    /// One who steps the world, or begins it anew, at a time.
+    class Use {
+      public:
+        explicit Use(World& world) : world_(&world) {
+            if (world.used_.exchange(true)) {
+                throw Error("the world is being stepped",
+                            "Wait until its step has returned; step_all() takes each world once.");
+            }
+        }
+        ~Use() {
+            if (world_ != nullptr) world_->used_ = false;
+        }
+        Use(Use&& other) noexcept : world_(std::exchange(other.world_, nullptr)) {}
+        Use& operator=(Use&&) = delete;
+
+      private:
+        World* world_;
+    };
+
     /// Begins anew, at time 0, with the hand and the orders of the beginning.
     void begin() {
+        const Use use(*this);
         hand_ = std::make_shared<LedHand>(own_, plan_.scene.fingers.size());
         plan_.driver = hand_;
         servo_ = session::make_servo(plan_, session::open_devices(plan_));
@@ -99,22 +121,26 @@ class World {
 
     /// Does so many ticks; with a function, calls it in each, before the world moves.
     void step(int64_t ticks, const py::object& director) {
+        if (ticks < 0) throw Error({}, "ticks", "are fewer than none", "Give a number of ticks.");
+        const Use use(*this);
         thrown_ = nullptr;
         if (director.is_none()) {
-            const py::gil_scoped_release others_may_run;
-            for (int64_t i = 0; i < ticks && !over(); ++i) tick({});
+            run_alone(ticks);
         } else {
             const auto call = [&] { director(); };
             for (int64_t i = 0; i < ticks && !over() && !thrown_; ++i) tick(call);
         }
-        if (thrown_) std::rethrow_exception(thrown_);
+        if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
         if (over()) throw Error(why_over(), "Begin anew: World.reset().");
     }
     /// One step without Python, of a thread of step_all().
     void run(int64_t ticks) noexcept {
         for (int64_t i = 0; i < ticks && !over(); ++i) tick({});
     }
-    bool over() const { return servo_->stopped(); }
+    /// While it is alone, nobody may look at it or order it.
+    void set_alone(bool alone) { alone_ = alone; }
+    /// Whether it has stopped, or has switched force off for good.
+    bool over() const { return servo_->stopped() || servo_->fault(); }
 
     py::object read(const std::string& list, size_t item, const std::string& name) const {
         return FrameValue(list, item, name).of(frame());
@@ -125,6 +151,7 @@ class World {
 
     void lead(size_t finger, const Vec3& position, const Vec3& velocity,
               const std::optional<Eigen::Vector4d>& orientation) {
+        may_be_ordered();
         check("position", position);
         check("velocity", velocity);
         hand::FingerTarget target;
@@ -133,9 +160,13 @@ class World {
         if (orientation) target.R_WT = quaternion(*orientation);
         hand_->lead(finger, target);
     }
-    void let_go(size_t finger) { hand_->let_go(finger); }
+    void let_go(size_t finger) {
+        may_be_ordered();
+        hand_->let_go(finger);
+    }
     void place(int32_t body, const Vec3& position, const Eigen::Vector4d& orientation,
                const Vec3& velocity, const Vec3& angular_velocity) {
+        may_be_ordered();
         check("position", position);
         check("velocity", velocity);
         check("angular_velocity", angular_velocity);
@@ -144,18 +175,23 @@ class World {
             {body, {quaternion(orientation), position}, velocity, angular_velocity});
     }
     void push(int32_t body, const Vec3& force, const Vec3& torque) {
+        may_be_ordered();
         check("force", force);
         check("torque", torque);
+        constexpr double kMost = 1e4;
+        if (force.norm() > kMost || torque.norm() > kMost)
+            throw Error("the push is too hard", "Give at most 10 000 N, or N*m.");
         std::erase_if(loads_, [&](const auto& load) { return load.body == body; });
         if (force == Vec3::Zero() && torque == Vec3::Zero()) return;
         if (loads_.size() == servo::TaskFrame::kMostLoads) throw too_many("pushes");
         loads_.push_back({body, force, torque});
     }
     void scale(int32_t body, const Vec3& mass, double weight, double turning, double friction) {
-        for (const double factor : mass) check_factor("mass", factor, false);
-        check_factor("weight", weight, true);
-        check_factor("turning", turning, false);
-        check_factor("friction", friction, true);
+        may_be_ordered();
+        for (const double factor : mass) check_factor("mass", factor, 1e-3);
+        check_factor("weight", weight, 0);
+        check_factor("turning", turning, 1e-3);
+        check_factor("friction", friction, 0);
         std::erase_if(properties_, [&](const auto& p) { return p.body == body; });
         if (mass == Vec3::Ones() && weight == 1 && turning == 1 && friction == 1) return;
         if (properties_.size() == servo::TaskFrame::kMostProperties)
@@ -207,6 +243,25 @@ class World {
     }
 
   private:
+    /// Without Python, which may run other threads meanwhile, and is asked now and then whether
+    /// somebody has pressed Ctrl-C.
+    void run_alone(int64_t ticks) {
+        constexpr int64_t kAsk = 1000;
+        for (int64_t done = 0; done < ticks && !over(); done += kAsk) {
+            {
+                alone_ = true;
+                const py::gil_scoped_release others_may_run;
+                run(std::min(kAsk, ticks - done));
+            }
+            alone_ = false;
+            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+        }
+    }
+    /// Throws Error while another thread steps the world.
+    void may_be_ordered() const {
+        if (alone_) throw Error("the world is being stepped", "Order it between two steps.");
+    }
+
     void tick(const std::function<void()>& call) noexcept {
         const auto direct = [&](const servo::Frame& last, std::span<const haptics::Handle> handles,
                                 servo::Commands& commands) {
@@ -227,6 +282,7 @@ class World {
         now_ += servo_->period();
     }
     const servo::Frame& frame() const {
+        if (alone_) throw Error("the world is being stepped", "Read it between two steps.");
         if (frame_ != nullptr) return *frame_;
         throw Error("no tick has been done yet", "Step the world first: World.step().");
     }
@@ -260,6 +316,8 @@ class World {
     Time now_{0};
     const servo::Frame* frame_ = nullptr;
     std::exception_ptr thrown_;  // by the director, in the tick
+    std::atomic<bool> used_{false};
+    bool alone_ = false;  // it is stepped without Python's lock
 };
 
 /// A row for each world: of each finger the handle's position and velocity, the force on it, and
@@ -286,8 +344,7 @@ void lead_all(const std::vector<World*>& worlds, const Array& targets) {
     }
 }
 
-/// Steps many worlds, on so many processors.
-void step_all(const std::vector<World*>& worlds, int64_t ticks, unsigned jobs) {
+void step_side_by_side(const std::vector<World*>& worlds, int64_t ticks, unsigned jobs) {
     const py::gil_scoped_release others_may_run;
     std::atomic<size_t> next{0};
     const auto work = [&] {
@@ -296,6 +353,16 @@ void step_all(const std::vector<World*>& worlds, int64_t ticks, unsigned jobs) {
     std::vector<std::jthread> threads;
     for (unsigned i = 1; i < std::min<size_t>(jobs, worlds.size()); ++i) threads.emplace_back(work);
     work();
+}
+
+/// Steps many worlds, on so many processors.
+void step_all(const std::vector<World*>& worlds, int64_t ticks, unsigned jobs) {
+    if (ticks < 0) throw Error({}, "ticks", "are fewer than none", "Give a number of ticks.");
+    std::vector<World::Use> uses;  // which refuse a world that is there twice
+    for (World* world : worlds) uses.emplace_back(*world);
+    for (World* world : worlds) world->set_alone(true);
+    step_side_by_side(worlds, ticks, jobs);
+    for (World* world : worlds) world->set_alone(false);
 }
 
 }  // namespace

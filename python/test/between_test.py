@@ -1,10 +1,11 @@
 """What is decided between trials in Python acts, is recorded, and never holds a session up."""
 
 import json
-import os
 import pathlib
+import signal
 import socket
 import subprocess
+import sys
 import tempfile
 import threading
 import time
@@ -14,7 +15,6 @@ import warnings
 import numpy as np
 
 import dihaptic as dh
-from dihaptic import Part
 from dihaptic.between import listening
 from dihaptic.program import program
 
@@ -239,6 +239,36 @@ class Deciding(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("went away: the trials went on as the file has them", done.stdout)
         self.assertIn("session: ", done.stdout)
+
+    def test_what_decides_nothing_is_refused(self):
+        class Wordy(ByQuest):
+            messages = "abc"
+
+        for rules, what in ((dh.BetweenTrials, "decides nothing"), (3, "decides nothing"), (Wordy(), "messages: are not a list")):
+            with self.subTest(what), self.assertRaisesRegex(dh.Error, what):
+                dh.run(with_variable(), between=rules, progress=False)
+        with self.assertRaisesRegex(dh.Error, "no session has begun"):
+            ByQuest().session
+
+    def test_ctrl_c_ends_the_session_in_order(self):
+        """Though decide() never returns, and the signal comes to Python alone."""
+        file = self.file()
+        code = (
+            "import time, dihaptic as dh\n"
+            "class Never(dh.BetweenTrials):\n"
+            "    def decide(self, last):\n"
+            "        print('asked', flush=True)\n"
+            "        time.sleep(1000)\n"
+            f"dh.run('{file}', out='{self.folder.name}', between=Never(), progress=False)\n"
+        )
+        with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+            self.assertEqual(process.stdout.readline(), "asked\n")
+            process.send_signal(signal.SIGINT)
+            said = process.communicate(timeout=100)[1]
+        self.assertIn("KeyboardInterrupt", said)
+        self.assertNotIn("Exception in thread", said)
+        session = dh.load(next(pathlib.Path(self.folder.name).glob("*_experiment")))
+        self.assertEqual(session.info["state"], "interrupted")
 
     def test_nonsense_is_refused(self):
         for said, what in [

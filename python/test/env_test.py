@@ -112,7 +112,7 @@ class Environments(unittest.TestCase):
         many.reset()
         for _ in range(10):
             seen, *_ = many.step(np.ones((2, 6)))
-        after, _ = many.reset([1])
+        after, _ = many.reset(np.array([False, True]))  # as terminated and truncated are
         np.testing.assert_array_equal(after[0, :-1], seen[0, :-1])
         self.assertFalse(np.array_equal(after[1, :-1], seen[1, :-1]))
         self.assertEqual(many.worlds[1].t, 0)
@@ -123,8 +123,18 @@ class Environments(unittest.TestCase):
         for n, ticks in ((0, 10), (1, 0)):
             with self.assertRaisesRegex(dh.Error, "no world"):
                 dh.env.Grasps("lift", n, ticks=ticks)
+        with self.assertRaisesRegex(dh.Error, r"Call reset\(\) first"):
+            dh.env.Grasp("lift").step(np.zeros(6))
+        many = dh.env.Grasps("lift", 2)
+        many.reset()
         with self.assertRaises(ValueError):
-            dh.env.Grasp("lift").step(np.zeros(5))
+            many.step(np.zeros(5))
+        with self.assertRaisesRegex(dh.Error, "no number"):
+            many.step(np.full((2, 6), np.nan))
+        many.step(np.zeros((2, 6)))  # it is as if that had not been
+        for which in ([0.7], [5], [-1], [True], "x"):
+            with self.subTest(which), self.assertRaisesRegex(dh.Error, "which: is"):
+                many.reset(which)
 
 
 if __name__ == "__main__":

@@ -127,6 +127,24 @@ class Files(unittest.TestCase):
         with self.assertRaisesRegex(dh.Error, "^Scene: error: is neither a scene"):
             dh.World(Scene(title="empty"))
 
+    def test_a_save_that_fails_leaves_what_was_there(self):
+        file = self.here / "e.yaml"
+        experiment = Experiment.load(PROJECT / "experiments/first-trials.yaml")
+        experiment.scene = Scene.load(PROJECT / "scenes/block-on-table.yaml")
+        experiment.save(file)
+        before = {path.name: path.read_bytes() for path in self.here.iterdir()}
+        experiment.scene.title = "another"
+        experiment["a\ud800"] = 1  # which no file can have
+        with self.assertRaises(ValueError):
+            experiment.save(file)
+        self.assertEqual({path.name: path.read_bytes() for path in self.here.iterdir() if path.suffix == ".yaml"}, before)
+
+    def test_another_kind_of_file_is_refused(self):
+        with self.assertRaisesRegex(dh.Error, "is no scene: it has no bodies"):
+            Scene.load(PROJECT / "experiments/first-trials.yaml")
+        with self.assertRaisesRegex(dh.Error, "is no rig"):
+            Rig.load(PROJECT / "scenes/block-on-table.yaml")
+
     def test_a_file_that_is_unchanged_is_used_itself(self):
         scene = Scene.load(PROJECT / "scenes/block-on-table.yaml")
         session = dh.run(scene, out=self.here, progress=False)
@@ -143,7 +161,7 @@ class Files(unittest.TestCase):
 
     def test_a_copy_is_a_scene_of_its_own(self):
         scene = Scene.load(PROJECT / "scenes/block-on-table.yaml")
-        for again in (copy.deepcopy(scene), pickle.loads(pickle.dumps(scene))):
+        for again in (copy.copy(scene), copy.deepcopy(scene), pickle.loads(pickle.dumps(scene))):
             self.assertEqual(again, scene)
             again.bodies[1].mass_g = 1
             self.assertEqual(scene.bodies[1].mass_g, 100)

@@ -104,13 +104,22 @@ class Fits(unittest.TestCase):
         self.assertAlmostEqual(fit.retention, 0.95, places=5)
         self.assertAlmostEqual(fit.learning, 0.1, places=5)
 
+    def test_words_and_numbers_say_yes_and_no(self):
+        perturbation, measured = np.full(40, 30.0), 25 * (1 - np.exp(-np.arange(40) / 8))
+        clamp = np.arange(40) >= 30
+        fits = [
+            dh.fit_single_rate(measured, perturbation, given)
+            for given in (clamp, clamp.astype(int), clamp.astype(float), ["yes" if c else "no" for c in clamp])
+        ]
+        self.assertEqual(len({fit.retention for fit in fits}), 1)
+
     def test_answers_and_counts_are_fitted_alike(self):
         draw = np.random.default_rng(2)
         levels = np.repeat([1.0, 2, 3, 4, 5, 6], 40)
         answers = draw.random(240) < 1 / (1 + np.exp(-(levels - 3.3) / 0.5))
         counts = [int(answers[levels == level].sum()) for level in range(1, 7)]
         one = dh.fit_psychometric(levels, answers, sigmoid="logistic", guess=0)
-        other = dh.fit_psychometric(range(1, 7), yes=counts, trials=[40] * 6, sigmoid="logistic", guess=0)
+        other = dh.fit_psychometric(range(1, 7), yes=np.array(counts), trials=np.full(6, 40), sigmoid="logistic", guess=0)
         self.assertEqual(one, other)
         self.assertAlmostEqual(one.threshold, 3.3, delta=0.2)
         self.assertLess(one.intervals["threshold"][0], 3.3)
@@ -123,6 +132,14 @@ class Fits(unittest.TestCase):
             ("not as many measurements as trials", lambda: dh.fit_two_rate([1, 2, 3, 4, 5, 6], [1, 2])),
             ("", lambda: dh.fit_two_rate([1, np.nan], [1, 2])),
             ("", lambda: dh.fit_learning_curve([])),
+            ("no number in a trial", lambda: dh.fit_single_rate(np.arange(20.0), [np.nan] * 20)),
+            ("is 0 in all trials", lambda: dh.fit_two_rate(np.arange(20.0), [0] * 20)),
+            ("infinite", lambda: dh.fit_two_rate([np.inf] * 20, [1] * 20)),
+            ("clamp: has 'nan'", lambda: dh.fit_two_rate(np.arange(20.0), [1] * 20, [np.nan] * 20)),
+            ("answers: has '2'", lambda: dh.fit_psychometric([1, 2], [2, 1])),
+            ("yes: has a number that is not whole", lambda: dh.fit_psychometric([1, 2], yes=[0.5, 1], trials=[2, 2])),
+            ("there are no answers", lambda: dh.fit_psychometric([1, 2])),
+            ("have different lengths", lambda: dh.fit_psychometric([1, 2], yes=[1], trials=[2, 2])),
             ("sigmoid", lambda: dh.fit_psychometric([1, 2], [True, False], sigmoid="cauchy")),
             ("guess", lambda: dh.fit_psychometric([1, 2], [True, False], guess=2)),
             ("guess", lambda: dh.fit_psychometric([1, 2], [True, False], guess="half")),
@@ -168,7 +185,8 @@ class Lifts(unittest.TestCase):
             ("do not fit", (two, two, np.zeros(99), 0.001)),
             ("tick", (two, two, np.zeros(100), 0)),
             ("tick", (two, two, np.zeros(100), float("nan"))),
-            ("friction", (two, two, np.zeros(100), 0.001, [1.0])),
+            ("friction", (two, two, np.zeros(100), 0.001, [1.0, -1.0])),
+            ("no number", (np.full((100, 2), np.nan), two, np.zeros(100), 0.001)),
             ("sample", (np.zeros((0, 2)), np.zeros((0, 2)), np.zeros(0), 0.001)),
         ]:
             with self.subTest(what), self.assertRaisesRegex(dh.Error, what):

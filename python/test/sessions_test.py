@@ -3,6 +3,8 @@
 import glob
 import os
 import pathlib
+import pickle
+import shutil
 import tarfile
 import tempfile
 import unittest
@@ -108,6 +110,35 @@ class Sessions(unittest.TestCase):
             with self.assertRaisesRegex(dh.Error, "dihaptic recover"):
                 dh.load(folder)["grip_force"]
 
+    def test_one_that_is_damaged_says_so(self):
+        with tempfile.TemporaryDirectory() as folder:
+            broken = shutil.copytree(self.lift.folder, f"{folder}/session")
+            nwb = broken + "/session.nwb"
+            size = os.path.getsize(nwb)
+            os.truncate(nwb, size // 2)
+            with self.assertRaisesRegex(dh.Error, "session.nwb is damaged: .*recover"):
+                dh.load(broken)["grip_force"]
+            shutil.copy(self.lift.folder / "session.nwb", nwb)
+            os.truncate(broken + "/raw.log", os.path.getsize(broken + "/raw.log") // 2)
+            with self.assertRaisesRegex(dh.Error, "raw.log has [0-9]+ ticks, session.nwb 9501"):
+                dh.load(broken).exact("grip_force")
+
+    def test_sessions_and_errors_go_to_other_processes(self):
+        self.lift["grip_force"]
+        again = pickle.loads(pickle.dumps(self.lift))
+        self.assertEqual(again.folder, self.lift.folder)
+        for call in (lambda: dh.load("nowhere"), lambda: self.lift["grip"]):
+            with self.assertRaises(dh.Error) as caught:
+                call()
+            sent = pickle.loads(pickle.dumps(caught.exception))
+            self.assertEqual((type(sent), str(sent)), (type(caught.exception), str(caught.exception)))
+
+    def test_names_that_look_like_numbers_stay_names(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "adaptation.csv").write_text("id,group,trial_num\n001,02,1\n")
+            table = dh.read_table(f"{folder}/adaptation.csv")
+        self.assertEqual((table.id.item(), table.group.item()), ("001", "02"))
+
     def test_lists_have_named_columns(self):
         contacts = self.lift["contacts"]
         self.assertEqual(list(contacts.columns[:4]), ["time", "body_a", "body_b", "points"])
@@ -157,6 +188,7 @@ class Plots(unittest.TestCase):
         for names, options, what in [
             ((), {}, "no quantity is named"),
             (("contacts",), {}, "is a list"),
+            (("grip_force",), {"by": "condition"}, "groups what is aligned"),
             (("grip_force",), {"align": "liftoff"}, "Did you mean 'lift_off'"),
             (("grip_force",), {"align": "condition"}, "is no moment"),
             (("grip_force",), {"align": "lift_off", "by": "colour"}, "is no column"),

@@ -1,6 +1,13 @@
 """A world that Python steps is the program's own, to the bit."""
 
+import copy
+import pickle
+import signal
+import subprocess
+import sys
 import tempfile
+import threading
+import time
 import unittest
 
 import numpy as np
@@ -115,8 +122,68 @@ class Worlds(unittest.TestCase):
             for wrong in (("a", "b", "c"), (1, 2), (np.nan, 0, 0), (np.inf, 0, 0)):
                 with self.subTest(f"{call}{wrong}"), self.assertRaises((TypeError, dh.Error)):
                     call(wrong)
-        with self.assertRaisesRegex(dh.Error, "mass"):
-            world.bodies["block"].scale(mass=-1)
+        for wrong in ({"mass": -1}, {"mass": 1e-300}, {"friction": 1e12}, {"weight": float("nan")}):
+            with self.subTest(wrong), self.assertRaisesRegex(dh.Error, f"{next(iter(wrong))}: is "):
+                world.bodies["block"].scale(**wrong)
+        with self.assertRaisesRegex(dh.Error, "too hard"):
+            world.bodies["block"].push((1e300, 0, 0))
+        with self.assertRaisesRegex(dh.Error, "fewer than none"):
+            world.step(-1)
+
+    def test_a_world_is_stepped_by_one_at_a_time(self):
+        world = dh.World(BLOCK)
+        world.step()
+        with self.assertRaisesRegex(dh.Error, "is being stepped"):
+            world.step(10, lambda w: w.reset())
+        with self.assertRaisesRegex(dh.Error, "is being stepped"):
+            world.step(10, lambda w: w.step())
+        with self.assertRaisesRegex(dh.Error, "step_all\\(\\) takes each world once"):
+            dh.step_all([world, world])
+        refused = []
+
+        def disturb():
+            for call in (world.step, world.reset, lambda: world["grip_force"], lambda: world.bodies["block"].push()):
+                try:
+                    call()
+                except dh.Error as why:
+                    refused.append(str(why))
+
+        step = threading.Thread(target=lambda: world.step(100_000))
+        step.start()
+        time.sleep(0.05)
+        disturb()
+        step.join()
+        self.assertGreaterEqual(len(refused), 3, "the thread had ended")
+        world.reset()
+        world.step()
+
+    def test_a_long_step_can_be_interrupted(self):
+        code = f"import dihaptic as dh; dh.World('{BLOCK}').step(10**9)"
+        with subprocess.Popen([sys.executable, "-c", code], stderr=subprocess.PIPE, text=True) as process:
+            time.sleep(2)
+            process.send_signal(signal.SIGINT)
+            self.assertIn("KeyboardInterrupt", process.communicate(timeout=30)[1])
+
+    def test_it_stops_when_force_goes_off(self):
+        world = dh.World(BLOCK)
+        world.step(200)
+        world.fingers[0].lead((-0.4, 0, 0.4))
+        with self.assertRaisesRegex(dh.Error, "the world has stopped: .*Begin anew"):
+            world.step(1000)
+        self.assertLess(world.t, 0.3)
+        self.assertEqual(dh.step_all([world]), [False])
+        world.reset()
+        world.step(1000)
+
+    def test_it_cannot_be_copied(self):
+        for make in (copy.copy, copy.deepcopy, pickle.dumps):
+            with self.assertRaisesRegex(TypeError, "cannot be copied"):
+                make(dh.World(BLOCK))
+
+    def test_a_component_is_read_as_of_a_session(self):
+        world = dh.World(BLOCK)
+        world.step()
+        self.assertEqual(world["block.position.z"], world["block.position"][2])
 
     def test_settings_are_those_of_the_program(self):
         world = dh.World(BLOCK, settings={"coupling.stiffness_N_m": 600})

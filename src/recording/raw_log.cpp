@@ -14,6 +14,7 @@
 #include "base/field_writer.h"
 #include "recording/frame_check.h"
 #include "recording/schema.h"
+#include "scene/names.h"
 
 namespace dihaptic::recording {
 namespace {
@@ -40,12 +41,11 @@ void write_all(int descriptor, const void* data, size_t size, const std::string&
 /// Names become parts of other files' names, and counts the sizes of what is read.
 void check_head(const LogHead& head, const std::string& file) {
     constexpr size_t kMost = 65535;  // bodies are counted by two bytes
-    constexpr size_t kLongestName = 200;
     const auto check = [&](const char* key, const std::vector<std::string>& names) {
         std::set<std::string> all;
         bool good = names.size() <= kMost;
         for (const std::string& name : names) {
-            good = good && !name.empty() && name.size() <= kLongestName && name != "." &&
+            good = good && !name.empty() && name.size() <= scene::kLongestName && name != "." &&
                    all.insert(name).second && std::none_of(name.begin(), name.end(), [](char c) {
                        return c == '/' || static_cast<unsigned char>(c) < ' ';
                    });

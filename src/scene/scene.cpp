@@ -11,6 +11,7 @@
 #include "base/choices.h"
 #include "scene/colour.h"
 #include "scene/mesh.h"
+#include "scene/names.h"
 #include "scene/relief_picture.h"
 
 namespace dihaptic::scene {
@@ -199,6 +200,10 @@ void check_names(const Scene& scene, Diagnostics& diagnostics) {
         if (bad) {
             diagnostics.error(place, "name", fmt::format("'{}' cannot be a name", name),
                               "Use letters, digits, blanks, '-' and '_'.");
+        }
+        if (name.size() > kLongestName) {
+            diagnostics.error(place, "name", fmt::format("has {} bytes", name.size()),
+                              fmt::format("Choose one of at most {}.", kLongestName));
         }
         if (!name.empty() && !names.insert(name).second) {
             diagnostics.error(place, "name", fmt::format("'{}' is used twice", name),

@@ -325,6 +325,8 @@ void Run::run_ticks() {
     recording::HeadsWriter heads(folder_);
     const Watcher watcher([&] {
         if (progress_) progress_(std::min(1.0, share()));
+        // on the virtual clock a tick may wait for it
+        if (options_.decider != nullptr && stop_) options_.decider->between()->leave();
         if (live_ == nullptr) return;
         while (const auto showing = live_->take_showing()) {
             if (real_) showings.add(*showing);  // nobody saw a rehearsal in its own time

@@ -277,6 +277,9 @@ INSTANTIATE_TEST_SUITE_P(
             "scene.yaml:2: error: name: 'a/b' cannot be a name"},
         Bad{"bodies:\n  - {name: .., shape: sphere, radius_mm: 4, mass_g: 1}\n",
             "'..' cannot be a name"},
+        Bad{"bodies:\n  - {name: " + std::string(201, 'b') +
+                ", shape: sphere, radius_mm: 4, mass_g: 1}\n",
+            "scene.yaml:2: error: name: has 201 bytes. Choose one of at most 200."},
         Bad{"bodies:\n  - {name: thumb, shape: sphere, radius_mm: 4, mass_g: 1}\n",
             "'thumb' is used twice"},
         Bad{"bodies:\n  - {name: thumb_proxy, shape: sphere, radius_mm: 4, mass_g: 1}\n",

@@ -287,7 +287,8 @@ TEST(SeenMeshes, AreDrawnAndPointedAtInPlaceOfTheShape) {
     scene.bodies[0].seen = scene::SeenMesh{};
     scene.bodies[0].seen->mesh = flag(-1, -1);
     const Ray beside{{0.02, 0.02, 0.3}, -Vec3::UnitZ()};
-    EXPECT_EQ(seen_first(scene, start(scene), beside), 0u);
+    ASSERT_TRUE(seen_first(scene, start(scene), beside));
+    EXPECT_EQ(seen_first(scene, start(scene), beside)->body, 0u);
     scene.bodies[0].seen.reset();
     EXPECT_FALSE(seen_first(scene, start(scene), beside));
 }
