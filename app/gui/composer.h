@@ -33,6 +33,8 @@ class Composer : public QWidget {
     /// Has the text put a body elsewhere; false, and says why, if it cannot. A way of nothing: says
     /// only whether it can.
     bool move(const std::string& body, const BodyWay& way);
+    /// Shows a text below the file's, until something else is to be told.
+    void tell(const QString& text) { state_->setText(text); }
     void undo() { edit_->undo(); }
     void redo() { edit_->redo(); }
     /// Writes the file; false, and says why, if it cannot.

@@ -130,9 +130,9 @@ void OperatorWindow::pick(size_t body) {
     if (composer_->go_to(picked.place)) {
         composer_->move(picked.name, {});  // says now if it can not
     } else {
-        log(tr("%1 is in %2: open that to change it.")
-                .arg(QString::fromStdString(picked.name),
-                     QString::fromStdString(picked.place.file)));
+        composer_->tell(tr("%1 is in %2: open that to change it.")
+                            .arg(QString::fromStdString(picked.name),
+                                 QString::fromStdString(picked.place.file)));
     }
 }
 

@@ -206,6 +206,21 @@ class Compose(Window):
         self.assertEqual(self.text(), text)
         self.quit()
 
+    def test_what_is_in_another_file_is_not_moved(self):
+        text = pathlib.Path("experiments/first-trials.yaml").read_text().replace("../", str(pathlib.Path.cwd()) + "/")
+        pathlib.Path(self.scene).write_text(text)
+        self.open()
+        self.key("ctrl+e")
+        self.settle()
+        self.xdotool("mousemove", "715", "490", "click", "1")
+        time.sleep(0.5)
+        self.screenshot("compose-elsewhere")
+        self.drag([715, 490], [800, 490])
+        self.key("ctrl+s")
+        time.sleep(1)
+        self.assertEqual(self.text(), text)
+        self.quit()
+
     def test_a_file_keeps_its_line_ends(self):
         content = b"\xef\xbb\xbf" + SCENE.replace("a table", "a\u00a0table").replace("\n", "\r\n").encode()
         pathlib.Path(self.scene).write_bytes(content)
