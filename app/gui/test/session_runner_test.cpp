@@ -125,7 +125,7 @@ TEST_F(SessionRunnerTest, APauseFromAnotherThreadTakesForceAwayThoughTheWindowHa
     const double before = now();
     std::thread(pause_twice).join();
     QThread::msleep(200);  // the window's thread hangs
-    EXPECT_NE(runner_.read_frame().status & servo::kForceOff, 0u);
+    EXPECT_NE(runner_.read_frame().status & servo::kPaused, 0u);
     EXPECT_EQ(runner_.frame().fingers[0].f_sent_W, Vec3::Zero());
     EXPECT_LT(now(), before + 0.1);
     EXPECT_EQ(told, 0);
