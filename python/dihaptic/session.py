@@ -320,7 +320,8 @@ class Session:
     def _place_of(self, name: str) -> vocabulary.Place:
         if name in vocabulary.lists():
             raise error("is a list, not a quantity", f'Its columns are session["{name}"].', key=name)
-        place = vocabulary.place_of(name, self._items())
+        # who the fingers and bodies are matters for the other names alone
+        place = vocabulary.place_of(name, [] if vocabulary.find(name) else self._items())
         if place is None:
             raise NotThere(name, "is not recorded", self.keys(), "Session.quantities lists them.")
         return place

@@ -51,26 +51,32 @@ class Forces {
     servo::Frame frame_;
 };
 
-py::dict find_lift(const Array& grip, const Array& load, const Array& height, double tick,
-                   const std::vector<double>& friction) {
+void check_shapes(const Array& grip, const Array& load, const Array& height, size_t digits) {
     if (grip.ndim() != 2 || load.ndim() != 2 || grip.shape(0) != load.shape(0) ||
         grip.shape(1) != load.shape(1) || height.ndim() != 1 || height.shape(0) != grip.shape(0)) {
         throw Error("the arrays do not fit each other",
                     "Give grip and load a row a sample and a column a digit, and height a value a "
                     "sample.");
     }
-    if (grip.shape(0) == 0 || grip.shape(1) == 0)
+    if (grip.size() == 0)
         throw Error("there is no sample, or no digit", "Give a row a sample and a column a digit.");
-    if (friction.size() != static_cast<size_t>(grip.shape(1)))
+    if (digits != static_cast<size_t>(grip.shape(1)))
         throw Error({}, "friction", "has another length than there are digits", "One for each.");
+}
+
+void check_numbers(const Array& values) {
+    if (!std::all_of(values.data(), values.data() + values.size(),
+                     [](double x) { return std::isfinite(x); }))
+        throw Error("a force or a height is no number", "Cut the trial to what was measured.");
+}
+
+py::dict find_lift(const Array& grip, const Array& load, const Array& height, double tick,
+                   const std::vector<double>& friction) {
+    check_shapes(grip, load, height, friction.size());
+    for (const Array* values : {&grip, &load, &height}) check_numbers(*values);
     for (const double coefficient : friction) {
         if (!(coefficient > 0 && coefficient <= 100))
             throw Error({}, "friction", "is not above 0", "Give the coefficient of each digit.");
-    }
-    for (const Array* values : {&grip, &load, &height}) {
-        if (!std::all_of(values->data(), values->data() + values->size(),
-                         [](double x) { return std::isfinite(x); }))
-            throw Error("a force or a height is no number", "Cut the trial to what was measured.");
     }
     if (!(tick > 0 && tick <= 0.02))
         throw Error({}, "tick", "is not between 0 and 20 ms",

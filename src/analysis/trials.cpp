@@ -57,7 +57,8 @@ std::vector<Table::Column> columns_of_numbers(const recording::SessionInfo& info
 /// Their values in the trial's first tick, and in its last one.
 std::vector<Table::Cell> cells_of_numbers(const recording::SessionInfo& info,
                                           const std::vector<servo::VariableFrame>& first,
-                                          const std::vector<servo::VariableFrame>& last) {
+                                          const std::vector<servo::VariableFrame>& last,
+                                          const std::vector<servo::VariableFrame>& decided) {
     std::vector<Table::Cell> out;
     size_t i = 0;
     const auto add = [&](const std::string& name, const auto& values) {
@@ -65,7 +66,7 @@ std::vector<Table::Cell> cells_of_numbers(const recording::SessionInfo& info,
     };
     for (const std::string& name : info.variables) {
         add(name, first);
-        add(name, last);
+        add(name, decided.empty() ? last : decided);
         ++i;
     }
     for (const std::string& name : info.levels) {
@@ -111,12 +112,12 @@ TrialFinder::TrialFinder(const recording::SessionFolder& folder,
 void TrialFinder::add(const servo::Frame& frame) {
     if (frame.trial < 1) return;
     if (frame.phase == 0) {  // between trials, where variables may be decided on
-        if (!rows_.empty()) rows_.back().next = frame.task.variables;
+        if (!rows_.empty()) rows_.back().decided = frame.task.variables;
         return;
     }
     if (rows_.empty() || rows_.back().trial != frame.trial ||
         rows_.back().measures.attempt != frame.task.attempt) {
-        if (!rows_.empty()) rows_.back().next = frame.task.variables;
+        if (!rows_.empty()) rows_.back().decided = frame.task.variables;
         Row row;
         row.trial = frame.trial;
         row.measures.attempt = frame.task.attempt;
@@ -126,7 +127,7 @@ void TrialFinder::add(const servo::Frame& frame) {
     }
     Row& row = rows_.back();
     row.end = seconds(frame.time);
-    row.next = frame.task.variables;
+    row.last = frame.task.variables;
     if (frame.task.outcome >= 0) row.outcome = frame.task.outcome;
     // kept, since the perturbation may not act in all of the trial
     if (frame.task.share != 0) row.share = frame.task.share;
@@ -196,7 +197,7 @@ Table TrialFinder::table(const recording::SessionInfo& info) const {
                 row.push_back(cell(known ? list_[i][k] : ""));
             }
         }
-        append(row, cells_of_numbers(info, r.variables, r.next));
+        append(row, cells_of_numbers(info, r.variables, r.last, r.decided));
         const auto outcome = static_cast<size_t>(r.outcome);
         TrialMeasures measures = r.measures;
         measures.outcome = r.outcome >= 0 && outcome < info.outcomes.size() ? info.outcomes[outcome]

@@ -118,7 +118,9 @@ class TrialFinder {
         double end = 0;
         double share = 0;                             ///< share of the perturbation
         std::vector<servo::VariableFrame> variables;  ///< at its start [SI]
-        std::vector<servo::VariableFrame> next;       ///< after it
+        std::vector<servo::VariableFrame> last;       ///< in its last tick
+        /// At the next trial's start; they differ where something decides between trials.
+        std::vector<servo::VariableFrame> decided;
         TrialMeasures measures;
         FirstStroke stroke;
         std::optional<Vec3> hand_start_W;

@@ -16,6 +16,12 @@
 namespace dihaptic::analysis::bids {
 namespace {
 
+/// Without what an export that was killed left of it.
+void write_anew(const std::string& text, const std::string& file) {
+    remove_dead_parts(file);
+    write_file(text, file);
+}
+
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 constexpr const char* kSimulated = "Simulated";  // key in dataset_description.json: true or false
@@ -181,12 +187,12 @@ void DataSet::describe() const {
         if (info_.moved_by.known()) json[kSimulated] = simulated;
         if (!info_.study.experimenters.empty()) json["Authors"] = info_.study.experimenters;
         if (!info_.study.keywords.empty()) json["Keywords"] = info_.study.keywords;
-        write_file(json.dump(2) + "\n", name);
+        write_anew(json.dump(2) + "\n", name);
     }
     if (!is_there(file("README")) && !is_there(file("README.md")))
-        write_file(readme(info_, simulated), file("README"));
+        write_anew(readme(info_, simulated), file("README"));
     if (!is_there(file("participants.json")))
-        write_file(kParticipantColumns.dump(2) + "\n", file("participants.json"));
+        write_anew(kParticipantColumns.dump(2) + "\n", file("participants.json"));
 }
 
 void DataSet::add_participant() const {
@@ -231,7 +237,7 @@ void DataSet::add(const std::vector<std::string>& recordings) const {
                        {"simulated", {{"Description", recording::kMovedByColumns[0].description}}},
                        {"moved_by", {{"Description", recording::kMovedByColumns[1].description}}}};
     const std::string json = file(subject_ + "/" + subject_ + "_scans.json");
-    if (!is_there(json)) write_file(columns.dump(2) + "\n", json);
+    if (!is_there(json)) write_anew(columns.dump(2) + "\n", json);
 }
 
 }  // namespace dihaptic::analysis::bids
