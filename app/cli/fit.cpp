@@ -6,38 +6,30 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "analysis/fits/psychometric_fit.h"
-#include "analysis/fits/two_rate_fit.h"
+#include "analysis/fits/parameters.h"
 #include "base/table.h"
 #include "command.h"
 
 namespace dihaptic::cli {
 namespace {
 
-/// A parameter of a fit, with its 95 % interval.
-struct Parameter {
-    const char* key;
-    double value;
-    analysis::Interval interval;
-};
-
 /// What a fit found, for people and for programs.
 struct Fitted {
-    std::vector<Parameter> parameters;
+    analysis::Parameters parameters;
     /// Further figures, for programs and for people.
     std::vector<std::pair<const char*, double>> others;
     std::string note;
 
     std::string json() const {
         nlohmann::ordered_json out;
-        for (const Parameter& p : parameters) out[p.key] = p.value;
+        for (const analysis::Parameter& p : parameters) out[p.name] = p.value;
         for (const auto& [key, value] : others) out[key] = value;
         return out.dump(2) + "\n";
     }
     std::string text() const {
         std::string out;
-        for (const Parameter& p : parameters) {
-            std::string name = p.key;
+        for (const analysis::Parameter& p : parameters) {
+            std::string name = p.name;
             std::replace(name.begin(), name.end(), '_', ' ');
             out += fmt::format("{:16} {:8.5f}   95 %: {:.5f} to {:.5f}\n", name, p.value,
                                p.interval.low, p.interval.high);
@@ -105,9 +97,9 @@ std::vector<model::AdaptationTrial> read_trials(const CsvFile& table, const std:
     return out;
 }
 
-/// Completes what was found by what every fit of a curve has.
-Fitted curve(std::vector<Parameter> parameters, const analysis::CurveFit& fit, int n) {
-    return {std::move(parameters),
+template <class Fit>
+Fitted curve(const Fit& fit, int n) {
+    return {analysis::parameters(fit),
             {{"sse", fit.mean_square * n}, {"n", n}},
             fmt::format("{} trials; sum of squared residuals {:.6g}, their SD {:.4g}", n,
                         fit.mean_square * n, fit.residual_sd)};
@@ -121,12 +113,7 @@ Fitted fit_two_rate(const std::string& file) {
     require(table, file, {"perturbation", "clamp", "compensation"}, kTrialColumns);
     const auto trials = read_trials(table, file);
     const Measured measured = read_measured(table, file, 5, "Four parameters");
-    const analysis::TwoRateFit fit = analysis::fit_two_rate(measured.values, trials);
-    return curve({{"retention_slow", fit.rates.slow.retention, fit.retention_slow},
-                  {"learning_slow", fit.rates.slow.learning, fit.learning_slow},
-                  {"retention_fast", fit.rates.fast.retention, fit.retention_fast},
-                  {"learning_fast", fit.rates.fast.learning, fit.learning_fast}},
-                 fit, measured.count);
+    return curve(analysis::fit_two_rate(measured.values, trials), measured.count);
 }
 
 Fitted fit_single_rate(const std::string& file) {
@@ -134,21 +121,14 @@ Fitted fit_single_rate(const std::string& file) {
     require(table, file, {"perturbation", "clamp", "compensation"}, kTrialColumns);
     const auto trials = read_trials(table, file);
     const Measured measured = read_measured(table, file, 3, "Two parameters");
-    const analysis::SingleRateFit fit = analysis::fit_single_rate(measured.values, trials);
-    return curve({{"retention", fit.rate.retention, fit.retention},
-                  {"learning", fit.rate.learning, fit.learning}},
-                 fit, measured.count);
+    return curve(analysis::fit_single_rate(measured.values, trials), measured.count);
 }
 
 Fitted fit_learning_curve(const std::string& file) {
     const CsvFile table(file);
     require(table, file, {"compensation"}, "Give the column compensation, a row a trial.");
     const Measured measured = read_measured(table, file, 4, "Three parameters");
-    const analysis::LearningCurveFit fit = analysis::fit_learning_curve(measured.values);
-    return curve({{"start", fit.curve.start, fit.start},
-                  {"asymptote", fit.curve.asymptote, fit.asymptote},
-                  {"time_constant", fit.curve.time_constant, fit.time_constant}},
-                 fit, measured.count);
+    return curve(analysis::fit_learning_curve(measured.values), measured.count);
 }
 
 struct PsychometricOptions {
@@ -181,9 +161,7 @@ Fitted fit_psychometric(const PsychometricOptions& options) {
     int n = 0;
     for (const analysis::LevelCount& level : counts) n += level.trials;
     return {
-        {{"threshold", fit.function.threshold, ends.threshold},
-         {"shape", fit.function.shape, ends.shape},
-         {"lapse", fit.function.lapse, ends.lapse}},
+        analysis::parameters(fit, ends),
         {{"guess", fit.function.guess}, {"deviance", fit.deviance}, {"n", n}},
         fmt::format("{} answers at {} levels; deviance {:.4g}{}", n, counts.size(), fit.deviance,
                     fit.shape_unknown ? "; the answers cannot tell the shape" : "")};

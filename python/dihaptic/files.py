@@ -210,8 +210,7 @@ class File(Part):
         >>> print(scene.check()[0].text())
         Scene.bodies[1]: error: mass_g: must be positive, is -1. Correct the value, or its unit.
         """
-        with self._on_disk() as file:
-            return [self._at_object(file, Problem(*found[:6])) for found in _native.check_file(str(file), "")]
+        return problems_of(self)
 
     def __str__(self) -> str:
         return _native.write_yaml(self._to_raw())
@@ -313,13 +312,20 @@ Input = Union[str, Path, File]
 
 
 @contextlib.contextmanager
-def on_disk(given: Input) -> Iterator[Path]:
-    """A file as it is, or an object as a file for a while."""
+def on_disk(given: Input) -> Iterator[str]:
+    """Path of a file as it is, "" of none, or of an object's file, which is there for a while."""
     if isinstance(given, File):
         with given._on_disk() as file:
-            yield file
+            yield str(file)
     else:
-        yield Path(given)
+        yield str(given)
+
+
+def problems_of(given: Input, rig: Input = "") -> list[Problem]:
+    """What `dihaptic check` finds in a file or an object."""
+    with on_disk(given) as file, on_disk(rig) as rig_file:
+        found = [Problem(*row[:6]) for row in _native.check_file(file, rig_file)]
+        return [given._at_object(Path(file), p) for p in found] if isinstance(given, File) else found
 
 
 def _rest(problem: Problem) -> tuple[str, str, str]:

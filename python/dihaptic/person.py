@@ -31,9 +31,7 @@ class Seen:
 
     def __init__(self, sitting: _native.Sitting) -> None:
         self._sitting = sitting
-        self._fingers = sitting.fingers()
-        self._bodies = sitting.bodies()
-        self._joints = sitting.joints()
+        self._items: vocabulary.Items = dict(sitting.items())
 
     @property
     def t(self) -> float:
@@ -63,7 +61,7 @@ class Seen:
     @property
     def fingers(self) -> dict[str, Array]:
         """Where each finger's handle is shown, in world axes [m]."""
-        return {name: self._sitting.shown_finger(i) for i, name in enumerate(self._fingers)}
+        return {name: self._sitting.shown_finger(i) for i, name in enumerate(self._items["fingers"])}
 
     @property
     def targets(self) -> dict[str, Array]:
@@ -72,9 +70,10 @@ class Seen:
 
     def body(self, name: str) -> Array | None:
         """Where a body is shown, in world axes [m]; None while it is hidden. Raises NotThere."""
-        if name not in self._bodies:
-            raise NotThere(name, "is no body of the scene", self._bodies, "")
-        index = self._bodies.index(name)
+        bodies = self._items["bodies"]
+        if name not in bodies:
+            raise NotThere(name, "is no body of the scene", bodies, "")
+        index = bodies.index(name)
         return self._sitting.shown_body(index) if self._sitting.is_shown(index) else None
 
     def felt(self, finger: str) -> Array:
@@ -83,8 +82,7 @@ class Seen:
         return force
 
     def __getitem__(self, name: str) -> Any:
-        lists = [("fingers", self._fingers), ("turns", self._fingers), ("bodies", self._bodies), ("joints", self._joints)]
-        place = vocabulary.place_of(name, lists)
+        place = vocabulary.place_of(name, self._items)
         if place is None:
             raise NotThere(name, "is not there", [], "dihaptic.quantities() lists what there is.")
         value = self._sitting.read(place.of, place.item, place.quantity.name)
@@ -146,7 +144,7 @@ class Person:
 
         if not 1e-4 <= self.every <= 1:
             raise error(f"is {self.every}", "Give the time between two looks, 0.0001 to 1 s.", key="every")
-        self.__dict__.update(_sitting=sitting, _fingers=sitting.fingers())
+        self.__dict__.update(_sitting=sitting, _fingers=dict(sitting.items())["fingers"])
         seen = Seen(sitting)
         try:
             folder = sitting.run(lambda: self.act(seen), self.every, type(self).__name__, str(out))

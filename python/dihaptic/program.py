@@ -21,7 +21,7 @@ import pandas as pd
 from . import _native
 from .between import BetweenTrials, listening
 from .errors import Error, Problem, error
-from .files import File, Input, on_disk
+from .files import Input, on_disk, problems_of
 from .person import Person
 from .session import Session
 from .tables import read_table
@@ -99,7 +99,7 @@ def run(
         if between is not None or movement:
             raise error("a person of one's own does the trials alone", "Leave out between and movement.")
         with on_disk(file) as path, on_disk(rig) as rig_path:
-            sitting = _native.Sitting(str(path), str(rig_path) if rig else "", given, seed, participant)
+            sitting = _native.Sitting(path, rig_path, given, seed, participant)
         return person._do(sitting, out)
     command = ["--seed", str(seed), "--out", str(out)] + ["--simulate"] * simulate
     for option, value in {"--movement": movement, "--participant": participant}.items():
@@ -108,8 +108,8 @@ def run(
     for setting in given:
         command += ["--set", setting]
     with on_disk(file) as path, on_disk(rig) as rig_path, listening(between) as asking:
-        command = ["run", str(path), *command, *asking] + (["--rig", str(rig_path)] if rig else [])
-        real = not simulate and _native.on_real_devices(str(path), str(rig_path) if rig else "")
+        command = ["run", path, *command, *asking] + (["--rig", rig_path] if rig else [])
+        real = not simulate and _native.on_real_devices(path, rig_path)
         return _session_of(_call(command, progress, echo=real))
 
 
@@ -173,14 +173,7 @@ def check(*files: Input, rig: Input = "") -> list[Problem]:
     >>> dh.check("scenes/block-on-table.yaml", "experiments/first-trials.yaml")
     []
     """
-    found = []
-    for given in files:
-        if isinstance(given, File) and not rig:
-            found += given.check()
-            continue
-        with on_disk(given) as file, on_disk(rig) as rig_file:
-            found += [Problem(*row[:6]) for row in _native.check_file(str(file), str(rig_file) if rig else "")]
-    return found
+    return [problem for given in files for problem in problems_of(given, rig)]
 
 
 def rehearse(
@@ -204,8 +197,8 @@ def rehearse(
     ['sim-001', 'sim-002']
     """
     with on_disk(experiment) as file:
-        folder = Path(out or f"rehearsals/{file.stem}_{seed}")
-        command = ["rehearse", str(file), "--people", str(people), "--jobs", str(jobs), "--seed", str(seed)]
+        folder = Path(out or f"rehearsals/{Path(file).stem}_{seed}")
+        command = ["rehearse", file, "--people", str(people), "--jobs", str(jobs), "--seed", str(seed)]
         command += ["--out", str(folder)] + (["--population", str(population)] if population else [])
         _call(command, progress)
     _call(["collect", str(folder), "--out", str(folder)], progress=False)
@@ -332,7 +325,7 @@ def _problems(lines: Sequence[str]) -> list[Problem]:
 def _session_of(answer: _Answer) -> Session:
     folder = next((line[len("session: ") :] for line in answer.output if line.startswith("session: ")), None)
     if folder is None:
-        raise error("the session has no folder", "", key="\n".join(answer.said + answer.output))
+        raise error("\n".join(answer.said + answer.output), "")
     told = [line for line in answer.output if line.startswith("WARNING: ")]
     if answer.code != 0 or told:
         warnings.warn("\n".join([*answer.said, *told]) or f"see {folder}", stacklevel=3)

@@ -82,20 +82,20 @@ class Session:
         info: dict[str, Any] = _native.read_yaml(str(self.folder / "session.yaml")) or {}
         return info
 
-    @cached_property
+    @property
     def fingers(self) -> list[str]:
         """Names of the scene's fingers, in order."""
-        return [str(name) for name in self._head["fingers"]]
+        return self._items["fingers"]
 
-    @cached_property
+    @property
     def bodies(self) -> list[str]:
         """Names of the scene's bodies, in order."""
-        return [str(name) for name in self._head["bodies"]]
+        return self._items["bodies"]
 
-    @cached_property
+    @property
     def joints(self) -> list[str]:
         """Names of the scene's joints, in order."""
-        return [str(name) for name in self._head["joints"]]
+        return self._items["joints"]
 
     @property
     def tick(self) -> float:
@@ -180,7 +180,8 @@ class Session:
 
     def exact(self, name: str) -> Array:
         """A quantity with all its bits, from raw.log: session.nwb keeps numbers that are not whole
-        in 32 bits, 7 digits. Reads the whole log, which takes seconds for minutes. Raises NotThere.
+        in 32 bits, 7 digits. Reads the whole log, about two seconds for a quarter of an hour. Raises
+        NotThere, or Error if the log is shorter than session.nwb.
 
         >>> import dihaptic as dh
         >>> session = dh.load(lift_session)
@@ -221,7 +222,7 @@ class Session:
         once = [q.name for q in vocabulary.of_list("") if self._has(q.name)]
         of_items = [
             f"{item}.{q.name}"
-            for list_name, items in self._items()
+            for list_name, items in self._items.items()
             for item in items
             for q in vocabulary.of_list(list_name)
             if self._has(f"{item}_{q.name}")
@@ -296,13 +297,9 @@ class Session:
         except OSError as why:
             raise _damaged(self.folder, why) from None
 
-    def _items(self) -> list[tuple[str, list[str]]]:
-        return [
-            ("fingers", self.fingers),
-            ("turns", self.fingers),
-            ("bodies", self.bodies),
-            ("joints", self.joints),
-        ]
+    @property
+    def _items(self) -> vocabulary.Items:
+        return dict(self._head["items"])
 
     def _has(self, series: str) -> bool:
         return f"acquisition/{series}" in self._file
@@ -321,7 +318,7 @@ class Session:
         if name in vocabulary.lists():
             raise error("is a list, not a quantity", f'Its columns are session["{name}"].', key=name)
         # who the fingers and bodies are matters for the other names alone
-        place = vocabulary.place_of(name, [] if vocabulary.find(name) else self._items())
+        place = vocabulary.place_of(name, {} if vocabulary.find(name) else self._items)
         if place is None:
             raise NotThere(name, "is not recorded", self.keys(), "Session.quantities lists them.")
         return place
@@ -330,7 +327,7 @@ class Session:
         """The series of a name, and the column of its component, if it names one."""
         place = self._place_of(name)
         term = place.quantity.name
-        series = f"{dict(self._items())[place.of][place.item]}_{term}" if place.of else term
+        series = f"{self._items[place.of][place.item]}_{term}" if place.of else term
         if not self._has(series):
             raise NotThere(name, "is not recorded", self.keys(), "Session.quantities lists them.")
         return series, place.component

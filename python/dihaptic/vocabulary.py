@@ -61,6 +61,10 @@ def find(name: str, list_name: str = "") -> Quantity | None:
     return _BY_LIST.get(list_name, {}).get(name)
 
 
+#: Of each list whose items have names: these, in their order.
+Items = dict[str, list[str]]
+
+
 @dataclass(frozen=True)
 class Place:
     """Where a quantity is: in which list, of which item, and which of its components."""
@@ -71,13 +75,13 @@ class Place:
     component: int | None  #: None: all of them
 
 
-def place_of(name: str, items: list[tuple[str, list[str]]]) -> Place | None:
+def place_of(name: str, items: Items) -> Place | None:
     """The place of a name such as "grip_force", "thumb.force_sent" or "block.position.z", given the
     names of the items of each list; None if nothing is called so."""
     once = find(name)
     if once is not None:
         return Place("", 0, once, None)
-    for list_name, names in items:
+    for list_name, names in items.items():
         for i, item in enumerate(names):
             term, _, component = name.removeprefix(item + ".").partition(".")
             q = find(term, list_name)

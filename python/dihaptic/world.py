@@ -45,11 +45,11 @@ class World:
     ) -> None:
         given = [f"{key}={value}" for key, value in (settings or {}).items()]
         with on_disk(file) as path, on_disk(rig) as rig_path:
-            self._world = _native.World(str(path), str(rig_path) if rig else "", given, seed)
-        names = self._world.fingers()
-        self.bodies = {name: Body(self, i, name) for i, name in enumerate(self._world.bodies())}
-        self.joints: list[str] = self._world.joints()
-        self.fingers = [Finger(self, i, name) for i, name in enumerate(names)]
+            self._world = _native.World(path, rig_path, given, seed)
+        self._items: vocabulary.Items = dict(self._world.items())
+        self.bodies = {name: Body(self, i, name) for i, name in enumerate(self._items["bodies"])}
+        self.joints = self._items["joints"]
+        self.fingers = [Finger(self, i, name) for i, name in enumerate(self._items["fingers"])]
         self.tick: float = self._world.tick_length()  #: time from one tick to the next [s]
         self.warnings: list[str] = self._world.warnings()
 
@@ -109,7 +109,7 @@ class World:
         if name in vocabulary.lists():
             columns = [c for q in vocabulary.of_list(name) for c in q.columns()]
             return pd.DataFrame(self._world.rows(name), columns=columns)
-        place = vocabulary.place_of(name, self._items())
+        place = vocabulary.place_of(name, self._items)
         if place is None:
             known = [q.name for q in vocabulary.of_list("")]
             raise NotThere(name, "is not there", known, "dihaptic.quantities() lists what there is.")
@@ -118,10 +118,6 @@ class World:
 
     def __reduce__(self) -> tuple[Any, ...]:
         raise TypeError("a World cannot be copied: make another, or reset() it")
-
-    def _items(self) -> list[tuple[str, list[str]]]:
-        fingers = [finger.name for finger in self.fingers]
-        return [("fingers", fingers), ("turns", fingers), ("bodies", list(self.bodies)), ("joints", self.joints)]
 
 
 class Finger:

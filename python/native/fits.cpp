@@ -6,9 +6,7 @@
 #include <optional>
 #include <variant>
 
-#include "analysis/fits/adaptation_fit.h"
-#include "analysis/fits/psychometric_fit.h"
-#include "analysis/fits/two_rate_fit.h"
+#include "analysis/fits/parameters.h"
 #include "base/diagnostics.h"
 #include "base/field.h"
 #include "parts.h"
@@ -18,18 +16,25 @@ namespace py = pybind11;
 namespace dihaptic::python {
 namespace {
 
-using analysis::Interval;
 using Counts = std::vector<std::tuple<double, int, int>>;
 
-py::tuple pair(const Interval& interval) {
-    return py::make_tuple(interval.low, interval.high);
+/// The parameters of a fit, and their intervals.
+py::dict to_python(const analysis::Parameters& parameters) {
+    py::dict out;
+    py::dict intervals;
+    for (const analysis::Parameter& p : parameters) {
+        out[p.name] = p.value;
+        intervals[p.name] = py::make_tuple(p.interval.low, p.interval.high);
+    }
+    out["intervals"] = intervals;
+    return out;
 }
 
-/// What every fit of a curve has.
-py::dict common(const analysis::CurveFit& fit, const std::vector<double>& measured) {
+template <class Fit>
+py::dict curve(const Fit& fit, const std::vector<double>& measured) {
     const auto n =
         std::count_if(measured.begin(), measured.end(), [](double x) { return std::isfinite(x); });
-    py::dict out;
+    py::dict out = to_python(analysis::parameters(fit));
     out["predicted"] =
         py::array_t<double>(static_cast<py::ssize_t>(fit.predicted.size()), fit.predicted.data());
     out["residual_sd"] = fit.residual_sd;
@@ -61,46 +66,16 @@ std::vector<model::AdaptationTrial> trials(const std::vector<double>& perturbati
 
 py::dict fit_two_rate(const std::vector<double>& measured, const std::vector<double>& perturbation,
                       const std::vector<bool>& clamp) {
-    const analysis::TwoRateFit fit = analysis::fit_two_rate(measured, trials(perturbation, clamp));
-    py::dict out = common(fit, measured);
-    out["retention_slow"] = fit.rates.slow.retention;
-    out["learning_slow"] = fit.rates.slow.learning;
-    out["retention_fast"] = fit.rates.fast.retention;
-    out["learning_fast"] = fit.rates.fast.learning;
-    py::dict intervals;
-    intervals["retention_slow"] = pair(fit.retention_slow);
-    intervals["learning_slow"] = pair(fit.learning_slow);
-    intervals["retention_fast"] = pair(fit.retention_fast);
-    intervals["learning_fast"] = pair(fit.learning_fast);
-    out["intervals"] = intervals;
-    return out;
+    return curve(analysis::fit_two_rate(measured, trials(perturbation, clamp)), measured);
 }
 
 py::dict fit_single_rate(const std::vector<double>& measured,
                          const std::vector<double>& perturbation, const std::vector<bool>& clamp) {
-    const auto fit = analysis::fit_single_rate(measured, trials(perturbation, clamp));
-    py::dict out = common(fit, measured);
-    out["retention"] = fit.rate.retention;
-    out["learning"] = fit.rate.learning;
-    py::dict intervals;
-    intervals["retention"] = pair(fit.retention);
-    intervals["learning"] = pair(fit.learning);
-    out["intervals"] = intervals;
-    return out;
+    return curve(analysis::fit_single_rate(measured, trials(perturbation, clamp)), measured);
 }
 
 py::dict fit_learning_curve(const std::vector<double>& measured) {
-    const analysis::LearningCurveFit fit = analysis::fit_learning_curve(measured);
-    py::dict out = common(fit, measured);
-    out["start"] = fit.curve.start;
-    out["asymptote"] = fit.curve.asymptote;
-    out["time_constant"] = fit.curve.time_constant;
-    py::dict intervals;
-    intervals["start"] = pair(fit.start);
-    intervals["asymptote"] = pair(fit.asymptote);
-    intervals["time_constant"] = pair(fit.time_constant);
-    out["intervals"] = intervals;
-    return out;
+    return curve(analysis::fit_learning_curve(measured), measured);
 }
 
 model::Sigmoid sigmoid_of(const std::string& word) {
@@ -158,19 +133,11 @@ py::dict fit_psychometric(const Counts& counts, const std::string& sigmoid,
     for (const auto& [level, yes, asked] : counts) levels.push_back({level, yes, asked});
     const analysis::PsychometricFit fit = analysis::fit_psychometric(levels, settings);
     const auto ends = analysis::profile_intervals(levels, fit, settings);
-    py::dict out;
+    py::dict out = to_python(analysis::parameters(fit, ends));
     out["sigmoid"] = sigmoid;
-    out["threshold"] = fit.function.threshold;
-    out["shape"] = fit.function.shape;
     out["guess"] = fit.function.guess;
-    out["lapse"] = fit.function.lapse;
     out["deviance"] = fit.deviance;
     out["shape_unknown"] = fit.shape_unknown;
-    py::dict intervals;
-    intervals["threshold"] = pair(ends.threshold);
-    intervals["shape"] = pair(ends.shape);
-    intervals["lapse"] = pair(ends.lapse);
-    out["intervals"] = intervals;
     return out;
 }
 

@@ -1,4 +1,4 @@
-// Reads what a frame has by name, as numbers and arrays for Python.
+// FrameValue and FrameRows read what a frame has, by name, as numbers and arrays for Python.
 #pragma once
 
 #include <pybind11/eigen.h>
@@ -7,22 +7,16 @@
 
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
+#include "recording/frame_row.h"
 #include "servo/frame.h"
 
 namespace dihaptic::python {
 
 /// Numbers of Python's, of whatever type they are there.
 using Array = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
-
-/// Names of a scene's bodies or joints, in their order.
-template <class List>
-std::vector<std::string> names(const List& list) {
-    std::vector<std::string> out;
-    for (const auto& item : list) out.push_back(item.name);
-    return out;
-}
 
 /// One value of a frame, by its list ("": the tick itself), the item in it, and its name.
 class FrameValue {
@@ -87,26 +81,15 @@ class FrameRows {
 
     // as a visitor
     template <class T>
-    void operator()(const T& value, const servo::Term&) {
-        if (!here_) return;
-        std::vector<double>& row = rows_.back();
-        if constexpr (std::is_same_v<T, Vec3>) {
-            row.insert(row.end(), value.data(), value.data() + 3);
-        } else if constexpr (std::is_same_v<T, Quat>) {
-            row.insert(row.end(), {value.w(), value.x(), value.y(), value.z()});
-        } else if constexpr (!std::is_same_v<T, Time>) {
-            row.push_back(static_cast<double>(value));
-        }
-    }
+    void operator()(const T&, const servo::Term&) {}  // a tick has it once
     template <class T>
     void each(const char* list, const std::vector<T>& items, const char*) {
         if (list_ != list) return;
-        here_ = true;
         for (const T& item : items) {
-            rows_.emplace_back();
-            T::visit(item, *this);
+            recording::FrameRow row;
+            T::visit(item, row);
+            rows_.push_back(std::move(row.numbers));
         }
-        here_ = false;
     }
     template <class T>
     void changed(const char* list, const std::vector<T>& items, const std::vector<uint16_t>&,
@@ -116,7 +99,6 @@ class FrameRows {
 
   private:
     std::string list_;
-    bool here_ = false;
     std::vector<std::vector<double>> rows_;
 };
 

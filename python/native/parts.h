@@ -1,5 +1,5 @@
-// The parts of the module dihaptic._native, each of which adds its functions to it. What they
-// return is plain: the package's own sources make its public classes of that.
+// These functions add the parts of the module dihaptic._native to it. What the module returns is
+// plain: the package's own sources make its public classes of that.
 #pragma once
 
 #include <pybind11/pybind11.h>

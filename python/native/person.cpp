@@ -8,6 +8,7 @@
 
 #include "frame_values.h"
 #include "parts.h"
+#include "plans.h"
 #include "servo/displayed.h"
 #include "session/record.h"
 
@@ -148,19 +149,13 @@ class Sitting {
         }
         return out;
     }
-    std::vector<std::string> fingers() const { return scene::finger_names(plan_.scene); }
-    std::vector<std::string> bodies() const { return names(plan_.scene.bodies); }
-    std::vector<std::string> joints() const { return names(scene::recorded_joints(plan_.scene)); }
+    Items items() const { return items_of(plan_); }
 
   private:
     static session::Plan plan_of(const std::string& file, const std::string& rig,
                                  const std::vector<std::string>& set, uint64_t seed,
                                  const std::string& participant) {
-        session::Request request;
-        request.file = file;
-        request.rig = rig;
-        request.set = set;
-        request.seed = seed;
+        session::Request request = request_of(file, rig, set, seed);
         request.participant = participant;
         request.simulate = true;
         return session::make_plan(request);
@@ -189,9 +184,7 @@ void add_person(py::module_& m) {
         .def("shown_body", &Sitting::shown_body)
         .def("is_shown", &Sitting::is_shown)
         .def("targets", &Sitting::targets)
-        .def("fingers", &Sitting::fingers)
-        .def("bodies", &Sitting::bodies)
-        .def("joints", &Sitting::joints);
+        .def("items", &Sitting::items);
 }
 
 }  // namespace dihaptic::python

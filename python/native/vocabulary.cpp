@@ -15,11 +15,11 @@
 #include "base/unit.h"
 #include "frame_values.h"
 #include "parts.h"
+#include "plans.h"
 #include "recording/raw_log.h"
 #include "recording/schema.h"
 #include "servo/frame.h"
 #include "session/check.h"
-#include "session/plan.h"
 
 namespace py = pybind11;
 
@@ -128,9 +128,10 @@ py::dict log_head(const std::string& file) {
     const recording::LogHead head = recording::RawLogReader(file).head();
     py::dict out;
     out["tick"] = head.tick;
-    out["fingers"] = head.fingers;
-    out["bodies"] = head.bodies;
-    out["joints"] = head.joints;
+    out["items"] = Items{{"fingers", head.fingers},
+                         {"turns", head.turning_fingers()},
+                         {"bodies", head.bodies},
+                         {"joints", head.joints}};
     return out;
 }
 
@@ -157,10 +158,7 @@ std::vector<ProblemRow> check_file(const std::string& file, const std::string& r
 }
 
 bool on_real_devices(const std::string& file, const std::string& rig) {
-    session::Request request;
-    request.file = file;
-    request.rig = rig;
-    return session::on_real_devices(request);
+    return session::on_real_devices(request_of(file, rig, {}, 1));
 }
 
 using Lines = std::vector<std::pair<std::string, int>>;

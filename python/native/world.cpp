@@ -13,8 +13,8 @@
 #include "frame_values.h"
 #include "haptics/safety.h"
 #include "parts.h"
+#include "plans.h"
 #include "session/phase_director.h"
-#include "session/plan.h"
 
 namespace py = pybind11;
 
@@ -57,12 +57,7 @@ void check_factor(const char* what, double value, double least) {
 
 session::Plan plan_of(const std::string& file, const std::string& rig,
                       const std::vector<std::string>& set, uint64_t seed) {
-    session::Request request;
-    request.file = file;
-    request.rig = rig;
-    request.set = set;
-    request.seed = seed;
-    session::Plan plan = session::make_plan(request);
+    session::Plan plan = session::make_plan(request_of(file, rig, set, seed));
     if (plan.task) {
         throw Error({file, 0}, "task", "has trials, which a world does not do",
                     "Give its scene, or do the trials by dihaptic.run().");
@@ -227,9 +222,8 @@ class World {
     }
     static size_t observed(size_t fingers) { return 10 * fingers + 13; }
 
-    std::vector<std::string> fingers() const { return scene::finger_names(plan_.scene); }
-    std::vector<std::string> bodies() const { return names(plan_.scene.bodies); }
-    std::vector<std::string> joints() const { return names(scene::recorded_joints(plan_.scene)); }
+    Items items() const { return items_of(plan_); }
+    size_t fingers() const { return plan_.scene.fingers.size(); }
     std::string object() const {
         const int index = plan_.scene.object_index();
         return index < 0 ? "" : plan_.scene.bodies[static_cast<size_t>(index)].name;
@@ -290,8 +284,9 @@ class World {
         const haptics::Fault& fault = servo_->fault();
         if (!fault) return "the world has stopped";
         const size_t device = fault.device < 0 ? 0 : static_cast<size_t>(fault.device);
-        return "the world has stopped: " +
-               haptics::describe(fault, fingers()[device], plan_.devices[device].model);
+        return "the world has stopped: " + haptics::describe(fault,
+                                                             plan_.scene.fingers[device].name,
+                                                             plan_.devices[device].model);
     }
     static Quat quaternion(const Eigen::Vector4d& wxyz) {
         const Quat q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
@@ -324,7 +319,7 @@ class World {
 /// how hard its proxy is pressed; then the object's position, orientation, velocity, angular
 /// velocity.
 Array observe(const std::vector<World*>& worlds) {
-    const size_t columns = worlds.empty() ? 0 : World::observed(worlds.front()->fingers().size());
+    const size_t columns = worlds.empty() ? 0 : World::observed(worlds.front()->fingers());
     Array out({worlds.size(), columns});
     double* at = out.mutable_data();
     for (const World* world : worlds) at = world->observe(at);
@@ -333,7 +328,7 @@ Array observe(const std::vector<World*>& worlds) {
 
 /// Leads all fingers of many worlds: rows of a world's fingers, each a position and a velocity.
 void lead_all(const std::vector<World*>& worlds, const Array& targets) {
-    const size_t fingers = worlds.empty() ? 0 : worlds.front()->fingers().size();
+    const size_t fingers = worlds.empty() ? 0 : worlds.front()->fingers();
     if (targets.ndim() != 3 || targets.shape(0) != static_cast<py::ssize_t>(worlds.size()) ||
         targets.shape(1) != static_cast<py::ssize_t>(fingers) || targets.shape(2) != 6)
         throw Error("the targets do not fit the worlds", "Give worlds x fingers x 6 numbers.");
@@ -381,9 +376,7 @@ void add_world(py::module_& m) {
         .def("place", &World::place)
         .def("push", &World::push)
         .def("scale", &World::scale)
-        .def("fingers", &World::fingers)
-        .def("bodies", &World::bodies)
-        .def("joints", &World::joints)
+        .def("items", &World::items)
         .def("object", &World::object)
         .def("duration", &World::duration)
         .def("tick_length", &World::tick_length)

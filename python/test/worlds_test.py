@@ -185,6 +185,20 @@ class Worlds(unittest.TestCase):
         world.step()
         self.assertEqual(world["block.position.z"], world["block.position"][2])
 
+    def test_a_finger_whose_device_alone_turns_is_found(self):
+        rig = dh.Rig.load("rigs/ideal-pair.yaml")
+        rig.devices[1].options = {"orientation": True}
+        world = dh.World(BLOCK, rig)
+        world.step(5)
+        np.testing.assert_array_equal(world["index.handle_orientation"], (1, 0, 0, 0))
+        with self.assertRaises(dh.NotThere):
+            world["thumb.handle_orientation"]
+        with tempfile.TemporaryDirectory() as folder:
+            session = dh.run(BLOCK, rig=rig, out=folder, progress=False)
+            exact = session.exact("index.torque_sent")
+            np.testing.assert_array_equal(exact.astype("f4"), session["index.torque_sent"])
+            self.assertNotIn("thumb.torque_sent", session)
+
     def test_settings_are_those_of_the_program(self):
         world = dh.World(BLOCK, settings={"coupling.stiffness_N_m": 600})
         world.step()

@@ -14,6 +14,7 @@
 
 #include "base/disk.h"
 #include "recording/codes.h"
+#include "recording/frame_row.h"
 #include "recording/hdf5.h"
 #include "recording/raw_log.h"
 
@@ -89,22 +90,6 @@ class Series {
   private:
     Id group_;
     hdf5::Rows rows_;
-};
-
-/// One item of a list as numbers.
-class Row {
-  public:
-    template <class T>
-    void operator()(const T& value, const servo::Term&) {
-        if constexpr (std::is_same_v<T, Vec3>) {
-            numbers.insert(numbers.end(), value.data(), value.data() + 3);
-        } else if constexpr (std::is_same_v<T, Quat>) {
-            numbers.insert(numbers.end(), {value.w(), value.x(), value.y(), value.z()});
-        } else {
-            numbers.push_back(static_cast<double>(value));
-        }
-    }
-    std::vector<double> numbers;
 };
 
 /// What a quantity is, and in whose axes.
@@ -255,7 +240,7 @@ class FrameExporter {
         std::vector<double> times;
     };
     std::map<std::string, List> lists_;
-    Row row_;
+    FrameRow row_;
 };
 
 /// Columns that count or number something.

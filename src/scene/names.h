@@ -1,5 +1,5 @@
-// How long the name of a body, finger or joint may be: names become parts of paths in a session's
-// recording.
+// A name of a body, finger or joint may have so many bytes: it becomes a part of paths in a
+// session's recording.
 #pragma once
 
 #include <cstddef>
