@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "application.h"
+#include "display_loss.h"
 #include "escape_listener.h"
 #include "keeper/at_death.h"
 #include "operator_window.h"
@@ -13,15 +14,6 @@
 #include "theme.h"
 
 namespace {
-
-QtMessageHandler usual_messages = nullptr;
-
-/// After some messages Qt ends the program at once; on Wayland not even by exit().
-void on_message(QtMsgType type, const QMessageLogContext& context, const QString& text) {
-    usual_messages(type, context, text);
-    if (type == QtFatalMsg || text.startsWith("The Wayland connection "))
-        dihaptic::gui::SessionRunner::end_program();
-}
 
 /// Shows recorded sessions, and nothing else.
 int look_at(const QStringList& folders) {
@@ -39,7 +31,7 @@ int look_at(const QStringList& folders) {
 int main(int argc, char** argv) {
     dihaptic::keeper::take_force_away_at_death();
     dihaptic::gui::Application app(argc, argv);
-    usual_messages = qInstallMessageHandler(on_message);
+    dihaptic::gui::at_display_loss(dihaptic::gui::SessionRunner::end_program);
     QApplication::setOrganizationName("dihaptic");
     QApplication::setApplicationName("dihaptic");
     QApplication::setApplicationVersion(

@@ -178,9 +178,11 @@ class Force(Window):
                     recovered = subprocess.run([PROGRAM, "recover", folder], capture_output=True, text=True)
                     self.assertEqual(recovered.returncode, 0, recovered.stderr)
                 else:
-                    self.assertEqual(self.window.wait(patient(60)), 1)
+                    ended = self.window.wait(patient(60))
                     self.log.seek(0)
-                    self.assertIn("The window is lost: force is off", self.log.read())
+                    said = self.log.read()
+                    self.assertEqual(ended, 1, said)
+                    self.assertIn("The window is lost: force is off", said)
                 self.assertEqual(self.last_frame(), [True, True])
                 self.replay()
 
