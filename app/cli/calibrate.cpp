@@ -47,6 +47,7 @@ void add_calibrate(CLI::App& app) {
         "Find where a rig's devices truly are, by a link between their endpoints and a jig");
     auto options = std::make_shared<CalibrateOptions>();
     command->add_option("RIG", options->rig, "rig file, with the jig's points if there is one")
+        ->transform(given_or_kept())
         ->required();
     command->add_option("-o,--out", options->out,
                         "calibration file; otherwise the rig's own, beside it. The picture of what "

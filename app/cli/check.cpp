@@ -12,9 +12,10 @@ void add_check(CLI::App& app) {
         "check",
         "Check scene, rig, experiment, movement and population files before anyone sits down");
     auto files = std::make_shared<std::vector<std::string>>();
-    command->add_option("FILE", *files, "files to check")->required();
+    command->add_option("FILE", *files, "files to check")->transform(given_or_kept())->required();
     auto rig = std::make_shared<std::string>();
-    command->add_option("--rig", *rig, "rig file, in place of the experiments'");
+    command->add_option("--rig", *rig, "rig file, in place of the experiments'")
+        ->transform(given_or_kept());
     command->footer(
         "\nExamples:\n  dihaptic check scenes/*.yaml rigs/*.yaml experiments/*.yaml "
         "movements/*.csv populations/*.yaml\n  dihaptic check experiments/grip-and-lift.yaml --rig "

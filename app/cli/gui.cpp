@@ -4,8 +4,8 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <filesystem>
 
+#include "base/companion.h"
 #include "command.h"
 
 namespace dihaptic::cli {
@@ -13,7 +13,7 @@ namespace {
 
 constexpr const char* kProgram = "dihaptic-gui";
 
-/// Replaces this process by the window's program, which lies beside this one.
+/// Replaces this process by the window's program.
 void run(const std::vector<std::string>& files, const std::string& out, double sync) {
     const auto is_set = [](const char* name) {
         const char* value = std::getenv(name);
@@ -23,16 +23,16 @@ void run(const std::vector<std::string>& files, const std::string& out, double s
         throw Error("there is no screen to open a window on",
                     "Start it on a desktop, or log in by ssh -X; dihaptic run needs none.");
     }
-    const std::string program =
-        (std::filesystem::read_symlink("/proc/self/exe").parent_path() / kProgram).string();
+    const std::string program = companion(kProgram);
     std::vector<std::string> words{kProgram, "--out", out, "--sync", fmt::format("{}", sync)};
     words.insert(words.end(), files.begin(), files.end());
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
     execv(program.c_str(), arguments.data());
-    throw Error(fmt::format("{} cannot be started: {}", program, std::strerror(errno)),
-                "Build all of Dihaptic by ./dev build: it lies beside the program dihaptic.");
+    throw Error(fmt::format("{} cannot be started: {}", program.empty() ? kProgram : program,
+                            std::strerror(program.empty() ? ENOENT : errno)),
+                kCompanionMissing);
 }
 
 }  // namespace

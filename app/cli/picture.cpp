@@ -52,6 +52,7 @@ void add_picture(CLI::App& app) {
     auto options = std::make_shared<PictureOptions>();
     options->out = "scene.png";
     command->add_option("FILE", options->file, "scene, experiment, or folder of a session")
+        ->transform(given_or_kept())
         ->required();
     command
         ->add_option("--time", options->time,

@@ -76,7 +76,9 @@ void add_register(CLI::App& app) {
     auto* command = app.add_subcommand(
         "register", "Find where the person sees a rig's display, by a finger that touches crosses");
     auto options = std::make_shared<RegisterOptions>();
-    command->add_option("RIG", options->rig, "rig file, with the display")->required();
+    command->add_option("RIG", options->rig, "rig file, with the display")
+        ->transform(given_or_kept())
+        ->required();
     command->add_option("--display", options->display, "its name; otherwise the rig's only one");
     command->add_option("--finger", options->finger,
                         "that touches; otherwise that of the rig's first device");

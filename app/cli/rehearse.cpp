@@ -223,10 +223,14 @@ void add_rehearse(CLI::App& app) {
     auto* command =
         app.add_subcommand("rehearse", "Let a population of simulated people do an experiment");
     auto options = std::make_shared<RehearseOptions>();
-    command->add_option("FILE", options->request.file, "experiment with trials")->required();
-    command->add_option("--population", options->population_file,
-                        "population file that people are drawn from; default: the program's own, "
-                        "as in populations/adults.yaml");
+    command->add_option("FILE", options->request.file, "experiment with trials")
+        ->transform(given_or_kept())
+        ->required();
+    command
+        ->add_option("--population", options->population_file,
+                     "population file that people are drawn from; default: the program's own, "
+                     "as in populations/adults.yaml")
+        ->transform(given_or_kept());
     command->add_option("--people", options->people, "how many, sim-001 and so on")
         ->check(CLI::Range(1, 9999))
         ->capture_default_str();

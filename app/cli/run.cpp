@@ -377,7 +377,7 @@ void add_simulated_person(CLI::App* command, const std::shared_ptr<SessionOption
         "--population", options->population_file,
         "population file that the person is drawn from; default: the program's own, as in "
         "populations/adults.yaml");
-    population->needs(simulate);
+    population->transform(given_or_kept())->needs(simulate);
     command
         ->add_flag("--real-objects", options->real_objects,
                    "the person grips as one does without a device between")
@@ -412,11 +412,16 @@ void add_physics(CLI::App* command, const std::shared_ptr<SessionOptions>& optio
 void add_run(CLI::App& app) {
     auto* command = app.add_subcommand("run", "Run a scene or an experiment, and record it");
     auto options = std::make_shared<SessionOptions>();
-    command->add_option("FILE", options->request.file, "scene or experiment")->required();
-    command->add_option(
-        "--movement", options->request.movement,
-        "recorded movement (CSV) that pulls the simulated fingers, or a folder of them");
-    command->add_option("--rig", options->request.rig, "rig file, in place of the experiment's");
+    command->add_option("FILE", options->request.file, "scene or experiment")
+        ->transform(given_or_kept())
+        ->required();
+    command
+        ->add_option(
+            "--movement", options->request.movement,
+            "recorded movement (CSV) that pulls the simulated fingers, or a folder of them")
+        ->transform(given_or_kept());
+    command->add_option("--rig", options->request.rig, "rig file, in place of the experiment's")
+        ->transform(given_or_kept());
     add_simulated_person(command, options);
     add_participant(command, options);
     add_physics(command, options);

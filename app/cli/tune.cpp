@@ -73,9 +73,12 @@ void add_tune(CLI::App& app) {
     command
         ->add_option("FILE", options->request.file,
                      "scene or experiment: its rig, hand and settings, as run takes them")
+        ->transform(given_or_kept())
         ->required();
-    command->add_option("--rig", options->request.rig,
-                        "rig file with simulated devices, in place of the experiment's");
+    command
+        ->add_option("--rig", options->request.rig,
+                     "rig file with simulated devices, in place of the experiment's")
+        ->transform(given_or_kept());
     command->add_option("--coupling", options->coupling,
                         "coupling of handle and proxy: implicit, dual_spring, velocity_impulse");
     command->add_option("--set", options->request.set,

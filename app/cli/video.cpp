@@ -55,6 +55,7 @@ void add_video(CLI::App& app) {
     auto options = std::make_shared<ViewOptions>();
     options->out = "session.mp4";
     command->add_option("FILE", options->file, "folder of a session, scene, or experiment")
+        ->transform(given_or_kept())
         ->required();
     add_view_options(*command, options);
     command->add_option("-o,--out", options->out, "the video, an MP4 file")->capture_default_str();

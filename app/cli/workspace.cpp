@@ -93,7 +93,7 @@ void add_workspace(CLI::App& app) {
         "workspace", "Where the devices of a rig get to, each and all together, with a picture");
     auto file = std::make_shared<std::string>();
     auto out = std::make_shared<std::string>("workspace.svg");
-    command->add_option("RIG", *file, "rig file")->required();
+    command->add_option("RIG", *file, "rig file")->transform(given_or_kept())->required();
     command->add_option("-o,--out", *out, "the picture from above, an SVG file")
         ->capture_default_str();
     command->footer("\nExample:\n  dihaptic workspace rigs/premium-arms.yaml -o workspace.svg");

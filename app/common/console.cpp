@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <limits>
 
+#include "base/installed.h"
+
 namespace dihaptic::cli {
 
 std::atomic<bool> stop_requested{false};
@@ -84,6 +86,14 @@ CLI::Validator rate_range() {
 
 CLI::Validator time_range() {
     return range(1.0, 3600.0, "number");
+}
+
+CLI::Validator given_or_kept() {
+    return {[](std::string& name) {
+                name = dihaptic::given_or_kept(name);
+                return std::string();
+            },
+            ""};
 }
 
 CLI::Validator seed_range() {

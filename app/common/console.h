@@ -57,6 +57,10 @@ CLI::Validator rate_range();
 CLI::Validator time_range();
 CLI::Validator seed_range();
 
+/// Takes the name of a file that is not there for that of one that comes with the program, or is in
+/// the user's own folder (base/installed.h).
+CLI::Validator given_or_kept();
+
 /// The flag --json.
 void add_json(CLI::App& command, bool& json);
 

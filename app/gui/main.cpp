@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "application.h"
+#include "base/installed.h"
 #include "display_loss.h"
 #include "escape_listener.h"
 #include "keeper/at_death.h"
@@ -53,7 +54,9 @@ int main(int argc, char** argv) {
         "FILE", "scene or experiment, or folders of recorded sessions, of which two go together",
         "[FILE]");
     parser.process(app);
-    const QStringList files = parser.positionalArguments();
+    QStringList files;
+    for (const QString& given : parser.positionalArguments())
+        files += QString::fromStdString(dihaptic::given_or_kept(given.toStdString()));
     const QString file = files.value(0);
 
     dihaptic::gui::set_dark(QSettings().value("dark", false).toBool());

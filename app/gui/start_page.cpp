@@ -1,6 +1,5 @@
 #include "start_page.h"
 
-#include <QCoreApplication>
 #include <QDir>
 #include <QFileInfo>
 #include <QHBoxLayout>
@@ -8,6 +7,8 @@
 #include <QPushButton>
 #include <QSettings>
 #include <QVBoxLayout>
+
+#include "base/installed.h"
 
 namespace dihaptic::gui {
 namespace {
@@ -115,11 +116,8 @@ void StartPage::each(const QString& file, const F& f) {
 }
 
 QString StartPage::shipped_folder() {
-    for (const QString& folder :
-         {QString("."), QCoreApplication::applicationDirPath() + "/../.."}) {
-        if (QFileInfo(folder + "/scenes").isDir()) return QDir::cleanPath(folder);
-    }
-    return "";
+    if (QFileInfo("scenes").isDir()) return ".";
+    return QString::fromStdString(dihaptic::shipped_folder());
 }
 
 QStringList StartPage::recent_files() {

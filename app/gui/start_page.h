@@ -21,8 +21,8 @@ class StartPage : public QWidget {
     /// Leaves the computer to what is opened.
     void rest() { shelf_.stop(); }
 
-    /// The folder that `scenes` and `experiments` are in: the working directory, or else where the
-    /// program was built; "" if they are nowhere.
+    /// The folder that `scenes` and `experiments` are in: the working directory, or else that of
+    /// what comes with the program; "" if they are nowhere.
     static QString shipped_folder();
     /// Files that were opened before, the last one first, as long as they exist.
     static QStringList recent_files();

@@ -32,23 +32,21 @@ _PROGRESS = re.compile(r"^(?P<what>.+?) +(?P<share>\d+) %")
 
 
 def program() -> str:
-    """Path of the program: of this package's build, or else the installed one. Raises Error.
+    """Path of the program that belongs to this package, or else of the installed one. Raises Error.
 
     >>> import dihaptic.program
     >>> dihaptic.program.program().endswith("dihaptic")
     True
     """
-    built = Path(__file__).parent.parent.parent / "dihaptic"  # of the link in the build folder
-    if built.is_file():
-        return str(built)
-    installed = shutil.which("dihaptic")
-    if installed is None:
+    found = _native.program() or shutil.which("dihaptic")
+    if not found:
         raise error("the program dihaptic is not there", "Build it by ./dev build, or install it.")
-    return installed
+    return found
 
 
 def shipped(name: str) -> Path:
-    """Path of a file that comes with the program, such as "scenes/block-on-table.yaml". Raises Error.
+    """Path of a file that comes with the program, such as "scenes/block-on-table.yaml", or is kept for all studies
+    in ~/.local/share/dihaptic. Raises Error.
 
     >>> import dihaptic as dh
     >>> dh.shipped("scenes/block-on-table.yaml").is_file()
@@ -56,11 +54,10 @@ def shipped(name: str) -> Path:
     """
     if Path(name).is_absolute() or ".." in Path(name).parts:
         raise error("is a path of yours", "Name a file such as scenes/block-on-table.yaml.", file=name)
-    source = Path(__file__).resolve().parents[2]
-    for folder in (source, Path("/usr/share/dihaptic")):
-        if (folder / name).is_file():
-            return folder / name
-    raise error("does not come with the program", "See its folders scenes, rigs and experiments.", file=name)
+    found = Path(_native.kept(name))
+    if not found.is_file():
+        raise error("does not come with the program", "See its folders scenes, rigs and experiments.", file=name)
+    return found
 
 
 def run(

@@ -10,6 +10,7 @@
 #include "analysis/session_report.h"
 #include "analysis/trials.h"
 #include "base/figure.h"
+#include "base/installed.h"
 #include "base/node.h"
 #include "base/palette.h"
 #include "base/unit.h"
@@ -209,6 +210,8 @@ void add_vocabulary(py::module_& m) {
     m.def("log_head", &log_head);
     m.def("log_values", &log_values);
     m.def("colours", &colours);
+    m.def("program", [] { return in_or_above_program({"dihaptic", "bin/dihaptic"}); });
+    m.def("kept", &kept);
 }
 
 }  // namespace dihaptic::python

@@ -1,6 +1,5 @@
 #include "base/companion.h"
 
-#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -17,32 +16,13 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
-#include <filesystem>
+
+#include "base/installed.h"
 
 namespace dihaptic {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr int kOutOfMemory = 3;  // exit status
-
-std::string in_or_above(fs::path folder, const std::string& name) {
-    std::error_code ignored;
-    for (; !folder.empty(); folder = folder.parent_path()) {
-        if (fs::is_regular_file(folder / name, ignored)) return (folder / name).string();
-        if (folder == folder.root_path()) break;
-    }
-    return "";
-}
-
-/// The shared library that this function is in, if it is in one: the running program is then
-/// somebody else's, such as Python.
-fs::path library_of_this() {
-    Dl_info info{};
-    if (dladdr(reinterpret_cast<const void*>(&library_of_this), &info) == 0) return {};
-    std::error_code ignored;
-    return fs::canonical(info.dli_fname, ignored);
-}
 
 /// A file in memory, which needs neither a name nor a folder.
 class MemoryFile {
@@ -190,10 +170,7 @@ std::string failure(const CompanionTask& task, const Ended& ended) {
 }  // namespace
 
 std::string companion(const std::string& name) {
-    std::error_code ignored;
-    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
-    const std::string beside = in_or_above(program.parent_path(), name);
-    return beside.empty() ? in_or_above(library_of_this().parent_path(), name) : beside;
+    return in_or_above_program({name, "libexec/dihaptic/" + name});
 }
 
 std::optional<std::string> run_companion(const CompanionTask& task, const std::string& input) {
@@ -202,7 +179,7 @@ std::optional<std::string> run_companion(const CompanionTask& task, const std::s
         throw Error(
             task.place, task.key,
             fmt::format("the program {}, which is for {}, is missing", task.program, task.what),
-            "Build all of Dihaptic: it lies beside the program dihaptic.");
+            kCompanionMissing);
     }
     const MemoryFile in(input);
     const MemoryFile out("");

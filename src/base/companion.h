@@ -1,4 +1,4 @@
-// Companions are programs that lie beside this one and that it calls: work that may crash, hang or
+// Companions are programs that come with this one and that it calls: work that may crash, hang or
 // fill the memory, or has to outlive this program, runs in one of them.
 #pragma once
 
@@ -12,10 +12,12 @@
 
 namespace dihaptic {
 
-/// Path of the companion `name`. It lies in the folder of the running program or, for tests, which
-/// run from folders below, in a folder above; or there of the shared library that this code is in,
-/// such as a module of Python's. Returns "" if there is none.
+/// Path of the companion `name` (base/installed.h says where it is looked for); "" if there is
+/// none.
 std::string companion(const std::string& name);
+
+/// The remedy where one is missing.
+constexpr const char* kCompanionMissing = "Build all of Dihaptic, or install it again.";
 
 /// What a companion may use before it is killed.
 struct CompanionLimits {

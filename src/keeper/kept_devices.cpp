@@ -297,7 +297,7 @@ std::string program() {
     if (out.empty()) {
         throw Error(
             std::string("the program ") + kProgram + ", which keeps real devices, is missing",
-            "Build all of Dihaptic: it lies beside the program dihaptic.");
+            kCompanionMissing);
     }
     return out;
 }

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "base/field_writer.h"
+#include "base/installed.h"
 #include "base/regular_file.h"
 #include "base/table.h"
 #include "base/text_file.h"
@@ -24,9 +25,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The file that `file` names: beside it, or else one that comes with the program.
 std::string beside(const std::string& file, const std::string& named) {
     if (fs::path(named).is_absolute()) return named;
-    return (fs::path(file).parent_path() / named).lexically_normal().string();
+    const fs::path out = (fs::path(file).parent_path() / named).lexically_normal();
+    std::error_code ignored;
+    const std::string found = fs::exists(out, ignored) ? "" : kept(named);
+    return found.empty() ? out.string() : found;
 }
 
 /// Turns "coupling.stiffness_N_m=600" into the mapping that a file would have.

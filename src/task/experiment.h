@@ -27,7 +27,7 @@ struct MovementSpec {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("file", file, says("CSV file of the movement, relative to this file."));
+        v("file", file, says("CSV file of the movement, found as scene is."));
         v("axes", axes,
           Field::text().required().says(
               "Axes of the file: x right, y up, z toward the person, or the world's."));
@@ -62,9 +62,12 @@ struct Experiment {
     template <class Visitor>
     void visit(Visitor& v) {
         v("title", title, says("Title of the experiment."));
-        v("scene", scene, Field::text().required().says("Scene file, relative to this file."));
+        v("scene", scene,
+          Field::text().required().says(
+              "Scene file, relative to this file; one that is not there is looked for among those "
+              "that come with the program, such as scenes/block-on-table.yaml."));
         v("rig", rig,
-          says("Rig file, relative to this file; left out, the devices are simulated and ideal."));
+          says("Rig file, found as scene is; left out, the devices are simulated and ideal."));
         v("hand", hand, says("The simulated hand, in place of the scene's."));
         v("movement", movement,
           says("Recorded movement that pulls the simulated fingers, in place of the "

@@ -55,7 +55,7 @@ TEST(Companion, ThatFailsIsToldWithItsInputThePlaceAndTheRemedy) {
     gone.program = "dihaptic-gone";
     EXPECT_EQ(failure(gone),
               "scene.yaml:7: error: file: the program dihaptic-gone, which is for reading the "
-              "thing, is missing. Build all of Dihaptic: it lies beside the program dihaptic.");
+              "thing, is missing. Build all of Dihaptic, or install it again.");
 }
 
 TEST(Companion, HasNeitherMoreMemoryNorOurFiles) {

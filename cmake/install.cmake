@@ -1,0 +1,46 @@
+# What an installation has: `cmake --install build/release --prefix FOLDER`, and the Debian packages (`./dev package`).
+# src/base/installed.h finds these folders from the program's own.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(companions dihaptic-decompose dihaptic-gui dihaptic-keeper dihaptic-mesh)
+install(TARGETS dihaptic dihaptic-bench)
+install(TARGETS ${companions} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/dihaptic)
+install(DIRECTORY experiments meshes movements populations rigs scenes textures
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/dihaptic)
+
+# Debian's Python looks there
+set(python_folder lib/python3/dist-packages/dihaptic)
+install(DIRECTORY python/dihaptic/ DESTINATION ${python_folder} FILES_MATCHING PATTERN *.py PATTERN *.pyi PATTERN py.typed
+    PATTERN __pycache__ EXCLUDE)
+if(TARGET dihaptic_python)
+    install(TARGETS dihaptic_python LIBRARY DESTINATION ${python_folder})
+endif()
+
+# The world and its contact solvers for other C++ programs: find_package(dihaptic), dihaptic::dynamics
+set(rooms base contact scene dynamics)
+set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/dihaptic)
+foreach(room flags ${rooms})
+    set_target_properties(dihaptic_${room} PROPERTIES EXPORT_NAME ${room})
+    install(TARGETS dihaptic_${room} EXPORT dihaptic INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dihaptic)
+endforeach()
+foreach(room ${rooms})
+    get_target_property(doors dihaptic_${room} DIHAPTIC_DOORS)
+    get_target_property(folder dihaptic_${room} DIHAPTIC_FOLDER)
+    foreach(door ${doors})
+        cmake_path(GET door PARENT_PATH subfolder)
+        install(FILES ${folder}/${door} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/dihaptic/${room}/${subfolder})
+    endforeach()
+endforeach()
+install(EXPORT dihaptic NAMESPACE dihaptic:: FILE targets.cmake DESTINATION ${cmake_folder})
+install(FILES cmake/dihaptic-config.cmake DESTINATION ${cmake_folder})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/dihaptic-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/dihaptic-config-version.cmake DESTINATION ${cmake_folder})
+
+# all of that, without the tests
+add_custom_target(installed DEPENDS dihaptic dihaptic-bench ${companions})
+foreach(room ${rooms})
+    add_dependencies(installed dihaptic_${room})
+endforeach()
+if(TARGET dihaptic_python)
+    add_dependencies(installed dihaptic_python)
+endif()

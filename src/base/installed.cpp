@@ -1,0 +1,73 @@
+#include "base/installed.h"
+
+#include <dlfcn.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+namespace dihaptic {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The shared library that this function is in, if it is in one: the running program is then
+/// somebody else's, such as Python.
+fs::path file_of_this() {
+    std::error_code ignored;
+    const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+    Dl_info info{};
+    if (dladdr(reinterpret_cast<const void*>(&file_of_this), &info) == 0) return program;
+    // of a program this is the name that it was started by, which may be found on PATH alone
+    const fs::path library = fs::canonical(info.dli_fname, ignored);
+    return ignored || library.extension() != ".so" ? program : library;
+}
+
+/// Where a user keeps files of all studies; "" if the user has no home.
+fs::path own_folder() {
+    if (const char* data = std::getenv("XDG_DATA_HOME"); data != nullptr && *data == '/')
+        return fs::path(data) / "dihaptic";
+    const char* home = std::getenv("HOME");
+    if (home == nullptr || *home != '/') return {};
+    return fs::path(home) / ".local/share/dihaptic";
+}
+
+}  // namespace
+
+std::string in_or_above_program(std::initializer_list<std::string> names) {
+    std::vector<fs::path> folders;
+    for (fs::path at = file_of_this().parent_path(); at.has_relative_path(); at = at.parent_path())
+        folders.push_back(at);
+    folders.insert(folders.end(), {"/usr/local", "/usr"});  // other programs use this library too
+    std::error_code ignored;
+    for (const fs::path& folder : folders) {
+        for (const std::string& name : names) {
+            if (fs::is_regular_file(folder / name, ignored)) return (folder / name).string();
+        }
+    }
+    return "";
+}
+
+std::string shipped_folder() {
+    const std::string file = "scenes/block-on-table.yaml";
+    const fs::path found = in_or_above_program({file, "share/dihaptic/" + file});
+    return found.parent_path().parent_path().string();
+}
+
+std::string kept(const std::string& name) {
+    if (name.empty() || fs::path(name).is_absolute()) return "";
+    std::error_code ignored;
+    for (const fs::path& folder : {own_folder(), fs::path(shipped_folder())}) {
+        if (!folder.empty() && fs::exists(folder / name, ignored)) return (folder / name).string();
+    }
+    return "";
+}
+
+std::string given_or_kept(const std::string& name) {
+    std::error_code ignored;
+    if (fs::exists(name, ignored)) return name;
+    const std::string found = kept(name);
+    return found.empty() ? name : found;
+}
+
+}  // namespace dihaptic

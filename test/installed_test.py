@@ -1,0 +1,105 @@
+"""What an installation has, tried from a folder of its own: programs, files, Python, and another C++ project."""
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BUILD = pathlib.Path(sys.argv.pop(1)).resolve().parent
+SOURCE = pathlib.Path.cwd()
+
+
+class Installed(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.prefix = pathlib.Path(cls.folder.name, "usr")
+        cls.work = pathlib.Path(cls.folder.name, "work")
+        cls.work.mkdir()
+        subprocess.run(["cmake", "--install", BUILD, "--prefix", cls.prefix], check=True, stdout=subprocess.DEVNULL)
+        cls.environment = dict(os.environ, HOME=cls.folder.name, PATH=f"{cls.prefix}/bin:{os.environ['PATH']}",
+                               PYTHONPATH=f"{cls.prefix}/lib/python3/dist-packages")
+        cls.environment.pop("XDG_DATA_HOME", None)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def run_here(self, *words, code=0):
+        done = subprocess.run(words, cwd=self.work, env=self.environment, capture_output=True, text=True)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout
+
+    def test_the_demo_runs_from_any_folder(self):
+        said = self.run_here("dihaptic", "run", "experiments/lift-block.yaml")
+        self.assertIn("hold", said)
+        session = next(self.work.glob("sessions/*_lift-block*"))
+        self.run_here("dihaptic", "picture", str(session), "--time", "5", "-o", "lifted.png")
+        self.assertGreater((self.work / "lifted.png").stat().st_size, 10_000)
+
+    def test_what_needs_a_companion_or_a_file_beside_a_file_finds_it(self):
+        self.run_here("dihaptic", "check", "scenes/looks.yaml", "scenes/tools.yaml", "experiments/visuomotor-rotation.yaml")
+
+    def test_a_file_of_ones_own_may_name_what_is_shipped_and_comes_first(self):
+        own = self.work / "mine.yaml"
+        own.write_text("scene: scenes/block-on-table.yaml\nrig: rigs/premium-pair.yaml\n")
+        self.run_here("dihaptic", "check", "mine.yaml")
+        (self.work / "scenes").mkdir()
+        (self.work / "scenes/block-on-table.yaml").write_text("bodies: nonsense\n")
+        done = subprocess.run(["dihaptic", "check", "mine.yaml"], cwd=self.work, env=self.environment, capture_output=True,
+                              text=True)
+        self.assertIn("scenes/block-on-table.yaml:1", done.stderr + done.stdout)
+        self.assertEqual(done.returncode, 2)
+        (self.work / "scenes/block-on-table.yaml").unlink()
+        (self.work / "scenes").rmdir()
+
+    def test_a_file_that_is_nowhere_is_an_error_that_names_it_as_given(self):
+        done = subprocess.run(["dihaptic", "run", "experiments/none.yaml"], cwd=self.work, env=self.environment,
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("experiments/none.yaml", done.stderr)
+        self.assertNotIn(str(self.prefix), done.stderr)
+
+    def test_python_reads_runs_and_finds(self):
+        said = self.run_here("/usr/bin/python3", "-c", """
+import dihaptic as dh
+from dihaptic.program import program
+print(program())
+print(dh.shipped("scenes/block-on-table.yaml"))
+print(len(dh.run("experiments/lift-block.yaml", out="by-python").lifts))
+""")
+        self.assertEqual(said.split(), [f"{self.prefix}/bin/dihaptic", f"{self.prefix}/share/dihaptic/scenes/block-on-table.yaml",
+                                        "1"])
+
+    def test_another_project_builds_against_the_library_and_lifts_a_block(self):
+        source = SOURCE / "packaging/example"
+        self.assertLessEqual(len((source / "lift.cpp").read_text().splitlines()), 60)
+        self.run_here("cmake", "-S", source, "-B", "built", f"-DCMAKE_PREFIX_PATH={self.prefix}")
+        self.run_here("cmake", "--build", "built")
+        self.environment["XDG_DATA_HOME"] = f"{self.prefix}/share"  # it is not installed in /usr
+        self.assertIn("The block is lifted.", self.run_here("built/lift"))
+        self.environment.pop("XDG_DATA_HOME")
+
+
+class Packages(unittest.TestCase):
+    def test_are_built_with_packages_that_every_build_is_made_with(self):
+        control = (SOURCE / "packaging/debian/control").read_text()
+        needed = set(re.findall(r"^ ([a-z0-9.+-]+)", control.split("Build-Depends:")[1].split("\nStandards")[0], re.M))
+        known = {line.split("#")[0].strip() for line in (SOURCE / "packages.txt").read_text().splitlines()}
+        self.assertEqual(needed - known, {"debhelper-compat", "dh-python", "help2man"})
+
+    def test_have_a_licence_each_in_the_table_of_licences(self):
+        rows = (SOURCE / "docs/licences.md").read_text().split("|---|---|---|")[1]
+        told = re.findall(r"`([a-z0-9.+-]+-?[a-z0-9]*)`", "\n".join(line.split("|")[1] for line in rows.splitlines() if "|" in line))
+        used = [line.split("#")[0].strip() for line in (SOURCE / "packages.txt").read_text().splitlines()]
+        self.assertEqual(sorted(told), sorted(name for name in used if name))
+
+    def test_are_cited_in_the_version_that_they_have(self):
+        version = re.search(r"project\(dihaptic VERSION ([0-9.]+)", (SOURCE / "CMakeLists.txt").read_text())[1]
+        self.assertIn(f"\nversion: {version}\n", (SOURCE / "CITATION.cff").read_text())
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)
