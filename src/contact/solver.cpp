@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kMostStaggeredIterations = 200;
 constexpr int kLastSweeps = 2000;
+constexpr int kConeSweeps = 200;  // until an answer that left the cone is let be
 /// Bounds as a fallback: pairs of projections times contacts squared, and sweeps times contacts.
 constexpr size_t kMostStaggeredWork = 20'000;
 constexpr size_t kMostSweepWork = 60'000;
@@ -156,8 +157,9 @@ class Solve {
         return last;
     }
 
-    /// Projects the impulses into the cone, so that a remaining error never pulls, unless the
-    /// problem is so delicate that this small change is too much.
+    /// Projects the impulses into the cone, so that a remaining error never pulls. Some problems are
+    /// so delicate that this small change is too much: sweeps lead these into the cone, as they take
+    /// the velocities along. Where they do not, the impulses stay as they are.
     Residual end_inside_cone() {
         std::copy(r_.begin(), r_.end(), newton_memory_.best.begin());
         project();
@@ -168,7 +170,13 @@ class Solve {
             return cone_residual();
         };
         const Residual unprojected = swap();
-        return unprojected.judged() <= kTolerance ? unprojected : swap();
+        if (unprojected.judged() > kTolerance) return swap();
+        std::copy(r_.begin(), r_.end(), newton_memory_.best.begin());
+        for (int sweep = 0; sweep < kConeSweeps; ++sweep) {
+            system_.sweep(law::Coulomb{}, r_, 1);
+            if (const Residual swept = cone_residual(); swept.judged() <= kTolerance) return swept;
+        }
+        return swap();
     }
 
     void project() {

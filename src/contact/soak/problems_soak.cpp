@@ -47,5 +47,38 @@ TEST_P(Problems, AreAnswered) {
     EXPECT_LE(missed, kProblems / 10'000);
 }
 
+/// What a contact's friction has above its cone, over the cone's radius.
+double outside(const ProblemContact& contact, const Impulse& r) {
+    const double radius = contact.friction * r[0];
+    const double friction = r.segment<2>(1).norm();
+    return friction > radius * (1 + 1e-12) ? friction / radius - 1 : 0;
+}
+
+/// An answer that leaves the cone lets a finger pull where it may not.
+TEST_P(Problems, KeepFrictionInTheCone) {
+    constexpr int kProblems = 30'000;
+    Random random(2013, "thrown together");
+    ContactSolvers solvers;
+    solvers.reserve(6, 24, true);
+    int left = 0;
+    double worst = 0;
+    std::vector<Impulse> r;
+    for (int i = 0; i < kProblems; ++i) {
+        const ContactProblem problem =
+            testing::random_problem(random, 1 + i % 6, 1 + i % 24, GetParam().torsion ? 0.005 : 0);
+        r.assign(problem.contacts.size(), Impulse::Zero());
+        SolveStats stats;
+        solvers.solve(GetParam().solver, {}, problem, r, stats);
+        double most = 0;
+        for (size_t j = 0; j < r.size(); ++j)
+            most = std::max(most, outside(problem.contacts[j], r[j]));
+        left += most > 0;
+        worst = std::max(worst, most);
+    }
+    std::printf("%d problems: %d left the cone, by %g of its radius at most\n", kProblems, left,
+                worst);
+    EXPECT_LE(left, kProblems / 1000);
+}
+
 }  // namespace
 }  // namespace dihaptic::contact
