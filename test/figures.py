@@ -1,6 +1,6 @@
-"""The figures that README.md states, their one home and how they are checked.
+"""The figures that docs/figures.md states, their one home and how they are checked.
 
-docs/figures.json has a row for each: what it is, the figure as README prints it, the command that prints it, and checks:
+docs/figures.json has a row for each: what it is, the figure as the page prints it, the command that prints it, and checks:
 which values of the command's JSON it stands for, and between which bounds they lie. A value is a path, with [] for every item
 of a list and [key=value] for those that have it; "over" divides by another. "pattern" is sought in the command's text instead.
 "quiet" rows are times: they want a machine that does nothing else. "peers" rows want the program of ./dev bench --peers.
@@ -11,7 +11,8 @@ A command that begins with dihaptic-bench is run by that program, which lies bes
     figures.py PROGRAM --quiet     runs the quiet rows as well
     figures.py PROGRAM --peers     runs those of other simulators as well
     figures.py PROGRAM --only grasp    those whose command has this word
-    figures.py --table             prints README's table
+    figures.py --table             prints the page's table
+    figures.py --table --headline  prints README's, which has some of its rows
 
 It returns 1 when a figure differs, and names it; 2 when a command failed.
 """
@@ -42,8 +43,8 @@ def table(rows):
     return HEAD + [f"| {row['what']} | {row['figure']} | `{row['command']}` |" for row in rows]
 
 
-def readme_table(text):
-    """The lines of README's table of figures."""
+def stated_table(text):
+    """The lines of the table of figures in a page."""
     lines = text.splitlines()
     begin = lines.index(HEAD[0])
     end = begin
@@ -117,8 +118,9 @@ def main():
     parser.add_argument("--peers", action="store_true")
     parser.add_argument("--only", default="")
     parser.add_argument("--table", action="store_true")
+    parser.add_argument("--headline", action="store_true")
     options = parser.parse_args()
-    rows = load()
+    rows = [row for row in load() if row.get("headline") or not options.headline]
     if options.table:
         print("\n".join(table(rows)))
         return 0
