@@ -72,7 +72,7 @@ class Reports(unittest.TestCase):
         paths = re.search(r"<svg.*?</svg>", dom[dom.index("<h2>Each reach"):], flags=re.S).group()
         self.assertEqual(paths.count('stroke-opacity="0.5"'), reaches)
         self.assertIn("each with 4 blocks: baseline (", dom)
-        self.assertIn("dihaptic 0.1.0", dom)
+        self.assertIn(dihaptic("--version").strip(), dom)
         with open(session + "/trials.csv") as file:
             trials = list(csv.DictReader(file))
         with open(session + "/adaptation.csv") as file:
