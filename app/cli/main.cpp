@@ -1,4 +1,10 @@
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+
 #include "command.h"
+#include "common/installation.h"
 #include "common/steady_output.h"
 #include "common/stop_signals.h"
 #include "keeper/at_death.h"
@@ -8,6 +14,31 @@ namespace dihaptic::cli {
 namespace {
 
 std::string typed;
+
+/// What to do next, for who types the program's name and nothing more. `program`: as it was typed,
+/// so that each line can be typed too.
+void say_what_to_do(const std::string& program) {
+    namespace fs = std::filesystem;
+    const fs::path demo = fs::path(app::shipped_folder()) / "experiments/lift-block.yaml";
+    struct Line {
+        std::string command;
+        const char* what;
+    };
+    const std::array<Line, 4> lines{{
+        {"run " + demo.lexically_normal().string(),
+         "two fingers lift a block: figures, a recording"},
+        {"gui", "the window, in which your mouse moves the hand"},
+        {"new study NAME", "a study of your own, to be edited"},
+        {"--help", "all commands; each has --help of its own"},
+    }};
+    size_t width = 0;
+    for (const Line& line : lines) width = std::max(width, line.command.size());
+    fmt::print(stderr,
+               "Dihaptic: a virtual tabletop for experiments with force-feedback devices, or with "
+               "simulated ones.\nTo begin with:\n\n");
+    for (const Line& line : lines)
+        fmt::print(stderr, "  {} {:{}}    {}\n", program, line.command, width, line.what);
+}
 
 }  // namespace
 
@@ -24,6 +55,10 @@ int main(int argc, char** argv) {
     cli::make_output_steady();
     cli::typed = "dihaptic";
     for (int i = 1; i < argc; ++i) cli::typed += std::string(" ") + argv[i];
+    if (argc <= 1) {
+        cli::say_what_to_do(argc == 1 ? argv[0] : "dihaptic");
+        return cli::kBadInput;  // a script whose command is empty has done nothing
+    }
 
     CLI::App app(
         "Dihaptic: grasp, lift and turn virtual objects with two force-feedback devices, or with a "
@@ -51,5 +86,6 @@ int main(int argc, char** argv) {
     cli::add_workspace(app);
     cli::add_calibrate(app);
     cli::add_register(app);
+    cli::add_new(app);
     return cli::run_program(app, argc, argv);
 }

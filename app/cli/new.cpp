@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <array>
+#include <cctype>
+#include <cstdlib>
+#include <filesystem>
+
+#include "base/text_file.h"
+#include "command.h"
+#include "common/installation.h"
+#include "new_study.h"
+
+namespace dihaptic::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct StudyFile {
+    const char* name;
+    std::string_view text;
+};
+
+std::array<StudyFile, 4> study_files() {
+    return {{{"scene.yaml", kStudyScene},
+             {"rig.yaml", kStudyRig},
+             {"experiment.yaml", kStudyExperiment},
+             {"README.md", kStudyReadme}}};
+}
+
+bool is_plain(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
+}
+
+/// A name that every shell takes as it is. Throws Error with one that is near.
+void check_name(const std::string& name) {
+    const bool plain = std::all_of(name.begin(), name.end(), is_plain);
+    if (plain && !name.empty() && name.front() != '-' && name.front() != '.') return;
+    std::string near = name;
+    std::replace_if(
+        near.begin(), near.end(), [](char c) { return !is_plain(c); }, '-');
+    near.erase(0, near.find_first_not_of("-."));
+    throw Error(fmt::format("'{}' is no name for a study", shortened(name)),
+                fmt::format("Use letters, digits, '-' and '_': dihaptic new study {}.",
+                            near.empty() ? "my-study" : near));
+}
+
+/// Where the study is to be. Throws Error when it cannot be there.
+fs::path place_of(std::string path) {
+    while (path.size() > 1 && path.back() == '/') path.pop_back();
+    const fs::path folder(path);
+    check_name(folder.filename().string());
+    std::error_code failed;
+    if (fs::exists(fs::symlink_status(folder, failed)))
+        throw Error({path, 0}, "", "is already there", "Choose another name.");
+    const fs::path above = folder.parent_path();
+    if (above.empty() || fs::is_directory(above, failed)) return folder;
+    if (fs::exists(above, failed))
+        throw Error({above.string(), 0}, "", "is no folder", "Name one that the study goes into.");
+    throw Error({above.string(), 0}, "", "is not there",
+                fmt::format("Make it first: mkdir -p '{}'.", above.string()));
+}
+
+/// Makes the folder under another name first, so that nothing half-made is ever found under its
+/// own.
+void make_study(const fs::path& folder) {
+    const std::string part = part_name(folder.string());
+    std::error_code failed;
+    if (!fs::create_directory(part, failed))
+        throw Error({folder.string(), 0}, "", fmt::format("cannot be made: {}", failed.message()),
+                    "Go to a folder of your own first (cd), or name one: dihaptic new study "
+                    "~/my-study.");
+    try {
+        for (const StudyFile& file : study_files())
+            write_file(std::string(file.text), fmt::format("{}/{}", part, file.name));
+        fs::rename(part, folder);
+    } catch (const std::exception&) {
+        fs::remove_all(part, failed);
+        throw;
+    }
+}
+
+void new_study(const std::string& path) {
+    const fs::path folder = place_of(path);
+    make_study(folder);
+    std::vector<std::string> names;
+    for (const StudyFile& file : study_files()) names.emplace_back(file.name);
+    fmt::print("{}: {}\n", folder.string(), fmt::join(names, ", "));
+    fmt::print("next: cd {}, where README.md says what to type, from top to bottom\n",
+               folder.string());
+    const char* const paths = std::getenv("PATH");
+    if (!app::shell_finds_program(paths == nullptr ? "" : paths))
+        fmt::print("so that your shell finds dihaptic there: {}\n", app::path_command());
+}
+
+}  // namespace
+
+void add_new(CLI::App& app) {
+    auto* command =
+        app.add_subcommand("new", "Make files of one's own to begin with: a whole study");
+    command->require_subcommand(1);
+    command->footer("\nExample:\n  dihaptic new study my-study");
+    auto* study = command->add_subcommand(
+        "study", "Make a folder with scene, rig, experiment and README.md, to be edited");
+    auto name = std::make_shared<std::string>();
+    study->add_option("NAME", *name, "the folder, which is not there yet")->required();
+    study->footer("\nExample:\n  dihaptic new study my-study");
+    study->callback([name] { new_study(*name); });
+}
+
+}  // namespace dihaptic::cli

@@ -1,0 +1,227 @@
+"""The first hour: what to type next, and a study of one's own, whose README.md is followed to the letter.
+
+Usage: first_hour_test.py PROGRAM, from the project's folder.
+"""
+import csv
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import time
+import unittest
+
+from program import PROGRAM, dihaptic, patient, with_largest_file
+
+HERE = pathlib.Path(PROGRAM).resolve()
+MADE_FROM = pathlib.Path("app/cli/new_study").resolve()
+FILES = ["README.md", "experiment.yaml", "rig.yaml", "scene.yaml"]
+
+
+class FirstHour(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def new(self, *arguments, **options):
+        return dihaptic("new", "study", *arguments, program=str(HERE), cwd=self.folder, **options)
+
+
+class WithoutArguments(FirstHour):
+    def test_says_what_to_do_next_and_each_line_can_be_typed(self):
+        for cwd in [".", self.folder]:
+            result = dihaptic(program=str(HERE), cwd=cwd)
+            self.assertEqual(result.returncode, 2)  # a script whose command is empty has not succeeded
+            self.assertEqual(result.stdout, "")
+            self.assertLess(result.stderr.count("\n"), 12)
+            commands = re.findall(r"^  (/\S+) (.+?)   ", result.stderr, re.MULTILINE)
+            self.assertEqual([program for program, _ in commands], [str(HERE)] * len(commands))
+            arguments = [words.split() for _, words in commands]
+            self.assertEqual([words[0] for words in arguments], ["run", "gui", "new", "--help"])
+            for words in arguments:
+                known = [word for word in words if not word.endswith(".yaml") and word != "NAME"]
+                self.assertEqual(dihaptic(*known, "--help").returncode, 0, words)
+            demo = arguments[0][1]
+            result = dihaptic("run", demo, "--out", str(self.folder / "sessions"), program=str(HERE), cwd=cwd)
+            self.assertEqual(result.returncode, 0, result.stderr)
+
+
+class NewStudy(FirstHour):
+    def test_makes_the_files_that_the_project_has(self):
+        result = self.new("wrist")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(sorted(os.listdir(self.folder / "wrist")), FILES)
+        self.assertEqual(sorted(os.listdir(MADE_FROM)), FILES)
+        for name in FILES:
+            text = (self.folder / "wrist" / name).read_text()
+            self.assertEqual(text, (MADE_FROM / name).read_text())
+            self.assertNotIn("../", text, "of no file outside the folder")
+            self.assertIn(name, result.stdout)
+            if name != "README.md":
+                self.assertIn(f"| `{name}` |", (MADE_FROM / "README.md").read_text())
+        self.assertIn("next: cd wrist", result.stdout)
+
+    def test_says_how_the_shell_finds_the_program(self):
+        command = f'export PATH="{HERE.parent}:$PATH"'
+        self.assertIn(command, self.new("one", env=dict(os.environ, PATH="/usr/bin")).stdout)
+        self.assertIn(command, self.new("two", env={}).stdout)
+        found = dict(os.environ, PATH=f"/usr/bin:{HERE.parent}")
+        self.assertNotIn("PATH", self.new("three", env=found).stdout)
+        another = self.folder / "bin" / "dihaptic"
+        another.parent.mkdir()
+        another.touch(0o755)
+        self.assertIn(command, self.new("four", env=dict(os.environ, PATH=f"{another.parent}:{HERE.parent}")).stdout)
+
+    def test_goes_where_it_is_told(self):
+        (self.folder / "studies").mkdir()
+        for path in ["studies/wrist", "./arm", str(self.folder / "studies/grip_2.b/")]:
+            self.assertEqual(self.new(path).returncode, 0)
+            self.assertEqual(sorted(os.listdir(self.folder / path)), FILES)
+
+    def test_touches_nothing_that_is_there(self):
+        (self.folder / "file").write_text("mine")
+        (self.folder / "empty").mkdir()
+        (self.folder / "link").symlink_to("/nowhere")
+        for name in ["file", "empty", "link", "empty/"]:
+            result = self.new(name)
+            self.assertEqual(result.returncode, 2)
+            self.assertIn(f"{name.rstrip('/')}: error: is already there. Choose another name.", result.stderr)
+        self.assertEqual((self.folder / "file").read_text(), "mine")
+        self.assertEqual(os.listdir(self.folder / "empty"), [])
+        self.assertEqual(sorted(os.listdir(self.folder)), ["empty", "file", "link"])
+
+    def test_refuses_names_that_a_shell_takes_otherwise(self):
+        for name, better in [("my study", "my-study"), ("a;b", "a-b"), ("$HOME", "HOME"), (".hidden", "hidden"),
+                             ("", "my-study"), ("..", "my-study"), ("../my study", "my-study"), ("a\nb", "a-b")]:
+            result = self.new(name)
+            self.assertEqual(result.returncode, 2, name)
+            self.assertIn(f"Use letters, digits, '-' and '_': dihaptic new study {better}.\n", result.stderr)
+            self.assertEqual(self.new(better).returncode, 0, better)
+            subprocess.run(["rm", "-r", better], cwd=self.folder, check=True)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_says_what_is_wrong_with_the_folder_that_it_is_to_be_in(self):
+        (self.folder / "file").touch()
+        for path, message in [("none/wrist", "none: error: is not there. Make it first: mkdir -p 'none'."),
+                              ("file/wrist", "file: error: is no folder."),
+                              ("/proc/wrist", "/proc/wrist: error: cannot be made: "),
+                              ("w" * 300, "cannot be made: File name too long")]:
+            result = self.new(path)
+            self.assertEqual(result.returncode, 2, path)
+            self.assertIn(message, result.stderr)
+        self.assertEqual(os.listdir(self.folder), ["file"])
+
+    def test_leaves_nothing_half_made(self):
+        result = self.new("wrist", preexec_fn=with_largest_file(2000))
+        self.assertEqual(result.returncode, 2, result.stdout)
+        self.assertIn("cannot be written", result.stderr)
+        self.assertEqual(os.listdir(self.folder), [])
+
+
+class Readme(FirstHour):
+    """README.md of a study, as a student follows it: from top to bottom, in its folder."""
+
+    def setUp(self):
+        super().setUp()
+        self.assertEqual(self.new("wrist").returncode, 0)
+        self.study = self.folder / "wrist"
+        self.readme = (self.study / "README.md").read_text()
+        self.environment = dict(os.environ, PATH=f"{HERE.parent}:{os.environ['PATH']}", HOME=str(self.folder),
+                                XDG_RUNTIME_DIR=str(self.folder))
+
+    def typed(self, command):
+        return subprocess.run(command, shell=True, cwd=self.study, env=self.environment, stdin=subprocess.DEVNULL,
+                              capture_output=True, text=True, timeout=patient(300))
+
+    def open_a_display(self):
+        read, write = os.pipe()
+        display = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-noreset"], pass_fds=[write],
+                                   stderr=subprocess.DEVNULL)
+        self.addCleanup(display.wait)
+        self.addCleanup(display.kill)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            self.environment["DISPLAY"] = ":" + pipe.readline().strip()
+
+    def look_at_window(self, command):
+        """The window shows the study, and is closed."""
+        self.open_a_display()
+        with open(self.folder / "log", "w+") as log:
+            window = subprocess.Popen(command.split(), cwd=self.study, env=self.environment, stdout=log, stderr=log)
+            self.addCleanup(window.wait)
+            self.addCleanup(window.kill)
+            look = ["xdotool", "search", "--onlyvisible", "--name", " - Dihaptic$"]
+            end = time.monotonic() + patient(60)
+            while not (found := subprocess.run(look, env=self.environment, capture_output=True, text=True).stdout):
+                log.seek(0)
+                self.assertIsNone(window.poll(), log.read())
+                self.assertLess(time.monotonic(), end)
+                time.sleep(0.1)
+            # there is no window manager that gives it the keyboard
+            subprocess.run(["xdotool", "windowfocus", "--sync", found.split()[-1], "key", "ctrl+q"],
+                           env=self.environment, timeout=patient(60))
+            self.assertEqual(window.wait(patient(60)), 0)
+
+    def test_every_command_of_it_does_what_it_says(self):
+        commands = re.findall(r"^    (.+)$", self.readme, re.MULTILINE)
+        self.assertEqual([command.split()[1] for command in commands],
+                         ["check", "picture", "rehearse", "report", "collect", "rehearse", "gui", "run", "run", "report"])
+        for command in commands:
+            with self.subTest(command):
+                self.assertTrue(command.startswith("dihaptic "))
+                if command.split()[1] == "gui":
+                    self.look_at_window(command)
+                    continue
+                result = self.typed(command)
+                self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+                self.assertNotIn("warning", result.stdout + result.stderr)
+                self.assertNotIn("note:", result.stdout + result.stderr)
+        for made in re.findall(r"`((?:rehearsals|sessions)\S*)`", self.readme) + ["scene.png", "sessions/report.html"]:
+            self.assertTrue((self.study / made).exists(), made)
+        self.people_learn(self.study / "rehearsals/experiment_1/trials.csv")
+
+    def people_learn(self, trials):
+        """What experiment.yaml says is to come out."""
+        with open(trials) as file:
+            rows = [row for row in csv.DictReader(file) if row["outcome"] == "reached"]
+
+        def mean(column, block, first, last):
+            values = [float(row[column]) for row in rows
+                      if row["block"] == block and first <= int(row["trial_num_in_block"]) <= last]
+            return sum(values) / len(values)
+
+        self.assertAlmostEqual(mean("shown_angle_deg", "baseline", 1, 16), 0, delta=2)
+        self.assertAlmostEqual(mean("shown_angle_deg", "rotation", 1, 1), 30, delta=5)
+        self.assertLess(mean("shown_angle_deg", "rotation", 41, 48), 20)
+        self.assertLess(mean("hand_angle_deg", "clamp", 1, 4), -5)
+        self.assertLess(mean("shown_angle_deg", "washout", 1, 2), -2)
+        self.assertGreater(mean("shown_angle_deg", "washout", 17, 24), mean("shown_angle_deg", "washout", 1, 2))
+
+    def test_commands_within_its_sentences_are_there(self):
+        named = re.findall(r"`dihaptic (\w+)`", self.readme)
+        self.assertIn("devices", named)
+        for command in named:
+            self.assertEqual(dihaptic(command, "--help").returncode, 0, command)
+        for page in re.findall(r"\bdocs/\S+\.md", self.readme):
+            self.assertTrue(pathlib.Path(page).exists(), page)
+
+    def test_what_the_comments_propose_can_be_done(self):
+        scene = self.study / "scene.yaml"
+        text = scene.read_text()
+        block = re.search(r"^  # (- \{ name: block,.*\})$", text, re.MULTILINE)
+        scene.write_text(text.replace(block[0], "  " + block[1]))
+        self.assertEqual(self.typed("dihaptic check experiment.yaml").returncode, 0)
+        rig = self.study / "rig.yaml"
+        text = rig.read_text()
+        presets = re.search(r"# plant .* be on (\w+), (\w+) or (\w+),", text).groups()
+        for preset in presets:
+            changed = text.replace("preset: plant", "preset: " + preset)
+            self.assertNotEqual(changed, text)
+            rig.write_text(changed)
+            result = self.typed("dihaptic check experiment.yaml")
+            self.assertEqual(result.returncode, 0, result.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
