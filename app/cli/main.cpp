@@ -24,11 +24,12 @@ void say_what_to_do(const std::string& program) {
         std::string command;
         const char* what;
     };
-    const std::array<Line, 4> lines{{
+    const std::array<Line, 5> lines{{
         {"run " + demo.lexically_normal().string(),
          "two fingers lift a block: figures, a recording"},
         {"gui", "the window, in which your mouse moves the hand"},
         {"new study NAME", "a study of your own, to be edited"},
+        {"doctor", "what this machine lacks, with a command for each"},
         {"--help", "all commands; each has --help of its own"},
     }};
     size_t width = 0;
@@ -87,5 +88,6 @@ int main(int argc, char** argv) {
     cli::add_calibrate(app);
     cli::add_register(app);
     cli::add_new(app);
+    cli::add_doctor(app);
     return cli::run_program(app, argc, argv);
 }

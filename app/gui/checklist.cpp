@@ -18,7 +18,7 @@ QString name_of(session::Remedy remedy) {
         case session::Remedy::choose_folder:
             return QObject::tr("Another &folder ...");
         case session::Remedy::allow_real_time:
-            return QObject::tr("How &to allow it");
+            return QObject::tr("What that &means");
         case session::Remedy::none:
             break;
     }

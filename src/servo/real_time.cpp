@@ -71,37 +71,17 @@ RealTime::~RealTime() {
 
 std::string describe(const RealTime::Refusals& refusals, int priority, bool root) {
     std::vector<std::string> refused;
-    std::vector<std::string> limits;
-    std::vector<std::string> allow;
-    std::vector<std::string> options;
-    if (refusals.priority != 0) {
-        refused.push_back(
-            fmt::format("priority {} ({})", priority, strerrorname_np(refusals.priority)));
-        limits.push_back(fmt::format("'@haptics - rtprio {}'", priority + 1));
-        options.emplace_back("--cap-add SYS_NICE");
-    }
-    if (refusals.memory != 0) {
-        refused.push_back(fmt::format("locked memory ({})", strerrorname_np(refusals.memory)));
-        limits.emplace_back("'@haptics - memlock unlimited'");
-        options.emplace_back("--cap-add IPC_LOCK");
-    }
-    if (!limits.empty())
-        allow.push_back(
-            fmt::format("{} to /etc/security/limits.d/dihaptic.conf", fmt::join(limits, " and ")));
-    if (refusals.awake != 0) {
-        refused.push_back(fmt::format("wakeful processors ({})", strerrorname_np(refusals.awake)));
-        allow.emplace_back(
-            "'KERNEL==\"cpu_dma_latency\", GROUP=\"haptics\", MODE=\"0660\"' to "
-            "/etc/udev/rules.d/70-dihaptic.rules");
-        options.push_back(fmt::format("--device {}", kAwake));
-    }
+    const auto note = [&](int error, const std::string& what) {
+        if (error != 0) refused.push_back(fmt::format("{} ({})", what, strerrorname_np(error)));
+    };
+    note(refusals.priority, fmt::format("priority {}", priority));
+    note(refusals.memory, "locked memory");
+    note(refusals.awake, "wakeful processors");
     if (refused.empty()) return "";
-    const std::string what = fmt::format("real time: Linux refused {}, so ticks may come late",
-                                         fmt::join(refused, ", "));
-    if (root) return fmt::format("{}; start the container with {}", what, fmt::join(options, " "));
-    return fmt::format(
-        "{}; add {}, join the group (sudo groupadd -f haptics; sudo usermod -aG haptics $USER), {}",
-        what, fmt::join(allow, ", "), refusals.awake != 0 ? "restart" : "log in again");
+    return fmt::format("real time: Linux refused {}, so ticks may come late; dihaptic doctor {}",
+                       fmt::join(refused, ", "),
+                       root ? "says how a container that may has to be started"
+                            : "has the commands that allow it");
 }
 
 std::string describe(const RealTime::Refusals& refusals, int priority) {

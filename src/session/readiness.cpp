@@ -64,7 +64,29 @@ Finding display_of(const rig::Display& display, bool real, const std::string& to
     return out;
 }
 
-Finding disk_of(const Plan& plan, const std::string& folder) {
+Finding real_time_of(const Plan& plan) {
+    const int priority = plan.settings.real_time_priority;
+    const servo::RealTime::Refusals refusals = servo::try_real_time(priority);
+    Finding out{"real time", "the servo gets what it asks the system for", true,
+                Remedy::allow_real_time, ""};
+    if (!refusals.any()) return out;
+    out.found = servo::describe(refusals, priority);
+    out.good = false;
+    out.how = "Until then keep hands out of real devices: docs/safety.md.";
+    return out;
+}
+
+}  // namespace
+
+double bytes_per_hour(size_t fingers, double tick) {
+    return kBytesPerFrame * std::max(1.0, static_cast<double>(fingers) / 2) * kHour / tick;
+}
+
+double bytes_per_hour(const Plan& plan) {
+    return bytes_per_hour(plan.scene.fingers.size(), plan.settings.tick());
+}
+
+Finding disk(const std::string& folder, double bytes_per_hour) {
     Finding out{"disk", "", true, Remedy::choose_folder, ""};
     fs::path existing = fs::absolute(folder);
     std::error_code failed;
@@ -76,7 +98,7 @@ Finding disk_of(const Plan& plan, const std::string& folder) {
         out.good = false;
     } else {
         const auto free = static_cast<double>(space.available);
-        const double hours = free / bytes_per_hour(plan);
+        const double hours = free / bytes_per_hour;
         out.found =
             fmt::format("{:.1f} GB free where sessions go, {} of recording", free / kGigabyte,
                         hours > 100 ? "days" : fmt::format("about {:.1f} hours", hours));
@@ -86,31 +108,12 @@ Finding disk_of(const Plan& plan, const std::string& folder) {
     return out;
 }
 
-Finding real_time_of(const Plan& plan) {
-    const int priority = plan.settings.real_time_priority;
-    const servo::RealTime::Refusals refusals = servo::try_real_time(priority);
-    Finding out{"real time", "the servo gets what it asks the system for", true,
-                Remedy::allow_real_time, ""};
-    if (!refusals.any()) return out;
-    out.found = servo::describe(refusals, priority);
-    out.good = false;
-    out.how = "Allow it: docs/safety.md says how.";
-    return out;
-}
-
-}  // namespace
-
-double bytes_per_hour(const Plan& plan) {
-    const double fingers = static_cast<double>(plan.scene.fingers.size());
-    return kBytesPerFrame * std::max(1.0, fingers / 2) * kHour / plan.settings.tick();
-}
-
 std::vector<Finding> readiness(const Plan& plan, const std::string& out, const std::string& today) {
     std::vector<Finding> all{devices_of(plan), calibration_of(plan, today)};
     for (const rig::Display& display : plan.rig.displays)
         all.push_back(display_of(display, rig::is_real(plan.rig), today));
     all.push_back(real_time_of(plan));
-    all.push_back(disk_of(plan, out));
+    all.push_back(disk(out, bytes_per_hour(plan)));
     return all;
 }
 

@@ -20,9 +20,13 @@ struct Finding {
     std::string how;  ///< the remedy in a sentence; empty: none is needed
 };
 
-/// Bytes that a session of this plan writes in an hour, about: log and NWB file together, measured
-/// with two fingers at 1 kHz.
+/// Bytes that a session writes in an hour, about: log and NWB file together, measured with two
+/// fingers at 1 kHz. `tick`: [s].
+double bytes_per_hour(size_t fingers, double tick);
 double bytes_per_hour(const Plan& plan);
+
+/// Whether the disk has room for sessions in `folder`, which need not be there yet.
+Finding disk(const std::string& folder, double bytes_per_hour);
 
 /// `out`: folder for the sessions. `today`: ISO 8601.
 std::vector<Finding> readiness(const Plan& plan, const std::string& out, const std::string& today);

@@ -17,6 +17,10 @@ class Sink;
 void check(const std::vector<task::SoundSpec>& sounds, const rig::SoundOutput& output,
            Diagnostics& diagnostics);
 
+/// Opens the sound device that is meant, closes it again, and returns its name. Throws Error when
+/// it cannot be opened.
+std::string try_speakers(const rig::SoundOutput& output);
+
 class Player {
   public:
     struct Plan {

@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "base/plural.h"
+#include "sound/player.h"
 #include "sound/sink.h"
 #include "sound/stream_clock.h"
 
@@ -77,7 +78,7 @@ class Speakers final : public Sink {
         : clock_(output.rate), mono_(kMostSamples) {
         const PaDeviceIndex device = find_device(output);
         const PaDeviceInfo* const info = Pa_GetDeviceInfo(device);
-        const std::string name = info == nullptr ? "the sound device" : info->name;
+        name_ = info == nullptr ? "the sound device" : info->name;
         PaStreamParameters parameters{};
         parameters.device = device;
         parameters.channelCount =
@@ -87,19 +88,20 @@ class Speakers final : public Sink {
         channels_ = static_cast<size_t>(parameters.channelCount);
         check(Pa_OpenStream(&stream_, nullptr, &parameters, output.rate, kBuffer, paNoFlag, call,
                             this),
-              name, output);
+              name_, output);
         const double needed = Pa_GetStreamInfo(stream_)->outputLatency + 2 * kBuffer / output.rate;
         mixer_.emplace(make_waves(sounds, seed, output.rate), output.rate,
                        output.delay.value_or(needed));
         if (const PaError failed = Pa_StartStream(stream_); failed != paNoError) {
             Pa_CloseStream(stream_);
-            check(failed, name, output);
+            check(failed, name_, output);
         }
     }
     ~Speakers() override { close(); }
     Speakers(const Speakers&) = delete;
     Speakers& operator=(const Speakers&) = delete;
 
+    const std::string& name() const { return name_; }
     Mixer& mixer() noexcept override { return *mixer_; }
     int64_t clock(Time) const noexcept override { return steady_now(); }
     std::vector<std::string> finish() override {
@@ -157,6 +159,7 @@ class Speakers final : public Sink {
     }
 
     System system_;
+    std::string name_;
     StreamClock clock_;
     std::vector<float> mono_;
     size_t channels_ = kChannels;
@@ -170,6 +173,10 @@ class Speakers final : public Sink {
 std::unique_ptr<Sink> open_speakers(const std::vector<task::SoundSpec>& sounds, uint64_t seed,
                                     const rig::SoundOutput& output) {
     return std::make_unique<Speakers>(sounds, seed, output);
+}
+
+std::string try_speakers(const rig::SoundOutput& output) {
+    return Speakers({}, 0, output).name();
 }
 
 }  // namespace dihaptic::sound

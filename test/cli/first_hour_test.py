@@ -1,4 +1,4 @@
-"""The first hour: what to type next, and a study of one's own, whose README.md is followed to the letter.
+"""The first hour: what to type next; a study of one's own, whose README.md is followed to the letter; what the machine lacks.
 
 Usage: first_hour_test.py PROGRAM, from the project's folder.
 """
@@ -6,6 +6,7 @@ import csv
 import os
 import pathlib
 import re
+import signal
 import subprocess
 import tempfile
 import time
@@ -38,7 +39,7 @@ class WithoutArguments(FirstHour):
             commands = re.findall(r"^  (/\S+) (.+?)   ", result.stderr, re.MULTILINE)
             self.assertEqual([program for program, _ in commands], [str(HERE)] * len(commands))
             arguments = [words.split() for _, words in commands]
-            self.assertEqual([words[0] for words in arguments], ["run", "gui", "new", "--help"])
+            self.assertEqual([words[0] for words in arguments], ["run", "gui", "new", "doctor", "--help"])
             for words in arguments:
                 known = [word for word in words if not word.endswith(".yaml") and word != "NAME"]
                 self.assertEqual(dihaptic(*known, "--help").returncode, 0, words)
@@ -200,7 +201,7 @@ class Readme(FirstHour):
 
     def test_commands_within_its_sentences_are_there(self):
         named = re.findall(r"`dihaptic (\w+)`", self.readme)
-        self.assertIn("devices", named)
+        self.assertEqual(sorted(named), ["devices", "doctor"])
         for command in named:
             self.assertEqual(dihaptic(command, "--help").returncode, 0, command)
         for page in re.findall(r"\bdocs/\S+\.md", self.readme):
@@ -221,6 +222,91 @@ class Readme(FirstHour):
             rig.write_text(changed)
             result = self.typed("dihaptic check experiment.yaml")
             self.assertEqual(result.returncode, 0, result.stdout)
+
+
+class Doctor(FirstHour):
+    HEADINGS = ["real time", "devices", "graphics", "sound", "disk", "parts of Dihaptic"]
+    FINDING = r"^  (ok|lacks|note) +(?<=^.{9})(\S.{13}) (.*(?:\n {24}\S.*)*)\n((?: {28}.*\n)*)"
+
+    def doctor(self, **options):
+        """How it ended, and what it found: (verdict, what, text, commands) of each."""
+        options = {"cwd": self.folder, **options}
+        result = dihaptic("doctor", program=str(HERE), **options)
+        self.assertEqual(result.stderr, "")
+        self.assertEqual(re.findall(r"^\w.*$", result.stdout, re.MULTILINE)[:-1], self.HEADINGS)
+        found = [(verdict, what.strip(), re.sub(r"\s+", " ", text), commands)
+                 for verdict, what, text, commands in re.findall(self.FINDING, result.stdout, re.MULTILINE)]
+        self.assertEqual(len(found), len(re.findall("^  (?:ok|lacks|note)", result.stdout, re.MULTILINE)))
+        return result, found
+
+    def verdict(self, found, what):
+        (verdict,) = {verdict for verdict, name, _, _ in found if name == what}
+        return verdict
+
+    def test_has_a_command_for_whatever_lacks_and_leaves_nothing(self):
+        result, found = self.doctor()
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertIn("Sessions on simulated devices can be run here.", result.stdout)
+        for verdict, what, _, commands in found:
+            if verdict == "lacks":
+                self.assertTrue(commands, what)
+        for what in ["room", "writing", "mesh", "decompose", "keeper", "gui", "ffmpeg", "shipped files"]:
+            self.assertEqual(self.verdict(found, what), "ok", what)
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_knows_every_program_that_is_built(self):
+        programs = {name for file in pathlib.Path("app").glob("*/CMakeLists.txt")
+                    for name in re.findall(r"add_executable\(dihaptic-(\w+)", file.read_text())}
+        self.assertGreaterEqual(programs, {"gui", "keeper", "mesh", "decompose"})
+        _, found = self.doctor()
+        for name in programs - {"bench"}:  # which labs need not have
+            self.assertEqual(self.verdict(found, name), "ok", name)
+
+    def test_says_when_sessions_cannot_be_recorded(self):
+        for options in [{"cwd": "/proc"}, {"preexec_fn": with_largest_file(1_000_000)}]:
+            result, found = self.doctor(**options)
+            self.assertEqual(result.returncode, 1, result.stdout)
+            self.assertIn("Sessions on simulated devices lack something here.", result.stdout)
+            self.assertEqual(self.verdict(found, "writing"), "lacks")
+        (self.folder / "sessions").symlink_to("/proc")
+        self.assertEqual(self.doctor()[0].returncode, 1)
+
+    def library(self, name, does):
+        """A maker's library whose only deed is done when it is loaded."""
+        source = self.folder / "library.c"
+        source.write_text("#include <stdlib.h>\n#include <stdio.h>\n#include <unistd.h>\n"
+                          "__attribute__((constructor)) static void begin(void) { " + does + " }\n")
+        subprocess.run(["cc", "-shared", "-fPIC", "-o", self.folder / name, source], check=True)
+
+    def test_goes_on_after_libraries_that_crash_hang_and_chatter(self):
+        self.library("libdhd.so.3", "abort();")
+        self.library("libHD.so", "for (;;) pause();")
+        self.library("libHD.so.3.4", "")
+        result, found = self.doctor(env=dict(os.environ, LD_LIBRARY_PATH=str(self.folder)))
+        self.assertEqual(result.returncode, 0, result.stdout)
+        texts = {what: text for _, what, text, _ in found}
+        self.assertIn("crashed", texts["forcedimension"])
+        self.assertIn("took more than", texts["openhaptics"])
+        self.assertEqual(self.verdict(found, "openhaptics"), "note")
+        self.library("libdhd.so.3", 'puts("[1] looking for devices"); fflush(stdout);')
+        self.library("libHD.so", "")
+        texts = {what: text for _, what, text, _ in self.doctor(env=dict(os.environ, LD_LIBRARY_PATH=str(self.folder)))[1]}
+        self.assertIn("libdhd.so.3 has no dhd", texts["forcedimension"])
+        self.assertIn("libHD.so has no hd", texts["openhaptics"])
+
+    def test_ends_at_once_by_ctrl_c(self):
+        self.library("libHD.so", "for (;;) pause();")
+        doctor = subprocess.Popen([HERE, "doctor"], cwd=self.folder, start_new_session=True, stdout=subprocess.PIPE,
+                                  env=dict(os.environ, LD_LIBRARY_PATH=str(self.folder)), text=True)
+        self.addCleanup(doctor.stdout.close)
+        for line in doctor.stdout:
+            if " haply " in line:  # OpenHaptics is next
+                break
+        time.sleep(1)
+        asked = time.monotonic()
+        os.killpg(doctor.pid, signal.SIGINT)
+        self.assertEqual(doctor.wait(patient(60)), 1)
+        self.assertLess(time.monotonic() - asked, patient(5))
 
 
 if __name__ == "__main__":

@@ -14,7 +14,7 @@ namespace {
 
 const char* const kNobody =
     "Look at its power and its USB cable; an ordinary user needs a udev rule for USB vendor 1451 "
-    "(Falcon: 0403), see src/devices/forcedimension.";
+    "(Falcon: 0403): dihaptic doctor says whether it is there, and has the commands.";
 
 std::vector<Options> read_options(const std::vector<DeviceConfig>& configs,
                                   Diagnostics& diagnostics) {

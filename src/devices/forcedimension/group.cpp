@@ -43,8 +43,8 @@ Connection::Connection(const Dhd& dhd, int n, const Place& place) : dhd_(dhd) {
         throw Error(place, "serial",
                     fmt::format("device {} of those that are connected cannot be opened: {}", n + 1,
                                 dhd.last_error()),
-                    "Close other programs that use it, and see src/devices/forcedimension for the "
-                    "udev rule that lets ordinary users open it.");
+                    "Close other programs that use it. Whether you may open it, dihaptic doctor "
+                    "says.");
     }
     id_ = static_cast<char>(opened);
     const char* const name = dhd.system_name(id_);

@@ -1,0 +1,163 @@
+#include "cli/doctor/disk.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <set>
+#include <sstream>
+#include <vector>
+
+#include "base/disk.h"
+#include "cli/doctor/machine.h"
+#include "session/readiness.h"
+
+namespace dihaptic::doctor {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kSessions = "sessions";
+constexpr size_t kWritten = 16'000'000;  // [bytes]
+constexpr size_t kFingers = 2;
+constexpr double kTick = 1e-3;  // [s]
+
+/// As mountinfo writes paths: \040 is a blank.
+std::string unescaped(const std::string& text) {
+    std::string out;
+    for (size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '\\' && i + 3 < text.size()) {
+            out += static_cast<char>(std::stoi(text.substr(i + 1, 3), nullptr, 8));
+            i += 3;
+        } else {
+            out += text[i];
+        }
+    }
+    return out;
+}
+
+bool is_in(const std::string& folder, const std::string& mount) {
+    if (mount == "/") return true;
+    return folder.starts_with(mount) &&
+           (folder.size() == mount.size() || folder[mount.size()] == '/');
+}
+
+/// Returns how fast a file in the folder is written and kept [bytes/s]. Throws Error when it
+/// cannot be.
+double write_speed(const std::string& folder) {
+    std::string name = folder + "/dihaptic-doctor-XXXXXX";
+    const int file = mkostemp(name.data(), O_CLOEXEC);
+    const auto refused = [&] {
+        return Error({folder, 0}, "", fmt::format("cannot be written to: {}", std::strerror(errno)),
+                     "");
+    };
+    if (file < 0) throw refused();
+    unlink(name.c_str());  // whatever happens from here on, nothing is left
+    const std::vector<char> block(1'000'000, 'd');
+    const auto began = std::chrono::steady_clock::now();
+    try {
+        for (size_t written = 0; written < kWritten;) {
+            // a disk that gets full takes a part, and refuses the rest
+            const ssize_t size = write(file, block.data(), block.size());
+            if (size <= 0) throw refused();
+            written += static_cast<size_t>(size);
+        }
+        sync_to_disk(file, folder);
+    } catch (const Error&) {
+        close(file);
+        throw;
+    }
+    close(file);
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
+    return static_cast<double>(kWritten) / took.count();
+}
+
+Finding speed_of(const std::string& folder) {
+    try {
+        return keeps_up(write_speed(folder), session::bytes_per_hour(kFingers, kTick) / 3600);
+    } catch (const Error& e) {
+        return {Verdict::lacks,
+                "writing",
+                fmt::format("{} {}: no session can be recorded here", folder,
+                            e.problems().front().what),
+                {kAnotherDisk},
+                true};
+    }
+}
+
+}  // namespace
+
+std::string file_system(const std::string& mounts, const std::string& folder) {
+    std::istringstream lines(mounts);
+    std::string best;
+    std::string type;
+    for (std::string line; std::getline(lines, line);) {
+        const size_t rest = line.find(" - ");
+        std::istringstream before(line);
+        std::string mount;
+        for (int i = 0; i < 5; ++i) before >> mount;
+        mount = unescaped(mount);
+        // of two at one place the later one is seen
+        if (rest == std::string::npos || !is_in(folder, mount) || mount.size() < best.size())
+            continue;
+        best = mount;
+        std::istringstream(line.substr(rest + 3)) >> type;
+    }
+    return type;
+}
+
+Finding kind_of_disk(const std::string& type, bool in_container) {
+    static const std::set<std::string> kNetwork{"nfs",  "nfs4", "cifs",       "smb3",  "9p",
+                                                "ceph", "afs",  "fuse.sshfs", "lustre"};
+    constexpr const char* kWhat = "file system";
+    if (kNetwork.contains(type))
+        return {Verdict::note,
+                kWhat,
+                type +
+                    ", over the network: what others do there decides how soon it writes. "
+                    "Record on a disk of this machine, and copy",
+                {}};
+    if (type == "tmpfs" || type == "ramfs")
+        return {Verdict::note,
+                kWhat,
+                type + ", in memory: what is recorded is lost at the next restart",
+                {}};
+    if (type == "overlay" && in_container)
+        return {Verdict::note,
+                kWhat,
+                "of the container: what is recorded is lost with it. Start it with a folder of the "
+                "host's: docker run -v",
+                {}};
+    return {Verdict::ok, kWhat, type.empty() ? "of this machine" : type, {}};
+}
+
+Finding keeps_up(double speed, double needed) {
+    const std::string found = fmt::format(
+        "{:.3g} MB a second; a session of two fingers writes {:g}", speed / 1e6, needed / 1e6);
+    if (speed > needed) return {Verdict::ok, "writing", found, {}};
+    return {Verdict::lacks,
+            "writing",
+            found + ": it falls behind, and its memory fills",
+            {kAnotherDisk},
+            true};
+}
+
+Findings disk() {
+    std::error_code ignored;
+    const std::string folder =
+        fs::canonical(fs::is_directory(kSessions, ignored) ? kSessions : ".", ignored).string();
+    const session::Finding room = session::disk(folder, session::bytes_per_hour(kFingers, kTick));
+    Finding free{room.good ? Verdict::ok : Verdict::lacks, "room", room.found, {}, true};
+    if (!room.good)
+        free.commands = {"du -sh sessions/* | sort -h | tail    # the largest sessions",
+                         kAnotherDisk};
+    const std::string type = file_system(text_of("/proc/self/mountinfo"), folder);
+    return {free, speed_of(folder), kind_of_disk(type, !container("").empty())};
+}
+
+}  // namespace dihaptic::doctor

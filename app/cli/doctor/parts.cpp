@@ -1,0 +1,89 @@
+#include "cli/doctor/parts.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <array>
+#include <sstream>
+
+#include "common/installation.h"
+
+namespace dihaptic::doctor {
+namespace {
+
+struct Part {
+    const char* program;
+    const char* what;
+    bool needed;
+};
+
+/// Those that dihaptic calls.
+constexpr std::array kParts{
+    Part{"dihaptic-mesh", "reads meshes", true},
+    Part{"dihaptic-decompose", "cuts concave meshes", true},
+    Part{"dihaptic-keeper", "owns real devices, and takes their force away if all else fails",
+         false},
+    Part{"dihaptic-gui", "is the window", false},
+};
+
+bool is_on(const std::string& paths, const std::string& program) {
+    std::istringstream list(paths);
+    for (std::string folder; std::getline(list, folder, ':');) {
+        if (access((folder + "/" + program).c_str(), X_OK) == 0) return true;
+    }
+    return false;
+}
+
+Finding films(const std::string& paths) {
+    if (is_on(paths, "ffmpeg")) return {Verdict::ok, "ffmpeg", "makes videos of sessions", {}};
+    return {Verdict::lacks,
+            "ffmpeg",
+            "is missing, which makes videos of sessions",
+            {"sudo apt install ffmpeg"}};
+}
+
+Finding path(const std::string& paths) {
+    if (app::shell_finds_program(paths))
+        return {Verdict::ok, "PATH", "your shell finds this program wherever you are", {}};
+    return {Verdict::note,
+            "PATH",
+            "your shell does not find this program when you type dihaptic alone",
+            {app::path_command()}};
+}
+
+}  // namespace
+
+Findings parts(const std::function<std::string(const std::string&)>& companion,
+               const std::string& paths, const std::string& shipped) {
+    Findings out;
+    for (const Part& part : kParts) {
+        const std::string name = std::string(part.program).substr(sizeof "dihaptic-" - 1);
+        if (companion(part.program).empty()) {
+            out.push_back({Verdict::lacks,
+                           name,
+                           fmt::format("{} is missing, which {}", part.program, part.what),
+                           {"./dev build    # in Dihaptic's own folder"},
+                           part.needed});
+        } else {
+            out.push_back({Verdict::ok, name, fmt::format("{} {}", part.program, part.what), {}});
+        }
+    }
+    out.push_back(films(paths));
+    out.push_back(path(paths));
+    if (shipped.empty()) {
+        out.push_back({Verdict::note,
+                       "shipped files",
+                       "not found: scenes, rigs and experiments to begin with are in Dihaptic's "
+                       "own folder",
+                       {}});
+    } else {
+        out.push_back({Verdict::ok,
+                       "shipped files",
+                       fmt::format("scenes, rigs and experiments are in {}",
+                                   shipped == "." ? "this folder" : shipped),
+                       {}});
+    }
+    return out;
+}
+
+}  // namespace dihaptic::doctor

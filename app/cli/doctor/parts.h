@@ -1,0 +1,17 @@
+// Whether all of Dihaptic is there: the programs beside this one, those of others that it calls,
+// and the shipped files.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "cli/doctor/finding.h"
+
+namespace dihaptic::doctor {
+
+/// `companion`: the path of one of Dihaptic's programs; "" if it is missing. `paths`: PATH.
+/// `shipped`: the folder with the shipped files; "" if it is missing.
+Findings parts(const std::function<std::string(const std::string&)>& companion,
+               const std::string& paths, const std::string& shipped);
+
+}  // namespace dihaptic::doctor

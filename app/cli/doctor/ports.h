@@ -1,0 +1,15 @@
+// Whether this user may open the USB devices and serial lines that are plugged in.
+#pragma once
+
+#include <functional>
+
+#include "cli/doctor/finding.h"
+
+namespace dihaptic::doctor {
+
+/// Whether the user may read and write this file.
+using MayOpen = std::function<bool(const std::string& file)>;
+
+Findings ports(const std::string& root, const MayOpen& may_open);
+
+}  // namespace dihaptic::doctor
