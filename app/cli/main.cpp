@@ -1,10 +1,8 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <filesystem>
 
 #include "command.h"
-#include "common/installation.h"
 #include "common/steady_output.h"
 #include "common/stop_signals.h"
 #include "keeper/at_death.h"
@@ -18,15 +16,12 @@ std::string typed;
 /// What to do next, for who types the program's name and nothing more. `program`: as it was typed,
 /// so that each line can be typed too.
 void say_what_to_do(const std::string& program) {
-    namespace fs = std::filesystem;
-    const fs::path demo = fs::path(app::shipped_folder()) / "experiments/lift-block.yaml";
     struct Line {
         std::string command;
         const char* what;
     };
     const std::array<Line, 5> lines{{
-        {"run " + demo.lexically_normal().string(),
-         "two fingers lift a block: figures, a recording"},
+        {"run experiments/lift-block.yaml", "two fingers lift a block: figures, a recording"},
         {"gui", "the window, in which your mouse moves the hand"},
         {"new study NAME", "a study of your own, to be edited"},
         {"doctor", "what this machine lacks, with a command for each"},

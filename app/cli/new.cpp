@@ -8,7 +8,7 @@
 
 #include "base/text_file.h"
 #include "command.h"
-#include "common/installation.h"
+#include "common/on_path.h"
 #include "new_study.h"
 
 namespace dihaptic::cli {

@@ -6,7 +6,7 @@
 #include <array>
 #include <sstream>
 
-#include "common/installation.h"
+#include "common/on_path.h"
 
 namespace dihaptic::doctor {
 namespace {

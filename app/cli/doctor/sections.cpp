@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "base/companion.h"
+#include "base/installed.h"
 #include "cli/doctor/disk.h"
 #include "cli/doctor/graphics.h"
 #include "cli/doctor/makers.h"
@@ -17,7 +18,6 @@
 #include "cli/doctor/ports.h"
 #include "cli/doctor/real_time.h"
 #include "cli/doctor/sound.h"
-#include "common/installation.h"
 #include "servo/settings.h"
 
 namespace dihaptic::doctor {
@@ -54,7 +54,7 @@ std::vector<Section> sections() {
     out.push_back({"sound", "sound", [] { return Findings{sound("", may_open)}; }});
     out.push_back({"disk", "disk", disk, {kAnotherDisk}});
     out.push_back({"parts of Dihaptic", "parts",
-                   [] { return parts(companion, variable("PATH"), app::shipped_folder()); }});
+                   [] { return parts(companion, variable("PATH"), shipped_folder()); }});
     return out;
 }
 

@@ -1,4 +1,4 @@
-#include "common/installation.h"
+#include "common/on_path.h"
 
 #include <fmt/format.h>
 
@@ -18,14 +18,6 @@ fs::path program_folder() {
 }
 
 }  // namespace
-
-std::string shipped_folder() {
-    std::error_code ignored;
-    for (const fs::path& folder : {fs::path("."), program_folder().parent_path().parent_path()}) {
-        if (fs::is_directory(folder / "scenes", ignored)) return folder.string();
-    }
-    return "";
-}
 
 bool shell_finds_program(const std::string& paths) {
     std::istringstream list(paths);
