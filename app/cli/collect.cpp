@@ -13,6 +13,7 @@
 #include "command.h"
 #include "recording/moved_by.h"
 #include "rehearsal.h"
+#include "shards.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -47,10 +48,31 @@ void check_same(const CollectOptions& options, const std::string& first_folder,
                       : "Collect sessions of one experiment and one version only.");
 }
 
-struct Found {
-    std::map<Key, std::string> people;    ///< session of each
-    std::vector<std::string> unfinished;  ///< folders of sessions that have not ended
+/// What the latest command asked for, and the folder that it was asked in.
+struct Wanted {
+    std::string folder;
+    Asked asked;
 };
+
+struct Found {
+    std::map<Key, std::string> people;      ///< session of each
+    std::map<Key, std::string> unfinished;  ///< folder of each session that has not ended
+    std::map<std::string, Wanted> wanted;   ///< by seed
+};
+
+/// Who has a complete session in a folder, and who an unfinished one.
+std::pair<std::vector<std::string>, std::vector<std::string>> sessions_in(
+    const std::string& folder) {
+    std::vector<std::string> complete;
+    std::vector<std::string> unfinished;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        if (is_there((entry.path() / "person.yaml").string())) complete.push_back(name);
+        if (name.starts_with(kUnfinished))
+            unfinished.push_back(name.substr(std::string_view(kUnfinished).size()));
+    }
+    return {complete, unfinished};
+}
 
 Found find_people(const CollectOptions& options) {
     Found found;
@@ -63,14 +85,13 @@ Found find_people(const CollectOptions& options) {
             throw Error({folder, 0}, "", "is no folder",
                         "Name the folders that dihaptic rehearse made.");
         }
-        std::vector<std::string> ids;
-        for (const auto& entry : fs::directory_iterator(folder)) {
-            const std::string id = entry.path().filename().string();
-            if (is_there((entry.path() / "person.yaml").string())) ids.push_back(id);
-            if (id.starts_with(kUnfinished)) found.unfinished.push_back(entry.path().string());
-        }
-        if (ids.empty()) continue;
+        const auto [ids, unfinished] = sessions_in(folder);
+        if (ids.empty() && !is_there(folder + "/rehearsal.yaml")) continue;
         const Rehearsal rehearsal = read_rehearsal(folder);
+        for (const std::string& id : unfinished)
+            found.unfinished[{rehearsal.seed, id}] = folder + "/" + kUnfinished + id;
+        Wanted& wanted = found.wanted[rehearsal.seed];
+        if (wanted.asked.people < rehearsal.asked.people) wanted = {folder, rehearsal.asked};
         if (!first) {
             first = rehearsal;
             first_folder = folder;
@@ -85,12 +106,52 @@ Found find_people(const CollectOptions& options) {
             }
         }
     }
-    if (out.empty()) {
-        throw Error({options.folders.front(), 0}, "", "has no complete session",
+    if (found.wanted.empty()) {
+        throw Error({options.folders.front(), 0}, "", "is no folder of a rehearsal",
                     "Rehearse first: dihaptic rehearse --help.");
     }
-    std::sort(found.unfinished.begin(), found.unfinished.end());
     return found;
+}
+
+/// Who is missing of a seed's people, by shard.
+std::map<int, std::vector<std::string>> missing_of(const Found& found, const std::string& seed,
+                                                   const Asked& asked) {
+    std::map<int, std::vector<std::string>> out;
+    for (int n = 1; n <= asked.people; ++n) {
+        if (!found.people.contains({seed, person_id(n)}))
+            out[shard_of(n, asked.shards)].push_back(person_id(n));
+    }
+    return out;
+}
+
+/// Names who is left out, and what to type so that those are done who were asked for.
+void print_left_out(const Found& found) {
+    auto others = found.unfinished;
+    for (const auto& [seed, wanted] : found.wanted) {
+        const auto missing = missing_of(found, seed, wanted.asked);
+        if (missing.empty()) continue;
+        std::vector<int> shards;
+        for (const auto& [shard, people] : missing) {
+            std::string names;
+            for (const std::string& id : people) {
+                const bool begun = others.erase({seed, id}) > 0;
+                names += (names.empty() ? "" : ", ") + id + (begun ? " (not ended)" : "");
+            }
+            fmt::print("missing: {}{}\n",
+                       wanted.asked.shards == 1
+                           ? ""
+                           : fmt::format("shard {}/{}: ", shard, wanted.asked.shards),
+                       names);
+            shards.push_back(shard);
+        }
+        fmt::print("to have these done, once nothing works on them any more: {}\n",
+                   command_for(wanted.folder, wanted.asked, shards));
+        exit_code = kFailed;
+    }
+    for (const auto& [key, folder] : others) {
+        fmt::print("left out: {}: its session has not ended; the command that began it goes on\n",
+                   folder);
+    }
 }
 
 /// The tables that are collected. Each row begins with seed, group and id, and ends with who moved
@@ -181,10 +242,13 @@ class Collection {
 };
 
 void collect(const CollectOptions& options) {
-    const auto [people, unfinished] = find_people(options);
-    for (const std::string& folder : unfinished) {
-        fmt::print("left out: {}: its session has not ended; the command that began it goes on\n",
-                   folder);
+    const Found found = find_people(options);
+    const auto& people = found.people;
+    print_left_out(found);
+    if (people.empty()) {
+        fmt::print("no session is complete: there is nothing to collect yet\n");
+        exit_code = kFailed;
+        return;
     }
     Collection collection;
     {

@@ -62,6 +62,14 @@ bool has_people(const std::string& folder) {
 
 }  // namespace
 
+std::string person_id(int n) {
+    return fmt::format("sim-{:03d}", n);
+}
+
+int shard_of(int n, int shards) {
+    return (n - 1) % shards + 1;
+}
+
 person::Population population_of(const std::string& file, bool real_objects) {
     if (!file.empty()) return person::read_population(file);
     return person::shipped_population(real_objects ? person::Objects::real
@@ -102,6 +110,7 @@ Rehearsal read_rehearsal(const std::string& folder) {
 std::string difference(const Rehearsal& there, const Rehearsal& here) {
     Rehearsal a = there;
     Rehearsal b = here;
+    a.asked = b.asked;
     // through text, so that a number from a file and one from memory compare equal
     const Node left = parse_yaml(to_yaml(write_fields(a)), "there");
     const Node right = parse_yaml(to_yaml(write_fields(b)), "here");
@@ -110,15 +119,17 @@ std::string difference(const Rehearsal& there, const Rehearsal& here) {
 
 void claim(const std::string& folder, const Rehearsal& rehearsal) {
     fs::create_directories(folder);
-    if (!is_there(file_of(folder)) && !has_people(folder)) {
-        Rehearsal copy = rehearsal;
-        write_file(to_yaml(write_fields(copy)), file_of(folder));
-        return;
+    if (is_there(file_of(folder)) || has_people(folder)) {
+        const Rehearsal there = read_rehearsal(folder);
+        const std::string other = difference(there, rehearsal);
+        if (!other.empty()) {
+            throw Error({folder, 0}, "", "is another rehearsal: " + other,
+                        "Choose another folder (--out FOLDER), or remove this one.");
+        }
+        if (there.asked == rehearsal.asked) return;  // as in each shard of a cluster but the first
     }
-    const std::string other = difference(read_rehearsal(folder), rehearsal);
-    if (other.empty()) return;
-    throw Error({folder, 0}, "", "is another rehearsal: " + other,
-                "Choose another folder (--out FOLDER), or remove this one.");
+    Rehearsal copy = rehearsal;
+    write_file(to_yaml(write_fields(copy)), file_of(folder));
 }
 
 }  // namespace dihaptic::cli

@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,6 +15,8 @@
 #include "command.h"
 #include "person/simulated_limits.h"
 #include "rehearsal.h"
+#include "shards.h"
+#include "shell_word.h"
 #include "summary.h"
 
 namespace dihaptic::cli {
@@ -29,6 +32,7 @@ struct RehearseOptions {
     std::optional<person::Population> population;
     int people = 1;
     int jobs = 1;
+    int slurm = 0;  ///< number of shards that Slurm is to do; 0: done here
     bool real_objects = false;
     bool keep_recordings = false;
 };
@@ -49,9 +53,6 @@ Shard parse_shard(const std::string& text) {
     return shard;
 }
 
-std::string id_of(int person) {
-    return fmt::format("sim-{:03d}", person);
-}
 /// Folder in which a person's session is made, and then the folder of the complete session.
 std::string unfinished(const RehearseOptions& options, const std::string& id) {
     return options.out + "/" + kUnfinished + id;
@@ -60,16 +61,37 @@ std::string finished(const RehearseOptions& options, const std::string& id) {
     return options.out + "/" + id;
 }
 
+/// Exit status of a person's process, when another program is doing that person.
+constexpr int kAnothers = 3;
+
+/// Removes what a killed program left in the folder of an unfinished session, and sends this
+/// process' messages to a file there, which is locked as long as the process lives. Returns kOk, or
+/// kAnothers.
+int begin(const std::string& folder) {
+    const std::string name = folder + "/messages.txt";
+    const int messages = open(name.c_str(), O_CREAT | O_RDWR, 0644);
+    if (messages < 0) return kOk;
+    // on a file system without locks there is nothing to wait for
+    if (flock(messages, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return kAnothers;
+    [[maybe_unused]] const int emptied = ftruncate(messages, 0);
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        if (entry.path() != name) fs::remove_all(entry.path());
+    }
+    dup2(messages, STDOUT_FILENO);
+    dup2(messages, STDERR_FILENO);
+    return kOk;
+}
+
 /// Runs one person's session in a process of its own, so that others go on if it fails. Returns the
 /// exit status of the process.
 int run_person(const RehearseOptions& options, const std::string& id) {
     const std::string folder = unfinished(options, id);
-    const int messages = open((folder + "/messages.txt").c_str(), O_CREAT | O_WRONLY, 0644);
-    if (messages >= 0) {
-        dup2(messages, STDOUT_FILENO);
-        dup2(messages, STDERR_FILENO);
-    }
     try {
+        if (const int code = begin(folder); code != kOk) return code;
+        if (fs::exists(finished(options, id))) {  // by another program, just now
+            fs::remove_all(folder);
+            return kOk;
+        }
         session::Request request = options.request;
         request.participant = id;
         request.order_number = options.population->number_in_group(id);
@@ -101,7 +123,6 @@ int run_person(const RehearseOptions& options, const std::string& id) {
 
 /// Starts a person's process.
 pid_t start(const RehearseOptions& options, const std::string& id) {
-    fs::remove_all(unfinished(options, id));
     fs::create_directories(unfinished(options, id));
     std::fflush(nullptr);
     const pid_t child = fork();
@@ -122,8 +143,10 @@ std::string what_became(int status) {
     return stop_requested ? "interrupted" : "failed";
 }
 
-/// The messages of a person's process. If the disk is full there are none.
-std::string messages_of(const RehearseOptions& options, const std::string& id) {
+/// What to say of a person's process that failed. If the disk is full it left no message.
+std::string messages_of(const RehearseOptions& options, const std::string& id, int status) {
+    if (WIFEXITED(status) && WEXITSTATUS(status) == kAnothers)
+        return "Another dihaptic is doing this session now: wait until that has ended.";
     const std::string messages = read_text_file(unfinished(options, id) + "/messages.txt");
     if (!messages.empty() || stop_requested) return messages;
     return fmt::format("It left no message: look whether the disk is full (df -h {}).",
@@ -143,10 +166,10 @@ struct Roster {
 Roster roster_of(const RehearseOptions& options, const Shard& shard) {
     Roster roster;
     for (int person = shard.number; person <= options.people; person += shard.of) {
-        if (fs::exists(finished(options, id_of(person)))) {
+        if (fs::exists(finished(options, person_id(person)))) {
             ++roster.there;
         } else {
-            roster.waiting.push_back(id_of(person));
+            roster.waiting.push_back(person_id(person));
         }
     }
     return roster;
@@ -177,7 +200,7 @@ std::vector<std::string> run_people(const RehearseOptions& options,
         if (ended == running.end()) continue;
         if (status != 0) {
             failed.push_back(fmt::format("{}: {}. {}", ended->second, what_became(status),
-                                         messages_of(options, ended->second)));
+                                         messages_of(options, ended->second, status)));
         } else {
             ++done;
         }
@@ -189,10 +212,26 @@ std::vector<std::string> run_people(const RehearseOptions& options,
     return failed;
 }
 
-void rehearse(RehearseOptions& options) {
-    const Shard shard = parse_shard(options.shard);
+/// The command that does all these people, from any folder.
+std::string command_again(const RehearseOptions& options) {
+    const auto whole = [](const std::string& file) {
+        return shell_word(fs::absolute(file).lexically_normal().string());
+    };
+    std::string out = fmt::format(
+        "{} rehearse {} --people {} --seed {} --out {}", whole(fs::read_symlink("/proc/self/exe")),
+        whole(options.request.file), options.people, options.request.seed, whole(options.out));
+    if (!options.population_file.empty()) out += " --population " + whole(options.population_file);
+    if (options.real_objects) out += " --real-objects";
+    if (options.keep_recordings) out += " --keep-recordings";
+    if (options.jobs != 1) out += fmt::format(" --jobs {}", options.jobs);
+    return out;
+}
+
+/// Reads and checks everything, and claims the folder. Returns the experiment's title, and what is
+/// asked for.
+std::pair<std::string, Asked> prepare(RehearseOptions& options, const Shard& shard) {
     options.request.simulate = true;
-    options.request.participant = id_of(1);
+    options.request.participant = person_id(1);
     const session::Plan plan = session::make_plan(options.request);
     if (!plan.task) {
         throw Error({options.request.file, 0}, "task", "has no trials that people could do",
@@ -202,19 +241,65 @@ void rehearse(RehearseOptions& options) {
     print(person::simulated_limits(*plan.task));
     options.population = population_of(options.population_file, options.real_objects);
     if (options.out.empty()) options.out = usual_folder(options.request);
-    claim(options.out, rehearsal_of(plan, *options.population));
+    Rehearsal rehearsal = rehearsal_of(plan, *options.population);
+    rehearsal.asked = {options.people, shard.of, command_again(options)};
+    claim(options.out, rehearsal);
+    return {plan.title, rehearsal.asked};
+}
 
-    const auto [waiting, there] = roster_of(options, shard);
-    fmt::print("{}\n{}\n", plan.title,
-               there == 0 ? fmt::format("{} to do",
-                                        counted(static_cast<int64_t>(waiting.size()), "session"))
-                          : fmt::format("{} to do, {} done before", waiting.size(), there));
-    for (const std::string& text : run_people(options, waiting)) fmt::print(stderr, "{}\n", text);
+std::string to_do(const Roster& roster) {
+    if (roster.there == 0)
+        return counted(static_cast<int64_t>(roster.waiting.size()), "session") + " to do";
+    return fmt::format("{} to do, {} done before", roster.waiting.size(), roster.there);
+}
+
+void print_next(const RehearseOptions& options) {
     if (exit_code == kOk) {
-        fmt::print("complete: {}\nnext: dihaptic collect {}\n", options.out, options.out);
+        fmt::print("complete: {}\nnext: dihaptic collect {}\n", options.out,
+                   shell_word(options.out));
     } else {
         fmt::print("some are missing in {}: the same command goes on with those\n", options.out);
     }
+}
+
+/// Hands those shards to Slurm in which somebody is missing.
+void rehearse_by_slurm(RehearseOptions& options) {
+    if (options.slurm > options.people) {
+        throw Error({"--slurm", 0}, "",
+                    fmt::format("asks for {} shards of {} people", options.slurm, options.people),
+                    fmt::format("Ask for at most as many as there are people: --slurm {}.",
+                                options.people));
+    }
+    const auto [title, asked] = prepare(options, {1, options.slurm});
+    const Roster roster = roster_of(options, {});
+    fmt::print("{}\n{}\n", title, to_do(roster));
+    if (roster.waiting.empty()) {
+        print_next(options);
+        return;
+    }
+    std::vector<int> shards;
+    for (int shard = 1; shard <= asked.shards; ++shard) {
+        if (!roster_of(options, {shard, asked.shards}).waiting.empty()) shards.push_back(shard);
+    }
+    write_slurm_script(options.out, asked);
+    const auto job = submit(options.out, asked, shards);
+    if (!job) return;
+    fmt::print(
+        "submitted: job {}, an array of {} ({})\n"
+        "watch it: squeue --job {}; messages of the shards: {}/slurm\n"
+        "next, when it has ended: dihaptic collect {}\n",
+        *job, counted(static_cast<int64_t>(shards.size()), "shard"), slurm_script(options.out),
+        *job, options.out, shell_word(options.out));
+}
+
+void rehearse(RehearseOptions& options) {
+    const Shard shard = parse_shard(options.shard);
+    const std::string title = prepare(options, shard).first;
+    const Roster roster = roster_of(options, shard);
+    fmt::print("{}\n{}\n", title, to_do(roster));
+    for (const std::string& text : run_people(options, roster.waiting))
+        fmt::print(stderr, "{}\n", text);
+    print_next(options);
 }
 
 }  // namespace
@@ -232,13 +317,17 @@ void add_rehearse(CLI::App& app) {
                      "as in populations/adults.yaml")
         ->transform(given_or_kept());
     command->add_option("--people", options->people, "how many, sim-001 and so on")
-        ->check(CLI::Range(1, 9999))
+        ->check(CLI::Range(1, kMostPeople))
         ->capture_default_str();
     command->add_option("--jobs", options->jobs, "sessions at a time")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
     command->add_option("--shard", options->shard, "only every 20th person, from the 3rd: 3/20")
         ->capture_default_str();
+    command
+        ->add_option("--slurm", options->slurm,
+                     "hand so many shards to the cluster, as an array of Slurm's: see below")
+        ->check(CLI::Range(1, kMostPeople));
     command->add_option("--out", options->out, "folder; default: rehearsals/EXPERIMENT_SEED");
     command->add_option("--seed", options->request.seed, "of everything random")
         ->check(seed_range())
@@ -253,7 +342,10 @@ void add_rehearse(CLI::App& app) {
     command->footer(
         "\nA folder holds one experiment, seed and population: into another one it refuses to go.\n"
         "Who is there already is not done again: after a break the same command goes on.\n"
-        "Results are the same to the byte whatever --jobs and --shard.\n"
+        "Results are the same to the byte whatever --jobs, --shard and --slurm.\n"
+        "--slurm checks all files, then writes slurm.sh into the folder and submits it by sbatch. "
+        "collect\nnames the shards of which somebody is missing, and what to type to have those "
+        "done.\n"
         "\nExamples:\n"
         "  dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 --jobs 2\n"
         "  dihaptic rehearse experiments/rotation-reversal.yaml --population patients.yaml "
@@ -261,8 +353,16 @@ void add_rehearse(CLI::App& app) {
         "40 --out patients\n"
         "  parallel dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 --shard "
         "{}/4 ::: 1 2 3 4\n"
+        "  dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 --slurm 8\n"
         "  dihaptic collect rehearsals/visuomotor-rotation_1");
-    command->callback([options] { rehearse(*options); });
+    command->callback([options, command] {
+        if (options->slurm == 0) return rehearse(*options);
+        if (command->count("--shard") + command->count("--jobs") > 0) {
+            throw Error({"--slurm", 0}, "", "goes with neither --shard nor --jobs",
+                        "Leave them out: Slurm does all shards, each on one processor.");
+        }
+        rehearse_by_slurm(*options);
+    });
 }
 
 }  // namespace dihaptic::cli

@@ -7,6 +7,7 @@ import glob
 import os
 import pathlib
 import shutil
+import subprocess
 import tempfile
 import unittest
 
@@ -187,6 +188,28 @@ groups:
         self.assertIn(f"left out: {out}/unfinished-sim-002: its session has not ended", result.stdout)
         self.assertIn("1 session, ", result.stdout)
 
+    def test_collect_names_who_is_missing_and_the_command(self):
+        out = self.folder + "/out"
+        self.assertEqual(self.rehearse(out, "--people", "3", "--seed", "7").returncode, 0)
+        before = self.tables(out)
+        shutil.rmtree(out + "/sim-001")
+        shutil.rmtree(out + "/sim-003")
+        os.mkdir(out + "/unfinished-sim-003")
+        os.mkdir(out + "/unfinished-sim-009")  # nobody asked for this one
+        result = dihaptic("collect", out)
+        self.assertEqual(result.returncode, 1)
+        lines = result.stdout.splitlines()
+        self.assertEqual(lines[0], "missing: sim-001, sim-003 (not ended)")
+        self.assertIn(f"rehearse {self.experiment} --people 3 --seed 7 --out {out}", lines[1])
+        self.assertIn("left out: " + out + "/unfinished-sim-009", lines[2])
+        self.assertIn("1 session, ", lines[3])
+        subprocess.run(lines[1].partition("any more: ")[2], shell=True, cwd="/", check=True, capture_output=True)
+        self.assertEqual(self.tables(out), before)
+        # what was asked for last is what counts
+        self.assertEqual(self.rehearse(out, "--people", "1", "--seed", "7").returncode, 0)
+        shutil.rmtree(out + "/sim-002")
+        self.assertEqual(dihaptic("collect", out).returncode, 0)
+
     def test_collect_brings_lifts_and_thresholds(self):
         text = pathlib.Path("experiments/visual-scaling.yaml").read_text().replace("../", os.getcwd() + "/")
         text = text.replace("trials: 25", "trials: 12").replace(
@@ -217,7 +240,7 @@ groups:
     def test_refuses_what_cannot_be(self):
         for arguments, message in [(["rehearse", self.experiment, "--shard", "4/3"], "--shard: error: 4/3: is no part"),
                                    (["rehearse", "experiments/lift-block.yaml"], "has no trials that people could do"),
-                                   (["collect", self.folder], "has no complete session"),
+                                   (["collect", self.folder], "is no folder of a rehearsal"),
                                    (["run", self.experiment, "--real-objects"], "requires --simulate")]:
             result = dihaptic(*arguments)
             self.assertNotEqual(result.returncode, 0)

@@ -1,0 +1,129 @@
+#include "shards.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <sys/wait.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "base/regular_file.h"
+#include "base/text_file.h"
+#include "common/console.h"
+#include "shell_word.h"
+
+namespace dihaptic::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Part of a file's name on a line that begins with #SBATCH, in quotes: sbatch replaces what
+/// follows a %, and has no way to write what is refused here.
+std::string sbatch_name(const std::string& name) {
+    std::string out;
+    for (const char letter : name) {
+        if (letter == '"' || letter == '\\' || static_cast<unsigned char>(letter) < ' ') {
+            throw Error({name, 0}, "", "has a letter that Slurm takes in no folder's name",
+                        "Choose a folder without \", \\ and control characters: --out FOLDER.");
+        }
+        out += letter == '%' ? std::string("%%") : std::string(1, letter);
+    }
+    return out;
+}
+
+/// The line of the script that does a shard.
+std::string task_line(const Asked& asked) {
+    return fmt::format("exec {} --shard \"$SLURM_ARRAY_TASK_ID/{}\"\n", asked.command,
+                       asked.shards);
+}
+
+/// Whether the folder has a script for these shards, perhaps with lines that somebody added.
+bool has_script(const std::string& folder, const Asked& asked) {
+    const std::string script = slurm_script(folder);
+    return is_there(script) && read_text_file(script).find(task_line(asked)) != std::string::npos;
+}
+
+std::string by_sbatch(const std::string& folder, const Asked& asked,
+                      const std::vector<int>& shards) {
+    const bool all = static_cast<int>(shards.size()) == asked.shards;
+    return fmt::format("sbatch {}{}", all ? "" : fmt::format("--array={} ", fmt::join(shards, ",")),
+                       shell_word(slurm_script(folder)));
+}
+
+std::string by_hand(const Asked& asked, const std::vector<int>& shards) {
+    if (asked.shards == 1) return asked.command;
+    if (shards.size() == 1)
+        return fmt::format("{} --shard {}/{}", asked.command, shards[0], asked.shards);
+    return fmt::format("parallel -q {} --shard {{}}/{} ::: {}", asked.command, asked.shards,
+                       fmt::join(shards, " "));
+}
+
+}  // namespace
+
+std::string slurm_script(const std::string& folder) {
+    return folder + "/slurm.sh";
+}
+
+void write_slurm_script(const std::string& folder, const Asked& asked) {
+    const fs::path whole = fs::absolute(folder).lexically_normal();
+    fs::create_directories(whole / "slurm");  // Slurm makes no folder for its logs
+    if (has_script(folder, asked)) return;
+    write_file(
+        fmt::format(
+            "#!/bin/sh\n"
+            "# A rehearsal in {0} shards, each a task of a Slurm array. All of them:\n"
+            "#   sbatch slurm.sh\n"
+            "# The third alone:\n"
+            "#   sbatch --array=3 slurm.sh\n"
+            "# Whoever is complete is not done again. What your cluster asks for besides, such\n"
+            "# as an account, a partition or a time, may be added below as lines #SBATCH.\n"
+            "#SBATCH --job-name=dihaptic\n"
+            "#SBATCH --array=1-{0}\n"
+            "#SBATCH --ntasks=1\n"
+            "#SBATCH --cpus-per-task=1\n"
+            "#SBATCH --output=\"{1}/slurm/%a.log\"\n"
+            "{2}",
+            asked.shards, sbatch_name(whole.string()), task_line(asked)),
+        slurm_script(folder));
+}
+
+std::optional<std::string> submit(const std::string& folder, const Asked& asked,
+                                  const std::vector<int>& shards) {
+    constexpr int kNotFound = 127;
+    std::string command = by_sbatch(folder, asked, shards);
+    command.insert(command.find(' '), " --parsable");
+    command = fmt::format("command -v sbatch >/dev/null || exit {}; {}", kNotFound, command);
+    std::fflush(nullptr);
+    std::FILE* const pipe = popen(command.c_str(), "r");
+    if (pipe == nullptr) {
+        throw Error(fmt::format("cannot start sbatch: {}", std::strerror(errno)),
+                    "End other programs and try again.");
+    }
+    std::string said;
+    for (int letter = 0; (letter = std::fgetc(pipe)) != EOF;) said += static_cast<char>(letter);
+    const int status = pclose(pipe);
+    if (status != 0) {
+        const bool none = WIFEXITED(status) && WEXITSTATUS(status) == kNotFound;
+        print({{Severity::error,
+                {slurm_script(folder), 0},
+                "",
+                none ? "is written, but there is no sbatch on this machine to submit it"
+                     : "is refused by sbatch, which says why above",
+                none ? "Type the first of these where there is one, or the second to do without."
+                     : "Mend that, then type this."}});
+        fmt::print(stderr, "{}\n", by_sbatch(folder, asked, shards));
+        if (none) fmt::print(stderr, "{}\n", by_hand(asked, shards));
+        exit_code = kBadInput;
+        return std::nullopt;
+    }
+    return said.substr(0, said.find_first_of(";\n"));  // "123", or "123;cluster"
+}
+
+std::string command_for(const std::string& folder, const Asked& asked,
+                        const std::vector<int>& shards) {
+    return has_script(folder, asked) ? by_sbatch(folder, asked, shards) : by_hand(asked, shards);
+}
+
+}  // namespace dihaptic::cli

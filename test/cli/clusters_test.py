@@ -1,0 +1,284 @@
+"""Rehearsals in shards: by Slurm, whose sbatch is a fake here (slurm_test.py has a real one), and by GNU parallel.
+
+Usage: cli/clusters_test.py PROGRAM, from the project's folder.
+"""
+import glob
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+from program import PROGRAM, dihaptic, patient
+
+TABLES = ["trials.csv", "people.csv", "adaptation.csv", "fits.csv"]
+# As Slurm's: tasks run a copy of the script, in the submission's folder and environment, all at the same time.
+# The shard FAKE_KILL is killed as soon as FAKE_KILL_AT is there.
+SBATCH = """#!/usr/bin/python3
+import os, re, shlex, shutil, signal, subprocess, sys, tempfile, time
+spool = tempfile.mkdtemp(dir=os.environ["FAKE_SLURM"])
+options = {}
+words = sys.argv[1:]
+script = words.pop()
+if not open(script).readline().startswith("#!"):
+    sys.exit("sbatch: error: This does not look like a batch script.")
+for line in open(script):
+    if line.startswith("#SBATCH "):
+        words = shlex.split(line[len("#SBATCH "):], comments=True) + words
+for word in words:
+    key, _, value = word.partition("=")
+    options[key] = value
+with open(os.environ["FAKE_SLURM"] + "/submitted", "a") as file:
+    file.write(options["--array"] + "\\n")
+if "--parsable" not in options:
+    sys.exit("the fake only knows --parsable")
+if os.environ.get("FAKE_REFUSE"):
+    sys.exit("sbatch: error: Batch job submission failed: Invalid account")
+copy = shutil.copy(script, spool + "/slurm_script")
+os.chmod(copy, 0o700)
+tasks = []
+for part in options["--array"].split(","):
+    first, _, last = part.partition("-")
+    tasks += range(int(first), int(last or first) + 1)
+running = {}
+for task in tasks:
+    log = re.sub("%([%a])", lambda found: str(task) if found[1] == "a" else "%", options["--output"])
+    running[task] = subprocess.Popen([copy], env=dict(os.environ, SLURM_ARRAY_TASK_ID=str(task)), stdout=open(log, "w"),
+                                     stderr=subprocess.STDOUT, start_new_session=True)
+killed = int(os.environ.get("FAKE_KILL", 0))
+if killed in running:
+    while not os.path.isdir(os.environ["FAKE_KILL_AT"]) and running[killed].poll() is None:
+        time.sleep(0.001)
+    os.killpg(running[killed].pid, signal.SIGKILL)
+for process in running.values():
+    process.wait()
+print("4711;cluster")
+"""
+
+
+def write_experiment(file, repeats):
+    """A session of about half a second, with 20 repeats."""
+    text = pathlib.Path("experiments/rotation-reversal.yaml").read_text().replace("../", os.getcwd() + "/")
+    pathlib.Path(file).write_text(re.sub(r"repeats: (64|160|16|48)\b", f"repeats: {repeats}", text))
+
+
+def collect(folder, **options):
+    return dihaptic("collect", folder, **options)
+
+
+def tables(folder):
+    return [pathlib.Path(folder, name).read_bytes() for name in TABLES]
+
+
+def times_of(folder):
+    return {path: os.path.getmtime(path) for path in glob.glob(glob.escape(folder) + "/*/trials.csv")}
+
+
+class InShards(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="50%a of ")  # what shells and Slurm take for something else
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        self.experiment = self.folder + "/it's short.yaml"
+        self.out = self.folder + "/out"
+        write_experiment(self.experiment, 2)
+
+    def rehearse(self, *arguments, **options):
+        people = [] if "--people" in arguments else ["--people", "12"]
+        return dihaptic("rehearse", self.experiment, *people, "--out", self.out, *arguments, **options)
+
+    def unsharded_tables(self, experiment, people):
+        whole = self.folder + "/whole"
+        self.assertEqual(dihaptic("rehearse", experiment, "--people", str(people), "--out", whole).returncode, 0)
+        self.assertEqual(collect(whole).returncode, 0)
+        return tables(whole)
+
+
+class Slurm(InShards):
+    def setUp(self):
+        super().setUp()
+        self.slurm = self.folder + "/fake"
+        os.mkdir(self.slurm)
+        sbatch = pathlib.Path(self.slurm, "sbatch")
+        sbatch.write_text(SBATCH)
+        sbatch.chmod(0o755)
+        self.environment = dict(os.environ, PATH=self.slurm + ":" + os.environ["PATH"], FAKE_SLURM=self.slurm)
+
+    def by_slurm(self, *arguments, **environment):
+        return self.rehearse("--slurm", "8", *arguments, env=dict(self.environment, **environment))
+
+    def submitted(self):
+        file = pathlib.Path(self.slurm, "submitted")
+        return file.read_text().split() if file.exists() else []
+
+    def test_a_killed_shard_is_named_and_done_again(self):
+        write_experiment(self.experiment, 20)
+        result = self.by_slurm(FAKE_KILL="3", FAKE_KILL_AT=self.out + "/unfinished-sim-011")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("submitted: job 4711, an array of 8 shards", result.stdout)
+        self.assertIn("squeue --job 4711;", result.stdout)
+        self.assertIn(f"dihaptic collect '{self.out}'\n", result.stdout)
+        self.assertEqual(self.submitted(), ["1-8"])
+        self.assertIn("complete: " + self.out, pathlib.Path(self.out, "slurm/2.log").read_text())
+        result = collect(self.out)
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(re.findall("missing: .*", result.stdout), ["missing: shard 3/8: sim-011 (not ended)"])
+        self.assertIn("11 sessions, ", result.stdout)
+        (again,) = re.findall("once nothing works on them any more: (.*)", result.stdout)
+        self.assertEqual(again, f"sbatch --array=3 '{self.out}/slurm.sh'")
+        before = times_of(self.out)
+        command = again.replace("sbatch", "sbatch --parsable", 1)
+        subprocess.run(command, shell=True, env=self.environment, check=True, stdout=subprocess.DEVNULL)
+        self.assertEqual(self.submitted(), ["1-8", "3"])
+        result = collect(self.out)
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertNotIn("missing", result.stdout)
+        self.assertEqual(tables(self.out), self.unsharded_tables(self.experiment, 12))
+        self.assertEqual(before.items() - times_of(self.out).items(), set())
+        self.assertEqual([name for name in os.listdir(self.out) if name.startswith("unfinished")], [])
+
+    def test_the_same_command_submits_the_missing_shards_only(self):
+        self.assertEqual(self.by_slurm().returncode, 0)
+        script = pathlib.Path(self.out, "slurm.sh")
+        script.write_text(script.read_text().replace("#SBATCH", "#SBATCH --account=lab\n#SBATCH", 1))
+        for person in ("002", "005", "010"):
+            shutil.rmtree(f"{self.out}/sim-{person}")
+        result = self.by_slurm()
+        self.assertIn("3 to do, 9 done before", result.stdout)
+        self.assertEqual(self.submitted(), ["1-8", "2,5"])
+        self.assertIn("--account=lab", script.read_text())
+        result = self.by_slurm()
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("complete: " + self.out, result.stdout)
+        self.assertEqual(self.submitted(), ["1-8", "2,5"])
+        self.assertEqual(collect(self.out).returncode, 0)
+        shutil.rmtree(f"{self.out}/sim-004")
+        self.assertEqual(self.rehearse("--slurm", "4", env=self.environment).returncode, 0)
+        self.assertIn("/4\"\n", script.read_text())  # of other shards
+        self.assertEqual(self.submitted()[2:], ["4"])
+
+    def test_collect_names_all_while_none_has_ended(self):
+        self.assertEqual(self.by_slurm(FAKE_REFUSE="1").returncode, 2)
+        result = collect(self.out)
+        self.assertEqual(result.returncode, 1, result.stderr)
+        self.assertIn("missing: shard 4/8: sim-004, sim-012\n", result.stdout)
+        self.assertIn(f"any more: sbatch '{self.out}/slurm.sh'\n", result.stdout)
+        self.assertIn("nothing to collect yet", result.stdout)
+
+    def test_what_sbatch_refuses_is_told(self):
+        result = self.by_slurm(FAKE_REFUSE="1")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("Invalid account", result.stderr)
+        self.assertIn("error: is refused by sbatch, which says why above. Mend that, then type this.\n"
+                      f"sbatch '{self.out}/slurm.sh'\n", result.stderr)
+
+    def test_without_sbatch_the_script_is_written_and_parallel_named(self):
+        tools = self.folder + "/tools"
+        os.mkdir(tools)
+        for name in ("sh", "env"):
+            os.symlink(shutil.which(name), f"{tools}/{name}")
+        result = self.rehearse("--slurm", "3", "--people", "5", env=dict(os.environ, PATH=tools))
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("slurm.sh: error: is written, but there is no sbatch on this machine to submit it", result.stderr)
+        self.assertIn('--shard "$SLURM_ARRAY_TASK_ID/3"', pathlib.Path(self.out, "slurm.sh").read_text())
+        sbatch, parallel = result.stderr.splitlines()[-2:]
+        self.assertEqual(sbatch, f"sbatch '{self.out}/slurm.sh'")
+        result = subprocess.run(parallel, shell=True, capture_output=True, text=True, cwd="/")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        result = collect(self.out)
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertIn("5 sessions, ", result.stdout)
+
+    def test_nothing_is_submitted_before_all_is_checked(self):
+        text = pathlib.Path(self.experiment).read_text()
+        pathlib.Path(self.experiment).write_text(text.replace("task:", "tusk:"))
+        result = self.by_slurm()
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("tusk: is not known here", result.stderr)
+        self.assertFalse(os.path.exists(self.out))
+        self.assertEqual(self.submitted(), [])
+
+    def test_refuses_what_cannot_be(self):
+        for arguments, message in [
+                (["--slurm", "0"], "--slurm"),
+                (["--slurm", "13"], "asks for 13 shards of 12 people. Ask for at most as many as there are people"),
+                (["--slurm", "4", "--shard", "1/4"], "goes with neither --shard nor --jobs. Leave them out"),
+                (["--slurm", "4", "--jobs", "2"], "goes with neither --shard nor --jobs. Leave them out"),
+                (["--slurm", "4", "--out", self.folder + '/a "b"'], "Choose a folder without \", \\ and control")]:
+            with self.subTest(arguments):
+                out = [] if "--out" in arguments else ["--out", self.out]
+                result = dihaptic("rehearse", self.experiment, "--people", "12", *out, *arguments, env=self.environment)
+                self.assertEqual(result.returncode, 2)
+                self.assertIn(message, result.stderr)
+                self.assertFalse(os.path.exists(self.out))
+        self.assertEqual(self.submitted(), [])
+
+
+class Parallel(InShards):
+    def setUp(self):
+        super().setUp()
+        # where the example's paths lead, and its folder rehearsals/ may be made
+        for name in ("experiments", "scenes", "rigs", "movements", "meshes", "populations"):
+            os.symlink(os.path.abspath(name), f"{self.folder}/{name}")
+        wrapper = pathlib.Path(self.folder, "dihaptic")  # whose process can be found by the shard's name
+        wrapper.write_text('#!/bin/sh\nfor last; do :; done\necho $$ >"$0-${last%/*}"\n'
+                           f'exec {os.path.abspath(PROGRAM)} "$@"\n')
+        wrapper.chmod(0o755)
+        (self.example,) = re.findall("^ *(parallel dihaptic .*)$", dihaptic("rehearse", "--help").stdout, re.MULTILINE)
+        self.example = self.example.replace("--people 40", "--people 4")
+        self.environment = dict(os.environ, PATH=self.folder + ":" + os.environ["PATH"])
+
+    def test_as_the_help_has_it_with_one_killed(self):
+        out = self.folder + "/rehearsals/visuomotor-rotation_1"
+        process = subprocess.Popen(self.example, shell=True, env=self.environment, cwd=self.folder, text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        deadline = time.monotonic() + patient(60)
+        while not os.path.isdir(out + "/unfinished-sim-002") and time.monotonic() < deadline:
+            time.sleep(0.001)
+        shard = int(pathlib.Path(self.folder, "dihaptic-2").read_text())
+        os.kill(shard, signal.SIGSTOP)
+        for child in pathlib.Path(f"/proc/{shard}/task/{shard}/children").read_text().split():
+            os.kill(int(child), signal.SIGKILL)
+        os.kill(shard, signal.SIGKILL)
+        said = process.communicate(timeout=patient(300))[0]
+        self.assertEqual(process.returncode, 1, said)  # one has failed
+        result = collect(out)
+        self.assertEqual(result.returncode, 1)
+        self.assertEqual(re.findall("missing: .*", result.stdout), ["missing: shard 2/4: sim-002 (not ended)"])
+        (again,) = re.findall("once nothing works on them any more: (.*)", result.stdout)
+        self.assertRegex(again, "^/.* rehearse .*--shard 2/4$")
+        before = times_of(out)
+        subprocess.run(again, shell=True, cwd="/", check=True, capture_output=True)
+        result = collect(out)
+        self.assertEqual(result.returncode, 0, result.stdout)
+        self.assertEqual(tables(out), self.unsharded_tables("experiments/visuomotor-rotation.yaml", 4))
+        self.assertEqual(before.items() - times_of(out).items(), set())
+
+
+class AtOnce(InShards):
+    def test_nobody_is_done_by_two_programs(self):
+        write_experiment(self.experiment, 20)
+        command = [PROGRAM, "rehearse", self.experiment, "--people", "1", "--out", self.out]
+        first = subprocess.Popen(command, start_new_session=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        deadline = time.monotonic() + patient(60)
+        while not glob.glob(glob.escape(self.out) + "/unfinished-sim-001/*/") and time.monotonic() < deadline:
+            time.sleep(0.001)
+        os.killpg(first.pid, signal.SIGSTOP)
+        try:
+            second = self.rehearse("--people", "2")
+        finally:
+            os.killpg(first.pid, signal.SIGCONT)
+        self.assertEqual(second.returncode, 1)
+        self.assertIn("sim-001: failed. Another dihaptic is doing this session now", second.stderr)
+        self.assertEqual(first.wait(timeout=patient(60)), 0)
+        self.assertEqual(sorted(os.listdir(self.out)), ["rehearsal.yaml", "sim-001", "sim-002"])
+        self.assertEqual(collect(self.out).returncode, 0)
+        self.assertEqual(tables(self.out), self.unsharded_tables(self.experiment, 2))
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
