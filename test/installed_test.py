@@ -73,6 +73,16 @@ print(len(dh.run("experiments/lift-block.yaml", out="by-python").lifts))
         self.assertEqual(said.split(), [f"{self.prefix}/bin/dihaptic", f"{self.prefix}/share/dihaptic/scenes/block-on-table.yaml",
                                         "1"])
 
+    def test_bash_completes_commands_options_and_files(self):
+        for words, some in [(["re"], {"replay", "recover", "report"}), (["run", "--s"], {"--simulate", "--solver", "--seed"}),
+                            (["run", "mine"], {"mine-too.yaml"})]:
+            (self.work / "mine-too.yaml").touch()
+            said = self.run_here("bash", "-ec", f"source {SOURCE}/packaging/completion/dihaptic; COMP_WORDS=(dihaptic $*); "
+                                 "COMP_CWORD=$#; _dihaptic; printf '%s\\n' ${COMPREPLY[@]}", "bash", *words)
+            self.assertLessEqual(some, set(said.split()))
+            self.assertTrue(all(word.startswith(words[-1]) for word in said.split()))
+        (self.work / "mine-too.yaml").unlink()
+
     def test_another_project_builds_against_the_library_and_lifts_a_block(self):
         source = SOURCE / "packaging/example"
         self.assertLessEqual(len((source / "lift.cpp").read_text().splitlines()), 60)

@@ -1,5 +1,6 @@
 #include <QCommandLineParser>
 #include <QFileInfo>
+#include <QIcon>
 #include <QSettings>
 #include <cstdio>
 
@@ -35,6 +36,9 @@ int main(int argc, char** argv) {
     dihaptic::gui::at_display_loss(dihaptic::gui::SessionRunner::end_program);
     QApplication::setOrganizationName("dihaptic");
     QApplication::setApplicationName("dihaptic");
+    // of the package's desktop entry, by which a desktop finds the icon
+    QApplication::setDesktopFileName("org.dihaptic.Dihaptic");
+    QApplication::setWindowIcon(QIcon::fromTheme("org.dihaptic.Dihaptic"));
     QApplication::setApplicationVersion(
         QString::fromStdString(dihaptic::recording::program_version()));
     app.translate(QApplication::applicationDirPath() + "/translations");
