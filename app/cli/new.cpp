@@ -28,17 +28,17 @@ std::array<StudyFile, 4> study_files() {
              {"README.md", kStudyReadme}}};
 }
 
-bool is_plain(char c) {
+bool is_usual(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
 }
 
 /// A name that every shell takes as it is. Throws Error with one that is near.
 void check_name(const std::string& name) {
-    const bool plain = std::all_of(name.begin(), name.end(), is_plain);
+    const bool plain = std::all_of(name.begin(), name.end(), is_usual);
     if (plain && !name.empty() && name.front() != '-' && name.front() != '.') return;
     std::string near = name;
     std::replace_if(
-        near.begin(), near.end(), [](char c) { return !is_plain(c); }, '-');
+        near.begin(), near.end(), [](char c) { return !is_usual(c); }, '-');
     near.erase(0, near.find_first_not_of("-."));
     throw Error(fmt::format("'{}' is no name for a study", shortened(name)),
                 fmt::format("Use letters, digits, '-' and '_': dihaptic new study {}.",
