@@ -157,9 +157,9 @@ class Solve {
         return last;
     }
 
-    /// Projects the impulses into the cone, so that a remaining error never pulls. Some problems are
-    /// so delicate that this small change is too much: sweeps lead these into the cone, as they take
-    /// the velocities along. Where they do not, the impulses stay as they are.
+    /// Projects the impulses into the cone, so that a remaining error never pulls. Some problems
+    /// are so delicate that this small change is too much: sweeps lead these into the cone, as they
+    /// take the velocities along. Where they do not, the impulses stay as they are.
     Residual end_inside_cone() {
         std::copy(r_.begin(), r_.end(), newton_memory_.best.begin());
         project();
