@@ -56,7 +56,10 @@ class Part:
         return value
 
     def __setitem__(self, key: str, value: Any) -> None:
-        self._keys[key] = _plain(value)
+        plain = _plain(value)
+        if any(part is self for part in _within(plain)):
+            raise error("would be within itself", "Give a copy: copy.copy(part).", key=key)
+        self._keys[key] = plain
 
     def __delitem__(self, key: str) -> None:
         self._keys.pop(key, None)
@@ -154,12 +157,15 @@ class File(Part):
 
     @classmethod
     def load(cls: type[F], file: str | Path) -> F:
-        """Reads a file. Raises Error when it is not YAML; check() says what else is wrong with it.
+        """Reads a file, or one that comes with the program if there is none of that name. Raises Error when it is not
+        YAML; check() says what else is wrong with it.
 
         >>> import dihaptic as dh
         >>> dh.Scene.load("scenes/block-on-table.yaml").bodies[1].mass_g
         100
         """
+        if not Path(file).exists():
+            file = _native.kept(str(file)) or file
         raw = _native.read_yaml(str(file))
         if not isinstance(raw, dict):
             raise error("has no keys", "Name a scene, a rig or an experiment.", file=str(file))
@@ -358,6 +364,17 @@ def _plain(value: Any) -> Any:
     if isinstance(value, (list, tuple)):
         return [_plain(item) for item in value]
     raise error(f"{value!r} cannot stand in a file", "Give a number, a text, a list, a Part or a dict.")
+
+
+def _within(value: Any) -> Iterator[Part]:
+    """All parts that a value has."""
+    if isinstance(value, Part):
+        yield value
+        for inner in value._keys.values():
+            yield from _within(inner)
+    elif isinstance(value, list):
+        for item in value:
+            yield from _within(item)
 
 
 def _to_raw(value: Any) -> Any:

@@ -275,7 +275,7 @@ def _call(command: Sequence[str], progress: bool, echo: bool = False) -> _Answer
         finally:
             watcher.join()
     if process.returncode == _BAD_INPUT:
-        raise Error(_problems(said + output) or [Problem("error", "", 0, "", "\n".join(said), "")])
+        raise Error(_problems(said + output) or [_problem_of_option(said)])
     if process.returncode < 0:
         raise error(
             f"dihaptic {command[0]} was ended by signal {-process.returncode}",
@@ -317,6 +317,15 @@ def _problems(lines: Sequence[str]) -> list[Problem]:
             place = (at["severity"], at["file"] or "", int(at["line"] or 0))
             found.append(Problem(*place, key="", what=at["what"].rstrip("."), remedy=""))
     return found
+
+
+def _problem_of_option(lines: Sequence[str]) -> Problem:
+    """What the command line says of an option is about the argument of that name."""
+    text = "\n".join(line for line in lines if not line.startswith("Run with --help")).rstrip(".")
+    at = re.match(r"--(?P<name>[a-z-]+): (?P<what>.*)", text, re.DOTALL)
+    if at is None:
+        return Problem("error", "", 0, "", text, "")
+    return Problem("error", "", 0, at["name"].replace("-", "_"), at["what"], "")
 
 
 def _session_of(answer: _Answer) -> Session:

@@ -175,6 +175,25 @@ class Files(unittest.TestCase):
         with self.assertRaisesRegex(dh.Error, "cannot stand in a file"):
             Part(mass_g=object())
 
+    def test_a_part_is_not_within_itself(self):
+        part = Part(name="a")
+        for value in (part, [part], Part(inner=[part])):
+            with self.assertRaisesRegex(dh.Error, "inner: would be within itself"):
+                part.inner = value
+
+    def test_a_shipped_file_is_found_from_any_folder(self):
+        before = os.getcwd()
+        os.chdir(self.here)
+        self.addCleanup(os.chdir, before)
+        scene = Scene.load("scenes/block-on-table.yaml")
+        self.assertEqual(dh.run(scene, out=self.here, progress=False).info["experiment"], str(dh.shipped("scenes/block-on-table.yaml")))
+
+    def test_an_argument_that_the_program_refuses_is_named(self):
+        with self.assertRaises(dh.Error) as refused:
+            dh.run("experiments/lift-block.yaml", seed=-1)
+        self.assertEqual(refused.exception.problems[0].key, "seed")
+        self.assertNotIn("--help", str(refused.exception))
+
     def test_texts_that_look_like_numbers_stay_texts(self):
         file = self.here / "a.yaml"
         file.write_text('title: 007\nbodies: []\nsettings: { a: 1e-3, b: "+5", c: .5, d: 10_000, e: yes, f: ~ }\n')
