@@ -55,6 +55,12 @@ class Installed(unittest.TestCase):
         (self.work / "scenes/block-on-table.yaml").unlink()
         (self.work / "scenes").rmdir()
 
+    def test_a_copy_of_a_shipped_file_finds_what_it_names(self):
+        for name in ("scenes/looks.yaml", "experiments/visuomotor-rotation.yaml", "experiments/reach-at-tone.yaml"):
+            copy = self.work / ("copy-of-" + name.replace("/", "-"))
+            copy.write_text((SOURCE / name).read_text())
+            self.run_here("dihaptic", "check", copy.name)
+
     def test_a_file_that_is_nowhere_is_an_error_that_names_it_as_given(self):
         done = subprocess.run(["dihaptic", "run", "experiments/none.yaml"], cwd=self.work, env=self.environment,
                               capture_output=True, text=True)

@@ -100,9 +100,10 @@ void Composer::open(const QString& file) {
     edit_->document()->setModified(false);
     pause_.stop();  // nobody typed this
     edit_->setReadOnly(!QFileInfo(file).isWritable());
-    state_->setText(edit_->isReadOnly() ? tr("This file may not be written: copy it to a folder of "
-                                             "your own, and open the copy.")
-                                        : "");
+    state_->setText(edit_->isReadOnly()
+                        ? tr("This file may not be written: save it under a name of "
+                             "your own first (Ctrl+Shift+S).")
+                        : "");
 }
 
 QByteArray Composer::content() const {

@@ -70,4 +70,15 @@ std::string given_or_kept(const std::string& name) {
     return found.empty() ? name : found;
 }
 
+std::string named_in(const std::string& folder, const std::string& name) {
+    const fs::path beside = (fs::path(folder) / name).lexically_normal();
+    std::error_code ignored;
+    if (fs::exists(beside, ignored)) return beside.string();
+    fs::path below;
+    for (const fs::path& step : fs::path(name).lexically_normal())
+        if (step != "..") below /= step;
+    const std::string found = kept(below.string());
+    return found.empty() ? beside.string() : found;
+}
+
 }  // namespace dihaptic

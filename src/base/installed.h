@@ -26,4 +26,9 @@ std::string kept(const std::string& name);
 /// neither is there.
 std::string given_or_kept(const std::string& name);
 
+/// The file that a file in `folder` names: relative to the folder or, where that is missing, kept;
+/// a leading ../ counts for nothing then. So a copy of a shipped file finds what it names wherever
+/// it is put. If neither is there, the one in the folder, which is missing.
+std::string named_in(const std::string& folder, const std::string& name);
+
 }  // namespace dihaptic

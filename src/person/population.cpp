@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/field_writer.h"
+#include "base/installed.h"
 #include "base/random.h"
 #include "person/shipped_populations.h"
 
@@ -258,7 +259,7 @@ Population read_based(std::set<fs::path> above, const std::string& file) {
     Population out = parse(read_yaml(file), diagnostics);
     if (!out.based_on.empty()) {
         above.insert(fs::weakly_canonical(file));
-        const fs::path base = fs::path(file).parent_path() / out.based_on;
+        const fs::path base = named_in(fs::path(file).parent_path().string(), out.based_on);
         if (above.contains(fs::weakly_canonical(base)))
             throw Error({file, 0}, "based_on", "leads back to the file itself",
                         "Name a file that is based on no other, or on another one.");

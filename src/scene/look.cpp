@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 
+#include "base/installed.h"
 #include "base/regular_file.h"
 #include "scene/scene.h"
 
@@ -53,9 +54,7 @@ void load_seen(Body& body, const std::string& file, Diagnostics& diagnostics,
 
 void load_look(Body& body, const std::string& folder, Pictures& pictures, Diagnostics& diagnostics,
                const std::stop_token& stop) {
-    const auto path = [&](const std::string& file) {
-        return (std::filesystem::path(folder) / file).lexically_normal().string();
-    };
+    const auto path = [&](const std::string& file) { return named_in(folder, file); };
     const auto attempt = [&](const auto& load) {
         try {
             load();

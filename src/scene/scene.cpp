@@ -9,6 +9,7 @@
 #include <set>
 
 #include "base/choices.h"
+#include "base/installed.h"
 #include "scene/colour.h"
 #include "scene/mesh.h"
 #include "scene/names.h"
@@ -42,8 +43,7 @@ void load_meshes(Shape& shape, bool coloured, const std::string& folder, Diagnos
                  const std::stop_token& stop) {
     for (Part& part : shape.parts) load_meshes(part.shape, coloured, folder, diagnostics, stop);
     if (shape.kind != ShapeKind::mesh || shape.file.empty()) return;
-    const std::string file =
-        (std::filesystem::path(folder) / shape.file).lexically_normal().string();
+    const std::string file = named_in(folder, shape.file);
     const Place& place = shape.file_place;
     try {
         const Mesh mesh = read_mesh(file, metres(shape.unit), place, stop);
@@ -84,8 +84,7 @@ void load_meshes(Shape& shape, bool coloured, const std::string& folder, Diagnos
 
 void load_relief(Surface& surface, const std::string& folder, Diagnostics& diagnostics) {
     if (!surface.texture || surface.texture->file.empty()) return;
-    const std::string file =
-        (std::filesystem::path(folder) / surface.texture->file).lexically_normal().string();
+    const std::string file = named_in(folder, surface.texture->file);
     try {
         surface.texture->picture =
             std::make_shared<const ReliefPicture>(read_relief(file, surface.texture->place));

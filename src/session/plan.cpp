@@ -25,13 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file that `file` names: beside it, or else one that comes with the program.
-std::string beside(const std::string& file, const std::string& named) {
-    if (fs::path(named).is_absolute()) return named;
-    const fs::path out = (fs::path(file).parent_path() / named).lexically_normal();
-    std::error_code ignored;
-    const std::string found = fs::exists(out, ignored) ? "" : kept(named);
-    return found.empty() ? out.string() : found;
+std::string folder_of(const std::string& file) {
+    return fs::path(file).parent_path().string();
 }
 
 /// Turns "coupling.stiffness_N_m=600" into the mapping that a file would have.
@@ -79,8 +74,8 @@ task::Experiment experiment_of(const std::string& file, Diagnostics& diagnostics
 void plan_scene(Plan& plan, const Request& request, const task::Experiment& experiment,
                 Diagnostics& diagnostics) {
     const std::string file =
-        experiment.scene.empty() ? plan.file : beside(plan.file, experiment.scene);
-    plan.scene_folder = fs::path(file).parent_path().string();
+        experiment.scene.empty() ? plan.file : named_in(folder_of(plan.file), experiment.scene);
+    plan.scene_folder = folder_of(file);
     plan.scene = scene::read_scene(file, diagnostics, request.stop);
     diagnostics.throw_if_errors();
     plan.title = experiment.title.empty() ? plan.scene.title : experiment.title;
@@ -90,7 +85,7 @@ void plan_scene(Plan& plan, const Request& request, const task::Experiment& expe
 /// Path of the rig file; "" stands for ideal simulated devices.
 std::string rig_file(const Request& request, const task::Experiment& experiment) {
     if (!request.rig.empty()) return request.rig;
-    return experiment.rig.empty() ? "" : beside(request.file, experiment.rig);
+    return experiment.rig.empty() ? "" : named_in(folder_of(request.file), experiment.rig);
 }
 
 void plan_rig(Plan& plan, const Request& request, const task::Experiment& experiment,
@@ -128,7 +123,7 @@ void plan_settings(Plan& plan, const Request& request, const task::Experiment& e
 std::string movement_file(const Request& request, const task::Experiment& experiment) {
     if (!request.movement.empty()) return request.movement;
     if (!experiment.movement || experiment.movement->file.empty()) return "";
-    return beside(request.file, experiment.movement->file);
+    return named_in(folder_of(request.file), experiment.movement->file);
 }
 
 void check_use_of_movement(const Plan& plan, const Request& request,
@@ -159,7 +154,7 @@ void find_files(task::Task& task, const std::string& folder, Diagnostics& diagno
 
 /// The trials, and the hand that does them.
 void plan_trials(Plan& plan, task::Task task, const Request& request, Diagnostics& diagnostics) {
-    find_files(task, fs::path(request.file).parent_path().string(), diagnostics);
+    find_files(task, folder_of(request.file), diagnostics);
     sound::check(task.sounds, plan.rig.sound.value_or(rig::SoundOutput{}), diagnostics);
     auto made = std::make_shared<task::TaskPlan>(task::plan_task(task, plan.scene, diagnostics));
     const int number = request.order_number.value_or(task::participant_number(request.participant));

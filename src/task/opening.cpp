@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/installed.h"
+
 namespace dihaptic::task {
 namespace {
 
@@ -24,7 +26,7 @@ void find_pictures(Task& task, const std::string& folder, Diagnostics& diagnosti
     for (Block& block : task.blocks) {
         for (PageSpec& page : block.pages) {
             if (page.picture.empty()) continue;
-            page.picture = (std::filesystem::path(folder) / page.picture).string();
+            page.picture = named_in(folder, page.picture);
             std::error_code unreadable;
             if (!std::filesystem::is_regular_file(page.picture, unreadable)) {
                 diagnostics.error(page.place, "picture",

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "base/installed.h"
 #include "base/table.h"
 
 namespace dihaptic::task {
@@ -38,7 +39,7 @@ void SampledPath::read_file(const std::string& folder, Diagnostics& diagnostics)
                           "Leave out one of the two.");
         return;
     }
-    const std::string path = (std::filesystem::path(folder) / file).string();
+    const std::string path = named_in(folder, file);
     try {
         const CsvFile table(path);
         struct Column {

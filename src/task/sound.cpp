@@ -6,6 +6,8 @@
 
 #include "task/task.h"
 
+#include "base/installed.h"
+
 namespace dihaptic::task {
 
 void check(const SoundSpec& sound, Diagnostics& diagnostics) {
@@ -25,7 +27,7 @@ void check(const SoundSpec& sound, Diagnostics& diagnostics) {
 void find_sounds(Task& task, const std::string& folder, Diagnostics& diagnostics) {
     for (SoundSpec& sound : task.sounds) {
         if (sound.file.empty()) continue;
-        sound.file = (std::filesystem::path(folder) / sound.file).string();
+        sound.file = named_in(folder, sound.file);
         std::error_code unreadable;
         if (!std::filesystem::is_regular_file(sound.file, unreadable))
             diagnostics.error(sound.place, "file", fmt::format("there is no file {}", sound.file),

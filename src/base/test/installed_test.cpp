@@ -43,5 +43,18 @@ TEST(Installed, TheUsersOwnFolderComesBeforeWhatIsShippedAndWhatIsThereBeforeBot
     before == nullptr ? unsetenv("XDG_DATA_HOME") : setenv("XDG_DATA_HOME", was.c_str(), 1);
 }
 
+TEST(Installed, ACopyOfAShippedFileFindsWhatItNamesWhereverItIs) {
+    const TemporaryFolder folder;
+    const std::string shipped = shipped_folder() + "/scenes/block-on-table.yaml";
+    EXPECT_EQ(named_in(folder.path(), "../scenes/block-on-table.yaml"), shipped);
+    EXPECT_EQ(named_in(folder.path(), "scenes/block-on-table.yaml"), shipped);
+    EXPECT_EQ(named_in(folder.path(), "../none.yaml"),
+              fs::path(folder.path()).parent_path().string() + "/none.yaml");
+    std::ofstream(folder.file("none.yaml")) << "bodies: []\n";
+    EXPECT_EQ(named_in(folder.path(), "none.yaml"), folder.file("none.yaml"));
+    EXPECT_EQ(named_in(folder.path(), "/scenes/block-on-table.yaml"),
+              "/scenes/block-on-table.yaml");
+}
+
 }  // namespace
 }  // namespace dihaptic::installed_test
