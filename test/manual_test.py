@@ -1,0 +1,68 @@
+"""The manual (docs/manual): what its makers would otherwise have to look for. Its pages are run by tests of their own
+(docs/manual/make/pages.py).
+
+Usage: manual_test.py, from the project's folder.
+"""
+import pathlib
+import sys
+import unittest
+
+MANUAL = pathlib.Path("docs/manual")
+sys.path.append(str(MANUAL / "make"))
+from pages import all_pages, blocks, faults, script, unlike
+
+PAGE = """# Title
+
+```{code-block} yaml
+:caption: scene.yaml
+
+title: A scene
+```
+
+```sh
+cat scene.yaml
+```
+
+```text
+title: A ...
+```
+"""
+SAID = "\n@@ line 9\ntitle: A scene\n"
+
+
+class Pages(unittest.TestCase):
+    """No block of a page can be left out, and none may say what is not so."""
+
+    def test_blocks_are_files_commands_and_what_is_printed(self):
+        found = [(block.line, block.kind, block.name) for block in blocks(PAGE)]
+        self.assertEqual(found, [(3, "yaml", "scene.yaml"), (9, "sh", ""), (13, "text", "")])
+        self.assertIn("cat > 'scene.yaml' <<'END OF THE FILE'\ntitle: A scene\nEND OF THE FILE\n", script(PAGE))
+
+    def test_a_second_block_continues_a_file(self):
+        self.assertIn("cat >> 'scene.yaml'", script(PAGE + PAGE))
+
+    def test_blocks_that_would_not_be_run_are_refused(self):
+        for text in ("  ```sh\n  ls\n  ```\n", "~~~sh\nls\n~~~\n", "````sh\nls\n````\n", "```\nls\n```\n",
+                     "```yaml\na: 1\n```\n", "```python\nprint(1)\n```\n", "```{literalinclude} some.py\n```\n", "```sh skip\nls\n```\n",
+                     "```{code-block} sh\n:caption: some.sh\n\nls\n```\n"):
+            with self.subTest(text), self.assertRaises(ValueError):
+                blocks(text)
+
+    def test_what_is_printed_is_what_the_page_shows(self):
+        self.assertEqual(faults(PAGE, SAID), [])
+        wrong = faults(PAGE, SAID.replace("A", "B"))
+        self.assertRegex(wrong[0], "line 13: the commands above do not print: title: A")
+        self.assertIsNone(unlike("a\nb 1 c\nd", "a\n...\nb ... c"))
+        self.assertEqual(unlike("a\nb", "b\na"), "a")  # in that order
+
+    def test_a_file_that_no_command_uses_is_a_fault(self):
+        self.assertRegex(faults(PAGE.replace("cat scene", "cat other"), SAID)[0], "uses scene.yaml")
+
+    def test_pages_are_short(self):
+        for page in all_pages():
+            with self.subTest(page):
+                self.assertLessEqual(len((MANUAL / f"{page}.md").read_text().splitlines()), 170)
+
+
+if __name__ == "__main__":
+    unittest.main()
