@@ -2,9 +2,10 @@
 """The hands of the manual's reader, where a page is run without one: what it does stands on the pages too.
 
 A window is opened on a display of its own; its session begins by F5, Space squeezes, the mouse lifts, and after a
-picture (window.png) it is closed. A session on real devices, which are fakes here, is ended by Ctrl-C when it has run
-for two seconds. MATLAB is Octave.
+picture (window.png) it is closed. A session that keeps real time (real devices are fakes here) is ended by Ctrl-C when
+it has run for two seconds. MATLAB is Octave.
 """
+import glob
 import os
 import pathlib
 import shutil
@@ -34,6 +35,9 @@ class Display:
     def do(self, *words):
         return subprocess.run(["xdotool", *words], env=self.environment, capture_output=True, text=True).stdout
 
+    def windows(self, title):
+        return self.do("search", "--onlyvisible", "--name", title).split()
+
     def picture(self, name):
         subprocess.run(["ffmpeg", "-loglevel", "error", "-y", "-f", "x11grab", "-video_size", SIZE, "-i", self.name,
                         "-frames:v", "1", name], check=True)
@@ -43,46 +47,77 @@ class Display:
         self.server.wait()
 
 
-def lift(display):
-    """F5 begins, Space squeezes, the mouse lifts."""
+def move_up(display, pixels):
+    """Sixty times a second, as a hand would."""
+    for _ in range(abs(pixels) // 2):
+        display.do("mousemove_relative", "--", "0", "-2" if pixels > 0 else "2")
+        time.sleep(0.016)
+
+
+def wait(what, condition):
+    """Until it holds: on a busy machine no time would be long enough."""
+    until = time.monotonic() + 60
+    while not (value := condition()):
+        if time.monotonic() > until:
+            sys.exit(f"waited in vain for {what}")
+        time.sleep(0.1)
+    return value
+
+
+def lift(display, window, file):
+    """F5 begins, Space squeezes, the mouse lifts. A window with trials asks first who does them; there the hand begins
+    above the object."""
+    before = len(glob.glob("sessions/*/raw.log"))
     display.do("key", "F5")
-    time.sleep(2)
+    trials = "\ntask:" in pathlib.Path(file).read_text()
+    if trials:
+        asked = wait("the question who does the trials", lambda: display.windows("^Who does the trials"))
+        display.do("windowfocus", asked[-1], "type", "--delay", "50", "S07")
+        display.do("key", "Return")
+        wait("the answer", lambda: not display.windows("^Who does the trials"))
+        display.do("windowfocus", window)  # there is no window manager that would
+    wait("the session", lambda: len(glob.glob("sessions/*/raw.log")) > before)
+    time.sleep(1)
+    if trials:
+        move_up(display, -120)
     display.do("keydown", "space")
     time.sleep(1.5)
-    for _ in range(60):
-        display.do("mousemove_relative", "--", "0", "-2")
-        time.sleep(0.016)
+    move_up(display, 120)
     time.sleep(1)
 
 
 def use_window(arguments):
     with tempfile.TemporaryDirectory() as home:
         display = Display(home)
-        window = subprocess.Popen([PROGRAM, *arguments], env=display.environment)
+        program = subprocess.Popen([PROGRAM, *arguments], env=display.environment)
         try:
             title = " - Dihaptic" if len(arguments) > 1 else "^Dihaptic$"
-            until = time.monotonic() + 60
-            while not (found := display.do("search", "--onlyvisible", "--name", title).split()):
-                if window.poll() is not None or time.monotonic() > until:
-                    sys.exit("the window did not open")
-                time.sleep(0.1)
-            display.do("windowmove", found[-1], "0", "0", "windowsize", found[-1], *SIZE.split("x"),
-                       "windowfocus", found[-1], "mousemove", "450", "450")
+            window = wait("the window", lambda: display.windows(title))[-1]
+            display.do("windowmove", window, "0", "0", "windowsize", window, *SIZE.split("x"), "windowfocus", window,
+                       "mousemove", "450", "450")
             time.sleep(2)
             if arguments[-1].endswith(".yaml"):
-                lift(display)
+                lift(display, window, arguments[-1])
             display.picture("window.png")
             display.do("keyup", "space", "key", "F7")
-            time.sleep(1)
-            display.do("key", "ctrl+q")
-            return window.wait(60)
+
+            def closed():
+                display.do("windowfocus", window, "key", "ctrl+q")
+                time.sleep(1)
+                return program.poll() is not None
+
+            wait("the window's end", closed)
+            return program.returncode
+        except SystemExit:
+            display.picture("waited-in-vain.png")
+            raise
         finally:
-            window.kill()
+            program.kill()
             display.close()
 
 
 def use_devices(arguments):
-    """A session that keeps real time is ended by Ctrl-C; it then is interrupted, as its reader is told."""
+    """One that keeps real time is ended by Ctrl-C; it then is interrupted, as its reader is told."""
     with subprocess.Popen([PROGRAM, *arguments], stdout=subprocess.PIPE, text=True) as session:
         stopped = False
         for line in session.stdout:
@@ -108,7 +143,7 @@ def main():
         return use_matlab(arguments[-1])
     if arguments[:1] == ["gui"]:
         return use_window(arguments)
-    if arguments[:1] == ["run"] and "--rig" in arguments:
+    if arguments[:1] == ["resume"] or "--rig" in arguments and "run" in arguments:
         return use_devices(arguments)
     os.execv(PROGRAM, [PROGRAM, *arguments])
 

@@ -40,7 +40,7 @@ class Source:
         """A page of the repository, its links those of the manual."""
         place = self.places[path]
         text = (PROJECT / path).read_text()
-        outside = re.split(r"(^```.*?^```$)", text, flags=re.DOTALL | re.MULTILINE)
+        outside = re.split(r"(^```(?:[a-z]|\{code|\{toc).*?^```$)", text, flags=re.DOTALL | re.MULTILINE)
         outside[::2] = [LINK.sub(lambda link: self.link(link, path, place), part) for part in outside[::2]]
         self.write(place + ".md", "".join(outside))
 

@@ -93,8 +93,9 @@ def faults(page, output):
         said[int(number)] = text
     last = 0
     for block in reversed(blocks(page)):
-        if block.name and block.name not in commands:
-            found.append(f"line {block.line}: no command below uses {block.name}")
+        files = "".join(other.text for other in blocks(page) if other.name not in ("", block.name))
+        if block.name and block.name.removesuffix(".m") not in commands + files:  # MATLAB leaves it out
+            found.append(f"line {block.line}: no command below and no other file uses {block.name}")
         if block.kind == "sh":
             commands += block.text
     for block in blocks(page):

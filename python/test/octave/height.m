@@ -1,0 +1,3 @@
+function out = height(t)
+    out = numel(t.trial_num);
+end

@@ -1,0 +1,3 @@
+% A test has no display.
+function xlabel(varargin)
+end
