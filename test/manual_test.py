@@ -5,12 +5,14 @@ Usage: manual_test.py, from the project's folder.
 """
 import pathlib
 import re
+import shutil
+import subprocess
 import sys
 import unittest
 
 MANUAL = pathlib.Path("docs/manual")
 sys.path.append(str(MANUAL / "make"))
-from pages import all_pages, blocks, faults, script, unlike
+from pages import SHIPPED, all_pages, blocks, faults, script, unlike
 
 PAGE = """# Title
 
@@ -31,6 +33,50 @@ title: A ...
 SAID = "\n@@ line 9\ntitle: A scene\n"
 
 
+def prose(page):
+    """A page without its blocks, its code and the addresses of its links."""
+    text = (MANUAL / f"{page}.md").read_text()
+    text = re.sub(r"^```\{(?:note|warning|tip)\}\n(.*?)^```$", r"\1", text, flags=re.DOTALL | re.MULTILINE)
+    text = re.sub(r"^```.*?^```$", "", text, flags=re.DOTALL | re.MULTILINE)
+    return re.sub(r"\{doc\}`[^`]*`|`[^`]*`|\]\([^)]*\)", " ", text)
+
+
+def named(page):
+    """What stands in backquotes in its text."""
+    text = re.sub(r"^```.*?^```$", "", (MANUAL / f"{page}.md").read_text(), flags=re.DOTALL | re.MULTILINE)
+    return [re.sub(r"\s+", " ", code) for code in re.findall(r"(?<!\})`([^`]+)`", text)]
+
+
+class Words(unittest.TestCase):
+    """Plain English, in British spelling; the words that no dictionary has are in words.txt."""
+
+    def test_are_spelled_as_a_dictionary_or_the_list_has_them(self):
+        words = (MANUAL / "words.txt").read_text().split()
+        self.assertEqual(words, sorted(set(words), key=lambda word: (word.lower(), word)))
+        if shutil.which("hunspell") is None:
+            self.fail("hunspell is not installed: ./dev build installs it")
+        unknown = {}
+        for page in all_pages():
+            said = subprocess.run(["hunspell", "-d", "en_GB", "-i", "utf-8", "-l"], input=prose(page), text=True,
+                                  capture_output=True, check=True).stdout
+            for word in said.split():
+                unknown.setdefault(word.removesuffix("'s"), page)
+        wrong = {word: page for word, page in unknown.items() if word not in words}
+        self.assertEqual(wrong, {}, "correct them, or add them to docs/manual/words.txt")
+        self.assertEqual([word for word in words if word not in unknown], [], "no page needs these words of the list")
+
+    def test_files_that_are_named_are_there(self):
+        folders = "|".join(SHIPPED)
+        found = 0
+        for page in all_pages():
+            for code in named(page):
+                for path in re.findall(rf"(?:^| )((?:{folders})/\S+)", code):
+                    found += 1
+                    with self.subTest(page=page, path=path):
+                        self.assertTrue(pathlib.Path(path).exists())
+        self.assertGreater(found, 5)
+
+
 class Pages(unittest.TestCase):
     """No block of a page can be left out, and none may say what is not so."""
 
@@ -44,8 +90,8 @@ class Pages(unittest.TestCase):
 
     def test_blocks_that_would_not_be_run_are_refused(self):
         for text in ("  ```sh\n  ls\n  ```\n", "~~~sh\nls\n~~~\n", "````sh\nls\n````\n", "```\nls\n```\n",
-                     "```yaml\na: 1\n```\n", "```python\nprint(1)\n```\n", "```{literalinclude} some.py\n```\n", "```sh skip\nls\n```\n",
-                     "```{code-block} sh\n:caption: some.sh\n\nls\n```\n"):
+                     "```yaml\na: 1\n```\n", "```python\nprint(1)\n```\n", "```{literalinclude} some.py\n```\n",
+                     "```sh skip\nls\n```\n", "```{code-block} sh\n:caption: some.sh\n\nls\n```\n"):
             with self.subTest(text), self.assertRaises(ValueError):
                 blocks(text)
 
@@ -62,8 +108,7 @@ class Pages(unittest.TestCase):
     def test_pages_are_short(self):
         for page in all_pages():
             with self.subTest(page):
-                prose = re.sub(r"^```.*?^```$", "", (MANUAL / f"{page}.md").read_text(), flags=re.DOTALL | re.MULTILINE)
-                self.assertLessEqual(len(prose.splitlines()), 120)
+                self.assertLessEqual(len(prose(page).splitlines()), 120)
 
 
 if __name__ == "__main__":

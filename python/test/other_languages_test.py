@@ -58,7 +58,8 @@ class OtherLanguages(unittest.TestCase):
             self.skipTest("Octave is not installed")
         script = blocks("read-in-matlab", "matlab")
         keep = {"grip": "grip", "z": "position(3, :)'", "time": "time", "mean": "mean(aligned, 2)"}
-        script += [f"fid = fopen('{name}.txt', 'w'); fprintf(fid, '%.9g\\n', {what}); fclose(fid);" for name, what in keep.items()]
+        script += [f"fid = fopen('{name}.txt', 'w'); fprintf(fid, '%.9g\\n', {what}); fclose(fid);"
+                   for name, what in keep.items()]
         self.compare(self.run_in(["octave", "--no-gui", "--quiet", "--path", str(OCTAVE)], "\n".join(script), "m"))
 
 

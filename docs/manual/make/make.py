@@ -86,14 +86,23 @@ def commands_page(program):
     """What each command says with --help."""
     whole = said(program)
     parts = ["# Commands\n\nWhat each command says with `--help`. All of them return 0 when all went well, 1 when "
-             "something ran but its result must not be used as it is, and 2 when the input, the command line or the disk "
-             "was at fault.\n",
+             "something ran but its result must not be used as it is, and 2 when the input, the command line or the "
+             "disk was at fault.\n",
              f"```text\n{whole}\n```\n"]
     for command in subcommands(whole):
         text = said(program, command)
         parts.append(f"## {command}\n\n```text\n{text}\n```\n")
         parts += [f"### {command} {sub}\n\n```text\n{said(program, command, sub)}\n```\n" for sub in subcommands(text)]
     return "\n".join(parts)
+
+
+def refuse_unknown_commands(program):
+    """Commands in blocks are run; those in sentences are at least there."""
+    known = subcommands(said(program))
+    for page in pages.all_pages():
+        for command in re.findall(r"`dihaptic\s+([a-z]\w*)", (MANUAL / f"{page}.md").read_text()):
+            if command not in known:
+                sys.exit(f"docs/manual/{page}.md: there is no command {command}")
 
 
 def notebook_page(file):
@@ -135,6 +144,7 @@ def main(program, out, ran=None):
     source = Source(folder, pathlib.Path(ran))
     for path in source.places:
         source.add(path)
+    refuse_unknown_commands(program)
     source.write("reference/commands.md", commands_page(program))
     source.write("reference/python-functions.md", functions_page())
     for file in (PROJECT / "docs/tutorials").glob("*.py"):

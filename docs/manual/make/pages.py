@@ -142,9 +142,8 @@ def run(program, page, out):
     done = subprocess.run(["bash", str(commands)], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
                           stdout=subprocess.PIPE, text=True)
     folder.with_name(folder.name + ".log").write_text(done.stdout)
-    print(done.stdout)
     if done.returncode != 0:
-        raise ValueError(f"a command ended with {done.returncode}; what was printed is in {folder}.log")
+        raise ValueError(f"a command ended with {done.returncode}: {folder}.log\n{done.stdout[-2000:]}")
     if wrong := faults(text, done.stdout):
         raise ValueError("\n".join(wrong) + f"\nwhat was printed is in {folder}.log")
     return folder
