@@ -20,6 +20,9 @@ namespace {
 using model::kGravity;
 constexpr double kHandSpread = 3;   // impedance of firm over usual, and usual over loose hand
 constexpr double kGripShare = 0.4;  // grip over the weaker device's peak force
+/// The same over what it can hold for long, which the weight adds to: motors that get too hot are
+/// given less, and what shook then would be a hold that no setting keeps.
+constexpr double kGripForLong = 0.8;
 constexpr double kNotMargin = 1.5;  // stiffness of TuneResult::stiffer over the proposal's
 constexpr double kAsStiff = 0.95;   // this share of the stiffest is enough if it saves damping
 constexpr int kBisections = 3;      // between two stiffnesses of the map
@@ -212,6 +215,7 @@ TuneSetup tune_setup(const rig::Rig& rig, const std::vector<std::string>& finger
     out.settings = settings;
     out.hand = hand;
     double peak = std::numeric_limits<double>::infinity();
+    double for_long = peak;
     for (size_t i = 0; i < 2; ++i) {
         const rig::Device& device = rig::device_of(rig, fingers[i]);
         if (device.backend != "simulated") {
@@ -222,10 +226,13 @@ TuneSetup tune_setup(const rig::Rig& rig, const std::vector<std::string>& finger
                         "Write a rig with backend: simulated and the device's mass_g, "
                         "peak_force_N, position_step_mm, friction_N and delay_ticks.");
         }
-        peak = std::min(peak, simulated_options(device).peak_force);
+        const auto options = simulated_options(device);
+        peak = std::min(peak, options.peak_force);
+        for_long = std::min(for_long, options.continuous_force.value_or(for_long));
         out.devices.push_back(device);
     }
-    out.grip = kGripShare * std::min(peak, settings.safety.max_force.value_or(peak));
+    out.grip = std::min(kGripShare * std::min(peak, settings.safety.max_force.value_or(peak)),
+                        kGripForLong * for_long);
     out.stiffness = {200,  260,  340,  440,  570,  740,  970,  1300,
                      1600, 2100, 2800, 3600, 4700, 6100, 7900, 10000};
     out.damping = {0, 0.25, 0.5, 1, 1.5, 2, 3, 4};

@@ -16,6 +16,7 @@ import time
 
 PROGRAM = os.environ["DIHAPTIC_PROGRAM"]
 HERE = pathlib.Path(__file__).resolve().parent
+PROJECT = HERE.parents[2]
 SIZE = "1280x800"
 
 
@@ -68,7 +69,8 @@ def lift(display, window, file):
     above the object."""
     before = len(glob.glob("sessions/*/raw.log"))
     display.do("key", "F5")
-    trials = "\ntask:" in pathlib.Path(file).read_text()
+    at = pathlib.Path(file) if os.path.exists(file) else PROJECT / file  # one that comes with the program
+    trials = "\ntask:" in at.read_text()
     if trials:
         asked = wait("the question who does the trials", lambda: display.windows("^Who does the trials"))
         display.do("windowfocus", asked[-1], "type", "--delay", "50", "S07")

@@ -17,7 +17,6 @@ import sys
 HERE = pathlib.Path(__file__).resolve().parent
 MANUAL = HERE.parent
 PROJECT = MANUAL.parent.parent
-SHIPPED = ["experiments", "scenes", "rigs", "meshes", "movements", "textures", "populations"]
 DIRECTIVES = {"note", "warning", "tip", "toctree"}  # blocks that are prose
 FAKES = {"libfake_hd.so": ["libHD.so"], "libfake_dhd.so": ["libdhd.so.3", "libdrd.so.3"]}
 MARK = "@@ line "
@@ -112,12 +111,11 @@ def prepare(folder, program):
     tools = folder.with_name(folder.name + ".tools")
     shutil.rmtree(tools, ignore_errors=True)
     folder.mkdir(parents=True)
-    for name in SHIPPED:
-        (folder / name).symlink_to(PROJECT / name)
     (tools / "bin").mkdir(parents=True)
     for name in ("dihaptic", "matlab"):
         (tools / "bin" / name).symlink_to(HERE / "hands.py")
     (tools / "bin" / "python3").symlink_to("/usr/bin/python3")
+    (tools / "bin" / "sbatch").symlink_to(PROJECT / "test/cli/fake_sbatch.py")
     (tools / "home/dihaptic/build").mkdir(parents=True)
     (tools / "home/dihaptic/build/release").symlink_to(program.parent)
     (tools / "lib").mkdir()
@@ -125,7 +123,7 @@ def prepare(folder, program):
         for name in names:
             (tools / "lib" / name).symlink_to(program.parent / "src/devices" / fake)
     environment = {**os.environ, "DIHAPTIC_PROGRAM": str(program), "MPLBACKEND": "Agg",
-                   "HOME": str(tools / "home"),
+                   "HOME": str(tools / "home"), "FAKE_SLURM": str(tools),
                    "PATH": f"{tools}/bin:{os.environ['PATH']}", "PYTHONPATH": str(program.parent / "python"),
                    "LD_LIBRARY_PATH": str(tools / "lib"), "LP_NUM_THREADS": "1"}
     return environment

@@ -79,6 +79,20 @@ TEST(Tune, KeepsTheRigsDevicesAndAddsToTheirDelay) {
     EXPECT_NE(hold(late, Burden::none).hf_force_n, hold(later, Burden::none).hf_force_n);
 }
 
+TEST(Tune, GripsNoHarderThanMotorsBearForLong) {
+    Diagnostics diagnostics;
+    rig::Rig rig = rig::read_rig("rigs/premium-pair.yaml", diagnostics);
+    for (const char* preset : {"premium_1_0", "touch"}) {
+        for (rig::Device& device : rig.devices)
+            device.options = parse_yaml(std::string("preset: ") + preset, "here");
+        TuneSetup setup = tune_setup(rig, kFingers, servo::Settings{}, hand::Impedance{});
+        setup.stiffness = {740};
+        setup.damping = {1};
+        const TuneResult searched = tune(setup, false, {});
+        EXPECT_TRUE(searched.map.front().calm(Burden::none)) << preset;
+    }
+}
+
 TEST(Tune, StopsWhenAskedTo) {
     const TuneResult result = tune(small_search(), true, {});
     EXPECT_TRUE(result.interrupted);
