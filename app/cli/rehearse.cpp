@@ -253,10 +253,12 @@ std::string to_do(const Roster& roster) {
     return fmt::format("{} to do, {} done before", roster.waiting.size(), roster.there);
 }
 
-void print_next(const RehearseOptions& options) {
+void print_next(const RehearseOptions& options, const Shard& shard) {
     if (exit_code == kOk) {
-        fmt::print("complete: {}\nnext: dihaptic collect {}\n", options.out,
-                   shell_word(options.out));
+        const bool all = shard.of == 1;
+        fmt::print("complete: {}{}\nnext{}: dihaptic collect {}\n", options.out,
+                   all ? "" : fmt::format(", shard {}/{}", shard.number, shard.of),
+                   all ? "" : ", when the other shards are", shell_word(options.out));
     } else {
         fmt::print("some are missing in {}: the same command goes on with those\n", options.out);
     }
@@ -274,7 +276,7 @@ void rehearse_by_slurm(RehearseOptions& options) {
     const Roster roster = roster_of(options, {});
     fmt::print("{}\n{}\n", title, to_do(roster));
     if (roster.waiting.empty()) {
-        print_next(options);
+        print_next(options, {});
         return;
     }
     std::vector<int> shards;
@@ -299,7 +301,7 @@ void rehearse(RehearseOptions& options) {
     fmt::print("{}\n{}\n", title, to_do(roster));
     for (const std::string& text : run_people(options, roster.waiting))
         fmt::print(stderr, "{}\n", text);
-    print_next(options);
+    print_next(options, shard);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ import pandas as pd
 
 from . import _native
 from .between import BetweenTrials, listening
-from .errors import Error, Problem, error
+from .errors import Error, NotThere, Problem, error
 from .files import Input, on_disk, problems_of
 from .person import Person
 from .session import Session
@@ -229,6 +229,10 @@ class Rehearsal:
 
     def table(self, name: str) -> pd.DataFrame:
         """A table of all people by its name. Raises Error."""
+        if not self.tables:
+            raise error("has no tables yet", f"Type dihaptic collect {self.folder}.", file=str(self.folder))
+        if name not in self.tables:
+            raise NotThere(name, "is no table of this rehearsal", self.tables, "Rehearsal.tables lists them.")
         return read_table(self.folder / f"{name}.csv")
 
     @property

@@ -194,6 +194,14 @@ class Files(unittest.TestCase):
         self.assertEqual(refused.exception.problems[0].key, "seed")
         self.assertNotIn("--help", str(refused.exception))
 
+    def test_tables_that_are_not_there_yet_say_how_they_come(self):
+        study = dh.Rehearsal(self.here)
+        with self.assertRaisesRegex(dh.Error, "has no tables yet. Type dihaptic collect"):
+            study.trials
+        (self.here / "trials.csv").write_text("id\nsim-001\n")
+        with self.assertRaisesRegex(dh.NotThere, "Did you mean 'trials'"):
+            study.table("trial")
+
     def test_texts_that_look_like_numbers_stay_texts(self):
         file = self.here / "a.yaml"
         file.write_text('title: 007\nbodies: []\nsettings: { a: 1e-3, b: "+5", c: .5, d: 10_000, e: yes, f: ~ }\n')
