@@ -10,6 +10,7 @@
 
 #include "base/random.h"
 #include "base/table.h"
+#include "task/streams.h"
 #include "base/text_file.h"
 
 namespace dihaptic::task {
@@ -143,7 +144,7 @@ void check(const DrawSpec& draw, Diagnostics& diagnostics) {
 
 std::vector<double> drawn(const DrawSpec& draw, std::span<const int> blocks, int participant,
                           uint64_t seed) {
-    Random random(seed, "draw " + draw.name);
+    Random random(seed, stream_of("draw " + draw.name, participant));
     if (!draw.permutation.empty()) return permuted(draw.permutation, blocks, random);
     std::vector<double> out;
     for (size_t i = 0; i < blocks.size(); ++i) {

@@ -13,6 +13,7 @@
 #include "base/text_file.h"
 #include "task/factors.h"
 #include "task/lookup.h"
+#include "task/streams.h"
 
 namespace dihaptic::task {
 namespace {
@@ -298,14 +299,15 @@ bool needs_number(const Task& task) {
 std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed) {
     // the first participant gets the first row: participants are counted from 1
     const int row = std::max(0, number - 1);
-    Random rounds_random(seed, "rounds");
+    Random rounds_random(seed, stream_of("rounds", number));
     const int rounds = std::max(1, static_cast<int>(task.rounds.size()));
     std::vector<Trial> out;
     int block_number = 0;
     for (const int round : ordered(rounds, task.round_order, row, rounds_random)) {
         for (size_t b = 0; b < task.blocks.size(); ++b) {
             // each block has its own random stream: a change to one leaves the others as they were
-            Random random(seed, fmt::format("trials of block {} in round {}", b, round));
+            Random random(
+                seed, stream_of(fmt::format("trials of block {} in round {}", b, round), number));
             ++block_number;
             for (Trial trial : trials_of(task, task.blocks[b], round, row, random)) {
                 trial.block = static_cast<int>(b);

@@ -74,6 +74,22 @@ TEST(Order, TrialsHaveTheirKindsSharesAndInsertsAndTheSeedDecides) {
     EXPECT_GT(different.size(), 3u);
 }
 
+TEST(Order, IsOfEachParticipantAndTheSameAgain) {
+    session::Files files;
+    const auto conditions = [&](const char* participant) {
+        std::string out;
+        const session::Plan plan = session::make_plan(files.request(1, participant));
+        for (const Trial& t : plan.task->trials) out += std::to_string(t.condition);
+        return out;
+    };
+    EXPECT_EQ(conditions("S01"), conditions(""));
+    EXPECT_EQ(conditions("S02"), conditions("pilot-02"));
+    std::set<std::string> different;
+    for (const char* participant : {"S01", "S02", "S03", "S04", "S05", "S06", "S07", "S08"})
+        different.insert(conditions(participant));
+    EXPECT_GT(different.size(), 3u);
+}
+
 TEST(Order, ParticipantsNumbersOrderRounds) {
     session::Files files;
     files.replace("  redo: next\n",
