@@ -25,23 +25,33 @@ INSTANTIATE_TEST_SUITE_P(Soak, Problems,
                                     (of.param.torsion ? "_torsion" : "");
                          });
 
-TEST_P(Problems, AreAnswered) {
-    constexpr int kProblems = 100'000;
-    Random random(2012, "thrown together");
+/// Solves so many problems by the case's solver, each from zero impulses, and gives each problem,
+/// answer and report to `judge`.
+template <class Judge>
+void solve_each(int count, uint64_t seed, const Case& of, const Judge& judge) {
+    Random random(seed, "thrown together");
     ContactSolvers solvers;
     solvers.reserve(6, 24, true);
-    int fallbacks = 0;
-    int missed = 0;
     std::vector<Impulse> r;
-    for (int i = 0; i < kProblems; ++i) {
+    for (int i = 0; i < count; ++i) {
         const ContactProblem problem =
-            testing::random_problem(random, 1 + i % 6, 1 + i % 24, GetParam().torsion ? 0.005 : 0);
+            testing::random_problem(random, 1 + i % 6, 1 + i % 24, of.torsion ? 0.005 : 0);
         r.assign(problem.contacts.size(), Impulse::Zero());
         SolveStats stats;
-        solvers.solve(GetParam().solver, {}, problem, r, stats);
-        fallbacks += stats.fallback;
-        missed += stats.missed;
+        solvers.solve(of.solver, {}, problem, r, stats);
+        judge(problem, r, stats);
     }
+}
+
+TEST_P(Problems, AreAnswered) {
+    constexpr int kProblems = 100'000;
+    int fallbacks = 0;
+    int missed = 0;
+    solve_each(kProblems, 2012, GetParam(),
+               [&](const ContactProblem&, const std::vector<Impulse>&, const SolveStats& stats) {
+                   fallbacks += stats.fallback;
+                   missed += stats.missed;
+               });
     std::printf("%d problems: %d fallbacks, %d missed\n", kProblems, fallbacks, missed);
     EXPECT_LE(fallbacks, kProblems / (GetParam().solver == Solver::newton ? 1000 : 100));
     EXPECT_LE(missed, kProblems / 10'000);
@@ -57,24 +67,17 @@ double outside(const ProblemContact& contact, const Impulse& r) {
 /// An answer that leaves the cone lets a finger pull where it may not.
 TEST_P(Problems, KeepFrictionInTheCone) {
     constexpr int kProblems = 30'000;
-    Random random(2013, "thrown together");
-    ContactSolvers solvers;
-    solvers.reserve(6, 24, true);
     int left = 0;
     double worst = 0;
-    std::vector<Impulse> r;
-    for (int i = 0; i < kProblems; ++i) {
-        const ContactProblem problem =
-            testing::random_problem(random, 1 + i % 6, 1 + i % 24, GetParam().torsion ? 0.005 : 0);
-        r.assign(problem.contacts.size(), Impulse::Zero());
-        SolveStats stats;
-        solvers.solve(GetParam().solver, {}, problem, r, stats);
-        double most = 0;
-        for (size_t j = 0; j < r.size(); ++j)
-            most = std::max(most, outside(problem.contacts[j], r[j]));
-        left += most > 0;
-        worst = std::max(worst, most);
-    }
+    solve_each(
+        kProblems, 2013, GetParam(),
+        [&](const ContactProblem& problem, const std::vector<Impulse>& r, const SolveStats&) {
+            double most = 0;
+            for (size_t j = 0; j < r.size(); ++j)
+                most = std::max(most, outside(problem.contacts[j], r[j]));
+            left += most > 0;
+            worst = std::max(worst, most);
+        });
     std::printf("%d problems: %d left the cone, by %g of its radius at most\n", kProblems, left,
                 worst);
     EXPECT_LE(left, kProblems / 1000);
