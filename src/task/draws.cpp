@@ -10,8 +10,8 @@
 
 #include "base/random.h"
 #include "base/table.h"
-#include "task/streams.h"
 #include "base/text_file.h"
+#include "task/streams.h"
 
 namespace dihaptic::task {
 namespace {

@@ -11,8 +11,12 @@
 namespace dihaptic::task {
 
 /// `number`: the participant's, as of participant_number().
+inline bool has_own_stream(int number) {
+    return number > 1;
+}
+
 inline std::string stream_of(const std::string& what, int number) {
-    return number > 1 ? fmt::format("{} of participant {}", what, number) : what;
+    return has_own_stream(number) ? fmt::format("{} of participant {}", what, number) : what;
 }
 
 }  // namespace dihaptic::task

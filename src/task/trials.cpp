@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "base/text_file.h"
 #include "task/factors.h"
@@ -166,21 +167,25 @@ void insert_trials(const Insert& insert, const Task& task, Random& random,
     }
 }
 
-/// The block's trials, in their order.
+/// The block's trials, in their order. Conditions are shuffled by `own`, the participant's stream;
+/// without one, and for all places of inserted trials, by the seed's: a curve over trials then has
+/// the same kinds of trials in all participants.
 std::vector<Trial> trials_of(const Task& task, const Block& block, int round, int number,
-                             Random& random) {
+                             Random& random, std::optional<Random> own) {
     Trial trial;
     trial.round = round;
     trial.kind = block.kind;
     trial.perturb = perturbations_of(task, block.perturb);
     const std::vector<int> conditions = conditions_of(task, block);
-    std::vector<Trial> out;
-    if (block.procedures.empty()) {
-        out = repeated_trials(conditions, block, trial, number, random);
-    } else {
-        out = procedure_trials(task, block, trial, random);
-        deal_conditions(conditions, block.order, number, random, out);
-    }
+    const auto deal = [&](Random& from) {
+        if (block.procedures.empty())
+            return repeated_trials(conditions, block, trial, number, from);
+        std::vector<Trial> dealt = procedure_trials(task, block, trial, from);
+        deal_conditions(conditions, block.order, number, from, dealt);
+        return dealt;
+    };
+    std::vector<Trial> out = deal(random);
+    if (own) out = deal(*own);
     for (size_t i = 0; i < out.size() && block.ramp > 0; ++i)
         out[i].share = std::min(1.0, static_cast<double>(i + 1) / block.ramp);
     for (const Insert& insert : block.insert) insert_trials(insert, task, random, out);
@@ -306,10 +311,12 @@ std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed) {
     for (const int round : ordered(rounds, task.round_order, row, rounds_random)) {
         for (size_t b = 0; b < task.blocks.size(); ++b) {
             // each block has its own random stream: a change to one leaves the others as they were
-            Random random(
-                seed, stream_of(fmt::format("trials of block {} in round {}", b, round), number));
+            const std::string stream = fmt::format("trials of block {} in round {}", b, round);
+            Random random(seed, stream);
+            std::optional<Random> own;
+            if (has_own_stream(number)) own.emplace(seed, stream_of(stream, number));
             ++block_number;
-            for (Trial trial : trials_of(task, task.blocks[b], round, row, random)) {
+            for (Trial trial : trials_of(task, task.blocks[b], round, row, random, own)) {
                 trial.block = static_cast<int>(b);
                 trial.number = block_number;
                 out.push_back(trial);
