@@ -158,8 +158,9 @@ class Solve {
     }
 
     /// Projects the impulses into the cone, so that a remaining error never pulls. Some problems
-    /// are so delicate that this small change is too much: sweeps lead these into the cone, as they
-    /// take the velocities along. Where they do not, the impulses stay as they are.
+    /// are so delicate that this small change is too much. Sweeps lead answers of staggered
+    /// projections into the cone then, as they take the velocities along; newton's stay as they
+    /// are, since they are more exact by orders than a few sweeps would leave them.
     Residual end_inside_cone() {
         std::copy(r_.begin(), r_.end(), newton_memory_.best.begin());
         project();
@@ -171,6 +172,7 @@ class Solve {
         };
         const Residual unprojected = swap();
         if (unprojected.judged() > kTolerance) return swap();
+        if (stats_.route != Route::staggered_projections) return unprojected;
         std::copy(r_.begin(), r_.end(), newton_memory_.best.begin());
         for (int sweep = 0; sweep < kConeSweeps; ++sweep) {
             system_.sweep(law::Coulomb{}, r_, 1);
