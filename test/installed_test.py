@@ -112,6 +112,16 @@ class Packages(unittest.TestCase):
         used = [line.split("#")[0].strip() for line in (SOURCE / "packages.txt").read_text().splitlines()]
         self.assertEqual(sorted(told), sorted(name for name in used if name))
 
+    def test_let_members_of_the_group_use_what_the_doctor_looks_for(self):
+        doctor = (SOURCE / "app/cli/doctor/ports.cpp").read_text()
+        rules = (SOURCE / "packaging/debian/dihaptic.udev").read_text()
+        stream = (SOURCE / "packaging/org.dihaptic.Dihaptic.metainfo.xml").read_text().lower()
+        known = re.findall(r'Known\{"[^"]+", "(\w+)", "(\w*)"\}', doctor)
+        self.assertEqual(len(known), 2)
+        for vendor, product in known:
+            self.assertRegex(rules, f'"{vendor}".*{product}.*GROUP="haptics"')
+            self.assertIn(f"usb:v{vendor}p{product}", stream)
+
     def test_are_cited_in_the_version_that_they_have(self):
         version = re.search(r"project\(dihaptic VERSION ([0-9.]+)", (SOURCE / "CMakeLists.txt").read_text())[1]
         self.assertIn(f"\nversion: {version}\n", (SOURCE / "CITATION.cff").read_text())

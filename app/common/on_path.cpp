@@ -1,6 +1,7 @@
 #include "common/on_path.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <sstream>
@@ -19,15 +20,21 @@ fs::path program_folder() {
 
 }  // namespace
 
-bool shell_finds_program(const std::string& paths) {
+std::string found_on(const std::string& paths, const std::string& program) {
     std::istringstream list(paths);
-    std::error_code failed;
+    std::error_code ignored;
     for (std::string folder; std::getline(list, folder, ':');) {
-        const fs::path found = fs::path(folder.empty() ? "." : folder) / kProgram;
-        if (!fs::is_regular_file(found, failed)) continue;
-        return fs::equivalent(found, program_folder() / kProgram, failed);
+        const fs::path file = fs::path(folder.empty() ? "." : folder) / program;
+        if (fs::is_regular_file(file, ignored) && access(file.c_str(), X_OK) == 0)
+            return file.string();
     }
-    return false;
+    return "";
+}
+
+bool shell_finds_program(const std::string& paths) {
+    const std::string found = found_on(paths, kProgram);
+    std::error_code failed;
+    return !found.empty() && fs::equivalent(found, program_folder() / kProgram, failed);
 }
 
 std::string path_command() {

@@ -184,7 +184,7 @@ std::vector<Trial> trials_of(const Task& task, const Block& block, int round, in
         deal_conditions(conditions, block.order, number, from, dealt);
         return dealt;
     };
-    std::vector<Trial> out = deal(random);
+    std::vector<Trial> out = deal(random);  // with `own` too: inserted trials are drawn after it
     if (own) out = deal(*own);
     for (size_t i = 0; i < out.size() && block.ramp > 0; ++i)
         out[i].share = std::min(1.0, static_cast<double>(i + 1) / block.ramp);

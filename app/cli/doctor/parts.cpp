@@ -1,10 +1,8 @@
 #include "cli/doctor/parts.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
-#include <sstream>
 
 #include "common/on_path.h"
 
@@ -26,16 +24,9 @@ constexpr std::array kParts{
     Part{"dihaptic-gui", "is the window", false},
 };
 
-bool is_on(const std::string& paths, const std::string& program) {
-    std::istringstream list(paths);
-    for (std::string folder; std::getline(list, folder, ':');) {
-        if (access((folder + "/" + program).c_str(), X_OK) == 0) return true;
-    }
-    return false;
-}
-
 Finding films(const std::string& paths) {
-    if (is_on(paths, "ffmpeg")) return {Verdict::ok, "ffmpeg", "makes videos of sessions", {}};
+    if (!app::found_on(paths, "ffmpeg").empty())
+        return {Verdict::ok, "ffmpeg", "makes videos of sessions", {}};
     return {Verdict::lacks,
             "ffmpeg",
             "is missing, which makes videos of sessions",
