@@ -165,12 +165,12 @@ void print_summary(const session::Recorded& session, const session::Plan& plan) 
     }
     for (const std::string& note : session.notes) fmt::print("{}\n", note);
     const servo::Timing& timing = session.timing;
+    const double speed = session.simulated / session.elapsed;
     fmt::print(
-        "{:.2f} s in {:.2f} s ({:.0f} times real time); tick {:.1f} us median, {:.1f} us p99, "
+        "{:.2f} s in {:.2f} s ({:.{}f} times real time); tick {:.1f} us median, {:.1f} us p99, "
         "{:.1f} us max; period {:.0f} us\n",
-        session.simulated, session.elapsed, session.simulated / session.elapsed,
-        timing.ticks.quantile(0.5), timing.ticks.quantile(0.99), timing.ticks.quantile(1),
-        plan.settings.tick() * 1e6);
+        session.simulated, session.elapsed, speed, speed < 10 ? 1 : 0, timing.ticks.quantile(0.5),
+        timing.ticks.quantile(0.99), timing.ticks.quantile(1), plan.settings.tick() * 1e6);
     if (timing.lateness.count() > 0) {
         fmt::print("{}; {}\n", describe(timing), counted(timing.overruns, "overrun"));
     }

@@ -8,7 +8,7 @@ namespace {
 
 /// The box in which a hand at a desk can be [m].
 const Vec3 kLeast(-0.3, -0.25, 0.005);
-const Vec3 kMost(0.3, 0.25, 0.4);
+const Vec3 kFarthest(0.3, 0.25, 0.4);
 constexpr double kBeyond = 0.5;    // how far the pointer may go beyond that box [m]
 constexpr double kWidest = 0.16;   // largest aperture [m]
 constexpr double kStrongest = 16;  // grip of a strong hand [N]
@@ -29,8 +29,8 @@ void MouseHand::move(const QPointF& pixels, const scene::Camera& camera, int hei
     const Vec3 up = in_depth ? away : Vec3::UnitZ();
     pointer_ += scale * (pixels.x() * right - pixels.y() * up);
     const Vec3 beyond = Vec3::Constant(kBeyond);
-    pointer_ = pointer_.cwiseMax(kLeast - beyond).cwiseMin(kMost + beyond);
-    goal_.centre = pointer_.cwiseMax(kLeast).cwiseMin(kMost);
+    pointer_ = pointer_.cwiseMax(kLeast - beyond).cwiseMin(kFarthest + beyond);
+    goal_.centre = pointer_.cwiseMax(kLeast).cwiseMin(kFarthest);
 }
 
 void MouseHand::turn(const QPointF& pixels) {

@@ -165,7 +165,7 @@ void OperatorWindow::connect_subjects() {
         complaint_ = tr("The headset shows nothing more.");
         update_state();
     });
-    connect(&subjects_, &SubjectWindows::shown_in_headset, this,
+    connect(&subjects_, &SubjectWindows::shown_to_head, this,
             [this](const headset::Showing& showing) { runner_.note_shown(showing); });
     // pictures of what the first one shows count as seen
     connect(&subjects_, &SubjectWindows::presented, this,

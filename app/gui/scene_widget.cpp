@@ -185,6 +185,11 @@ void SceneWidget::set_display(const std::optional<rig::Display>& display) {
     update();
 }
 
+void SceneWidget::set_head(const outlets::HeadPose& head) {
+    head_ = head;
+    if (display_ && display_->eyes.tracked) update();
+}
+
 void SceneWidget::place_labels() {
     QSize room = size();
     if (words_) {
@@ -274,8 +279,21 @@ void SceneWidget::draw_scene() {
     const double scale = devicePixelRatioF();
     const int across = static_cast<int>(width() * scale);
     const int up = static_cast<int>(height() * scale);
-    shown_ = display_ ? view_->draw(frame_, *display_, across, up, overlays)
+    shown_to_.reset();
+    shown_ = display_ ? view_->draw(frame_, seen_display(), across, up, overlays)
                       : view_->draw(frame_, camera_, across, up, overlays);
+}
+
+/// The display with its eyes where they are now. A head that has come behind the screen, or nearly
+/// touches it, is left out: nothing could be drawn for it.
+rig::Display SceneWidget::seen_display() {
+    rig::Display out = *display_;
+    if (!out.eyes.tracked || !head_) return out;
+    out.eyes.position = head_->eyes;
+    out.eyes.along = head_->along;
+    if (!out.faces(out.eyes)) return *display_;
+    shown_to_ = head_;
+    return out;
 }
 
 /// Draws page, question and texts into each eye's part of the picture, turned for a mirror.

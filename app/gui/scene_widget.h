@@ -48,6 +48,10 @@ class SceneWidget : public QOpenGLWidget {
     void reset_camera();
     /// Draws as the person sees it on a display, in place of the camera; nullopt: by the camera.
     void set_display(const std::optional<rig::Display>& display);
+    /// Where the head is from whose eyes it is drawn, if the display's eyes are tracked.
+    void set_head(const outlets::HeadPose& head);
+    /// The head that the last picture was drawn for; nullopt: for eyes that rest.
+    const std::optional<outlets::HeadPose>& shown_to() const { return shown_to_; }
     /// What is drawn besides the scene; `path`: of the object, in the last seconds.
     struct Layers {
         bool handles = false;
@@ -122,6 +126,7 @@ class SceneWidget : public QOpenGLWidget {
     void place_labels();
     void make_view();
     void draw_scene();
+    rig::Display seen_display();
     void draw_words();
 
     scene::Scene scene_;
@@ -130,6 +135,7 @@ class SceneWidget : public QOpenGLWidget {
     std::vector<view::Camera> cameras_;
     view::Camera camera_;
     std::optional<rig::Display> display_;
+    std::optional<outlets::HeadPose> head_, shown_to_;
     /// Holds page, question and texts where each eye, or a mirror, has to see them the right way;
     /// null: they lie over the scene.
     std::unique_ptr<QWidget> words_;

@@ -1,8 +1,12 @@
 #include "subject_windows.h"
 
+#include "base/field_writer.h"
+
 namespace dihaptic::gui {
 
 namespace {
+
+constexpr std::chrono::milliseconds kFollow{4};  // a screen shows no more
 
 /// How many windows a rig has.
 size_t windows_of(const rig::Rig& rig) {
@@ -11,6 +15,35 @@ size_t windows_of(const rig::Rig& rig) {
 
 }  // namespace
 
+SubjectWindows::SubjectWindows(QWidget& beside) : beside_(beside) {
+    follow_.setInterval(kFollow);
+    follow_.setTimerType(Qt::PreciseTimer);
+    connect(&follow_, &QTimer::timeout, this, &SubjectWindows::follow_head);
+}
+
+void SubjectWindows::track(const std::optional<outlets::TrackedHead>& head) {
+    if (head && tracker_ && to_yaml(write_fields(*head)) == to_yaml(write_fields(head_))) return;
+    tracker_.reset();
+    if (head) tracker_ = std::make_unique<outlets::HeadTracker>(head_ = *head);
+    head ? follow_.start() : follow_.stop();
+}
+
+void SubjectWindows::follow_head() {
+    for (const outlets::HeadTracker::Told& told : tracker_->take_told())
+        Q_EMIT this->told(QString::fromStdString(told.what), told.problem);
+    if (const auto pose = tracker_->newest())
+        each([&](SceneWidget& scene) { scene.set_head(*pose); });
+}
+
+void SubjectWindows::show_first(qint64 tick) {
+    if (const auto& head = first()->shown_to()) {
+        Q_EMIT shown_to_head(
+            {tick, std::chrono::steady_clock::now(), {head->R_WT, head->eyes}, head->seen});
+    } else {
+        Q_EMIT presented(tick);
+    }
+}
+
 void SubjectWindows::open(const rig::Rig& rig) {
     close();
     for (const rig::Display& display : rig.displays) add(display);
@@ -18,21 +51,23 @@ void SubjectWindows::open(const rig::Rig& rig) {
         add(*rig.headset);
     } else {
         if (windows_.empty()) add(std::optional<rig::Display>());
-        connect(first(), &SceneWidget::presented, this, &SubjectWindows::presented);
+        connect(first(), &SceneWidget::presented, this, &SubjectWindows::show_first);
     }
+    track(rig.head);
     Q_EMIT changed();
 }
 
 void SubjectWindows::close() {
     windows_.clear();
     headset_.reset();
+    track({});
     Q_EMIT changed();
 }
 
 void SubjectWindows::add(const rig::Headset& headset) {
     headset_ = std::make_unique<HeadsetView>(headset);
     connect(headset_.get(), &HeadsetView::told, this, &SubjectWindows::told);
-    connect(headset_.get(), &HeadsetView::shown, this, &SubjectWindows::shown_in_headset);
+    connect(headset_.get(), &HeadsetView::shown, this, &SubjectWindows::shown_to_head);
     // queued: who hears it deletes the headset
     connect(headset_.get(), &HeadsetView::ended, this, &SubjectWindows::headset_ended,
             Qt::QueuedConnection);
@@ -56,6 +91,7 @@ void SubjectWindows::set_scene(const scene::Scene& scene, const servo::Frame& fr
     const bool same_headset =
         headset_ ? rig.headset && headset_->is_at(*rig.headset) : !rig.headset;
     if (windows_.size() != windows_of(rig) || !same_headset) open(rig);
+    track(rig.head);
     if (headset_) headset_->set_scene(scene, frame);
     for (size_t i = 0; i < windows_.size(); ++i) {
         SceneWidget& widget = windows_[i]->scene();

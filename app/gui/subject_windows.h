@@ -2,6 +2,7 @@
 // without a display.
 #pragma once
 
+#include <QTimer>
 #include <memory>
 #include <vector>
 
@@ -16,7 +17,7 @@ class SubjectWindows : public QObject {
 
   public:
     /// `beside`: the operator's window, on whose monitor none is opened if there is another.
-    explicit SubjectWindows(QWidget& beside) : beside_(beside) {}
+    explicit SubjectWindows(QWidget& beside);
 
     /// Opens those of a rig.
     void open(const rig::Rig& rig);
@@ -43,18 +44,25 @@ class SubjectWindows : public QObject {
     void clicked(double share);
     /// The picture of a tick was handed to the screen that the subject looks at first of all.
     void presented(qint64 tick);
-    /// The same of a headset.
-    void shown_in_headset(const dihaptic::headset::Showing& showing);
+    /// The same of a headset, or of a screen that is drawn for a tracked head.
+    void shown_to_head(const dihaptic::headset::Showing& showing);
     /// The headset shows nothing more.
     void headset_ended();
-    /// A monitor is not there, or what a headset has to tell.
+    /// A monitor is not there, or what a headset or a tracker has to tell.
     void told(const QString& what, bool problem);
 
   private:
     void add(const std::optional<rig::Display>& display);
     void add(const rig::Headset& headset);
+    void track(const std::optional<outlets::TrackedHead>& head);
+    /// Gives the windows the newest pose of the head.
+    void follow_head();
+    void show_first(qint64 tick);
 
     QWidget& beside_;
+    outlets::TrackedHead head_;  // that is tracked
+    std::unique_ptr<outlets::HeadTracker> tracker_;
+    QTimer follow_;
     std::vector<std::unique_ptr<SubjectWindow>> windows_;
     std::unique_ptr<HeadsetView> headset_;
 };

@@ -45,6 +45,16 @@ void warn_of_fields(const task::TaskPlan& plan, std::vector<Problem>& out) {
     }
 }
 
+void warn_of_delays(const task::TaskPlan& plan, std::vector<Problem>& out) {
+    for (const task::PerturbationSpec& perturbation : plan.task.perturbations) {
+        if (!perturbation.visual || perturbation.visual->delay == Formula{0}) continue;
+        out.push_back({Severity::warning, perturbation.place, perturbation.name,
+                       "is shown late: simulated people see it late, but learn from it as much as "
+                       "they would without the delay, where people learn less",
+                       kRemedy});
+    }
+}
+
 void warn_of_thresholds(const task::TaskPlan& plan, std::vector<Problem>& out) {
     for (const task::ProcedureSpec& procedure : plan.task.procedures) {
         const auto& names = procedure.perturb;
@@ -118,6 +128,7 @@ void warn_of_buttons(const task::TaskPlan& plan, std::vector<Problem>& out) {
 std::vector<Problem> simulated_limits(const task::TaskPlan& plan) {
     std::vector<Problem> out;
     warn_of_fields(plan, out);
+    warn_of_delays(plan, out);
     warn_of_thresholds(plan, out);
     warn_of_answers(plan, out);
     warn_of_ratings(plan, out);

@@ -1,5 +1,5 @@
-// Writes head.csv, which tells where the head was in each picture that a headset showed; it is
-// written while the session runs.
+// Writes head.csv, which tells where the head was in each picture that a headset showed, or a
+// screen to tracked eyes; it is written while the session runs.
 #pragma once
 
 #include <array>
@@ -10,13 +10,14 @@
 
 namespace dihaptic::recording {
 
-/// The head in a picture of a headset.
+/// The head in a picture.
 struct HeadSeen {
     int64_t tick = 0;           ///< that the picture is of
     double time = 0;            ///< session time when its light came, as foreseen [s]
     std::array<double, 3> p{};  ///< between the eyes, in the world [m]
-    std::array<double, 4> R{};  ///< quaternion, w first: x is right, y up, z backward of the head
-    bool tracked = false;       ///< it was measured; otherwise the headset guessed it
+    std::array<double, 4> R{};  ///< quaternion, w first: in a headset x is right, y up, z backward
+                                ///< of the head; before a screen, of the body that is tracked
+    bool tracked = false;       ///< it was measured; otherwise guessed, or where it was seen last
 };
 
 class HeadsWriter {

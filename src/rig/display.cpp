@@ -30,6 +30,12 @@ bool has_edges(const Display& display, Diagnostics& diagnostics) {
 
 }  // namespace
 
+bool Display::faces(const Eyes& seen_by) const {
+    const Vec3 front = right().cross(up()).normalized();
+    return front.dot(seen_by.left() - lower_left) >= kNearest &&
+           front.dot(seen_by.right() - lower_left) >= kNearest;
+}
+
 void Display::move(const Vec3& by) {
     for (Vec3* p : {&lower_left, &lower_right, &upper_left, &eyes.position}) *p += by;
 }

@@ -44,11 +44,12 @@ struct Patch {
     }
 };
 
-/// Eyes of a head that rests.
+/// Eyes of a head that rests, or that is tracked.
 struct Eyes {
     Vec3 position = Vec3::Zero();  ///< of the middle between them [m]
     Vec3 along = Vec3::UnitX();    ///< from the left one to the right one, of any length
     double distance = 0.063;       ///< of their pupils [m]
+    bool tracked = false;          ///< they move with Rig::head
     Place place{};
 
     Vec3 left() const { return position - distance / 2 * along.normalized(); }
@@ -63,6 +64,9 @@ struct Eyes {
               "Direction from the left eye to the right one, of any length."));
         v("distance", distance,
           Field::length().within(0.03, 0.1).says("Between the pupils; adults have 50 to 75 mm."));
+        v("tracked", tracked,
+          says("Whether they move with the rig's head; position and along then count until the "
+               "tracker sees it."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -88,6 +92,8 @@ struct Display {
     Vec3 at(const Cross& cross) const {
         return lower_left + cross.right * right() + cross.up * up();
     }
+    /// Whether it is seen from the front by these eyes, from no nearer than can be drawn.
+    bool faces(const Eyes& seen_by) const;
     void move(const Vec3& by);
     /// Takes the corners of a registration.
     void set(const Registration& found);

@@ -34,6 +34,33 @@ devices::DeviceConfig config_of(const Device& device) {
     return {device.finger, device.X_WD(), device.options, device.place, device.scale};
 }
 
+void check_displays(const Rig& rig, Diagnostics& diagnostics) {
+    std::set<std::string> names;
+    for (const Display& display : rig.displays) {
+        check(display, diagnostics);
+        if (names.insert(display.name).second) continue;
+        diagnostics.error(display.place, "name",
+                          fmt::format("'{}' is the name of two displays", display.name),
+                          "Give each display a name of its own.");
+    }
+}
+
+void check_head(const Rig& rig, Diagnostics& diagnostics) {
+    const auto tracked = std::ranges::find_if(
+        rig.displays, [](const Display& display) { return display.eyes.tracked; });
+    if (!rig.head && tracked != rig.displays.end())
+        diagnostics.error(tracked->eyes.place, "tracked", "follows no head: the rig has none",
+                          "Add e.g. head: { stream: Head } to the rig file, or leave it out.");
+    if (!rig.head) return;
+    if (tracked == rig.displays.end())
+        diagnostics.warning(rig.head->place, "head",
+                            "moves no eyes: those of no display are tracked",
+                            "Write tracked: yes in a display's eyes.");
+    if (rig.head->along.norm() < 1e-9)
+        diagnostics.error(rig.head->place, "along", "has no direction",
+                          "Write e.g. along: [1, 0, 0].");
+}
+
 void check(const Rig& rig, Diagnostics& diagnostics) {
     std::set<std::string> fingers;
     for (const Device& device : rig.devices) {
@@ -61,14 +88,8 @@ void check(const Rig& rig, Diagnostics& diagnostics) {
     if (rig.devices.empty())
         diagnostics.error(rig.place, "devices", "there are none", "List at least one device.");
     outlets::check(rig.outlets, diagnostics);
-    std::set<std::string> displays;
-    for (const Display& display : rig.displays) {
-        check(display, diagnostics);
-        if (displays.insert(display.name).second) continue;
-        diagnostics.error(display.place, "name",
-                          fmt::format("'{}' is the name of two displays", display.name),
-                          "Give each display a name of its own.");
-    }
+    check_displays(rig, diagnostics);
+    check_head(rig, diagnostics);
 }
 
 /// Reads a file that a rig file names by a key; false, with `remedy`, if there is none to read.
@@ -135,6 +156,7 @@ void place_world(Rig& rig) {
     for (JigPoint& point : rig.jig) point.position -= rig.origin;
     if (rig.wall) rig.wall->centre -= rig.origin;
     for (Display& display : rig.displays) display.move(-rig.origin);
+    if (rig.head) rig.head->position -= rig.origin;
     if (rig.headset) rig.headset->position -= rig.origin;
     rig.moved_by = rig.origin;
     rig.origin = Vec3::Zero();

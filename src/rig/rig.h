@@ -3,6 +3,7 @@
 
 #include "devices/device_group.h"
 #include "keeper/kept_devices.h"
+#include "outlets/head_tracker.h"
 #include "outlets/outlet.h"
 #include "rig/calibration.h"
 #include "rig/display.h"
@@ -87,6 +88,7 @@ struct Rig {
     std::string calibration;  ///< path of its file, from the rig file's folder; empty: none
     std::vector<JigPoint> jig;
     std::vector<Display> displays;
+    std::optional<outlets::TrackedHead> head;
     std::optional<Headset> headset;
     std::optional<Patch> patch;
     std::optional<SoundOutput> sound;  ///< unset: the system's default
@@ -110,6 +112,9 @@ struct Rig {
         v("displays", displays,
           says("Where the person sees screens, and with which eyes; left out, the scene's camera "
                "says what is seen."));
+        v("head", head,
+          says("Where a tracker sees the person's head, with which tracked eyes of displays move; "
+               "left out, none is tracked."));
         v("headset", headset,
           says(
               "Headset that the person wears: where it is in the world; left out, there is none."));

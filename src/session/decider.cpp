@@ -163,8 +163,7 @@ void Decider::Parts::ask(const task::Ended& attempt) {
 
 void Decider::Parts::set(const Json& values, task::Decision& out) {
     for (const auto& [name, value] : values.items()) {
-        const auto found = std::find_if(variables.begin(), variables.end(),
-                                        [&](const Variable& v) { return v.name == name; });
+        const auto found = std::ranges::find(variables, name, &Variable::name);
         if (found == variables.end()) {
             note(fmt::format("sets '{}', which is no variable of the task", name));
         } else if (!value.is_number() || !std::isfinite(value.get<double>())) {

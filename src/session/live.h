@@ -108,8 +108,8 @@ struct Live {
 
     /// From the window's thread: the picture of a tick was handed to the screen at `at`.
     void note_shown(int64_t tick, Clock::time_point at) noexcept;
-    /// The same in a headset. `X_WV`: of the head then; V is between the eyes, with x right, y up
-    /// and z backward. `tracked`: it was measured, not guessed.
+    /// The same in a headset, or on a screen to tracked eyes. `X_WV`: of the head then, see HeadSeen.
+    /// `tracked`: it was measured, not guessed.
     void note_shown(int64_t tick, Clock::time_point at, const Pose& X_WV, bool tracked) noexcept;
     /// From one other thread: the oldest showing not yet taken.
     std::optional<recording::Showing> take_showing() { return showings_.pop(); }

@@ -25,6 +25,8 @@ constexpr std::array kWords{"and", "or", "not", "if", "else"};
 /// are thrown.
 class Compiler : Parts {
   public:
+    using Parts::remarks_;
+
     Compiler(std::string_view text, Quantities& quantities)
         : quantities_(quantities), tokens_(tokens_of(text)) {}
 
@@ -146,7 +148,7 @@ class Compiler : Parts {
         }
         return truth(all, begin);
     }
-    void check_comparison(Value& a, Value& b, bool equality, size_t column) const {
+    void check_comparison(Value& a, Value& b, bool equality, size_t column) {
         if (a.type != b.type || a.type == Type::vector) {
             throw Fault{column, fmt::format("one side is {}, the other {}", what(a), what(b)),
                         "Compare numbers with numbers, and texts with quoted texts."};
@@ -342,6 +344,9 @@ class Compiler : Parts {
         if (find_unit_in_si(name.text))
             return {name.column, fmt::format("'{}' is a unit", name.text),
                     fmt::format("Write it behind a number: 1 {}.", name.text)};
+        if (quantities_.has_level(name.text))
+            return {name.column, fmt::format("'{}' is no quantity, but a text", name.text),
+                    fmt::format("Texts stand in quotes: \"{}\".", name.text)};
         const std::vector<std::string> names = quantities_.names();
         const std::string guess = nearest(name.text, names);
         return {name.column, fmt::format("'{}' is no quantity", name.text),
@@ -586,7 +591,13 @@ Expression Expression::compile(std::string_view text, Quantities& quantities, co
     try {
         if (text.size() > kLongestText)
             throw Fault{kLongestText, "is too long", "Compute parts of it as variables."};
-        return Compiler(text, quantities).compile();
+        Compiler compiler(text, quantities);
+        Expression out = compiler.compile();
+        for (const Fault& remark : compiler.remarks_)
+            diagnostics.warning(place, std::string(key),
+                                fmt::format("column {}: {}", remark.column, remark.what),
+                                remark.remedy);
+        return out;
     } catch (const Fault& fault) {
         diagnostics.error(place, std::string(key),
                           fmt::format("column {}: {}", fault.column, fault.what), fault.remedy,

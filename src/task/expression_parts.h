@@ -90,13 +90,29 @@ class Parts {
                                              "vector, and 1 if ... else 0 of a condition."};
     }
     /// Gives a number without a unit the dimension of the other; they must then have the same.
-    static void match(Value& a, Value& b, size_t column) {
-        if (a.literal) a.dimension = b.dimension;
-        if (b.literal) b.dimension = a.dimension;
+    void match(Value& a, Value& b, size_t column) {
+        if (a.literal) adopt(a, b.dimension);
+        if (b.literal) adopt(b, a.dimension);
         a.literal = b.literal = a.literal && b.literal;
         if (a.dimension == b.dimension) return;
         throw Fault{column, fmt::format("one side is {}, the other {}", what(a), what(b)),
                     "Only like goes with like: give numbers their unit (5 mm, 200 ms, 2 N)."};
+    }
+    /// 40 beside a speed is 40 m/s, where 40 mm/s may have been meant.
+    void adopt(Value& value, const Dimension& dimension) {
+        value.dimension = dimension;
+        if (value.type != Type::number || !is_constant(value.node[0])) return;
+        const double size = constant_of(value.node[0]);
+        for (const Scale& scale : kScales) {
+            if (!(::dihaptic::dimension(scale.quantity) == dimension) ||
+                std::abs(size) < scale.much)
+                continue;
+            remarks_.push_back(
+                {value.column,
+                 fmt::format("{} has no unit and counts in {}", size, si_symbol(dimension)),
+                 fmt::format("Write its unit behind it, as in {} {}.", size, scale.unit),
+                 {}});
+        }
     }
     static void demand_pure(Value& value) {
         demand(value, Type::number);
@@ -149,8 +165,21 @@ class Parts {
         return {times(base.dimension.m), times(base.dimension.kg), times(base.dimension.s)};
     }
 
+    std::vector<Fault> remarks_;  // on what is allowed, and is hardly meant
+
   private:
     static constexpr size_t kLongestProgram = 1000;  // steps
+
+    /// What is more than hands do, of what is often given in a smaller unit.
+    struct Scale {
+        Quantity quantity;
+        double much;  // [SI]
+        const char* unit;
+    };
+    static constexpr std::array<Scale, 4> kScales{{{Quantity::length, 5, "mm"},
+                                                   {Quantity::speed, 10, "mm/s"},
+                                                   {Quantity::mass, 20, "g"},
+                                                   {Quantity::time, 200, "ms"}}};
 
     std::vector<Node> nodes_;
 };

@@ -182,6 +182,12 @@ const std::vector<std::string>* Quantities::levels(int slot) const {
     return found == levels_.end() ? nullptr : &found->second;
 }
 
+bool Quantities::has_level(std::string_view text) const {
+    return std::ranges::any_of(levels_, [&](const auto& levels) {
+        return std::ranges::find(levels.second, text) != levels.second.end();
+    });
+}
+
 std::optional<Quantities::Thing> Quantities::thing(std::string_view name) const {
     const auto index = [&](const std::vector<std::string>& list) {
         return static_cast<size_t>(std::find(list.begin(), list.end(), name) - list.begin());

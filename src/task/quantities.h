@@ -77,6 +77,8 @@ class Quantities {
     const std::string& text(int index) const { return texts_[static_cast<size_t>(index)]; }
     /// The texts that the quantity may be; null if it is none that define_text() made.
     const std::vector<std::string>* levels(int slot) const;
+    /// Whether one of these quantities may be the text.
+    bool has_level(std::string_view text) const;
     /// Whether it is a name of this task: of a thing, of a region, or of one's own.
     bool knows(std::string_view name) const {
         return symbols_.find(name) != symbols_.end() || thing(name) || region(name);

@@ -111,7 +111,7 @@ std::string file_system(const std::string& mounts, const std::string& folder) {
     return type;
 }
 
-Finding kind_of_disk(const std::string& type, bool in_container) {
+Finding kind_of_disk(const std::string& type, System system) {
     static const std::set<std::string> kNetwork{"nfs",  "nfs4", "cifs",       "smb3",  "9p",
                                                 "ceph", "afs",  "fuse.sshfs", "lustre"};
     constexpr const char* kWhat = "file system";
@@ -127,7 +127,14 @@ Finding kind_of_disk(const std::string& type, bool in_container) {
                 kWhat,
                 type + ", in memory: what is recorded is lost at the next restart",
                 {}};
-    if (type == "overlay" && in_container)
+    if (type == "overlay" && system == System::live)
+        return {Verdict::lacks,
+                kWhat,
+                "of a live system, in memory: what is recorded is lost when it is switched off",
+                {"cd FOLDER    # of a disk of this machine; or write the stick by "
+                 "packaging/image/stick, "
+                 "which gives it room for sessions"}};
+    if (type == "overlay" && system == System::container)
         return {Verdict::note,
                 kWhat,
                 "of the container: what is recorded is lost with it. Start it with a folder of the "
@@ -157,7 +164,10 @@ Findings disk() {
         free.commands = {"du -sh sessions/* | sort -h | tail    # the largest sessions",
                          kAnotherDisk};
     const std::string type = file_system(text_of("/proc/self/mountinfo"), folder);
-    return {free, speed_of(folder), kind_of_disk(type, !container("").empty())};
+    const System system = fs::exists("/run/live/medium", ignored) ? System::live
+                          : container("").empty()                 ? System::installed
+                                                                  : System::container;
+    return {free, speed_of(folder), kind_of_disk(type, system)};
 }
 
 }  // namespace dihaptic::doctor

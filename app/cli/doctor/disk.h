@@ -12,7 +12,10 @@ constexpr const char* kAnotherDisk =
 /// The type of file system that holds `folder`, an absolute path; "" if it is not known.
 /// `mounts`: the text of /proc/self/mountinfo.
 std::string file_system(const std::string& mounts, const std::string& folder);
-Finding kind_of_disk(const std::string& type, bool in_container);
+
+/// Where this system stands: on a disk, in a container, or in memory, started from a USB stick.
+enum class System { installed, container, live };
+Finding kind_of_disk(const std::string& type, System system);
 
 /// `speed`: of writing; `needed`: by a session [bytes/s].
 Finding keeps_up(double speed, double needed);

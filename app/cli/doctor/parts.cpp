@@ -50,11 +50,13 @@ Findings parts(const std::function<std::string(const std::string&)>& companion,
     for (const Part& part : kParts) {
         const std::string name = std::string(part.program).substr(sizeof "dihaptic-" - 1);
         if (companion(part.program).empty()) {
-            out.push_back({Verdict::lacks,
-                           name,
-                           fmt::format("{} is missing, which {}", part.program, part.what),
-                           {"./dev build    # in Dihaptic's own folder"},
-                           part.needed});
+            out.push_back(
+                {Verdict::lacks,
+                 name,
+                 fmt::format("{} is missing, which {}", part.program, part.what),
+                 {shipped.starts_with("/usr/") ? "sudo apt install --reinstall dihaptic"
+                                               : "./dev build    # in Dihaptic's own folder"},
+                 part.needed});
         } else {
             out.push_back({Verdict::ok, name, fmt::format("{} {}", part.program, part.what), {}});
         }

@@ -20,13 +20,16 @@ from pages import MANUAL, PROJECT
 # Pages that stand elsewhere, with the places that they have in the manual.
 ELSEWHERE = {
     **{f"docs/{name}.md": f"reference/{name}" for name in (
-        "experiments", "files", "measures", "measures-of-behaviour", "python", "quantities", "tables", "window")},
+        "conventions", "experiments", "figures", "files", "licences", "measures", "measures-of-behaviour", "promises",
+        "python", "quantities", "tables", "window")},
     "docs/reference.md": "reference/keys",
     "docs/safety.md": "how-to/safety",
+    "src/README.md": "explanation/rooms/rooms",
     **{str(path.relative_to(PROJECT)): "explanation/rooms/" + "-".join(path.parent.relative_to(PROJECT / "src").parts)
-       for path in PROJECT.glob("src/**/README.md")},
+       for path in PROJECT.glob("src/*/**/README.md")},
 }
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)#:\s]*)(#[^)\s]*)?\)")
+NAMED = re.compile(r"(?<!\[)`((?:docs|src)/[\w./-]+\.md)`")
 
 
 class Source:
@@ -41,8 +44,16 @@ class Source:
         place = self.places[path]
         text = (PROJECT / path).read_text()
         outside = re.split(r"(^```(?:[a-z]|\{code|\{toc).*?^```$)", text, flags=re.DOTALL | re.MULTILINE)
-        outside[::2] = [LINK.sub(lambda link: self.link(link, path, place), part) for part in outside[::2]]
+        outside[::2] = [self.linked(part, path, place) for part in outside[::2]]
         self.write(place + ".md", "".join(outside))
+
+    def linked(self, text, path, place):
+        """Text whose links, and pages named in it, lead to the manual's own pages."""
+        text = LINK.sub(lambda link: self.link(link, path, place), text)
+        return NAMED.sub(lambda name: f"[]({self.way(name[1], place)})" if name[1] in self.places else name[0], text)
+
+    def way(self, file, place):
+        return os.path.relpath(self.places[file], os.path.dirname(place)) + ".md"
 
     def link(self, link, path, place):
         image, text, target, anchor = link.groups()
@@ -52,7 +63,7 @@ class Source:
             return f"![{text}](/{self.picture(path, place, target)})"
         file = os.path.normpath(os.path.join(os.path.dirname(path), target))
         if file in self.places:
-            return f"[{text}]({os.path.relpath(self.places[file], os.path.dirname(place))}.md{anchor or ''})"
+            return f"[{text}]({self.way(file, place)}{anchor or ''})"
         return f"{text} (`{file}`)" if text not in file else f"`{file}`"
 
     def picture(self, path, place, target):

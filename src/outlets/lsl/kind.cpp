@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/library.h"
+#include "outlets/lsl/library.h"
 
 namespace dihaptic::outlets::lsl {
 namespace {
@@ -39,14 +39,7 @@ struct Interface {
     int32_t (*push_sample_strt)(void* outlet, const char** values, double time) = nullptr;
     double (*local_clock)() = nullptr;
 
-    Interface(const std::string& path, const Place& place)
-        : file({"liblsl",
-                {"liblsl.so.2", "liblsl.so"},
-                false,
-                "Install it from github.com/sccn/liblsl/releases, or name its file: options: "
-                "{ library: /usr/lib/liblsl.so }.",
-                {}},
-               path, place) {
+    Interface(const std::string& path, const Place& place) : file(load(path, place)) {
         file.find("lsl_create_streaminfo", create_streaminfo);
         file.find("lsl_destroy_streaminfo", destroy_streaminfo);
         file.find("lsl_get_desc", get_desc);
@@ -63,20 +56,6 @@ struct Interface {
 constexpr int kFloat = 1;         // cft_float32
 constexpr int kString = 3;        // cft_string
 constexpr int32_t kBuffer = 360;  // time that a reader may be away, liblsl's default [s]
-
-/// `error`: the lsl_error_code_t that a failed push returned.
-const char* describe(int32_t error) {
-    switch (error) {
-        case -1:
-            return "it timed out";
-        case -2:
-            return "the stream was lost";
-        case -3:
-            return "it takes no such sample";
-        default:
-            return "an error inside it";
-    }
-}
 
 class Lsl final : public Outlet {
   public:

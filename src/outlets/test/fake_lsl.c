@@ -1,5 +1,9 @@
 /* Stands in for liblsl: writes what it is told to the file that DIHAPTIC_FAKE_LSL names. It refuses
-   what liblsl 1.17 refuses, in the same way; dihaptic_fake_lsl_fail() makes it fail at will. */
+   what liblsl 1.17 refuses, in the same way; dihaptic_fake_lsl_fail() makes it fail at will.
+
+   Its one stream that comes in is the file that DIHAPTIC_FAKE_LSL_IN names, as long as there is one:
+   a line with its name and its number of channels, and one with the sample that comes again and
+   again, "silent" or "lost". */
 #include <stdatomic.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -107,4 +111,68 @@ int32_t lsl_push_sample_strt(void* outlet, const char** values, double time) {
     snprintf(text, sizeof text, "mark|%s|%.6f|%s\n", stream->name, time, values[0]);
     tell(text);
     return 0;
+}
+
+static FILE* stream_in(char name[64], int* channels) {
+    const char* path = getenv("DIHAPTIC_FAKE_LSL_IN");
+    FILE* file = path ? fopen(path, "r") : NULL;
+    if (file && fscanf(file, "%63s %d", name, channels) != 2) {
+        fclose(file);
+        file = NULL;
+    }
+    return file;
+}
+
+static void wait_for(double seconds) {
+    struct timespec time = {(time_t)seconds, (long)(1e9 * (seconds - (double)(time_t)seconds))};
+    nanosleep(&time, NULL);
+}
+
+int32_t lsl_resolve_byprop(void** infos, uint32_t most, const char* property, const char* value,
+                           int32_t least, double timeout) {
+    struct stream* info = calloc(1, sizeof *info);
+    FILE* file = stream_in(info->name, &info->channels);
+    if (file) fclose(file);
+    if (!file || most < 1 || least > 1 || strcmp(property, "name") || strcmp(info->name, value)) {
+        free(info);
+        wait_for(timeout);
+        return 0;
+    }
+    infos[0] = info;
+    return 1;
+}
+
+int32_t lsl_get_channel_count(void* info) {
+    return ((struct stream*)given(info))->channels;
+}
+
+void* lsl_create_inlet(void* info, int32_t buffer, int32_t chunk, int32_t recover) {
+    (void)buffer;
+    (void)chunk;
+    (void)recover;
+    return atomic_load(&fails) == 2 ? NULL : memcpy(malloc(sizeof(struct stream)), given(info), sizeof(struct stream));
+}
+
+void lsl_destroy_inlet(void* inlet) {
+    free(inlet);
+}
+
+double lsl_pull_sample_f(void* inlet, float* values, int32_t count, double timeout, int32_t* error) {
+    const struct stream* stream = given(inlet);
+    char name[64], word[64] = "";
+    int channels = 0;
+    FILE* file = stream_in(name, &channels);
+    *error = count == stream->channels ? 0 : argument_error;
+    if (!file || *error) {
+        if (file) fclose(file);
+        if (!file) *error = -2;
+        return 0;
+    }
+    for (int i = 0; i < count && fscanf(file, "%63s", word) == 1; ++i) values[i] = strtof(word, NULL);
+    fclose(file);
+    if (!strcmp(word, "lost")) *error = -2;
+    if (!strcmp(word, "silent")) wait_for(timeout);
+    if (!strcmp(word, "lost") || !strcmp(word, "silent")) return 0;
+    wait_for(0.005); /* 200 samples a second */
+    return lsl_local_clock();
 }

@@ -55,5 +55,13 @@ TEST(Limits, SayThatFieldsAreLearnedInReachesOnly) {
         << found[0].text();
 }
 
+TEST(Limits, SayThatLearningTakesNoNoticeOfADelay) {
+    const auto found = limits(task(
+        "visual: { moves: [proxies], about: start, axis: [0, 0, 1], angle_deg: 30, delay_ms: 200 }",
+        kEnd));
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NE(found[0].text().find("changed: is shown late"), std::string::npos) << found[0].text();
+}
+
 }  // namespace
 }  // namespace dihaptic::person::limits_test

@@ -43,6 +43,29 @@ TEST(Displays, MoveWithTheWorldsOrigin) {
     EXPECT_THROW(display_of(rig, "wall"), Error);
 }
 
+TEST(Displays, HaveEyesThatFollowTheHeadIfThereIsOne) {
+    const auto with = [](const std::string& eyes, const std::string& head) {
+        const testing::TemporaryFolder folder;
+        Diagnostics diagnostics;
+        const Rig rig = read(folder, replaced(kRig, "420]", "420]" + eyes) + head, diagnostics);
+        std::string said;
+        for (const Problem& problem : diagnostics.problems()) said += problem.text() + "\n";
+        if (rig.head) {
+            EXPECT_LT((rig.head->position - Vec3(0, -0.02, 0.03)).norm(), 1e-15);
+        }
+        return said;
+    };
+    EXPECT_EQ(with(", tracked: yes", "head: { stream: Head }\n"), "");
+    EXPECT_NE(with(", tracked: yes", "").find("tracked: follows no head"), std::string::npos);
+    EXPECT_NE(with("", "head: { stream: Head }\n").find("warning: head: moves no eyes"),
+              std::string::npos);
+    EXPECT_NE(with(", tracked: yes", "head: { stream: Head, along: [0, 0, 0] }\n")
+                  .find("along: has no direction"),
+              std::string::npos);
+    EXPECT_NE(with(", tracked: yes", "head: { unit: mm }\n").find("stream: is missing"),
+              std::string::npos);
+}
+
 TEST(Displays, ThatNobodyCanSeeAreErrors) {
     for (const auto& [what, by, said] : {
              std::tuple{"[250, -130, -70]", "[-250, -130, -70]", "lower_right: is 0 mm from"},

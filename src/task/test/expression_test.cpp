@@ -234,6 +234,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"block + 1", 1, "where a number is wanted"}, Wrong{"1 and 2 > 1", 1, "Compare it"},
         Wrong{"not grip_force", 5, "Compare it"}, Wrong{"(1 < 2) + 1", 2, "1 if ... else 0"},
         Wrong{"(1 < 2) < (2 < 3)", 9, "Only == and !="},
+        Wrong{"surface == silk", 12, "Texts stand in quotes: \"silk\"."},
         Wrong{"surface == 'sued'", 12, "Did you mean \"suede\"?"},
         Wrong{"surface == 1", 9, "quoted texts"}, Wrong{"surface < 'silk'", 9, "Only == and !="},
         Wrong{"inside(blok, goal)", 8, "Did you mean block?"},
@@ -244,6 +245,23 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"touched(block, table)", 16, "neither a finger nor a hand"},
         Wrong{"lifted(block, 2 N)", 15, "the other in m"},
         Wrong{"still(20 mm/s)", 7, "is missing"}));
+
+TEST(Expression, NumbersWithoutAUnitThatAreHardlyMeantInSiAreRemarkedOn) {
+    const auto remarks = [](const std::string& text) {
+        Grasp grasp;
+        EXPECT_FALSE(grasp.compile(text).empty());
+        EXPECT_FALSE(grasp.diagnostics.has_errors());
+        return grasp.diagnostics.problems();
+    };
+    const auto fast = remarks("norm(block.velocity) > 40");
+    ASSERT_EQ(fast.size(), 1u);
+    EXPECT_EQ(fast[0].what, "column 24: 40 has no unit and counts in m/s");
+    EXPECT_EQ(fast[0].remedy, "Write its unit behind it, as in 40 mm/s.");
+    EXPECT_EQ(remarks("block.z > -50 and 700 > wait").size(), 2u);
+    for (const char* meant : {"norm(block.velocity) > 0.04", "norm(block.velocity) > 40 m/s",
+                              "wait < 3", "grip_force > 40", "score > 1000", "block.z > 2"})
+        EXPECT_TRUE(remarks(meant).empty()) << meant;
+}
 
 TEST(Expression, NestingAndLengthHaveLimits) {
     const auto said = [](const std::string& text) {

@@ -1,0 +1,35 @@
+// A stream of numbers of the Lab Streaming Layer that comes in, such as that of a tracker.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "base/diagnostics.h"
+
+namespace dihaptic::outlets::lsl {
+
+class Inlet {
+  public:
+    /// `library`: path of liblsl; empty: where the system finds it. Throws Error for `place`
+    /// without it.
+    Inlet(const std::string& stream, const std::string& library, const Place& place);
+    ~Inlet();
+
+    /// Looks for the stream, for so long; returns whether it is there. It may come again after it
+    /// was lost. Throws Error when liblsl does not open it.
+    bool find(std::chrono::duration<double> patience);
+    /// Number of values in a sample of the stream that was found.
+    int channels() const;
+    /// Waits for a sample of that many values, for so long; returns whether one came. Throws Error
+    /// when the stream is lost.
+    bool pull(std::span<float> values, std::chrono::duration<double> patience);
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace dihaptic::outlets::lsl

@@ -1,0 +1,36 @@
+// liblsl, which is loaded when a rig asks for it.
+#pragma once
+
+#include "base/library.h"
+
+namespace dihaptic::outlets::lsl {
+
+/// `path`: of its file; empty: where the system finds it. Throws Error for `place`.
+inline Library load(const std::string& path, const Place& place) {
+    return {{"liblsl",
+             {"liblsl.so.2", "liblsl.so"},
+             false,
+             "Install it from github.com/sccn/liblsl/releases, or name its file: library: "
+             "/usr/lib/liblsl.so.",
+             {}},
+            path,
+            place};
+}
+
+constexpr int kTimedOut = -1;  // lsl_timeout_error
+
+/// `error`: the lsl_error_code_t that a call returned.
+inline const char* describe(int32_t error) {
+    switch (error) {
+        case kTimedOut:
+            return "it timed out";
+        case -2:
+            return "the stream was lost";
+        case -3:
+            return "it takes no such sample";
+        default:
+            return "an error inside it";
+    }
+}
+
+}  // namespace dihaptic::outlets::lsl
