@@ -147,6 +147,7 @@ void run_one(SessionOptions& options) {
 }  // namespace
 
 void run_plan(session::Plan plan, session::RunOptions run) {
+    run.onlookers = true;
     auto devices = session::open_devices(plan, rig::is_real(plan.rig) ? keeper::program() : "");
     print(plan.warnings);
     fmt::print("{}\n", plan.title);

@@ -28,6 +28,7 @@ try:
         fit_two_rate,
     )
     from .lifts import find_lift
+    from .live import Live, Moment, observe
     from .person import Person, Seen
     from .program import Rehearsal, check, recover, rehearse, replay, report, resume, run, shipped
     from .vocabulary import Quantity, quantities, quantity
@@ -42,9 +43,9 @@ except ImportError as _why:
 __version__: str = _native.version.split()[-1]
 
 __all__ = [
-    "Attempt", "BetweenTrials", "Body", "Error", "Experiment", "Finger", "LearningCurveFit", "Next", "NotThere",
+    "Attempt", "BetweenTrials", "Body", "Error", "Experiment", "Finger", "LearningCurveFit", "Live", "Moment", "Next", "NotThere",
     "Part", "Person", "Problem", "PsychometricFit", "Quantity", "Rehearsal", "Rig", "Scene", "Seen", "Session",
     "SingleRateFit", "TwoRateFit", "World", "check", "env", "find_lift", "fit_learning_curve", "fit_psychometric",
-    "fit_single_rate", "fit_two_rate", "load", "plot", "quantities", "quantity", "read_table", "recover", "rehearse",
+    "fit_single_rate", "fit_two_rate", "load", "observe", "plot", "quantities", "quantity", "read_table", "recover", "rehearse",
     "replay", "report", "resume", "run", "shipped", "step_all",
 ]  # fmt: skip

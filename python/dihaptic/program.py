@@ -70,13 +70,15 @@ def run(
     settings: Mapping[str, Any] | None = None,
     seed: int = 1,
     out: str | Path = "sessions",
+    clock: str = "",
     between: BetweenTrials | None = None,
     person: Person | None = None,
     progress: bool = True,
 ) -> Session:
     """Runs a scene or an experiment, a file or an object, as `dihaptic run` does; opens its session.
 
-    `simulate`: a simulated person on simulated devices does the trials. `between`: decides between
+    `simulate`: a simulated person on simulated devices does the trials. `clock`: real or virtual, as
+    fast as it can be; left out, real with real devices alone. `between`: decides between
     trials. `person`: a simulated one of your own does them, in this process. With real devices, what
     the command prints and asks is printed and asked here, and Escape and Ctrl-C switch force off. A
     session that was interrupted, or whose force went off, is returned too, with a warning that says
@@ -93,13 +95,16 @@ def run(
     if person is not None:
         if not isinstance(person, Person):
             raise error(f"{person!r} is nobody", "Give an object of a class that derives from Person.")
-        if between is not None or movement:
-            raise error("a person of one's own does the trials alone", "Leave out between and movement.")
+        if between is not None or movement or clock == "real":
+            raise error(
+                "a person of one's own does the trials alone, on the virtual clock",
+                "Leave out between, movement and clock.",
+            )
         with on_disk(file) as path, on_disk(rig) as rig_path:
             sitting = _native.Sitting(path, rig_path, given, seed, participant)
         return person._do(sitting, out)
     command = ["--seed", str(seed), "--out", str(out)] + ["--simulate"] * simulate
-    for option, value in {"--movement": movement, "--participant": participant}.items():
+    for option, value in {"--movement": movement, "--participant": participant, "--clock": clock}.items():
         if value:
             command += [option, str(value)]
     for setting in given:

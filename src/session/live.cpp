@@ -1,7 +1,6 @@
 #include "session/live.h"
 
 #include <cmath>
-#include <type_traits>
 
 namespace dihaptic::session {
 
@@ -11,8 +10,7 @@ void Live::prepare(const servo::Servo& servo, const scene::Scene& scene) {
         for (servo::Frame& value : second->values()) servo.reserve(value);
     }
     object_ = scene.object_index();
-    clearance_ = task::Clearance(scene);
-    changeable_ = servo.settings().proxy.changeable;
+    knobs.prepare(servo, scene);
 }
 
 /// Every tick is somewhat late, so the earliest zero is the best estimate. A pause, in which
@@ -83,34 +81,6 @@ void Live::show(const servo::Frame& now) noexcept {
     }
     if (object_ >= 0) sample.object_height = now.bodies[static_cast<size_t>(object_)].X_WB.p.z();
     samples_.push(sample);
-}
-
-void Live::turn_knobs(const servo::Frame& last, double h, servo::Knobs& now) noexcept {
-    using servo::Knobs;
-    const std::optional<Knobs>& wanted = knobs.read();
-    if (!wanted) return;
-    bool anew = false;
-    Knobs::visit([&](auto knob, const servo::Knob& is) {
-        anew = anew || (is.eased && !Knobs::same(goal_.*knob, (*wanted).*knob));
-    });
-    goal_ = *wanted;
-    if (anew) left_ = kEase;
-    // this share of the remaining change in each tick gives a straight line that ends on time
-    const double share = left_ > h ? h / left_ : 1;
-    left_ = std::max(0.0, left_ - h);
-    Knobs next = goal_;
-    Knobs::visit([&]<class T>(T Knobs::*knob, const servo::Knob& is) {
-        if constexpr (std::is_same_v<T, double>) {
-            const double eased = now.*knob + share * (goal_.*knob - now.*knob);
-            if (is.eased && share < 1 && !std::isnan(eased)) next.*knob = eased;
-        }
-    });
-    const bool may_change = changeable_ && last.sequence >= 0;
-    if (next.proxy != now.proxy && !(may_change && clearance_.all_clear(last)))
-        next.proxy = now.proxy;
-    next.workspace_rate = servo::WorkspaceTurn::rate_toward(
-        goal_.workspace_turn, last.workspace_turn + h * last.workspace_rate);
-    now = next;
 }
 
 double Live::abandoned() const noexcept {

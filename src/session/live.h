@@ -13,7 +13,7 @@
 #include "recording/heads.h"
 #include "recording/showings.h"
 #include "servo/servo.h"
-#include "task/clearance.h"
+#include "session/knob_turner.h"
 #include "task/rating.h"
 
 namespace dihaptic::session {
@@ -65,12 +65,7 @@ struct Live {
     /// Share of a question's line that was clicked, until a tick takes it.
     std::atomic<double> clicked{task::Rating::kNowhere};
     std::atomic<double> done{0};  ///< share of the trials that are over
-    /// Knobs to reach; unset: those of the session stay. Some ease toward it, so that what is held
-    /// stays held. Another kind of proxy is taken, if settings.proxy.changeable, once all fingers
-    /// are clear of all bodies, so that no finger lets go of what it holds or pushes away what it
-    /// overlaps. The workspaces turn to the angle; the rate follows from it.
-    Latest<std::optional<servo::Knobs>> knobs;
-    static constexpr double kEase = 0.2;  // [s]
+    KnobTurner knobs;
 
     Live() {
         for (servo::Frame& value : frame.values()) value.sequence = -1;
@@ -79,8 +74,6 @@ struct Live {
     void prepare(const servo::Servo& servo, const scene::Scene& scene);
     /// In the tick: hands over a frame and a sample when they are due.
     void show(const servo::Frame& now) noexcept;
-    /// In the tick of h [s]: turns `now`, the knobs ordered last, toward those to reach.
-    void turn_knobs(const servo::Frame& last, double h, servo::Knobs& now) noexcept;
     /// The oldest sample not yet taken.
     std::optional<CurveSample> take_sample() { return samples_.pop(); }
 
@@ -108,8 +101,8 @@ struct Live {
 
     /// From the window's thread: the picture of a tick was handed to the screen at `at`.
     void note_shown(int64_t tick, Clock::time_point at) noexcept;
-    /// The same in a headset, or on a screen to tracked eyes. `X_WV`: of the head then, see HeadSeen.
-    /// `tracked`: it was measured, not guessed.
+    /// The same in a headset, or on a screen to tracked eyes. `X_WV`: of the head then, see
+    /// HeadSeen. `tracked`: it was measured, not guessed.
     void note_shown(int64_t tick, Clock::time_point at, const Pose& X_WV, bool tracked) noexcept;
     /// From one other thread: the oldest showing not yet taken.
     std::optional<recording::Showing> take_showing() { return showings_.pop(); }
@@ -135,10 +128,6 @@ struct Live {
     ValueRing<TrialEnd> trial_ends_{400};
     TrialEnd trial_;  // that runs
     int object_ = -1;
-    task::Clearance clearance_;
-    bool changeable_ = false;  // the kind of the proxies
-    servo::Knobs goal_;        // newest of `knobs`
-    double left_ = 0;          // time until goal_ is reached [s]
     Time shown_{0};
     Time sampled_{0};
 };

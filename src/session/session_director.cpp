@@ -18,12 +18,13 @@ bool once_a_second(const servo::Frame& last, Time period) noexcept {
 SessionDirector::SessionDirector(const Plan& plan, const RunOptions& options,
                                  const std::atomic<bool>& stop,
                                  const std::vector<recording::PhaseInfo>& phases,
-                                 const servo::Servo& servo, Outward* outward)
+                                 const servo::Servo& servo, Outward* outward, Onlookers* onlookers)
     : plan_(plan),
       options_(options),
       stop_(stop),
       servo_(servo),
       outward_(outward),
+      onlookers_(onlookers),
       live_(options.live),
       real_(options.clock == Clock::real),
       phases_(phases, plan.settings.tick()) {
@@ -56,6 +57,9 @@ void SessionDirector::operator()(const servo::Frame& last, std::span<const hapti
     commands.stop = commands.stop || (wait_ && wait_->over());
     commands.force_off = real_ && stop_.load(std::memory_order_relaxed);
     if (live_ != nullptr) be_steered(last, commands);
+    if (onlookers_ == nullptr) return;
+    commands.stop = commands.stop || onlookers_->ended();
+    onlookers_->turn_knobs(last, plan_.settings.tick(), commands.knobs);
 }
 
 void SessionDirector::direct_task(const servo::Frame& last,
@@ -71,6 +75,10 @@ void SessionDirector::direct_task(const servo::Frame& last,
     if (options_.keys != nullptr) task_->press(options_.keys->exchange(0));
     if (const char key = plan_.seeing ? plan_.seeing->take_key() : '\0'; key != 0)
         task_->press(key);
+    if (onlookers_ != nullptr) {
+        if (const char key = onlookers_->take_key(); key != 0) task_->press(key);
+        if (const int code = onlookers_->take_trigger(); code != 0) task_->trigger(code);
+    }
     if (plan_.seeing && last.task.page >= 0 && once_a_second(last, servo_.period()))
         task_->press(plan_.task->pages[static_cast<size_t>(last.task.page)].any_key());
     if (outward_) {
@@ -87,7 +95,7 @@ void SessionDirector::be_steered(const servo::Frame& last, servo::Commands& comm
     commands.stop = commands.stop || live_->ended.load(std::memory_order_relaxed);
     commands.rest = real_ && live_->paused.load(std::memory_order_relaxed);
     commands.abandoned = real_ ? live_->abandoned() : 0;
-    live_->turn_knobs(last, plan_.settings.tick(), commands.knobs);
+    live_->knobs.turn(last, plan_.settings.tick(), commands.knobs);
     if (task_) {
         if (live_->skip.exchange(false, std::memory_order_relaxed)) task_->skip();
         const double nowhere = task::Rating::kNowhere;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "session/onlookers.h"
 #include "session/outward.h"
 #include "session/phase_director.h"
 #include "session/session_run.h"
@@ -18,10 +19,11 @@ namespace dihaptic::session {
 class SessionDirector {
   public:
     /// Makes everything that the ticks need, since they allocate nothing. What is given must
-    /// outlive the director. `outward`: null if nothing of the session goes out.
+    /// outlive the director. `outward`: null if nothing of the session goes out; `onlookers`: null
+    /// if there can be none.
     SessionDirector(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
                     const std::vector<recording::PhaseInfo>& phases, const servo::Servo& servo,
-                    Outward* outward);
+                    Outward* outward, Onlookers* onlookers);
 
     void operator()(const servo::Frame& last, std::span<const haptics::Handle> handles,
                     servo::Commands& commands);
@@ -50,6 +52,7 @@ class SessionDirector {
     const std::atomic<bool>& stop_;
     const servo::Servo& servo_;
     Outward* const outward_;
+    Onlookers* const onlookers_;
     Live* const live_;
     const bool real_;
     PhaseDirector phases_;

@@ -141,6 +141,7 @@ class Run {
     void open_record();
     void begin();
     void open_sounds();
+    void let_others_watch();
     void make_director();
 
     void take(const servo::Frame& frame);
@@ -171,6 +172,7 @@ class Run {
     servo::FrameSink read_;           // takes the frames in place of recorder_
     std::optional<Outward> outward_;  // real clock only: a rehearsal must not look like a session
     std::optional<sound::Player> player_;
+    std::optional<Onlookers> onlookers_;
     std::optional<SessionDirector> director_;
     Time whole_{0};                    // the session is over after this time
     std::atomic<int64_t> reached_{0};  // session time [ns]
@@ -182,6 +184,7 @@ RunResult Run::run() {
     open_record();
     begin();
     open_sounds();
+    let_others_watch();
     make_director();
     const auto begun = Wall::now();
     run_ticks();
@@ -288,6 +291,20 @@ void Run::open_sounds() {
     }
 }
 
+/// A session that nobody else can watch runs all the same.
+void Run::let_others_watch() {
+    if (!options_.onlookers) return;
+    std::vector<std::string> states;
+    for (const recording::PhaseInfo& phase : info_.phases) states.push_back(phase.name);
+    try {
+        onlookers_.emplace(plan_, folder_.path(), real_, live_ != nullptr);
+        onlookers_->open(*servo_, states, info_.outcomes);
+    } catch (const Error& e) {
+        onlookers_.reset();
+        info_.notes.emplace_back(e.what());
+    }
+}
+
 /// Makes everything that the ticks need before the first one, since ticks allocate nothing.
 void Run::make_director() {
     whole_ = plan_.task ? kLongest : from_seconds(plan_.driver->duration());
@@ -296,7 +313,7 @@ void Run::make_director() {
     if (live_ != nullptr) live_->prepare(*servo_, plan_.scene);
     if (options_.decider != nullptr) options_.decider->begin(folder_.path(), !real_);
     director_.emplace(plan_, options_, stop_, info_.phases, *servo_,
-                      outward_ ? &*outward_ : nullptr);
+                      outward_ ? &*outward_ : nullptr, onlookers_ ? &*onlookers_ : nullptr);
 }
 
 void Run::take(const servo::Frame& frame) {
@@ -310,6 +327,7 @@ void Run::take(const servo::Frame& frame) {
     if (player_) player_->hear(frame);
     if (plan_.seeing) plan_.seeing->see(frame);
     if (live_ != nullptr) live_->show(frame);
+    if (onlookers_) onlookers_->show(frame);
     reached_.store(frame.time.count(), std::memory_order_relaxed);
 }
 
@@ -425,6 +443,9 @@ void Run::close_record() {
     if (player_) {
         for (const std::string& failure : player_->finish()) info_.notes.push_back(failure);
     }
+    if (onlookers_) {
+        for (const std::string& what : onlookers_->finish()) info_.notes.push_back(what);
+    }
     if (options_.decider != nullptr) {
         result_.undecided = options_.decider->finish();
         info_.notes.insert(info_.notes.end(), result_.undecided.begin(), result_.undecided.end());
@@ -436,7 +457,7 @@ void Run::close_record() {
 void Run::note_how_it_ended() {
     // an open-ended session, with a mouse or a person, is finished whenever it is ended
     const bool unfinished = plan_.task ? director_->trials_left() : !plan_.open_ended();
-    const bool ended = live_ != nullptr && live_->ended;
+    const bool ended = (live_ != nullptr && live_->ended) || (onlookers_ && onlookers_->ended());
     result_.interrupted = stop_.load() || (ended && unfinished);
     if (servo_->fault()) {
         result_.fault = fault_text();

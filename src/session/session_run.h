@@ -41,6 +41,8 @@ struct RunOptions {
         in_place_of_log;
     /// Decides between trials; prepared for the plan, and must outlive the run.
     Decider* decider = nullptr;
+    /// Whether other programs may watch and steer it (Onlookers).
+    bool onlookers = false;
     Live* live = nullptr;  ///< link to the watching thread; must outlive the run
 };
 

@@ -395,7 +395,7 @@ TEST(Live, EasesWhatHoldsSomethingAndTurnsTheRestAtOnce) {
     constexpr double kTick = 1e-3;
     servo::Knobs now = servo::Knobs::of({});
     const auto turn = [&](int ticks) {
-        for (int i = 0; i < ticks; ++i) live.turn_knobs(last, kTick, now);
+        for (int i = 0; i < ticks; ++i) live.knobs.turn(last, kTick, now);
     };
     turn(10);
     EXPECT_EQ(now.stiffness, 1000);  // nobody wants anything yet

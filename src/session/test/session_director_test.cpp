@@ -33,7 +33,8 @@ TEST(SessionDirector, TakesForceAwayAtTheOperatorsStopOnTheRealClockOnly) {
     bench.stop = true;
     for (const Clock clock : {Clock::virtual_clock, Clock::real}) {
         bench.options.clock = clock;
-        SessionDirector director(bench.plan, bench.options, bench.stop, {}, *bench.servo, nullptr);
+        SessionDirector director(bench.plan, bench.options, bench.stop, {}, *bench.servo, nullptr,
+                                 nullptr);
         EXPECT_EQ(bench.order(director).force_off, clock == Clock::real);
     }
 }
@@ -44,7 +45,8 @@ TEST(SessionDirector, DoesAsTheWatchingThreadAsks) {
     live.prepare(*bench.servo, bench.plan.scene);
     bench.options.clock = Clock::real;
     bench.options.live = &live;
-    SessionDirector director(bench.plan, bench.options, bench.stop, {}, *bench.servo, nullptr);
+    SessionDirector director(bench.plan, bench.options, bench.stop, {}, *bench.servo, nullptr,
+                             nullptr);
     EXPECT_FALSE(bench.order(director).rest);
     live.paused = true;
     EXPECT_TRUE(bench.order(director).rest);

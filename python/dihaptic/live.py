@@ -1,0 +1,201 @@
+"""Watches a session that runs, from another process, and steers it."""
+
+from __future__ import annotations
+
+import json
+import socket
+import time
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+from .errors import error
+
+_LONGEST = 1 << 20  # message [bytes]
+
+
+@dataclass(frozen=True)
+class Moment:
+    """A session in one tick, or the end of an attempt at a trial.
+
+    >>> import dihaptic as dh
+    >>> dh.Moment(tick=1200, time_s=1.2, trial_num=3, attempt=1, state="reach", values={"grip_force": 2.1}).outcome
+    """
+
+    tick: int
+    time_s: float  #: session time
+    trial_num: int  #: from 1; 0: none
+    attempt: int
+    state: str | None = None  #: of the task, or phase; None where an attempt ends
+    outcome: str | None = None  #: where an attempt ends; then there are no values
+    values: dict[str, float | None] = field(default_factory=dict)  #: by expression; None: not measured
+
+
+class Live:
+    """A session that runs, as observe() gives it: iterate over it, or steer it.
+
+    Its moments come as they are; whoever reads slowly misses some, and never ends of attempts. To
+    steer a session that has just ended does nothing. docs/adr/0022 says why nobody is held up.
+
+    >>> import threading
+    >>> import dihaptic as dh
+    >>> lift = threading.Thread(target=dh.run, args=("experiments/lift-block.yaml",),
+    ...                         kwargs={"out": folder, "clock": "real", "progress": False})
+    >>> lift.start()
+    >>> with dh.observe(folder, "block.z", every_ms=5) as live:
+    ...     for now in live:
+    ...         if now.time_s > 0.1:
+    ...             break
+    ...     live.turn(stiffness=800)
+    ...     live.end()
+    >>> lift.join()
+    >>> round(now.values["block.z"]), live.units, now.state
+    (20, {'block.z': 'mm'}, 'close')
+    """
+
+    def __init__(self, folder: Path, connection: socket.socket) -> None:
+        self._socket = connection
+        self._watched: list[str] = []
+        self._waiting: list[Moment] = []
+        greeting = self._receive()
+        if greeting is None:
+            raise error("is over", "Watch one that runs.", file=str(folder))
+        if "session" not in greeting:
+            self._socket.close()
+            raise error(str(greeting.get("refused", "is not understood")), "", file=str(folder))
+        self.session = folder  #: its folder
+        self.states: list[str] = greeting["states"]  #: of the task, or phases
+        self.outcomes: list[str] = greeting["outcomes"]  #: that attempts at trials can have
+        self.units: dict[str, str] = {}  #: of what is watched, by expression
+
+    def __enter__(self) -> Live:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, why: BaseException | None, where: TracebackType | None
+    ) -> None:
+        self._socket.close()
+
+    def __repr__(self) -> str:
+        return f"<Live {self.session}>"
+
+    def __iter__(self) -> Iterator[Moment]:
+        """The moments from now on, until the session is over."""
+        while True:
+            if self._waiting:
+                yield self._waiting.pop(0)
+                continue
+            message = self._receive()
+            if message is None:
+                return
+            moment = self._moment(message)
+            if moment is not None:
+                yield moment
+
+    def watch(self, *expressions: str, every_ms: float = 20) -> None:
+        """Chooses what the moments have: expressions of what is recorded, as of Session; lengths come in mm."""
+        self._send({"watch": list(expressions), "every_ms": every_ms})
+        while (message := self._receive()) is not None:
+            if "watching" in message:
+                self._watched = list(expressions)
+                self.units = {of["of"]: of["unit"] for of in message["watching"]}
+                return
+            moment = self._moment(message)
+            if moment is not None and moment.outcome is not None:
+                self._waiting.append(moment)
+
+    def press(self, key: str) -> None:
+        """Presses a key, for a task that waits for one."""
+        self._send({"key": key})
+
+    def trigger(self, code: int) -> None:
+        """Sends a trigger, as if it came in on one of the rig's outlets; `code` from 1 to 255."""
+        self._send({"trigger": code})
+
+    def turn(self, **knobs: float | str | None) -> None:
+        """Turns knobs: coupling, stiffness (N/m), damping (N*s/m), smoothing, proxy, friction_scale, solver.
+
+        Changes are eased over 0.2 s where something is held, and are recorded. In a session of the
+        window, its panel turns them alone.
+        """
+        self._send({"turn": knobs})
+
+    def end(self) -> None:
+        """Ends the session in order."""
+        self._send({"end": True})
+
+    def _send(self, message: dict[str, Any]) -> None:
+        with suppress(ConnectionError):  # it is over, as the next moment would tell
+            self._socket.send(json.dumps(message).encode())
+
+    def _receive(self) -> dict[str, Any] | None:
+        """The next message; None: the session is over."""
+        try:
+            text = self._socket.recv(_LONGEST)
+        except ConnectionResetError:
+            text = b""
+        message: dict[str, Any] = json.loads(text) if text else {"over": True}
+        return None if "over" in message else message
+
+    def _moment(self, message: dict[str, Any]) -> Moment | None:
+        if "refused" in message:
+            raise error(str(message["refused"]), "")
+        if "ended" in message:
+            return Moment(message["tick"], message["time_s"], **message["ended"])
+        if "values" not in message or len(message["values"]) != len(self._watched):
+            return None  # of what was watched before
+        values = dict(zip(self._watched, message.pop("values"), strict=True))
+        return Moment(**message, values=values)
+
+
+def _connected(folder: Path) -> socket.socket | None:
+    """The other end of src/session/onlookers.h; None: no session runs in that folder."""
+    connection = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+    try:
+        is_at = folder.stat()
+        connection.connect(f"\0dihaptic/session/{is_at.st_dev}/{is_at.st_ino}")
+    except OSError:
+        connection.close()
+        return None
+    return connection
+
+
+def _running(folder: Path) -> tuple[Path, socket.socket] | None:
+    """The folder itself if a session runs in it, or the newest in it in which one does."""
+    inside = sorted((path for path in folder.glob("*/") if path.is_dir()), key=lambda path: path.name, reverse=True)
+    for path in [folder, *inside]:
+        connection = _connected(path)
+        if connection is not None:
+            return path, connection
+    return None
+
+
+def observe(
+    session: str | Path = "sessions", *expressions: str, every_ms: float = 20, patience_s: float = 10
+) -> Live:
+    """Watches a session that runs.
+
+    `session`: its folder, or a folder of sessions, of which the newest is taken that runs; for
+    `patience_s` it is waited for. `expressions`: what its moments have, as Live.watch() says. The
+    session may be one of the window, of `dihaptic run` or of run(); a rehearsal cannot be watched.
+
+    >>> import dihaptic as dh
+    >>> dh.observe(folder, patience_s=0)
+    Traceback (most recent call last):
+    dihaptic.errors.Error: ...has no session that runs. Start one; rehearsals cannot be watched.
+    """
+    end = time.monotonic() + patience_s
+    while (found := _running(Path(session))) is None:
+        if time.monotonic() > end:
+            raise error("has no session that runs", "Start one; rehearsals cannot be watched.", file=str(session))
+        time.sleep(0.02)
+    live = Live(*found)
+    try:
+        live.watch(*expressions, every_ms=every_ms)
+    except BaseException:
+        live._socket.close()
+        raise
+    return live

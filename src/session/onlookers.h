@@ -1,0 +1,63 @@
+// Other programs that watch a running session, and may steer it: dihaptic.observe() of Python, or
+// one's own. They connect to the UNIX socket socket_name(), an abstract one of the kind
+// SOCK_SEQPACKET, in which every message is a whole one; only programs of the same user can. Both
+// sides send objects of JSON:
+//
+//   session  {"session": "sessions/...", "clock": "real", "states": [...], "outcomes": [...]}
+//   it       {"watch": ["grip_force", "block.z - 20 mm"], "every_ms": 20}
+//   session  {"watching": [{"of": "grip_force", "unit": "N"}, {"of": "block.z - 20 mm", "unit":
+//   "mm"}]} session  {"tick": 1200, "time_s": 1.2, "trial_num": 3, "attempt": 1, "state": "reach",
+//             "outcome": null, "values": [2.1, 14.5]}                   again and again, in real
+//             time
+//   it       {"key": "y"}, {"trigger": 5}, {"turn": {"stiffness": 800}}, {"end": true}
+//   session  {"refused": "..."}                             why something is not done, and what to
+//   do session  {"over": true}
+//
+// What is watched is any expression of what is recorded (task/recorded.h). Knobs have the names of
+// the log's columns, and their units. A reader that is slow misses pictures, and holds nobody up:
+// the tick copies its frame for the thread that does all this, and only while somebody watches.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "session/plan.h"
+
+namespace dihaptic::session {
+
+/// Name of the socket of a session in that folder, behind a zero: "dihaptic/session/DEVICE/INODE",
+/// two decimal numbers that stat() has of the folder. Throws Error when there is no folder.
+std::string socket_name(const std::string& folder);
+
+class Onlookers {
+  public:
+    /// `knobs_elsewhere`: the operator's window turns them, and no onlooker can.
+    Onlookers(const Plan& plan, const std::string& folder, bool real, bool knobs_elsewhere);
+    ~Onlookers();
+    Onlookers(const Onlookers&) = delete;
+    Onlookers& operator=(const Onlookers&) = delete;
+
+    /// Call before the first tick: reserves memory, and lets others connect. Throws Error when
+    /// there can be no socket.
+    void open(const servo::Servo& servo, const std::vector<std::string>& states,
+              const std::vector<std::string>& outcomes);
+
+    // In the tick; none of them waits or allocates.
+    void show(const servo::Frame& frame) noexcept;
+    /// What an onlooker pressed since the last call; 0: nothing.
+    char take_key() noexcept;
+    /// The trigger that one sent since the last call; 0: none.
+    int take_trigger() noexcept;
+    bool ended() const noexcept;
+    void turn_knobs(const servo::Frame& last, double h, servo::Knobs& now) noexcept;
+
+    /// Tells them that the session is over; returns what they did, in sentences.
+    std::vector<std::string> finish();
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace dihaptic::session
