@@ -74,8 +74,17 @@ void print_movement(const session::MovementReport& report, size_t most_lines) {
 
 namespace {
 
-/// Prints a row for each block and kind of trial: outcomes, and the hand's mean angle or extent.
-void print_trials(const Table& trials) {
+/// Trials of a block that are of one kind.
+struct Block {
+    std::string key;  // block number and kind of trial
+    std::string label;
+    std::map<std::string, int> outcomes;
+    double sum = 0;  // of the hand's angle or extent
+    int measured = 0;
+};
+
+/// `extents`: whether a hand's extent was measured, and not its angle.
+std::vector<Block> blocks_of(const Table& trials, bool& extents) {
     const auto column = [&](const char* name) {
         const auto found = std::find_if(trials.columns.begin(), trials.columns.end(),
                                         [&](const auto& c) { return c.name == name; });
@@ -85,28 +94,18 @@ void print_trials(const Table& trials) {
         const auto* value = std::get_if<double>(&cell);
         return value != nullptr ? fmt::format("{:g}", *value) : std::get<std::string>(cell);
     };
-    struct Block {
-        std::string label;
-        std::map<std::string, int> outcomes;
-        double sum = 0;
-        int measured = 0;
-    };
-    bool extents = false;
-    std::vector<std::pair<std::string, Block>> blocks;  // key: block number and kind of trial
+    std::vector<Block> blocks;
     for (const auto& row : trials.rows) {
         const std::string number = text(row[column("block_num")]);
         const std::string kind = text(row[column("kind")]);
-        const std::string key = number + kind;
-        auto found = std::find_if(blocks.begin(), blocks.end(),
-                                  [&](const auto& block) { return block.first == key; });
-        if (found == blocks.end()) {
+        auto block = std::ranges::find(blocks, number + kind, &Block::key);
+        if (block == blocks.end()) {
             const std::string label =
                 fmt::format("{:>3s} {:10s} {:12s} {:12s}", number, text(row[column("round")]),
                             text(row[column("block")]), kind);
-            found = blocks.insert(blocks.end(), {key, {label, {}, 0, 0}});
+            block = blocks.insert(blocks.end(), {number + kind, label, {}, 0, 0});
         }
-        Block& block = found->second;
-        ++block.outcomes[text(row[column("outcome")])];
+        ++block->outcomes[text(row[column("outcome")])];
         const auto value = [&](const char* name) {
             const auto* cell = std::get_if<double>(&row[column(name)]);
             return cell == nullptr ? NAN : *cell;
@@ -115,17 +114,24 @@ void print_trials(const Table& trials) {
         extents = extents || !std::isnan(extent);
         const double measured = std::isnan(extent) ? value("hand_angle_deg") : extent;
         if (std::isnan(measured)) continue;
-        block.sum += measured;
-        ++block.measured;
+        block->sum += measured;
+        ++block->measured;
     }
+    return blocks;
+}
+
+/// Prints a row for each block and kind of trial: outcomes, and the hand's mean angle or extent.
+void print_trials(const Table& trials) {
+    bool extents = false;
+    const std::vector<Block> blocks = blocks_of(trials, extents);
     const bool reaches =
-        std::ranges::any_of(blocks, [](const auto& block) { return block.second.measured > 0; });
+        std::ranges::any_of(blocks, [](const Block& block) { return block.measured > 0; });
     const auto of_hand = [&](const std::string& value) {
         return reaches ? fmt::format("{:>10s}  ", value) : "";
     };
     fmt::print("\n{:>3s} {:10s} {:12s} {:12s} {}outcomes\n", "", "round", "block", "kind",
                of_hand(extents ? "hand mm" : "hand deg"));
-    for (const auto& [key, block] : blocks) {
+    for (const Block& block : blocks) {
         std::string outcomes;
         for (const auto& [name, count] : block.outcomes)
             outcomes += fmt::format("{}{} {}", outcomes.empty() ? "" : ", ", count, name);
