@@ -42,7 +42,8 @@ class Error(ValueError):
     """
 
     def __init__(self, problems: list[Problem]) -> None:
-        super().__init__("\n".join(problem.text() for problem in problems))
+        # Python says already that it is an error
+        super().__init__("\n".join(problem.text().removeprefix("error: ") for problem in problems))
         self.problems = problems
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -69,7 +70,7 @@ class NotThere(Error, KeyError):
     >>> session["gripforce"]
     Traceback (most recent call last):
     ...
-    dihaptic.errors.NotThere: error: gripforce: is not recorded. Did you mean 'grip_force'? Session.quantities lists them.
+    dihaptic.errors.NotThere: gripforce: is not recorded. Did you mean 'grip_force'? Session.quantities lists them.
     """
 
     __str__ = Exception.__str__  # a KeyError would put quotes about its text

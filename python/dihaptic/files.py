@@ -319,12 +319,19 @@ Input = Union[str, Path, File]
 
 @contextlib.contextmanager
 def on_disk(given: Input) -> Iterator[str]:
-    """Path of a file as it is, "" of none, or of an object's file, which is there for a while."""
+    """Path of a file, "" of none, or of an object's file, which is there for a while.
+
+    A file that is not in the working folder is one that is kept for all studies, or that comes with
+    the program, if there is one.
+    """
     if isinstance(given, File):
         with given._on_disk() as file:
             yield str(file)
-    else:
-        yield str(given)
+        return
+    path = Path(given)
+    inside = not path.is_absolute() and ".." not in path.parts and path.parts
+    kept = _native.kept(str(given)) if inside and not path.exists() else ""
+    yield kept if kept and Path(kept).is_file() else str(given)
 
 
 def problems_of(given: Input, rig: Input = "") -> list[Problem]:

@@ -186,6 +186,15 @@ class Files(unittest.TestCase):
         os.chdir(self.here)
         self.addCleanup(os.chdir, before)
         scene = Scene.load("scenes/block-on-table.yaml")
+        world = dh.World("scenes/block-on-table.yaml", rig="rigs/ideal-pair.yaml")
+        self.assertIn("block", world.bodies)
+
+        class Ends(dh.Person):
+            def act(self, seen):
+                raise StopIteration("found")
+
+        with self.assertRaisesRegex(StopIteration, "found"):
+            dh.run("experiments/first-trials.yaml", out=self.here, person=Ends(), progress=False)
         self.assertEqual(dh.run(scene, out=self.here, progress=False).info["experiment"], str(dh.shipped("scenes/block-on-table.yaml")))
 
     def test_an_argument_that_the_program_refuses_is_named(self):
