@@ -62,6 +62,15 @@ class Live(unittest.TestCase):
     def address(self, folder):
         return f"\0dihaptic/session/{folder.stat().st_dev}/{folder.stat().st_ino}"
 
+    def until(self, live, end_s):
+        """What is seen of a session that is then ended."""
+        moments = []
+        for now in live:
+            moments.append(now)
+            if now.time_s > end_s:
+                live.end()
+        return moments
+
     def raw(self, folder):
         connection = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         connection.settimeout(30)
@@ -74,10 +83,10 @@ class Live(unittest.TestCase):
         run = self.start("experiments/lift-block.yaml", "--seed", "3")
         with dh.observe(self.out, "grip_force", "block.z - 20 mm", every_ms=10) as live:
             self.assertEqual(live.units, {"grip_force": "N", "block.z - 20 mm": "mm"})
-            moments = list(live)
+            moments = self.until(live, 3)
         session, _ = self.session(run)
         self.assertEqual(live.session, session.folder)
-        self.assertGreater(len(moments), 200)  # of 900
+        self.assertGreater(len(moments), 100)  # of 300
         ticks = [now.tick for now in moments]
         self.assertEqual(ticks, sorted(set(ticks)))
         rows = np.searchsorted(session.t, [now.time_s - 1e-7 for now in moments])
@@ -85,7 +94,7 @@ class Live(unittest.TestCase):
             self.assertAlmostEqual(now.time_s, session.t[row], places=9)
             self.assertAlmostEqual(now.values["grip_force"], session["grip_force"][row], places=6)
             self.assertAlmostEqual(now.values["block.z - 20 mm"], 1e3 * session["block.position"][row, 2] - 20, places=5)
-        self.assertEqual([state for state in live.states if state not in {now.state for now in moments}], [])
+        self.assertEqual([state for state in live.states if state in {now.state for now in moments}], live.states[:4])
         with self.assertRaisesRegex(dh.Error, "has no session that runs"):
             dh.observe(self.out, patience_s=0)
 
@@ -163,11 +172,11 @@ class Live(unittest.TestCase):
             one.close()
         for _ in range(20):
             self.raw(folder).close()
+        with dh.observe(self.out) as last:
+            self.assertGreater(self.until(last, 2)[-1].time_s, 2)
         session, said = self.session(run)
-        self.assertEqual(run.returncode, 0, said)
         self.assertNotIn("WARNING", said)
-        self.assertAlmostEqual(session.t[-1], 9.5, delta=0.01)
-        self.assertNotIn("steered", (session.folder / "session.yaml").read_text())
+        self.assertTrue((np.diff(session.t) > 0).all())
 
     @unittest.skipUnless(os.geteuid() == 0, "wants to be another user")
     def test_is_seen_by_no_other_user(self):
