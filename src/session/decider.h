@@ -3,11 +3,15 @@
 // That program listens on a UNIX socket; the package dihaptic for Python does (docs/python.md).
 // Both sides send lines of JSON:
 //
-//   it       {"messages": ["Slower"]}                                what it may show, at once
+//   it       {"messages": ["Slower"]}
 //   session  {"session": "sessions/...", "outcomes": [...], "variables": [...], "patience_s": 1}
-//   session  {"number": 8, "trial_num": 7, "attempt": 1, "outcome": "hit", "variables": {"force_N":
-//   2}} it       {"number": 8, "set": {"force_N": 1.5}, "next": 12, "message": 0}      each may be
-//   missing it       {"number": 8, "failed": "division by zero"}
+//   session  {"number": 8, "trial_num": 7, "attempt": 1, "outcome": "hit",
+//             "variables": {"force_N": 2}}
+//   it       {"number": 8, "set": {"force_N": 1.5}, "next": 12, "message": 0}
+//   it       {"number": 8, "failed": "division by zero"}
+//
+// The first line has what it may show, and comes at once; of an answer's last three keys each may
+// be missing.
 //
 // The question number 1, of trial 0, comes before the first trial. What was decided is recorded as
 // values of variables, as the trial that came next and as its message, so that a replay needs

@@ -4,17 +4,23 @@
 // sides send objects of JSON:
 //
 //   session  {"session": "sessions/...", "clock": "real", "states": [...], "outcomes": [...]}
-//   it       {"watch": ["grip_force", "block.z - 20 mm"], "every_ms": 20}
-//   session  {"watching": [{"of": "grip_force", "unit": "N"}, {"of": "block.z - 20 mm", "unit":
-//   "mm"}]} session  {"tick": 1200, "time_s": 1.2, "trial_num": 3, "attempt": 1, "state": "reach",
-//             "outcome": null, "values": [2.1, 14.5]}                   again and again, in real
-//             time
-//   it       {"key": "y"}, {"trigger": 5}, {"turn": {"stiffness": 800}}, {"end": true}
-//   session  {"refused": "..."}                             why something is not done, and what to
-//   do session  {"over": true}
+//   it       {"watch": ["grip_force", "block.z"], "every_ms": 20}
+//   session  {"watching": [{"of": "grip_force", "unit": "N"}, {"of": "block.z", "unit": "mm"}]}
+//   session  {"tick": 12, "time_s": 0.012, "trial_num": 1, "attempt": 1, "state": "reach",
+//             "values": [2.1, 14.5]}
+//   session  {"tick": 90, "time_s": 0.09,
+//             "ended": {"trial_num": 1, "attempt": 1, "outcome": "hit"}}
+//   it       {"key": "y"}
+//   it       {"trigger": 5}
+//   it       {"turn": {"stiffness": 800}}
+//   it       {"end": true}
+//   session  {"refused": "..."}
+//   session  {"over": true}
+//
+// Moments come again and again, in real time; what is refused says why, and what to do.
 //
 // What is watched is any expression of what is recorded (task/recorded.h). Knobs have the names of
-// the log's columns, and their units. A reader that is slow misses pictures, and holds nobody up:
+// the log's columns, and their units. A reader that is slow misses moments, and holds nobody up:
 // the tick copies its frame for the thread that does all this, and only while somebody watches.
 #pragma once
 
