@@ -94,9 +94,9 @@ void HeadTracker::receive() {
     while (!done_) {
         if (!inlet.find(kSearch)) {
             if (!std::exchange(told, true))
-                tell(fmt::format("No stream '{}' of a tracker is in the network yet: until it "
-                                 "comes, eyes are where the rig says.",
-                                 head_.stream),
+                tell(fmt::format("No stream '{}' of a tracker is in the network: until it comes, "
+                                 "eyes are where {}.",
+                                 head_.stream, last_ ? "they were seen last" : "the rig says"),
                      true);
             continue;
         }
@@ -112,7 +112,7 @@ void HeadTracker::receive() {
             follow(inlet);
         } catch (const Error& e) {
             lose();
-            tell(e.what(), true);
+            tell(fmt::format("The tracker is lost: {}.", e.problems().front().what), true);
             std::this_thread::sleep_for(kSearch);
         }
     }
