@@ -3,8 +3,10 @@
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
+#include <QScreen>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "base/diagnostics.h"
@@ -32,6 +34,7 @@ SceneWidget::SceneWidget(QWidget* parent)
     setMouseTracking(true);
     setMinimumSize(320, 240);
     connect(this, &QOpenGLWidget::frameSwapped, this, [this] {
+        take_turns();
         if (shown_.sequence == presented_) return;
         presented_ = shown_.sequence;
         Q_EMIT presented(presented_);
@@ -288,12 +291,29 @@ void SceneWidget::draw_scene() {
 /// touches it, is left out: nothing could be drawn for it.
 rig::Display SceneWidget::seen_display() {
     rig::Display out = *display_;
-    if (!out.eyes.tracked || !head_) return out;
-    out.eyes.position = head_->eyes;
-    out.eyes.along = head_->along;
-    if (!out.faces(out.eyes)) return *display_;
-    shown_to_ = head_;
+    if (out.eyes.tracked && head_) {
+        out.eyes.position = head_->eyes;
+        out.eyes.along = head_->along;
+        if (out.faces(out.eyes)) {
+            shown_to_ = head_;
+        } else {
+            out.eyes = display_->eyes;
+        }
+    }
+    if (out.stereo == rig::Stereo::in_turn) out.eyes.position = out.eyes.of(right_eye_);
     return out;
+}
+
+/// Glasses open for the eyes in turn though a picture is late: whose the next one is follows from
+/// how often the screen was refreshed since the last.
+void SceneWidget::take_turns() {
+    if (!display_ || display_->stereo != rig::Stereo::in_turn) return;
+    const double periods =
+        1e-9 * static_cast<double>(since_swap_.nsecsElapsed()) * screen()->refreshRate();
+    const bool timed = since_swap_.isValid() && std::isfinite(periods);
+    since_swap_.start();
+    if (!timed || std::lround(std::max(1.0, periods)) % 2 == 1) right_eye_ = !right_eye_;
+    update();
 }
 
 /// Draws page, question and texts into each eye's part of the picture, turned for a mirror.

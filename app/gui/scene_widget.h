@@ -1,6 +1,7 @@
 // The widget that shows the scene as it is now. The mouse moves its camera, or the simulated hand.
 #pragma once
 
+#include <QElapsedTimer>
 #include <QLabel>
 #include <QOpenGLWidget>
 #include <deque>
@@ -127,6 +128,8 @@ class SceneWidget : public QOpenGLWidget {
     void make_view();
     void draw_scene();
     rig::Display seen_display();
+    /// After a picture came to the screen: the next one is for the other eye.
+    void take_turns();
     void draw_words();
 
     scene::Scene scene_;
@@ -136,6 +139,8 @@ class SceneWidget : public QOpenGLWidget {
     view::Camera camera_;
     std::optional<rig::Display> display_;
     std::optional<outlets::HeadPose> head_, shown_to_;
+    bool right_eye_ = false;  // whose picture is next, of a display for both eyes in turn
+    QElapsedTimer since_swap_;
     /// Holds page, question and texts where each eye, or a mirror, has to see them the right way;
     /// null: they lie over the scene.
     std::unique_ptr<QWidget> words_;

@@ -20,9 +20,9 @@ constexpr auto enum_names(Mirrored) {
 }
 
 /// How the pictures for two eyes share the screen.
-enum class Stereo { none, side_by_side, top_bottom, anaglyph };
+enum class Stereo { none, side_by_side, top_bottom, anaglyph, in_turn };
 constexpr auto enum_names(Stereo) {
-    return std::array{"none", "side_by_side", "top_bottom", "anaglyph"};
+    return std::array{"none", "side_by_side", "top_bottom", "anaglyph", "in_turn"};
 }
 
 enum class Corner { lower_left, lower_right, upper_left, upper_right };
@@ -54,6 +54,7 @@ struct Eyes {
 
     Vec3 left() const { return position - distance / 2 * along.normalized(); }
     Vec3 right() const { return position + distance / 2 * along.normalized(); }
+    Vec3 of(bool right_one) const { return right_one ? right() : left(); }
 
     template <class Visitor>
     void visit(Visitor& v) {

@@ -35,12 +35,13 @@ Viewpoint viewpoint(const rig::Display& display, const Vec3& eye_W, double beyon
 }  // namespace
 
 std::vector<Pane> panes(const rig::Display& display, double beyond) {
-    if (display.stereo == rig::Stereo::none)
+    if (display.stereo == rig::Stereo::none || display.stereo == rig::Stereo::in_turn)
         return {{viewpoint(display, display.eyes.position, beyond)}};
     Pane left{viewpoint(display, display.eyes.left(), beyond)};
     Pane right{viewpoint(display, display.eyes.right(), beyond)};
     switch (display.stereo) {
         case rig::Stereo::none:
+        case rig::Stereo::in_turn:
             break;
         case rig::Stereo::side_by_side:
             left.width = right.width = right.left = 0.5;

@@ -31,8 +31,9 @@ struct Pane {
     bool red = true, green_blue = true;  ///< which colours are drawn
 };
 
-/// The panes of a display: one without stereo, seen from the middle between the eyes, else one for
-/// the left eye and one for the right. `beyond`: how far behind the screen things are drawn [m].
+/// The panes of a display: one without stereo, or of pictures in turn, seen from the middle between
+/// the eyes; else one for the left eye and one for the right. `beyond`: how far behind the screen
+/// things are drawn [m].
 std::vector<Pane> panes(const rig::Display& display, double beyond);
 
 /// How far to each side an eye of a headset sees, from straight ahead; left and down are negative,

@@ -36,8 +36,8 @@ class Head(Window):
         new.write_text(f"Head 7\n{x} {y} {z - 100 + 80} 1 0 0 0\n")
         os.replace(new, self.stream)
 
-    def before_a_screen(self, eyes, head):
-        """Opens a scene with a rig, and its subject's window; returns what that shows then."""
+    def before_a_screen(self, eyes, head, rests=True):
+        """Opens a scene with a rig, and its subject's window; returns what that shows, if it rests."""
         pathlib.Path(self.folder.name, "rig.yaml").write_text(RIG.format(eyes=eyes, head=head))
         file = pathlib.Path(self.folder.name, "experiment.yaml")
         file.write_text("scene: block.yaml\nrig: rig.yaml\n")
@@ -47,7 +47,7 @@ class Head(Window):
             "search", "--onlyvisible", "--name", "^Dihaptic: subject$")).strip()
         self.xdotool("windowmove", self.subject, "0", "0")
         self.xdotool("windowraise", self.subject)
-        return self.still()
+        return self.still() if rests else None
 
     def still(self):
         """What the subject's window shows, once that changes no more."""
@@ -66,6 +66,22 @@ class Head(Window):
         self.xdotool("windowfocus", self.name)
         self.quit()
         return seen
+
+    def test_sees_pictures_for_its_eyes_in_turn(self):
+        left, right = self.resting((RESTS[0] - 30, *RESTS[1:])), self.resting((RESTS[0] + 30, *RESTS[1:]))
+        self.assertGreater(np.abs(left.astype(int) - right).mean(), 0.5)
+        self.before_a_screen(f"{{ position_mm: {list(RESTS)}, distance_mm: 60 }}\n    stereo: in_turn", "", rests=False)
+        seen = {"left": 0, "right": 0}
+
+        def both():
+            now = self.pixels(0, 0, 640, 480)
+            for name, picture in (("left", left), ("right", right)):
+                seen[name] += (now == picture).all()
+            return min(seen.values()) > 3
+
+        self.wait("both eyes' pictures, again and again", both)
+        self.xdotool("windowfocus", self.name)
+        self.quit()
 
     def test_that_is_tracked_sees_what_eyes_at_its_place_would(self):
         there, here = self.resting(LEANS), self.resting(RESTS)
