@@ -67,10 +67,9 @@ struct Loss {
         const std::string running = only_folder_in(out);
         std::this_thread::sleep_for(std::chrono::milliseconds(730));
         disk.lose_power(folder.path(), folder.file("after"));
-        unsynced =
-            std::chrono::duration<double>(Disk::Clock::now() - disk.last_sync(running + "/raw.log"))
-                .count();
-        written = frames_in(running);
+        const auto last_sync = disk.last_sync(running + "/raw.log");
+        written = frames_in(running);  // the session goes on while they are counted
+        unsynced = std::chrono::duration<double>(Disk::Clock::now() - last_sync).count();
         session.join();
         const std::string sessions = folder.file("after/new/sessions");
         if (fs::exists(sessions)) left = only_folder_in(sessions);
