@@ -189,8 +189,9 @@ void SceneWidget::set_display(const std::optional<rig::Display>& display) {
 }
 
 void SceneWidget::set_head(const outlets::HeadPose& head) {
+    const bool moved = !head_ || head_->eyes != head.eyes || head_->along != head.along;
     head_ = head;
-    if (display_ && display_->eyes.tracked) update();
+    if (moved && display_ && display_->eyes.tracked) update();
 }
 
 void SceneWidget::place_labels() {

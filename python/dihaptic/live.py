@@ -37,7 +37,7 @@ class Moment:
 class Live:
     """A session that runs, as observe() gives it: iterate over it, or steer it.
 
-    Its moments come as they are; whoever reads slowly misses some, and never ends of attempts. To
+    Its moments come as they are; whoever reads slowly misses some, but no end of an attempt. To
     steer a session that has just ended does nothing. docs/adr/0022 says why nobody is held up.
 
     >>> import threading

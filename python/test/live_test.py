@@ -29,6 +29,13 @@ task:
         - { when: time, after_s: 20, outcome: nobody came }
   blocks: [{ name: all, repeats: REPEATS }]
 """
+SHORT = """scene: SCENE
+hand: { centre_mm: [0, 0, 60], aperture_mm: 85 }
+task:
+  states: [{ name: wait, exits: [{ when: time, after_s: 0.05, outcome: done }] }]
+  feedback_s: 0
+  blocks: [{ name: all, repeats: 1000 }]
+"""
 
 
 class Live(unittest.TestCase):
@@ -194,6 +201,27 @@ class Live(unittest.TestCase):
             self.assertIn("ConnectionResetError" if told.returncode else "b''", told.stderr + told.stdout)
             live.end()
         self.session(run)
+
+    def test_tells_every_end_to_one_who_reads_late(self):
+        file = self.folder / "short.yaml"
+        scene = str(pathlib.Path("scenes/block-on-table.yaml").absolute())
+        file.write_text(SHORT.replace("SCENE", scene))
+        run = self.start(str(file))
+        with dh.observe(self.out) as live:
+            late = self.raw(live.session)
+            late.send(b'{"watch": ["grip_force"], "every_ms": 0}')
+            time.sleep(1.5)  # by then there is no room for it any more
+            ends, moments = [], 0
+            while (text := late.recv(1 << 20)) and "over" not in (message := json.loads(text)):
+                moments += "values" in message
+                if "ended" in message:
+                    ends.append(message["ended"]["trial_num"])
+                if len(ends) == 60:
+                    live.end()
+        session, _ = self.session(run)
+        trials = session.trials
+        self.assertEqual(ends, trials.trial_num[(trials.outcome == "done") & (trials.trial_num >= ends[0])].tolist())
+        self.assertLess(moments, 0.9 * session.t[-1] / 0.002)  # those of more than half a second were missed
 
     def test_may_be_in_a_folder_with_a_long_path(self):
         self.out = self.folder / ("long" * 40) / "sessions"

@@ -1,6 +1,7 @@
-// Where the head of a person before a screen is, as a tracker of the laboratory says by a stream of
-// the Lab Streaming Layer: pictures on the screen then stay where they are in the world as the head
-// moves. A thread of its own receives the stream; its stream may come late, go and come back.
+// HeadTracker tells where the head of a person before a screen is, as a tracker of the laboratory
+// says by a stream of the Lab Streaming Layer: pictures on the screen then stay where they are in
+// the world as the head moves. A thread of its own receives the stream; its stream may come late,
+// go and come back.
 //
 // The tracker says where a body T, which the person wears, is in the tracker's own frame S; the rig
 // file says where S is in the world W and where the eyes are in T:

@@ -31,9 +31,11 @@ bool has_edges(const Display& display, Diagnostics& diagnostics) {
 }  // namespace
 
 bool Display::faces(const Eyes& seen_by) const {
-    const Vec3 front = right().cross(up()).normalized();
-    return front.dot(seen_by.left() - lower_left) >= kNearest &&
-           front.dot(seen_by.right() - lower_left) >= kNearest;
+    return before(seen_by.left()) >= kNearest && before(seen_by.right()) >= kNearest;
+}
+
+double Display::before(const Vec3& eye) const {
+    return right().cross(up()).normalized().dot(eye - lower_left);
 }
 
 void Display::move(const Vec3& by) {
@@ -68,9 +70,8 @@ void check(const Display& display, Diagnostics& diagnostics) {
                           "Write e.g. along: [1, 0, 0].");
         return;
     }
-    const Vec3 front = right.cross(up);
     for (const Vec3& eye : {display.eyes.left(), display.eyes.right()}) {
-        const double before = front.dot(eye - display.lower_left);
+        const double before = display.before(eye);
         if (before >= kNearest) continue;
         diagnostics.error(
             display.eyes.place, "position",

@@ -93,6 +93,8 @@ struct Display {
     Vec3 at(const Cross& cross) const {
         return lower_left + cross.right * right() + cross.up * up();
     }
+    /// How far an eye is before the screen's plane [m]; negative: behind it.
+    double before(const Vec3& eye) const;
     /// Whether it is seen from the front by these eyes, from no nearer than can be drawn.
     bool faces(const Eyes& seen_by) const;
     void move(const Vec3& by);

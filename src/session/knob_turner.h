@@ -1,4 +1,4 @@
-// Turns the knobs of a running session toward those that another thread asks for.
+// KnobTurner turns the knobs of a running session toward those that another thread asks for.
 #pragma once
 
 #include <optional>

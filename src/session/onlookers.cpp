@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <deque>
 #include <list>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -91,11 +92,17 @@ struct Onlooker {
     Onlooker(const Onlooker&) = delete;
     Onlooker& operator=(const Onlooker&) = delete;
 
-    /// One that does not read loses it.
-    void send(const Json& message) const {
+    std::deque<Json> owed;  // what must not be lost, until there is room for it
+
+    /// Returns whether there was room for it; one that does not read loses it.
+    bool send(const Json& message) const {
         const std::string text =
             message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-        ::send(socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+        return ::send(socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT) >= 0;
+    }
+    /// Sends what is owed, as far as there is room.
+    void settle() {
+        while (!owed.empty() && send(owed.front())) owed.pop_front();
     }
 };
 
@@ -317,17 +324,18 @@ void Onlookers::Parts::turn_knobs(const Json& asked) {
 
 void Onlookers::Parts::look(Wall::time_point now) {
     while (const auto ended = ends.pop()) {
-        for (const Onlooker& onlooker : onlookers)
-            onlooker.send({{"tick", ended->tick},
-                           {"time_s", ended->time},
-                           {"ended",
-                            {{"trial_num", ended->trial},
-                             {"attempt", ended->attempt},
-                             {"outcome", name_of(outcomes, ended->outcome)}}}});
+        for (Onlooker& onlooker : onlookers)
+            onlooker.owed.push_back({{"tick", ended->tick},
+                                     {"time_s", ended->time},
+                                     {"ended",
+                                      {{"trial_num", ended->trial},
+                                       {"attempt", ended->attempt},
+                                       {"outcome", name_of(outcomes, ended->outcome)}}}});
     }
+    for (Onlooker& onlooker : onlookers) onlooker.settle();
     if (!newest.is_new()) return;
     const auto is_due = [&](const Onlooker& onlooker) {
-        return onlooker.watches && now >= onlooker.due;
+        return onlooker.watches && onlooker.owed.empty() && now >= onlooker.due;
     };
     if (std::ranges::none_of(onlookers, is_due)) return;
     const servo::Frame& frame = newest.read();

@@ -1,7 +1,7 @@
-// Other programs that watch a running session, and may steer it: dihaptic.observe() of Python, or
-// one's own. They connect to the UNIX socket socket_name(), an abstract one of the kind
-// SOCK_SEQPACKET, in which every message is a whole one; only programs of the same user can. Both
-// sides send objects of JSON:
+// Onlookers are other programs that watch a running session, and may steer it: dihaptic.observe()
+// of Python, or one's own. They connect to the UNIX socket socket_name(), an abstract one of the
+// kind SOCK_SEQPACKET, in which every message is a whole one; only programs of the same user can.
+// Both sides send objects of JSON:
 //
 //   session  {"session": "sessions/...", "clock": "real", "states": [...], "outcomes": [...]}
 //   it       {"watch": ["grip_force", "block.z"], "every_ms": 20}
@@ -20,8 +20,9 @@
 // Moments come again and again, in real time; what is refused says why, and what to do.
 //
 // What is watched is any expression of what is recorded (task/recorded.h). Knobs have the names of
-// the log's columns, and their units. A reader that is slow misses moments, and holds nobody up:
-// the tick copies its frame for the thread that does all this, and only while somebody watches.
+// the log's columns, and their units. A reader that is slow misses moments, but no end of an
+// attempt, and holds nobody up: the tick copies its frame for the thread that does all this, and
+// only while somebody watches.
 #pragma once
 
 #include <memory>

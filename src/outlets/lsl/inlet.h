@@ -1,4 +1,4 @@
-// A stream of numbers of the Lab Streaming Layer that comes in, such as that of a tracker.
+// Inlet receives a stream of numbers of the Lab Streaming Layer, such as that of a tracker.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// liblsl, which is loaded when a rig asks for it.
+// load() loads liblsl when a rig asks for it.
 #pragma once
 
 #include "base/library.h"
