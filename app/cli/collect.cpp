@@ -12,13 +12,17 @@
 #include "base/text_file.h"
 #include "command.h"
 #include "recording/moved_by.h"
-#include "rehearsal.h"
+#include "session/rehearsal.h"
 #include "shards.h"
 
 namespace dihaptic::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using session::Asked;
+using session::kUnfinished;
+using session::person_id;
+using session::Rehearsal;
 using Rows = std::vector<std::vector<std::string>>;
 
 struct CollectOptions {
@@ -39,7 +43,7 @@ void check_same(const CollectOptions& options, const std::string& first_folder,
                 const Rehearsal& first, const std::string& folder, const Rehearsal& other) {
     Rehearsal same_seed = other;
     if (options.join_seeds) same_seed.seed = first.seed;
-    const std::string what = difference(first, same_seed);
+    const std::string what = session::difference(first, same_seed);
     if (what.empty()) return;
     const bool seeds = first.seed != other.seed && !options.join_seeds;
     throw Error({folder, 0}, "",
@@ -87,7 +91,7 @@ Found find_people(const CollectOptions& options) {
         }
         const auto [ids, unfinished] = sessions_in(folder);
         if (ids.empty() && !is_there(folder + "/rehearsal.yaml")) continue;
-        const Rehearsal rehearsal = read_rehearsal(folder);
+        const Rehearsal rehearsal = session::read_rehearsal(folder);
         for (const std::string& id : unfinished)
             found.unfinished[{rehearsal.seed, id}] = folder + "/" + kUnfinished + id;
         Wanted& wanted = found.wanted[rehearsal.seed];
@@ -119,7 +123,7 @@ std::map<int, std::vector<std::string>> missing_of(const Found& found, const std
     std::map<int, std::vector<std::string>> out;
     for (int n = 1; n <= asked.people; ++n) {
         if (!found.people.contains({seed, person_id(n)}))
-            out[shard_of(n, asked.shards)].push_back(person_id(n));
+            out[session::shard_of(n, asked.shards)].push_back(person_id(n));
     }
     return out;
 }

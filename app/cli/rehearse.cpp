@@ -9,12 +9,14 @@
 #include <filesystem>
 #include <map>
 
+#include "base/field_writer.h"
 #include "base/plural.h"
 #include "base/regular_file.h"
 #include "base/text_file.h"
 #include "command.h"
+#include "person/population.h"
 #include "person/simulated_limits.h"
-#include "rehearsal.h"
+#include "session/rehearsal.h"
 #include "shards.h"
 #include "shell_word.h"
 #include "summary.h"
@@ -23,6 +25,8 @@ namespace dihaptic::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using session::Asked;
+using session::person_id;
 
 struct RehearseOptions {
     session::Request request;
@@ -55,7 +59,7 @@ Shard parse_shard(const std::string& text) {
 
 /// Folder in which a person's session is made, and then the folder of the complete session.
 std::string unfinished(const RehearseOptions& options, const std::string& id) {
-    return options.out + "/" + kUnfinished + id;
+    return options.out + "/" + session::kUnfinished + id;
 }
 std::string finished(const RehearseOptions& options, const std::string& id) {
     return options.out + "/" + id;
@@ -239,11 +243,13 @@ std::pair<std::string, Asked> prepare(RehearseOptions& options, const Shard& sha
     }
     print(plan.warnings);
     print(person::simulated_limits(*plan.task));
-    options.population = population_of(options.population_file, options.real_objects);
+    options.population = person::population_of(
+        options.population_file,
+        options.real_objects ? person::Objects::real : person::Objects::device);
     if (options.out.empty()) options.out = usual_folder(options.request);
-    Rehearsal rehearsal = rehearsal_of(plan, *options.population);
+    session::Rehearsal rehearsal = session::rehearsal_of(plan, write_fields(*options.population));
     rehearsal.asked = {options.people, shard.of, command_again(options)};
-    claim(options.out, rehearsal);
+    session::claim(options.out, rehearsal);
     return {plan.title, rehearsal.asked};
 }
 
@@ -319,7 +325,7 @@ void add_rehearse(CLI::App& app) {
                      "as in populations/adults.yaml")
         ->transform(given_or_kept());
     command->add_option("--people", options->people, "how many, sim-001 and so on")
-        ->check(CLI::Range(1, kMostPeople))
+        ->check(CLI::Range(1, session::kMostPeople))
         ->capture_default_str();
     command->add_option("--jobs", options->jobs, "sessions at a time")
         ->check(CLI::Range(1, 1024))
@@ -329,7 +335,7 @@ void add_rehearse(CLI::App& app) {
     command
         ->add_option("--slurm", options->slurm,
                      "hand so many shards to the cluster, as an array of Slurm's: see below")
-        ->check(CLI::Range(1, kMostPeople));
+        ->check(CLI::Range(1, session::kMostPeople));
     command->add_option("--out", options->out, "folder; default: rehearsals/EXPERIMENT_SEED");
     command->add_option("--seed", options->request.seed, "of everything random")
         ->check(seed_range())

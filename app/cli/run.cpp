@@ -14,7 +14,7 @@
 #include "command.h"
 #include "common/stop_signals.h"
 #include "escape_key.h"
-#include "rehearsal.h"
+#include "person/population.h"
 #include "rig/calibration_guide.h"
 #include "session/decider.h"
 #include "summary.h"
@@ -130,7 +130,9 @@ void ask(recording::Participant& participant) {
 
 void run_one(SessionOptions& options) {
     const std::string& id = options.run.participant.id;
-    const person::Population people = population_of(options.population_file, options.real_objects);
+    const person::Population people = person::population_of(
+        options.population_file,
+        options.real_objects ? person::Objects::real : person::Objects::device);
     if (!people.groups.empty()) options.request.order_number = people.number_in_group(id);
     session::Plan plan = session::make_plan(options.request);
     if (options.simulate && plan.task)

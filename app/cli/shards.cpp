@@ -18,6 +18,7 @@ namespace dihaptic::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using session::Asked;
 
 /// Part of a file's name on a line that begins with #SBATCH, in quotes: sbatch replaces what
 /// follows a %, and has no way to write what is refused here.

@@ -6,22 +6,22 @@
 #include <string>
 #include <vector>
 
-#include "rehearsal.h"
+#include "session/rehearsal.h"
 
 namespace dihaptic::cli {
 
 /// The shell script for sbatch in a rehearsal's folder: a task of the array for each shard.
 std::string slurm_script(const std::string& folder);
 /// Writes it, unless there is one for the same shards: somebody may have added lines to that.
-void write_slurm_script(const std::string& folder, const Asked& asked);
+void write_slurm_script(const std::string& folder, const session::Asked& asked);
 
 /// Hands these shards to Slurm. Returns the number of the job; nullopt when there is no sbatch or
 /// it refuses, and then has said so, and what to type.
-std::optional<std::string> submit(const std::string& folder, const Asked& asked,
+std::optional<std::string> submit(const std::string& folder, const session::Asked& asked,
                                   const std::vector<int>& shards);
 
 /// What to type so that these shards are done: by sbatch, if the folder's script is for them.
-std::string command_for(const std::string& folder, const Asked& asked,
+std::string command_for(const std::string& folder, const session::Asked& asked,
                         const std::vector<int>& shards);
 
 }  // namespace dihaptic::cli

@@ -30,7 +30,8 @@ try:
     from .lifts import find_lift
     from .live import Live, Moment, observe
     from .person import Person, Seen
-    from .program import Rehearsal, check, recover, rehearse, replay, report, resume, run, shipped
+    from .program import check, recover, replay, report, resume, run, shipped
+    from .rehearsal import Rehearsal, rehearse
     from .vocabulary import Quantity, quantities, quantity
     from .session import Session, load
     from .tables import read_table

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _native, vocabulary
 from .errors import NotThere, error
-
-if TYPE_CHECKING:
-    from .session import Session
 
 Array = npt.NDArray[np.float64]
 
@@ -94,7 +93,8 @@ class Person:
 
     act() is called every 10 ms of the session's time (`every`), with what is seen and felt; it leads
     the fingers, and presses keys. Slow is allowed: the clock is virtual. What it raises ends the
-    session, whose folder stays to be recovered.
+    session, whose files are made all the same; a note of the exception names its folder. Attributes
+    that are numbers or texts stand in the session's person.yaml, and in the people of a rehearsal.
 
     >>> import dihaptic as dh
     >>> class Waits(dh.Person):
@@ -103,10 +103,11 @@ class Person:
     ...             self.lead(finger, (0.05 * side, 0, 0.09))
     ...         if seen.t > 2:
     ...             raise StopIteration("that was enough")
-    >>> dh.run("experiments/first-trials.yaml", out=folder, person=Waits(), progress=False)
-    Traceback (most recent call last):
-    ...
-    StopIteration: that was enough
+    >>> try:
+    ...     dh.run("experiments/first-trials.yaml", out=folder, person=Waits(), progress=False)
+    ... except StopIteration as why:
+    ...     print(why, *why.__notes__, sep="; ")
+    that was enough; The session until then: ...first-trials...
 
     docs/tutorials/own_person.py has one that lifts.
     """
@@ -139,15 +140,47 @@ class Person:
             raise error("nobody sits at an experiment", "Give the person to run(); act within act().")
         return self.__dict__["_sitting"], self.__dict__["_fingers"]
 
-    def _do(self, sitting: _native.Sitting, out: str | Path) -> Session:
-        from .session import Session
+    def _traits(self, ppid: str) -> str:
+        """Text of person.yaml: the class, and its attributes that a file can hold."""
+        own = [vars(kind) for kind in reversed(type(self).__mro__) if issubclass(kind, Person) and kind is not Person]
+        named = {name: value for names in [*own, vars(self)] for name, value in names.items() if name[0] != "_"}
+        traits = {name: value.item() if isinstance(value, np.generic) else value for name, value in named.items()}
+        lines: dict[str, bool | int | float | str] = {"id": ppid, "class": type(self).__name__}
+        lines |= {name: value for name, value in traits.items() if isinstance(value, (bool, int, float, str))}
+        return "".join(f"{name}: {_yaml(value)}\n" for name, value in lines.items())
 
+    def _do(
+        self, sitting: _native.Sitting, out: str | Path, between: str = "", keep_recordings: bool = True
+    ) -> Ended:
         if not 1e-4 <= self.every <= 1:
             raise error(f"is {self.every}", "Give the time between two looks, 0.0001 to 1 s.", key="every")
         self.__dict__.update(_sitting=sitting, _fingers=dict(sitting.items())["fingers"])
         seen = Seen(sitting)
+        name, traits = type(self).__name__, self._traits(sitting.participant())
         try:
-            folder = sitting.run(lambda: self.act(seen), self.every, type(self).__name__, str(out))
+            ended = Ended(
+                *sitting.run(lambda: self.act(seen), self.every, name, traits, str(out), between, keep_recordings)
+            )
         finally:
             del self.__dict__["_sitting"]
-        return Session(folder)
+        try:
+            sitting.raise_thrown()
+        except BaseException as why:
+            why.add_note(f"The session until then: {ended.folder}")
+            raise
+        return ended
+
+
+def _yaml(value: bool | int | float | str) -> str:
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return json.dumps(value) if isinstance(value, str) else repr(value)
+
+
+@dataclass(frozen=True)
+class Ended:
+    """A session that is over, without having been opened."""
+
+    folder: str
+    good: bool  #: whether it came to its end, and what was felt is what was planned
+    said: Sequence[str]  #: lines that begin with "WARNING: " or "note: "

@@ -1,4 +1,4 @@
-"""Runs the program's commands: sessions, rehearsals, reports.
+"""Runs the program's commands: sessions, reports, checks.
 
 Each runs in a process of its own, so that nothing that Python does keeps a servo from its tick.
 """
@@ -16,15 +16,12 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import IO, Any
 
-import pandas as pd
-
 from . import _native
 from .between import BetweenTrials, listening
-from .errors import Error, NotThere, Problem, error
+from .errors import Error, Problem, error
 from .files import Input, on_disk, problems_of
-from .person import Person
+from .person import Ended, Person
 from .session import Session
-from .tables import read_table
 
 _BAD_INPUT = 2
 _PROBLEM = re.compile(r"^(?:(?P<file>[^:\n]+):(?:(?P<line>\d+):)? )?(?P<severity>error|warning): (?P<what>.*)$")
@@ -67,6 +64,7 @@ def run(
     movement: str | Path = "",
     participant: str = "",
     simulate: bool = False,
+    population: str | Path = "",
     settings: Mapping[str, Any] | None = None,
     seed: int = 1,
     out: str | Path = "sessions",
@@ -77,13 +75,13 @@ def run(
 ) -> Session:
     """Runs a scene or an experiment, a file or an object, as `dihaptic run` does; opens its session.
 
-    `simulate`: a simulated person on simulated devices does the trials. `clock`: real or virtual, as
-    fast as it can be; left out, real with real devices alone. `between`: decides between
-    trials. `person`: a simulated one of your own does them, in this process. With real devices, what
-    the command prints and asks is printed and asked here, and Escape and Ctrl-C switch force off. A
-    session that was interrupted, or whose force went off, is returned too, with a warning that says
-    why. Ctrl-C ends the session in order, and is raised again once its files are made. Raises Error
-    for whatever is wrong with the files.
+    `simulate`: a simulated person on simulated devices does the trials, drawn from `population`.
+    `clock`: real or virtual, as fast as it can be; left out, real with real devices alone. `between`:
+    decides between trials. `person`: a simulated one of your own does them, in this process. With
+    real devices, what the command prints and asks is printed and asked here, and Escape and Ctrl-C
+    switch force off. A session that was interrupted, or whose force went off, is returned too, with a
+    warning that says why. Ctrl-C ends the session in order, and is raised again once its files are
+    made. Raises Error for whatever is wrong with the files.
 
     >>> import dihaptic as dh
     >>> session = dh.run("experiments/lift-block.yaml", out=folder, progress=False)
@@ -93,26 +91,22 @@ def run(
     given = [f"{key}={_setting(value)}" for key, value in (settings or {}).items()]
     out = out or "sessions"
     if person is not None:
-        if not isinstance(person, Person):
-            raise error(f"{person!r} is nobody", "Give an object of a class that derives from Person.")
-        if between is not None or movement or clock == "real":
-            raise error(
-                "a person of one's own does the trials alone, on the virtual clock",
-                "Leave out between, movement and clock.",
-            )
+        _check_person(person, alone=not (simulate or population or movement or clock == "real"))
         with on_disk(file) as path, on_disk(rig) as rig_path:
             sitting = _native.Sitting(path, rig_path, given, seed, participant)
-        return person._do(sitting, out)
+        with listening(between) as asking:
+            return _open(person._do(sitting, out, asking[-1] if asking else ""))
     command = ["--seed", str(seed), "--out", str(out)] + ["--simulate"] * simulate
-    for option, value in {"--movement": movement, "--participant": participant, "--clock": clock}.items():
+    options = {"movement": movement, "participant": participant, "clock": clock, "population": population}
+    for option, value in options.items():
         if value:
-            command += [option, str(value)]
+            command += [f"--{option}", str(value)]
     for setting in given:
         command += ["--set", setting]
     with on_disk(file) as path, on_disk(rig) as rig_path, listening(between) as asking:
         command = ["run", path, *command, *asking] + (["--rig", rig_path] if rig else [])
         real = not simulate and _native.on_real_devices(path, rig_path)
-        return _session_of(_call(command, progress, echo=real))
+        return _open(ended_of(call(command, progress, echo=real)))
 
 
 def resume(session: Session | str | Path, *, progress: bool = True) -> Session:
@@ -126,7 +120,7 @@ def resume(session: Session | str | Path, *, progress: bool = True) -> Session:
     """
     folder = _folder(session)
     real = Session(folder).info.get("moved_by", {}).get("mover") == "devices"
-    return _session_of(_call(["resume", folder], progress, echo=real))
+    return _open(ended_of(call(["resume", folder], progress, echo=real)))
 
 
 def replay(session: Session | str | Path, *, progress: bool = True) -> bool:
@@ -138,7 +132,7 @@ def replay(session: Session | str | Path, *, progress: bool = True) -> bool:
     >>> dh.replay(lift_session, progress=False)
     True
     """
-    answer = _call(["replay", _folder(session)], progress)
+    answer = call(["replay", _folder(session)], progress)
     if answer.code != 0:
         warnings.warn("\n".join([*answer.said, *answer.output]), stacklevel=2)
     return answer.code == 0
@@ -152,7 +146,7 @@ def recover(session: Session | str | Path, *, progress: bool = True) -> Session:
     'complete'
     """
     folder = _folder(session)
-    _call(["recover", folder], progress)
+    call(["recover", folder], progress)
     return Session(folder)
 
 
@@ -164,7 +158,7 @@ def report(session: Session | str | Path, *, progress: bool = True) -> Path:
     'report.html'
     """
     folder = _folder(session)
-    _call(["report", folder], progress)
+    call(["report", folder], progress)
     return Path(folder) / "report.html"
 
 
@@ -176,79 +170,6 @@ def check(*files: Input, rig: Input = "") -> list[Problem]:
     []
     """
     return [problem for given in files for problem in problems_of(given, rig)]
-
-
-def rehearse(
-    experiment: Input,
-    people: int = 1,
-    *,
-    jobs: int = 1,
-    population: str | Path = "",
-    seed: int = 1,
-    out: str | Path = "",
-    progress: bool = True,
-) -> Rehearsal:
-    """Lets simulated people do an experiment, as `dihaptic rehearse` does, and collects their tables.
-
-    Who is in the folder already is not done again. The tables are the same whatever `jobs`. Raises
-    Error.
-
-    >>> import dihaptic as dh
-    >>> study = dh.rehearse("experiments/first-trials.yaml", 2, out=f"{folder}/study", progress=False)
-    >>> sorted(study.trials.ppid.unique())
-    ['sim-001', 'sim-002']
-    """
-    with on_disk(experiment) as file:
-        folder = Path(out or f"rehearsals/{Path(file).stem}_{seed}")
-        command = ["rehearse", file, "--people", str(people), "--jobs", str(jobs), "--seed", str(seed)]
-        command += ["--out", str(folder)] + (["--population", str(population)] if population else [])
-        _call(command, progress)
-    _call(["collect", str(folder), "--out", str(folder)], progress=False)
-    return Rehearsal(folder)
-
-
-class Rehearsal:
-    """What a population of simulated people did: tables with a row for each person's trial or fit.
-
-    >>> import dihaptic as dh
-    >>> study = dh.rehearse("experiments/first-trials.yaml", 2, out=f"{folder}/study", progress=False)
-    >>> len(study.sessions), "trials" in study.tables
-    (2, True)
-    """
-
-    def __init__(self, folder: str | Path) -> None:
-        self.folder = Path(folder)
-
-    def __repr__(self) -> str:
-        return f"<Rehearsal {self.folder}: {len(self.sessions)} people>"
-
-    @property
-    def sessions(self) -> list[Path]:
-        """Folder of each person, in the order of their numbers."""
-        return sorted(path.parent for path in self.folder.glob("*/person.yaml"))
-
-    @property
-    def tables(self) -> list[str]:
-        """Names of the tables that were collected, without their .csv."""
-        return sorted(path.stem for path in self.folder.glob("*.csv"))
-
-    def table(self, name: str) -> pd.DataFrame:
-        """A table of all people by its name. Raises Error."""
-        if not self.tables:
-            raise error("has no tables yet", f"Type dihaptic collect {self.folder}.", file=str(self.folder))
-        if name not in self.tables:
-            raise NotThere(name, "is no table of this rehearsal", self.tables, "Rehearsal.tables lists them.")
-        return read_table(self.folder / f"{name}.csv")
-
-    @property
-    def trials(self) -> pd.DataFrame:
-        """A row for each attempt of each person."""
-        return self.table("trials")
-
-    @property
-    def people(self) -> pd.DataFrame:
-        """A row for each person: who they are made to be."""
-        return self.table("people")
 
 
 def _setting(value: Any) -> Any:
@@ -264,7 +185,7 @@ class _Answer:
         self.said = said  # on standard error, without progress
 
 
-def _call(command: Sequence[str], progress: bool, echo: bool = False) -> _Answer:
+def call(command: Sequence[str], progress: bool, echo: bool = False) -> _Answer:
     """Runs a command to its end. Raises Error when its input was bad. `echo`: with what it prints,
     since with real devices it asks, and tells how to switch force off."""
     with subprocess.Popen(
@@ -337,14 +258,30 @@ def _problem_of_option(lines: Sequence[str]) -> Problem:
     return Problem("error", "", 0, at["name"].replace("-", "_"), at["what"], "")
 
 
-def _session_of(answer: _Answer) -> Session:
+def ended_of(answer: _Answer) -> Ended:
+    """How a command's session ended. Raises Error when there is none."""
     folder = next((line[len("session: ") :] for line in answer.output if line.startswith("session: ")), None)
     if folder is None:
         raise error("\n".join(answer.said + answer.output), "")
     told = [line for line in answer.output if line.startswith("WARNING: ")]
-    if answer.code != 0 or told:
-        warnings.warn("\n".join([*answer.said, *told]) or f"see {folder}", stacklevel=3)
-    return Session(folder)
+    return Ended(folder, answer.code == 0, [*answer.said, *told])
+
+
+def _open(ended: Ended) -> Session:
+    """Opens a session; what was not as planned is a warning where run() or resume() was called."""
+    if not ended.good or any(line.startswith("WARNING: ") for line in ended.said):
+        warnings.warn("\n".join(ended.said) or f"see {ended.folder}", stacklevel=3)
+    return Session(ended.folder)
+
+
+def _check_person(person: object, alone: bool) -> None:
+    if not isinstance(person, Person):
+        raise error(f"{person!r} is nobody", "Give an object of a class that derives from Person.")
+    if not alone:
+        raise error(
+            "a person of one's own does the trials alone, on the virtual clock",
+            "Leave out simulate, population, movement and clock.",
+        )
 
 
 def _folder(session: Session | str | Path) -> str:

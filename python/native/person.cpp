@@ -6,11 +6,15 @@
 #include <atomic>
 #include <exception>
 
+#include "base/field_writer.h"
 #include "frame_values.h"
 #include "parts.h"
+#include "person/population.h"
 #include "plans.h"
 #include "servo/displayed.h"
+#include "session/decider.h"
 #include "session/record.h"
+#include "session/rehearsal.h"
 
 namespace py = pybind11;
 
@@ -91,26 +95,65 @@ class Sitting {
                     "Name an experiment with trials.");
     }
 
-    /// Does all trials; returns the session's folder. `name`: of the person's class.
-    std::string run(const py::function& act, double every, const std::string& name,
-                    const std::string& out) {
+    /// Where the trials are done, and by whom.
+    struct Doing {
+        std::string name;     ///< of the person's class
+        std::string traits;   ///< text of person.yaml
+        std::string out;      ///< folder for session folders
+        std::string between;  ///< socket of what decides between trials; empty: nothing does
+        bool keep_recordings = true;
+    };
+
+    /// A session that is over.
+    struct Done {
+        std::string folder;
+        bool good = false;
+        std::vector<std::string> notes;
+    };
+
+    /// Does all trials. Afterwards thrown() has what act() raised.
+    Done run(const py::function& act, double every, const Doing& doing) {
         const int ticks = std::max(1, static_cast<int>(std::lround(every / plan_.settings.tick())));
         hand_ = std::make_shared<PythonHand>(plan_, act, ticks, stop_);
         plan_.driver = plan_.seeing = hand_;
         plan_.moved_by = {recording::Mover::simulated_person,
-                          recording::program_version() + ", Python's " + name, "",
+                          recording::program_version() + ", Python's " + doing.name, "",
                           std::to_string(plan_.seed)};
+        plan_.person = doing.traits;
         session::RunOptions options;
-        options.out = out;
-        options.command = "dihaptic.run(person=" + name + ")";
+        options.out = doing.out;
+        options.command = "dihaptic.run(person=" + doing.name + ")";
         options.participant.id = participant_;
-        std::string folder;
-        {
-            const py::gil_scoped_release others_may_run;
-            folder = session::record(plan_, options, stop_).folder;
+        options.keep_log = doing.keep_recordings;
+        const py::gil_scoped_release others_may_run;
+        std::optional<session::Decider> decider;
+        if (!doing.between.empty()) {
+            decider.emplace(doing.between);
+            decider->prepare(plan_);
+            options.decider = &*decider;
         }
-        if (hand_->thrown()) std::rethrow_exception(hand_->thrown());
-        return folder;
+        const session::Recorded session = session::record(plan_, options, stop_);
+        return {session.folder, session.good(), session.notes};
+    }
+    /// Raises what act() raised, if anything.
+    void raise() const {
+        if (hand_ && hand_->thrown()) std::rethrow_exception(hand_->thrown());
+    }
+    /// Makes a folder the place of a rehearsal of this experiment, or checks that it is one.
+    /// `name`: of the class that its people are of; empty: they are of a population, by its file.
+    /// `between`: name of the class that decides between trials; empty: none does.
+    void claim(const std::string& folder, const std::string& name, const std::string& population,
+               const std::string& between, const session::Asked& asked) const {
+        Node people = Node::mapping();
+        if (name.empty()) {
+            people = write_fields(person::population_of(population, person::Objects::device));
+        } else {
+            people.set("title", Node::of("Python's " + name));
+        }
+        session::Rehearsal rehearsal = session::rehearsal_of(plan_, std::move(people));
+        rehearsal.between = between;
+        rehearsal.asked = asked;
+        session::claim(folder, rehearsal);
     }
 
     void lead(size_t finger, const Vec3& position, const Vec3& velocity) {
@@ -150,6 +193,7 @@ class Sitting {
         return out;
     }
     Items items() const { return items_of(plan_); }
+    const std::string& participant() const { return participant_; }
 
   private:
     static session::Plan plan_of(const std::string& file, const std::string& rig,
@@ -170,10 +214,27 @@ class Sitting {
 }  // namespace
 
 void add_person(py::module_& m) {
+    m.def("person_id", &session::person_id);
+    m.attr("most_people") = session::kMostPeople;
+    m.attr("unfinished") = session::kUnfinished;
     py::class_<Sitting>(m, "Sitting")
         .def(py::init<const std::string&, const std::string&, const std::vector<std::string>&,
                       uint64_t, const std::string&>())
-        .def("run", &Sitting::run)
+        .def("run",
+             [](Sitting& sitting, const py::function& act, double every, const std::string& name,
+                const std::string& traits, const std::string& out, const std::string& between,
+                bool keep_recordings) {
+                 const auto done =
+                     sitting.run(act, every, {name, traits, out, between, keep_recordings});
+                 return py::make_tuple(done.folder, done.good, done.notes);
+             })
+        .def("raise_thrown", &Sitting::raise)
+        .def("claim",
+             [](const Sitting& sitting, const std::string& folder, const std::string& name,
+                const std::string& population, const std::string& between, int asked,
+                const std::string& command) {
+                 sitting.claim(folder, name, population, between, {asked, 1, command});
+             })
         .def("lead", &Sitting::lead)
         .def("press", &Sitting::press)
         .def("time", &Sitting::time)
@@ -184,7 +245,8 @@ void add_person(py::module_& m) {
         .def("shown_body", &Sitting::shown_body)
         .def("is_shown", &Sitting::is_shown)
         .def("targets", &Sitting::targets)
-        .def("items", &Sitting::items);
+        .def("items", &Sitting::items)
+        .def("participant", &Sitting::participant);
 }
 
 }  // namespace dihaptic::python

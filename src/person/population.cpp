@@ -290,6 +290,10 @@ const Population& shipped_population(Objects objects) {
     return objects == Objects::real ? real : device;
 }
 
+Population population_of(const std::string& file, Objects objects) {
+    return file.empty() ? shipped_population(objects) : read_population(file);
+}
+
 Traits median_person(const Population& population, const std::string& group) {
     const auto rows = traits_of(population, group);
     std::vector<double> values;

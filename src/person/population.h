@@ -116,6 +116,9 @@ Population read_population(const std::string& file);
 /// program.
 const Population& shipped_population(Objects objects);
 
+/// The population of a file; "": the shipped one.
+Population population_of(const std::string& file, Objects objects);
+
 /// The median person of a group, who makes neither noise nor mistakes.
 Traits median_person(const Population& population, const std::string& group = "");
 /// Draws person `id` of the population with this seed: always the same, whichever others are drawn.

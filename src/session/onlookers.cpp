@@ -8,6 +8,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cmath>
@@ -31,8 +32,9 @@ using Json = nlohmann::json;
 using Wall = std::chrono::steady_clock;
 
 constexpr Time kInterval = std::chrono::milliseconds(2);  // shortest, between frames
-constexpr int kBusy = 2, kIdle = 50;           // between looks, at frames and for a newcomer [ms]
-constexpr size_t kLongestMessage = 64 * 1024;  // [bytes]
+constexpr int kBusy = 2, kIdle = 50;  // between looks, at frames and for a newcomer [ms]
+constexpr auto kLastPatience = std::chrono::seconds(1);  // with readers, once the session is over
+constexpr size_t kLongestMessage = 64 * 1024;            // [bytes]
 constexpr size_t kMostOnlookers = 16;
 constexpr size_t kMostWatched = 64;
 
@@ -177,6 +179,7 @@ struct Onlookers::Parts {
 
     void run();
     void welcome();
+    void say_goodbye();
     void hear(Onlooker& onlooker, const std::string& text);
     void watch(Onlooker& onlooker, const Json& asked);
     void steer(const Json& asked);
@@ -210,7 +213,18 @@ void Onlookers::Parts::run() {
         watched = !onlookers.empty();
         look(Wall::now());
     }
+    say_goodbye();
+}
+
+/// Gives those who read late what they are owed, for a while.
+void Onlookers::Parts::say_goodbye() {
     look(Wall::time_point::max());
+    const auto owes = [](const Onlooker& onlooker) { return !onlooker.owed.empty(); };
+    const auto until = Wall::now() + kLastPatience;
+    while (std::ranges::any_of(onlookers, owes) && Wall::now() < until) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(kBusy));
+        for (Onlooker& onlooker : onlookers) onlooker.settle();
+    }
     for (const Onlooker& onlooker : onlookers) onlooker.send({{"over", true}});
     onlookers.clear();
 }

@@ -29,9 +29,14 @@ void sit_down_again(Plan& plan, const recording::SessionFolder& folder) {
         throw Error({file, 0}, "", "is gone: it said what the simulated person was like",
                     "Put it back, or rehearse the experiment again.");
     }
+    const Node node = read_yaml(file);
+    if (node.find("class") != nullptr) {
+        throw Error({file, 0}, "class", "is of a person whom Python moved",
+                    "Have it do the experiment again: dihaptic.run(person=...).");
+    }
     Diagnostics diagnostics;
     person::Traits traits;
-    read_fields(traits, read_yaml(file), diagnostics);
+    read_fields(traits, node, diagnostics);
     diagnostics.throw_if_errors();
     sit_down(plan, traits);
 }

@@ -346,6 +346,7 @@ void Run::run_ticks() {
         // on the virtual clock a tick may wait for it
         if (options_.decider != nullptr && stop_) options_.decider->between()->leave();
         if (live_ == nullptr) return;
+        if (onlookers_ && onlookers_->ended()) live_->ended = true;  // though it is paused
         while (const auto showing = live_->take_showing()) {
             if (real_) showings.add(*showing);  // nobody saw a rehearsal in its own time
         }

@@ -1,5 +1,6 @@
-// Tests that a tick shows its frame to other programs without allocating. What they see and do is
-// tested where they are: python/test/live_test.py.
+// Tests what other programs cannot see of a session that they watch: that a tick shows its frame
+// without allocating, and what becomes of them in its pauses and after its end. What they see and
+// do is tested where they are: python/test/live_test.py.
 #include "session/onlookers.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +10,8 @@
 
 #include <cstddef>
 #include <cstring>
+#include <filesystem>
+#include <future>
 
 #include "session/test/sessions.h"
 #include "testing/allocation_guard.h"
@@ -90,6 +93,63 @@ TEST(Onlookers, SeeTicksThatAllocateNothing) {
     std::string last;
     for (std::string said; !(said = onlooker.read()).empty();) last = said;
     EXPECT_EQ(last, R"({"over":true})");
+}
+
+TEST(Onlookers, EndASessionThatIsPaused) {
+    for (const Clock clock : {Clock::virtual_clock, Clock::real}) {
+        SCOPED_TRACE(clock == Clock::real ? "real" : "virtual");
+        Sessions sessions;
+        const Plan plan = sessions.plan(Mover::simulated_person);
+        const testing::TemporaryFolder out;
+        Live live;
+        live.paused = true;
+        RunOptions options;
+        options.clock = clock;
+        options.out = out.path();
+        options.onlookers = true;
+        options.live = &live;
+        const std::atomic<bool> stop{false};
+        auto run = std::async(std::launch::async, [&] { return record(plan, options, stop); });
+        std::string folder;
+        while (folder.empty()) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20));
+            for (const auto& entry : std::filesystem::directory_iterator(out.path())) {
+                if (std::filesystem::exists(entry.path() / "raw.log")) folder = entry.path();
+            }
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));
+        const Onlooker onlooker(socket_name(folder));
+        onlooker.send(R"({"end": true})");
+        const auto ended = run.wait_for(std::chrono::seconds(30));
+        EXPECT_EQ(ended, std::future_status::ready);
+        live.ended = true;
+        EXPECT_TRUE(run.get().interrupted);
+    }
+}
+
+TEST(Onlookers, AreToldEveryEndOfAnAttemptThoughTheyReadAfterTheSession) {
+    Sessions sessions;
+    const Plan plan = sessions.plan(Mover::simulated_person);
+    const auto servo = make_servo(plan);
+    Onlookers onlookers(plan, sessions.files.folder.path(), true, false);
+    onlookers.open(*servo, {}, {"hit"});
+    const Onlooker onlooker(socket_name(sessions.files.folder.path()));
+    onlooker.send(R"({"watch": [], "every_ms": 60000})");
+    EXPECT_NE(onlooker.read().find("watching"), std::string::npos);
+    servo->activate();
+    servo::Frame frame = servo->tick(Time{0}, {});
+    frame.task.outcome = 0;
+    constexpr int kEnds = 1000;  // the socket has room for some 300
+    for (frame.trial = 1; frame.trial <= kEnds; ++frame.trial) {
+        onlookers.show(frame);
+        if (frame.trial % 16 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    auto over = std::async(std::launch::async, [&] { return onlookers.finish(); });
+    int ends = 0;
+    for (std::string said; !(said = onlooker.read()).empty();)
+        ends += said.find("ended") != std::string::npos ? 1 : 0;
+    over.get();
+    EXPECT_EQ(ends, kEnds);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "rehearsal.h"
+#include "session/rehearsal.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "base/text_file.h"
 #include "session/frozen_inputs.h"
 
-namespace dihaptic::cli {
+namespace dihaptic::session {
 namespace {
 
 namespace fs = std::filesystem;
@@ -70,23 +70,16 @@ int shard_of(int n, int shards) {
     return (n - 1) % shards + 1;
 }
 
-person::Population population_of(const std::string& file, bool real_objects) {
-    if (!file.empty()) return person::read_population(file);
-    return person::shipped_population(real_objects ? person::Objects::real
-                                                   : person::Objects::device);
-}
-
-Rehearsal rehearsal_of(const session::Plan& plan, const person::Population& population) {
+Rehearsal rehearsal_of(const Plan& plan, Node population) {
     Rehearsal out;
     out.program = recording::program_version();
     out.experiment = plan.title;
     out.seed = std::to_string(plan.seed);
-    person::Population copy = population;
-    out.population = write_fields(copy);
+    out.population = std::move(population);
     out.inputs = Node::mapping();
     const TemporaryFolder scratch;
     const auto folder = recording::SessionFolder::create(scratch.path(), "inputs");
-    for (const recording::InputFile& input : session::freeze_inputs(plan, folder)) {
+    for (const recording::InputFile& input : freeze_inputs(plan, folder)) {
         if (input.file == "trial-list.csv") continue;  // differs from person to person
         const bool text = fs::path(input.file).extension() == ".yaml";
         out.inputs.set(input.file,
@@ -132,4 +125,4 @@ void claim(const std::string& folder, const Rehearsal& rehearsal) {
     write_file(to_yaml(write_fields(copy)), file_of(folder));
 }
 
-}  // namespace dihaptic::cli
+}  // namespace dihaptic::session

@@ -1,14 +1,14 @@
 // The identity of a rehearsal, in the file rehearsal.yaml of the folder with its people: sessions
 // of another experiment, seed, population or program are never put into it. The file also has what
-// was asked for, by which collect knows who is missing.
+// was asked for, by which `dihaptic collect` knows who is missing.
 #pragma once
 
 #include <string>
 
-#include "person/population.h"
+#include "base/field.h"
 #include "session/plan.h"
 
-namespace dihaptic::cli {
+namespace dihaptic::session {
 
 /// With this the name of a folder begins in which a person's session is made.
 inline constexpr const char* kUnfinished = "unfinished-";
@@ -36,6 +36,7 @@ struct Rehearsal {
     std::string seed;
     Asked asked;
     Node population;
+    std::string between;  ///< name of what decides between trials; empty: the file alone
     Node inputs;  ///< by file, as a session freezes them: everything that affects the result
 
     template <class Visitor>
@@ -45,6 +46,7 @@ struct Rehearsal {
         v("seed", seed);
         v("asked", asked);
         v("population", population);
+        v("between", between);
         v("inputs", inputs);
     }
 };
@@ -54,11 +56,8 @@ std::string person_id(int n);
 /// Shard of `shards` that the n-th person is in, both from 1.
 int shard_of(int n, int shards);
 
-/// The population of a file; "": the program's own.
-person::Population population_of(const std::string& file, bool real_objects);
-
-/// `plan`: without a simulated person yet.
-Rehearsal rehearsal_of(const session::Plan& plan, const person::Population& population);
+/// `plan`: without a simulated person yet. `population`: who its people are.
+Rehearsal rehearsal_of(const Plan& plan, Node population);
 /// Reads rehearsal.yaml in a folder. Throws Error when it is missing or cannot be read.
 Rehearsal read_rehearsal(const std::string& folder);
 /// The first difference of what they are, in words; "" if there is none. `there`: the folder's
@@ -69,4 +68,4 @@ std::string difference(const Rehearsal& there, const Rehearsal& here);
 /// Throws an Error that names the difference when it holds another one.
 void claim(const std::string& folder, const Rehearsal& rehearsal);
 
-}  // namespace dihaptic::cli
+}  // namespace dihaptic::session
