@@ -12,6 +12,7 @@
 #include <QSettings>
 #include <QUrl>
 
+#include "help_page.h"
 #include "layers_menu.h"
 #include "theme.h"
 
@@ -124,14 +125,15 @@ void OperatorWindow::make_view_menu() {
 
 void OperatorWindow::make_help_menu() {
     QMenu* help = menuBar()->addMenu(tr("&Help"));
-    const auto page = [&](const QString& name, const QString& file) {
-        help->addAction(name, this, [this, file] { show_page_of_docs(file); });
+    const auto page = [&](const QString& text, const QString& name) {
+        return help->addAction(text, this, [this, name] { show_page_of_docs(name); });
     };
-    page(tr("This &window"), "window.md");
-    page(tr("&Files: scenes, rigs, experiments"), "files.md");
-    page(tr("&Experiments"), "experiments.md");
-    page(tr("&What is recorded"), "quantities.md");
-    page(tr("&Safety"), "safety.md");
+    page(tr("&Manual"), "index")->setShortcut(QKeySequence::HelpContents);
+    page(tr("This &window"), "window");
+    page(tr("&Files: scenes, rigs, experiments"), "files");
+    page(tr("&Experiments"), "experiments");
+    page(tr("&What is recorded"), "quantities");
+    page(tr("&Safety"), "safety");
     help->addSeparator();
     help->addAction(tr("&About Dihaptic"), this, [this] {
         auto* about = new QMessageBox(QMessageBox::NoIcon, tr("About Dihaptic"),
@@ -151,11 +153,9 @@ void OperatorWindow::restore() {
     restoreState(settings.value("docks").toByteArray());
 }
 
-void OperatorWindow::show_page_of_docs(const QString& file) {
-    // the program is in build/PRESET
-    const QDir docs(QCoreApplication::applicationDirPath() + "/../../docs");
-    if (!docs.exists(file)) return log(tr("there is no %1").arg(docs.filePath(file)), true);
-    QDesktopServices::openUrl(QUrl::fromLocalFile(QDir::cleanPath(docs.filePath(file))));
+void OperatorWindow::show_page_of_docs(const QString& name) {
+    const QString why = show_help_page(name);
+    if (!why.isEmpty()) log(why, true);
 }
 
 void OperatorWindow::fill_recent() {

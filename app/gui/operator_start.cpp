@@ -99,7 +99,7 @@ void OperatorWindow::remedy(session::Remedy remedy) {
         case session::Remedy::choose_folder:
             return choose_folder();
         case session::Remedy::allow_real_time:
-            return show_page_of_docs("safety.md");
+            return show_page_of_docs("safety");
         case session::Remedy::none:
             return;
     }

@@ -95,7 +95,7 @@ class OperatorWindow : public QMainWindow {
     void remedy(session::Remedy remedy);
     void choose_folder();
     /// Opens a page of the documents.
-    void show_page_of_docs(const QString& file);
+    void show_page_of_docs(const QString& name);
     /// Asks who the person is, then starts.
     void start_trials();
     /// Offers to go on with an unfinished session of that person, if there is one.

@@ -22,6 +22,8 @@
 #include <optional>
 
 #include "base/table.h"
+#include "film.h"
+#include "help_page.h"
 #include "layers_menu.h"
 #include "recording/log_scene.h"
 #include "time_chart.h"
@@ -151,6 +153,8 @@ void SessionPlayer::make_menus() {
     QMenu* file = menuBar()->addMenu(tr("&File"));
     file->addAction(tr("Save &picture ..."), QKeySequence::Save, this,
                     &SessionPlayer::save_picture);
+    file->addAction(tr("Save &video ..."), QKeySequence("Ctrl+Shift+S"), this,
+                    &SessionPlayer::save_video);
     file->addAction(tr("&Close"), QKeySequence::Close, this, &QWidget::close);
     QMenu* view = menuBar()->addMenu(tr("&View"));
     for (const view::Camera& camera : view_->cameras())
@@ -165,6 +169,14 @@ void SessionPlayer::make_menus() {
     view->addSeparator();
     add_layers(*view, *view_);
     add_fine_pictures(*view, *view_);
+    QMenu* help = menuBar()->addMenu(tr("&Help"));
+    const auto page = [&](const QString& text, const QString& name) {
+        help->addAction(text, this,
+                        [this, name] { statusBar()->showMessage(show_help_page(name)); });
+    };
+    page(tr("This &window"), "window");
+    page(tr("&What is recorded"), "quantities");
+    page(tr("&Tables of a session"), "tables");
 }
 
 /// Lists what the session's tables say of when something happened.
@@ -179,17 +191,13 @@ void SessionPlayer::make_moments() {
         add_moments(*trials, "start_time", tr("trial"), {"trial_num", "condition", "outcome"});
     }
     if (const auto events = table_of(folder_, "events.csv"))
-        add_moments(*events, "time_s", "", {"event", "detail"});
+        add_moments(*events, "time_s", "", {"event", "detail"}, "trial");  // listed already
     if (const auto episodes = table_of(folder_, "episodes.csv"))
         add_moments(*episodes, "start_time", "", {"episode", "slip_mm", "rise_mm"});
     if (const auto lifts = table_of(folder_, "lifts.csv")) {
-        const std::pair<const char*, QString> moments[]{{"touch_s", tr("touch, trial")},
-                                                        {"load_onset_s", tr("load onset, trial")},
-                                                        {"lift_off_s", tr("lift off, trial")},
-                                                        {"first_slip_s", tr("first slip, trial")},
-                                                        {"replacement_s", tr("replacement, trial")},
-                                                        {"release_s", tr("release, trial")}};
-        for (const auto& [column, name] : moments) add_moments(*lifts, column, name, {"trial_num"});
+        // touch, lift-off, replacement and release are among the events
+        add_moments(*lifts, "load_onset_s", tr("load onset, trial"), {"trial_num"});
+        add_moments(*lifts, "first_slip_s", tr("first slip, trial"), {"trial_num"});
     }
     list_->sortItems(0, Qt::AscendingOrder);
     list_->header()->resizeSection(0, 80);
@@ -243,10 +251,10 @@ void SessionPlayer::set_together(bool together) {
 }
 
 void SessionPlayer::add_moments(const CsvFile& table, const char* time, const QString& first,
-                                const std::vector<const char*>& what) {
+                                const std::vector<const char*>& what, const char* but) {
     for (size_t i = 0; i < table.rows(); ++i) {
         const double seconds = table.number(i, time);
-        if (!std::isfinite(seconds)) continue;
+        if (!std::isfinite(seconds) || table.text(i, what.front()) == but) continue;
         QStringList words;
         if (!first.isEmpty()) words += first;
         for (const char* name : what) {
@@ -372,6 +380,24 @@ void SessionPlayer::save_picture() {
     const bool saved = view_->grabFramebuffer().save(file);
     statusBar()->showMessage(
         (saved ? tr("picture: %1") : tr("could not be written: %1")).arg(file));
+}
+
+void SessionPlayer::save_video() {
+    play(false);
+    const Film film{
+        QFileDialog::getSaveFileName(this, tr("Save a video of the stretch that the curves show"),
+                                     QString::fromStdString(folder_.path()) + "/session.mp4",
+                                     tr("Videos (*.mp4)")),
+        chart_->begin(), chart_->end(), speed_, [this](double time) { go_to(time); }};
+    if (film.file.isEmpty()) return;
+    const double before = time_;
+    try {
+        statusBar()->showMessage(make_film(film, *view_, this) ? tr("video: %1").arg(film.file)
+                                                               : tr("there is no video"));
+    } catch (const Error& e) {
+        statusBar()->showMessage(QString::fromStdString(e.problems().front().text()));
+    }
+    go_to(before);
 }
 
 void SessionPlayer::keyPressEvent(QKeyEvent* event) {

@@ -64,9 +64,9 @@ class SessionPlayer : public QMainWindow {
     void make_moments();
     void read_starts(const CsvFile& trials);
     /// Lists each row at the time of a column, by the words `first` and those of the columns
-    /// `what`.
+    /// `what`, unless the first of these is `but`.
     void add_moments(const CsvFile& table, const char* time, const QString& first,
-                     const std::vector<const char*>& what);
+                     const std::vector<const char*>& what, const char* but = "\n");
     /// A limit that was reached before is counted there.
     void list_moment(double seconds, const QString& what);
     void read_curves();
@@ -77,6 +77,7 @@ class SessionPlayer : public QMainWindow {
     void step(int frames);
     void next_moment(int way);
     void save_picture();
+    void save_video();
 
     recording::SessionFolder folder_;
     scene::Scene scene_;

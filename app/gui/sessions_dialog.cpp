@@ -3,14 +3,90 @@
 #include <QDialogButtonBox>
 #include <QDir>
 #include <QHeaderView>
+#include <QInputDialog>
 #include <QLabel>
+#include <QMessageBox>
+#include <QPlainTextEdit>
 #include <QPushButton>
 #include <QTreeWidget>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+#include <functional>
 
+#include "base/regular_file.h"
+#include "base/table.h"
+#include "base/text_file.h"
+#include "recording/raw_log.h"
 #include "recording/session.h"
 
 namespace dihaptic::gui {
+namespace {
+
+enum Column {
+    started,
+    title,
+    participant,
+    moved_by,
+    state,
+    lasted,
+    trials,
+    lifts,
+    note,
+    folder_name
+};
+
+constexpr const char* kNote = "note.txt";
+
+/// Reads a table of a session's; calls `count` with it, if it is there and whole.
+QString counted_in(const QString& file, const std::function<QString(const CsvFile&)>& count) {
+    if (!is_there(file.toStdString())) return "";
+    try {
+        return count(CsvFile(file.toStdString()));
+    } catch (const Error&) {
+        return "?";
+    }
+}
+
+/// Number of attempts at trials.
+QString trials_in(const QString& session) {
+    if (!QFileInfo::exists(session + "/trial-list.csv")) return "";
+    return counted_in(session + "/trials.csv",
+                      [](const CsvFile& table) { return QString::number(table.rows()); });
+}
+
+/// Number of whole lifts, of how many.
+QString lifts_in(const QString& session) {
+    return counted_in(session + "/lifts.csv", [](const CsvFile& table) {
+        int complete = 0;
+        for (size_t i = 0; i < table.rows(); ++i)
+            complete += table.text(i, "lift") == "complete" ? 1 : 0;
+        return SessionsDialog::tr("%1 of %2").arg(complete).arg(table.rows());
+    });
+}
+
+/// Time of a session's ticks, as minutes and seconds.
+QString time_of(const recording::SessionFolder& folder, const recording::SessionInfo& info) {
+    if (info.ticks <= 0) return "";
+    try {
+        const double tick = recording::RawLogReader(folder.raw_log()).head().tick;
+        const auto seconds = static_cast<int>(std::lround(info.ticks * tick));
+        return QString("%1:%2").arg(seconds / 60).arg(seconds % 60, 2, 10, QChar('0'));
+    } catch (const Error&) {
+        return "?";
+    }
+}
+
+QString note_of(const QString& session) {
+    const std::string file = (session + "/" + kNote).toStdString();
+    try {
+        return is_there(file) ? QString::fromStdString(read_text_file(file)).trimmed() : "";
+    } catch (const Error&) {
+        return "?";
+    }
+}
+
+}  // namespace
 
 SessionsDialog::SessionsDialog(const QString& folder, QWidget* parent)
     : QDialog(parent), list_(new QTreeWidget) {
@@ -20,7 +96,8 @@ SessionsDialog::SessionsDialog(const QString& folder, QWidget* parent)
     list_->setRootIsDecorated(false);
     list_->setSelectionMode(QAbstractItemView::ExtendedSelection);
     list_->setHeaderLabels({tr("started"), tr("title"), tr("participant"), tr("moved by"),
-                            tr("state"), tr("ticks"), tr("folder")});
+                            tr("state"), tr("time"), tr("trials"), tr("whole lifts"), tr("note"),
+                            tr("folder")});
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Open | QDialogButtonBox::Close);
     auto* layout = new QVBoxLayout(this);
     auto* where =
@@ -30,12 +107,17 @@ SessionsDialog::SessionsDialog(const QString& folder, QWidget* parent)
     layout->addWidget(where);
     layout->addWidget(list_, 1);
     layout->addWidget(buttons);
+    note_ = buttons->addButton(tr("&Note ..."), QDialogButtonBox::ActionRole);
+    note_->setAutoDefault(false);
+    note_->setToolTip(tr("Kept in the session's folder, and in its report"));
+    connect(note_, &QPushButton::clicked, this, &SessionsDialog::write_note);
     fill(folder);
     buttons->button(QDialogButtonBox::Open)->setEnabled(list_->topLevelItemCount() > 0);
+    note_->setEnabled(list_->topLevelItemCount() > 0);
     connect(buttons, &QDialogButtonBox::accepted, this, &SessionsDialog::choose);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(list_, &QTreeWidget::itemActivated, this, &SessionsDialog::choose);
-    resize(900, 480);
+    resize(1000, 480);
 }
 
 void SessionsDialog::fill(const QString& folder) {
@@ -44,23 +126,50 @@ void SessionsDialog::fill(const QString& folder) {
     for (const QFileInfo& entry : all) {
         const QString path = entry.filePath();
         recording::SessionInfo info;
-        QString state = tr("cannot be read");
+        QString state = tr("cannot be read"), time;
         try {
-            info = recording::SessionFolder::open(path.toStdString()).read_info();
+            const auto session = recording::SessionFolder::open(path.toStdString());
+            info = session.read_info();
             state = QString::fromLatin1(enum_name(info.state).data());
+            time = time_of(session, info);
         } catch (const Error&) {
             if (!QFileInfo::exists(path + "/raw.log")) continue;  // no session
         }
         auto* item = new QTreeWidgetItem(
             list_, {QString::fromStdString(info.started).left(16).replace('T', ' '),
                     QString::fromStdString(info.title), QString::fromStdString(info.participant.id),
-                    QString::fromStdString(info.moved_by.name()), state,
-                    info.ticks > 0 ? QString::number(info.ticks) : "", entry.fileName()});
+                    QString::fromStdString(info.moved_by.name()), state, time, trials_in(path),
+                    lifts_in(path), note_of(path), entry.fileName()});
+        item->setToolTip(Column::note, item->text(Column::note));
         item->setData(0, Qt::UserRole, path);
+        for (const Column number : {Column::lasted, Column::trials, Column::lifts})
+            item->setTextAlignment(number, Qt::AlignRight | Qt::AlignVCenter);
     }
     for (int column = 0; column < list_->columnCount(); ++column)
         list_->resizeColumnToContents(column);
+    list_->setColumnWidth(Column::note, std::min(250, list_->columnWidth(Column::note)));
     list_->setCurrentItem(list_->topLevelItem(0));
+}
+
+void SessionsDialog::write_note() {
+    QTreeWidgetItem* const item = list_->currentItem();
+    if (item == nullptr) return;
+    QInputDialog ask(this);
+    ask.setWindowTitle(tr("Note"));
+    ask.setLabelText(tr("Note about %1").arg(item->text(Column::folder_name)));
+    ask.setOption(QInputDialog::UsePlainTextEditForTextInput);
+    ask.setTextValue(item->text(Column::note));
+    for (auto* edit : ask.findChildren<QPlainTextEdit*>()) edit->setTabChangesFocus(true);
+    if (ask.exec() != QDialog::Accepted) return;
+    const QString text = ask.textValue();
+    try {
+        const QString file = item->data(0, Qt::UserRole).toString() + "/" + kNote;
+        write_file(text.trimmed().toStdString() + "\n", file.toStdString());
+        item->setText(Column::note, text.trimmed());
+        item->setToolTip(Column::note, text.trimmed());
+    } catch (const Error& e) {
+        QMessageBox::warning(this, tr("Note"), QString::fromStdString(e.problems().front().text()));
+    }
 }
 
 void SessionsDialog::choose() {

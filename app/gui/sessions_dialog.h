@@ -1,9 +1,11 @@
-// Lists the recorded sessions of a folder, to look at one again.
+// Lists the recorded sessions of a folder, to look at one again, or to write a note about it.
 #pragma once
 
 #include <QDialog>
 
+class QPushButton;
 class QTreeWidget;
+class QTreeWidgetItem;
 
 namespace dihaptic::gui {
 
@@ -21,8 +23,11 @@ class SessionsDialog : public QDialog {
   private:
     void fill(const QString& folder);
     void choose();
+    /// Asks for a note about a session, which is kept in its folder.
+    void write_note();
 
     QTreeWidget* list_;
+    QPushButton* note_;
 };
 
 }  // namespace dihaptic::gui

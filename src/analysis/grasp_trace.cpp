@@ -87,6 +87,13 @@ void GraspTrace::add(const servo::Frame& frame) {
     samples_.push_back(std::move(sample));
 }
 
+GraspTrace GraspTrace::part(Range range) const {
+    GraspTrace out(object_, tick_);
+    const auto at = [&](size_t i) { return samples_.begin() + static_cast<ptrdiff_t>(i); };
+    out.samples_.assign(at(range.first), at(range.last));
+    return out;
+}
+
 Range GraspTrace::between(double from, double to) const {
     const auto at = [&](double t) {
         const double index =

@@ -60,6 +60,8 @@ class GraspTrace {
     double tick() const { return tick_; }
     size_t fingers() const { return samples_.empty() ? 0 : samples_.front().p_WP.size(); }
 
+    /// A trace of some of the samples.
+    GraspTrace part(Range range) const;
     /// Samples in [from, to) [s].
     Range between(double from, double to) const;
     Range of_phase(int phase) const;

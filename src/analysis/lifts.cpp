@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <ranges>
 
 #include "analysis/savitzky_golay.h"
 #include "model/grasp.h"
@@ -21,7 +22,8 @@ constexpr double kLagMost = 0.1;       // [s]
 constexpr double kSlipSpeed = 5e-3;    // [m/s]
 constexpr double kLeastRate = 0.2;     // least threshold, as a window without noise has no SD [N/s]
 constexpr double kBounce = 0.05;       // a bounce parts a digit from the object for less [s]
-constexpr double kLoadShare = 0.02;    // a smaller share of the load at lift-off counts as no load
+constexpr double kParting = 0.2;  // between two lifts the object stands untouched for so long [s]
+constexpr double kLoadShare = 0.02;  // a smaller share of the load at lift-off counts as no load
 
 using Signal = std::vector<double>;
 
@@ -440,15 +442,31 @@ void average_hold(Lift& lift, const GraspTrace& trace, const Signals& signals, R
     lift.height = mean(part(signals.height, hold));
 }
 
-/// Finds replacement and release; the mark says which is missing, or "complete".
-void find_end(Lift& lift, const GraspTrace& trace, const Events& events) {
+/// How far the object moved along the digits that touched it throughout; along that one along which
+/// it moved least. 0 if none touched it throughout, as when it is handed over.
+double slid_down(const GraspTrace& trace, Range air) {
+    std::optional<double> out;
+    for (size_t f = 0; f < trace.fingers(); ++f) {
+        bool throughout = true;
+        for (size_t i = air.first; i < air.last && throughout; ++i)
+            throughout = trace.samples()[i].touching[f] != 0;
+        if (throughout) out = std::min(out.value_or(trace.slip(air, f)), trace.slip(air, f));
+    }
+    return out.value_or(0);
+}
+
+/// Finds replacement and release; the mark says which is missing, or "complete". `top`: the
+/// object's largest height.
+void find_end(Lift& lift, const GraspTrace& trace, const Events& events, double top) {
     lift.mark = "not put down";
     if (!events.replacement) return;
     lift.replacement = trace.samples()[*events.replacement].time;
     lift.mark = "dropped";
-    for (size_t i = events.lift_off; i < *events.replacement; ++i) {
+    const Range air{events.lift_off, *events.replacement};
+    for (size_t i = air.first; i < air.last; ++i) {
         if (!trace.samples()[i].touched()) return;
     }
+    if (slid_down(trace, air) > top / 2) return;
     lift.mark = "not released";
     size_t released = *events.replacement;
     for (const std::optional<size_t>& at : events.releases) {
@@ -461,6 +479,30 @@ void find_end(Lift& lift, const GraspTrace& trace, const Events& events) {
 }
 
 }  // namespace
+
+std::vector<Range> lifts_in(const GraspTrace& trace, const Vec3& gravity) {
+    const Signals signals(trace, gravity);
+    const size_t parting = signals.samples(kParting);
+    std::vector<Range> out(1);
+    double floor = kUnmeasured;  // height of the object where it stood last
+    bool lifted = false;
+    size_t alone = 0;  // samples for which the object has stood untouched
+    for (size_t i = 0; i < signals.size(); ++i) {
+        const GraspTrace::Sample& sample = trace.samples()[i];
+        alone = stands(sample) && !sample.touched() ? alone + 1 : 0;
+        if (stands(sample) && !lifted) floor = signals.height[i];
+        lifted = lifted || signals.height[i] - floor >= kLeastHeight;
+        if (!lifted || alone < parting) continue;
+        out.back().last = i + 1;
+        out.push_back({i + 1, i + 1});
+        lifted = false;
+    }
+    out.back().last = signals.size();
+    const auto untouched = [&](size_t i) { return !trace.samples()[i].touched(); };
+    const auto rest = std::views::iota(out.back().first, out.back().last);
+    if (out.size() > 1 && std::ranges::all_of(rest, untouched)) out.pop_back();
+    return out;
+}
 
 Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const double> friction,
                std::optional<EventRule> rule) {
@@ -495,7 +537,7 @@ Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const dou
         average_hold(lift, trace, signals, *hold, friction);
         lift.overshoot = top - lift.height;
     }
-    find_end(lift, trace, events);
+    find_end(lift, trace, events, top);
     if (lift.complete() && !hold) lift.mark = "no hold";
     return lift;
 }

@@ -29,6 +29,9 @@
 // A pause takes the forces away, and hands close: a lift with a pause is marked, and has no
 // figures.
 //
+// A lift is dropped if the object stands again without having been carried there: in between no
+// digit touched it, or it slid along those that held it throughout by more than half of its height.
+//
 // Preload lasts from the first touch to the first load onset, loading from the last load onset to
 // lift-off, releasing from replacement to the last digit's release.
 #pragma once
@@ -73,7 +76,7 @@ struct Lift {
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
         v("trial_num", f.trial, "1", "number in the session, from 1");
-        v("attempt", f.attempt, "1", "at the trial, from 1");
+        v("attempt", f.attempt, "1", "at the trial, from 1; without a task: the lift's number");
         v("lift", f.mark, "",
           "complete, or what is missing: no touch, not lifted, dropped, no hold, not put down, not "
           "released; paused; place not known, if ticks are missing");
@@ -113,6 +116,10 @@ struct Lift {
 
     bool complete() const { return mark == "complete"; }
 };
+
+/// Parts of a trace with a lift each: each but the last ends when the object, after it was lifted,
+/// has stood untouched for a while. One part, if nothing was lifted.
+std::vector<Range> lifts_in(const GraspTrace& trace, const Vec3& gravity);
 
 /// Finds the lift in the trace of one attempt, in which the object lies at first. `friction`:
 /// coefficients of the object with each finger. `rule`: if unset, by contact if the trace has

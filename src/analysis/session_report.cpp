@@ -130,7 +130,8 @@ std::vector<std::string> objects_of_trials(const recording::SessionFolder& folde
 struct SessionReader::Pass {
     Pass(const recording::SessionFolder& folder, const recording::SessionInfo& info,
          const recording::LogHead& head)
-        : names(names_of(info)),
+        : info(info),
+          names(names_of(info)),
           fingers(head.fingers),
           object(object_of(info.object, head)),
           tick(head.tick),
@@ -182,17 +183,27 @@ struct SessionReader::Pass {
                 reading.figures.episodes.push_back(std::move(episode));
             }
             // a task's phase 0 is between its trials
-            if (trace.fingers() > 1 && !(reading.trials && phase == 0)) {
-                Lift lift = find_lift(trace, facts.gravity, facts.finger_friction);
-                lift.trial = trial;
-                lift.attempt = std::max(attempt, 1);
-                reading.lifts.push_back(std::move(lift));
-            }
+            if (trace.fingers() > 1 && !(reading.trials && phase == 0)) find_lifts();
         }
         if (reading.measures)
             reading.measures->end_attempt(reading.lifts.size() > lifts ? &reading.lifts.back()
                                                                        : nullptr);
         trace.restart();
+    }
+
+    /// An attempt at a trial is one lift; without trials, people lift as often as they like.
+    void find_lifts() {
+        const auto add = [&](const GraspTrace& of, int number) {
+            Lift lift = find_lift(of, facts.gravity, facts.finger_friction);
+            lift.trial = trial;
+            lift.attempt = number;
+            reading.lifts.push_back(std::move(lift));
+        };
+        const std::vector<Range> parts =
+            reading.trials ? std::vector<Range>(1) : lifts_in(trace, facts.gravity);
+        if (parts.size() == 1) return add(trace, std::max(attempt, 1));
+        for (size_t i = 0; i < parts.size(); ++i)
+            add(trace.part(parts[i]), static_cast<int>(i) + 1);
     }
 
     void close_phase() {
@@ -238,6 +249,7 @@ struct SessionReader::Pass {
         reading.fault = fault.table();
     }
 
+    recording::SessionInfo info;
     std::vector<std::string> names;  // names of the phases
     std::vector<std::string> fingers;
     int object;
@@ -264,6 +276,14 @@ SessionReader::~SessionReader() = default;
 
 void SessionReader::add(const servo::Frame& frame) {
     pass_->add(frame);
+}
+
+Table SessionReader::trials() const {
+    const Reading& reading = pass_->reading;
+    if (!reading.trials) return {};
+    Table out = reading.trials->table(pass_->info);
+    if (reading.measures) reading.measures->add_to(out);
+    return out;
 }
 
 namespace {

@@ -95,6 +95,8 @@ class SessionReader {
     SessionReader(SessionReader&&) noexcept;
     ~SessionReader();
     void add(const servo::Frame& frame);
+    /// The attempts at a task's trials so far, as trials.csv will have them; no row without a task.
+    Table trials() const;
 
   private:
     friend SessionFigures finish_session(const recording::SessionFolder&, recording::SessionInfo,

@@ -211,7 +211,7 @@ class KeptDevices final : public devices::DeviceGroup {
         if (lost_ || !await_answer(limit_)) return false;
         SharedPage& page = process_->page();
         fill(page);
-        page.request = request;
+        page.request.store(request, std::memory_order_relaxed);
         page.asked.fetch_add(1, std::memory_order_release);
         advance(page.bell);
         return true;

@@ -62,7 +62,7 @@ void Server::activate() {
 void Server::deactivate() {
     if (serving_.joinable()) {
         page_.closing.store(1);
-        page_.request = Request::quit;
+        page_.request.store(Request::quit, std::memory_order_relaxed);
         page_.asked.fetch_add(1);
         advance(page_.bell);
         serving_.join();
@@ -89,7 +89,7 @@ void Server::serve_all() noexcept {
             continue;
         }
         heard = monotonic();
-        const Request request = page_.request;
+        const Request request = page_.request.load(std::memory_order_relaxed);
         if (request == Request::quit) return;
         serve(request);
         ++served;

@@ -24,7 +24,8 @@ struct SharedPage {
     std::atomic<uint32_t> replied{0};  ///< number of turns whose forces were given
     std::atomic<uint32_t> ended{0};    ///< 1: no more force, whatever is asked
     std::atomic<uint32_t> closing{0};  ///< 1: pacing is to end
-    Request request{};
+    /// Written by the keeper, too, when it ends: atomic, since its own threads see no order there.
+    std::atomic<Request> request{};
     int64_t now = 0;  ///< time of a reading [ns]
     Wrench wrenches[kMostDevices];
 
@@ -35,6 +36,7 @@ struct SharedPage {
     devices::Reading readings[kMostDevices];
 };
 static_assert(std::atomic<uint32_t>::is_always_lock_free);
+static_assert(std::atomic<Request>::is_always_lock_free);
 static_assert(sizeof(std::atomic<uint32_t>) == sizeof(uint32_t));
 
 /// Ends force: sets `ended`, and wakes the keeper. Async-signal-safe.

@@ -63,6 +63,43 @@ class Player(Window):
         self.wait("the player",
                   lambda: self.xdotool("search", "--onlyvisible", "--name", f"^{name} - Dihaptic$"))
 
+    def test_a_video_of_a_stretch_is_saved(self):
+        folder = self.record()
+        self.open(folder)
+        time.sleep(1)
+        for _ in range(8):  # zoomed to a part of the session
+            self.xdotool("mousemove", "--window", self.name, "400", "750", "click", "4")
+        self.key("ctrl+shift+s")
+        time.sleep(0.5)
+        self.screenshot("player-video")
+        self.key("Return")
+        video = pathlib.Path(folder, "session.mp4")
+        self.wait("the video", video.is_file)
+        told = subprocess.run(["ffprobe", "-v", "error", "-show_entries", "format=duration:stream=width,height", "-of",
+                               "default=nokey=0", video], capture_output=True, text=True, check=True).stdout
+        facts = dict(line.split("=") for line in told.split() if "=" in line)
+        self.assertGreater(float(facts["duration"]), 0.1)
+        self.assertLess(float(facts["duration"]), 5)
+        self.assertGreater(int(facts["width"]), 600)
+
+    def test_a_note_is_kept_with_its_session(self):
+        folder = self.record()
+        self.open()
+        self.key("ctrl+shift+o")
+        time.sleep(0.5)
+        self.key("alt+n")
+        time.sleep(0.5)
+        self.xdotool("type", "coughed in the lift")
+        self.screenshot("note")
+        self.key("Tab", "Return")
+        note = pathlib.Path(folder, "note.txt")
+        self.wait("the note", note.is_file)
+        self.assertEqual(note.read_text(), "coughed in the lift\n")
+        time.sleep(0.5)
+        self.screenshot("sessions-note")
+        subprocess.run([PROGRAM, "report", folder], check=True, capture_output=True)
+        self.assertIn("coughed in the lift", pathlib.Path(folder, "report.html").read_text())
+
     def test_shows_two_sessions_side_by_side_at_the_same_place_of_a_trial(self):
         starts = []
         for i in (1, 2):

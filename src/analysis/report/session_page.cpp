@@ -17,6 +17,7 @@
 #include "analysis/session_report.h"
 #include "base/palette.h"
 #include "base/regular_file.h"
+#include "base/text_file.h"
 #include "recording/raw_log.h"
 
 namespace dihaptic::analysis {
@@ -47,6 +48,8 @@ Table facts(const SessionData& session) {
         row("device of " + device.finger, device.model);
     row("end", info.finished);
     for (const std::string& note : info.notes) row("note", note);
+    const std::string written = session.folder.file("note.txt");
+    if (is_there(written)) row("note by hand", read_text_file(written));
     return table;
 }
 

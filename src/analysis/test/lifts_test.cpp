@@ -50,16 +50,20 @@ struct Plan {
     double unknown = 0;     // until then ticks are missing, and the object's place is unknown [s]
     bool stands = false;    // contacts with the support are seen
     bool falls = false;
+    bool slides_out = false;  // sinks while the digits stay up
 };
 
-Lift lift_of(const Plan& plan, uint64_t seed = 1) {
-    GraspTrace trace(1, kTick);
+constexpr int kSamples = 4500;
+
+/// Appends a lift to a trace.
+void add_lift(GraspTrace& trace, const Plan& plan, uint64_t seed = 1) {
     Random random(seed, "noise");
     double slid = 0;
-    for (int i = 0; i < 4500; ++i) {
+    const auto before = static_cast<int>(trace.samples().size());
+    for (int i = 0; i < kSamples; ++i) {
         const double t = i * kTick;
         servo::Frame frame;
-        frame.time = i * std::chrono::milliseconds(1);
+        frame.time = (before + i) * std::chrono::milliseconds(1);
         frame.bodies.resize(2);
         frame.fingers.resize(2);
         // grip and load rise to their ends together while loading
@@ -81,6 +85,8 @@ Lift lift_of(const Plan& plan, uint64_t seed = 1) {
             h = std::max(0.0, plan.height - 9.81 / 2 * (t - 2) * (t - 2));
             v = h > 0 ? -9.81 * (t - 2) : 0;
         }
+        const double hand = h;
+        if (plan.slides_out) h *= 1 - ramp(t, 2, 2.4);
         if (plan.slides_at >= 0 && t > plan.slides_at && t <= plan.slides_at + 0.02)
             slid += 0.05 * kTick;
         frame.bodies[1].X_WB.p = {0, 0, t < plan.unknown ? kUnmeasured : 0.02 + h};
@@ -95,7 +101,7 @@ Lift lift_of(const Plan& plan, uint64_t seed = 1) {
         }
         for (int f = 0; f < 2; ++f) {
             const double side = f == 0 ? -1 : 1;
-            frame.fingers[static_cast<size_t>(f)].p_WP = {0.02 * side, 0, 0.02 + h + slid};
+            frame.fingers[static_cast<size_t>(f)].p_WP = {0.02 * side, 0, 0.02 + hand + slid};
             if (fell) continue;
             const double n = grip + plan.noise * random.normal();
             if (n <= 0) continue;
@@ -109,6 +115,11 @@ Lift lift_of(const Plan& plan, uint64_t seed = 1) {
         }
         trace.add(frame);
     }
+}
+
+Lift lift_of(const Plan& plan, uint64_t seed = 1) {
+    GraspTrace trace(1, kTick);
+    add_lift(trace, plan, seed);
     const double friction[] = {kFriction, kFriction};
     return find_lift(trace, kGravity, friction);
 }
@@ -176,6 +187,61 @@ TEST(Lifts, WhatIsNotThereIsMarked) {
     plan.falls = true;
     EXPECT_EQ(lift_of(plan).mark, "dropped");
     EXPECT_EQ(find_lift(GraspTrace(1, kTick), kGravity, {}).mark, "no touch");
+}
+
+TEST(Lifts, WhatSinksThroughTheFingersIsDropped) {
+    Plan plan;
+    plan.stands = plan.slides_out = true;
+    EXPECT_EQ(lift_of(plan).mark, "dropped");
+    plan.slides_out = false;
+    EXPECT_EQ(lift_of(plan).mark, "complete");
+}
+
+TEST(Lifts, OfOneTraceAreParted) {
+    Plan plan;
+    plan.stands = true;
+    GraspTrace trace(1, kTick);
+    add_lift(trace, plan);
+    ASSERT_EQ(lifts_in(trace, kGravity).size(), 1u);
+    Plan other = plan;
+    other.lift_off = 1.2;
+    other.weight = 3;
+    add_lift(trace, other);
+    Plan low = plan;  // pressed, but not lifted
+    low.height = 0.005;
+    add_lift(trace, low);
+    const std::vector<Range> parts = lifts_in(trace, kGravity);
+    ASSERT_EQ(parts.size(), 3u);
+    size_t last = 0;
+    const double friction[] = {kFriction, kFriction};
+    std::vector<Lift> lifts;
+    for (const Range& part : parts) {
+        EXPECT_EQ(part.first, last);
+        last = part.last;
+        lifts.push_back(find_lift(trace.part(part), kGravity, friction));
+    }
+    EXPECT_EQ(last, trace.samples().size());
+    EXPECT_EQ(lifts[0].mark, "complete");
+    EXPECT_EQ(lifts[1].mark, "complete");
+    EXPECT_EQ(lifts[2].mark, "not lifted");
+    EXPECT_NEAR(lifts[0].lift_off, plan.lift_off, 0.01);
+    EXPECT_NEAR(lifts[1].lift_off, kSamples * kTick + other.lift_off, 0.01);
+    EXPECT_NEAR(lifts[0].static_load, plan.weight, 1e-9);
+    EXPECT_NEAR(lifts[1].static_load, other.weight, 1e-9);
+}
+
+TEST(Lifts, WithNothingAfterThemAreNoMore) {
+    Plan idle;
+    idle.stands = true;
+    GraspTrace trace(1, kTick);
+    for (int i = 0; i < 2; ++i) add_lift(trace, idle);
+    idle.grip = idle.height = 0;
+    add_lift(trace, idle);
+    EXPECT_EQ(lifts_in(trace, kGravity).size(), 2u);
+    GraspTrace nothing(1, kTick);
+    add_lift(nothing, idle);
+    EXPECT_EQ(lifts_in(nothing, kGravity).size(), 1u);
+    EXPECT_EQ(lifts_in(GraspTrace(1, kTick), kGravity).size(), 1u);
 }
 
 TEST(Lifts, ASlowOneLeavesItsSupportBeforeItIsFast) {

@@ -1,0 +1,23 @@
+// Makes a video of a stretch of a recorded session, as the player shows it.
+#pragma once
+
+#include <QString>
+#include <functional>
+
+class QOpenGLWidget;
+class QWidget;
+
+namespace dihaptic::gui {
+
+struct Film {
+    QString file;
+    double begin = 0, end = 0;         ///< of the session [s]
+    double speed = 1;                  ///< session time over the video's
+    std::function<void(double)> show;  ///< shows a moment [s]
+};
+
+/// Makes the video while its window waits, with a bar that says how far it is and can end it.
+/// Returns whether it is there. Throws Error when it cannot be made, as where ffmpeg is missing.
+bool make_film(const Film& film, QOpenGLWidget& view, QWidget* parent);
+
+}  // namespace dihaptic::gui
