@@ -202,6 +202,7 @@ void OperatorWindow::connect_tuning() {
 }
 
 void OperatorWindow::connect_reports() {
+    connect(&figures_, &TrialFigures::found, trials_, &TrialsPanel::set_figures);
     connect(&reporter_, &Reporter::failed, this, [this](const QString& why) { log(why, true); });
     connect(&reporter_, &Reporter::written, this, [this](const QString& page) {
         log(tr("report: %1").arg(page));
@@ -284,6 +285,7 @@ void OperatorWindow::session_ended(const SessionEnd& end) {
     complaint_.clear();
     session_->set_trial("");
     for (const QString& message : end.messages) log(message, !end.good);
+    figures_.finish();
     recorded_ = end.folder;
     if (!end.folder.isEmpty()) log(tr("recorded in %1").arg(end.folder));
     devices_->rest(tr("at rest"));
@@ -306,6 +308,8 @@ void OperatorWindow::refresh() {
     }
     while (const auto sample = runner_.take_sample()) plots_->add(*sample);
     while (const auto end = runner_.take_trial_end()) trials_->add(*end);
+    if (const QString folder = runner_.take_folder(); !folder.isEmpty() && runner_.plan().task)
+        figures_.follow(folder);
     const servo::Frame& frame = runner_.read_frame();
     if (frame.sequence >= 0) {
         if (mouse_) move_hand(h);

@@ -25,6 +25,7 @@
 #include "start_page.h"
 #include "subject_mirror.h"
 #include "subject_windows.h"
+#include "trial_figures.h"
 #include "trials_panel.h"
 #include "tuning_panel.h"
 
@@ -167,6 +168,7 @@ class OperatorWindow : public QMainWindow {
     SubjectWindows subjects_;
     Calibrator* calibrator_;
     Reporter reporter_;
+    TrialFigures figures_;
     QStackedWidget* centre_;
     StartPage* start_page_;
     SceneWidget* scene_;

@@ -62,6 +62,8 @@ class SessionRunner : public QObject {
     std::optional<session::CurveSample> take_sample() { return session_->live.take_sample(); }
     std::optional<session::TrialEnd> take_trial_end() { return session_->live.take_trial_end(); }
     void set_paused(bool paused) { session_->live.paused = paused; }
+    /// The folder that the session is recorded in, once; "" before it is known.
+    QString take_folder() { return QString::fromStdString(session_->live.take_folder()); }
     /// Why the session has paused by itself since the last call; "": it has not.
     QString take_told() { return QString::fromStdString(session_->live.take_told()); }
     bool paused() const { return session_->live.paused; }

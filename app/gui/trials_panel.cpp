@@ -48,13 +48,19 @@ TrialsPanel::TrialsPanel(QWidget* parent)
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(parts);
-    connect(table_->header(), &QHeaderView::sectionClicked, this, &TrialsPanel::chart);
+    connect(table_->header(), &QHeaderView::sectionClicked, this, [this](int column) {
+        chosen_ = true;
+        chart(column);
+    });
     set_plan(nullptr);
 }
 
 void TrialsPanel::set_plan(std::shared_ptr<const task::TaskPlan> plan) {
     table_->clear();
     ends_.clear();
+    figures_.clear();
+    found_.clear();
+    chosen_ = false;
     plan_ = std::move(plan);
     QStringList names{tr("trial"),   tr("block"), tr("condition"), tr("attempt"),
                       tr("outcome"), "s",         tr("grip N"),    tr("force N")};
@@ -67,13 +73,25 @@ void TrialsPanel::set_plan(std::shared_ptr<const task::TaskPlan> plan) {
     }
     table_->setColumnCount(static_cast<int>(names.size()));
     table_->setHeaderLabels(names);
-    for (int column = 0; column < table_->columnCount(); ++column)
+    for (int column = 0; column < table_->columnCount(); ++column) {
+        table_->setColumnHidden(column, false);
         table_->resizeColumnToContents(column);
+    }
     // what the task itself counts or chooses, if it does
     chart(units_.empty() ? kSeconds : kOwn);
 }
 
-double TrialsPanel::value(const session::TrialEnd& end, int column) const {
+int TrialsPanel::own_columns() const {
+    return kOwn + static_cast<int>(units_.size());
+}
+
+double TrialsPanel::value(size_t row, int column) const {
+    const session::TrialEnd& end = ends_[row];
+    if (column >= own_columns()) {
+        const auto found = found_.find({end.trial, end.attempt});
+        const auto i = static_cast<size_t>(column - own_columns());
+        return found == found_.end() || i >= found->second.size() ? kUnmeasured : found->second[i];
+    }
     if (column == kSeconds) return end.stop - end.start;
     if (column == kGrip) return end.peak_grip;
     if (column == kForce) return end.peak_force;
@@ -93,9 +111,9 @@ void TrialsPanel::chart(int column) {
         return plan_->trials[static_cast<size_t>(end.trial) - 1].block;
     };
     std::vector<TrialChart::Point> points;
-    for (const session::TrialEnd& end : ends_) {
-        const bool begins = !points.empty() && block_of(end) != block_of(ends_[points.size() - 1]);
-        points.push_back({value(end, column), end.outcome, begins});
+    for (size_t row = 0; row < ends_.size(); ++row) {
+        const bool begins = row > 0 && block_of(ends_[row]) != block_of(ends_[row - 1]);
+        points.push_back({value(row, column), ends_[row].outcome, begins});
     }
     chart_->set_points(table_->headerItem()->text(column), outcomes, std::move(points));
 }
@@ -125,6 +143,7 @@ void TrialsPanel::add(const session::TrialEnd& end) {
     }
     auto* item = new QTreeWidgetItem(table_, row);
     ends_.push_back(end);
+    fill_in(ends_.size() - 1);
     chart(charted_);
     // who has scrolled back goes on looking there
     const QScrollBar* const bar = table_->verticalScrollBar();
@@ -132,6 +151,63 @@ void TrialsPanel::add(const session::TrialEnd& end) {
     if (table_->topLevelItemCount() == 1) {
         for (int column = 0; column < table_->columnCount(); ++column)
             table_->resizeColumnToContents(column);
+    }
+}
+
+void TrialsPanel::set_figures(const Table& trials) {
+    const auto place = [&](const std::string& name) {
+        const auto found = std::ranges::find(trials.columns, name, &Table::Column::name);
+        return static_cast<size_t>(found - trials.columns.begin());
+    };
+    const size_t trial = place("trial_num"), attempt = place("attempt");
+    const size_t shown = place("peak_force_N");  // as the columns before it
+    const size_t first = shown + 1;
+    if (!plan_ || trials.rows.empty() || std::max({trial, attempt, shown}) == trials.columns.size())
+        return;
+    const auto number = [](const Table::Cell& cell) {
+        const double* const value = std::get_if<double>(&cell);
+        return value == nullptr ? kUnmeasured : *value;
+    };
+    for (const std::vector<Table::Cell>& row : trials.rows) {
+        Figures& figures =
+            found_[{static_cast<int>(number(row[trial])), static_cast<int>(number(row[attempt]))}];
+        figures.clear();
+        for (size_t i = first; i < row.size(); ++i) figures.push_back(number(row[i]));
+    }
+    if (figures_.isEmpty()) name_figures(trials, first);
+    for (size_t row = 0; row < ends_.size(); ++row) fill_in(row);
+    for (int i = 0; i < figures_.size(); ++i) {
+        const int column = own_columns() + i;
+        const auto has = [&](const auto& of) {
+            return std::isfinite(of.second[static_cast<size_t>(i)]);
+        };
+        const bool any = std::ranges::any_of(found_, has);
+        table_->setColumnHidden(column, !any);
+        // what is measured says more than how long it took
+        if (any && !chosen_ && charted_ == kSeconds && !figures_[i].endsWith("_s"))
+            charted_ = column;
+    }
+    chart(charted_);
+}
+
+/// Adds a column for each number that is measured; those without a value stay hidden.
+void TrialsPanel::name_figures(const Table& trials, size_t first) {
+    for (size_t i = first; i < trials.columns.size(); ++i) {
+        const Table::Column& column = trials.columns[i];
+        figures_ += QString::fromStdString(column.name);
+        const int at = own_columns() + static_cast<int>(figures_.size()) - 1;
+        table_->setColumnCount(at + 1);
+        table_->headerItem()->setText(at, figures_.back());
+        table_->headerItem()->setToolTip(at, QString::fromStdString(column.in_words()));
+        table_->setColumnHidden(at, true);
+    }
+}
+
+void TrialsPanel::fill_in(size_t row) {
+    QTreeWidgetItem* const item = table_->topLevelItem(static_cast<int>(row));
+    for (int i = 0; i < figures_.size(); ++i) {
+        const double now = value(row, own_columns() + i);
+        item->setText(own_columns() + i, std::isfinite(now) ? QString::number(now, 'g', 4) : "");
     }
 }
 

@@ -1,9 +1,12 @@
-// The panel with a row for each attempt at a trial that has ended, as they come, and a chart of one
-// of its columns.
+// The panel with a row for each attempt at a trial that has ended, as they come, what is measured
+// of it a moment later, and a chart of one of its columns.
 #pragma once
 
 #include <QTreeWidget>
+#include <map>
+#include <utility>
 
+#include "base/table.h"
 #include "session/live.h"
 #include "task/task_plan.h"
 #include "trial_chart.h"
@@ -19,18 +22,29 @@ class TrialsPanel : public QWidget {
     /// A session of these trials begins; null: of none.
     void set_plan(std::shared_ptr<const task::TaskPlan> plan);
     void add(const session::TrialEnd& end);
+    /// Fills in what is measured of these attempts. `trials`: as trials.csv.
+    void set_figures(const Table& trials);
 
   private:
+    /// What is measured of an attempt.
+    using Figures = std::vector<double>;
+
     /// Shows a column of numbers in the chart.
     void chart(int column);
-    double value(const session::TrialEnd& end, int column) const;
+    double value(size_t row, int column) const;
+    void name_figures(const Table& trials, size_t first);
+    void fill_in(size_t row);
+    int own_columns() const;
 
     std::shared_ptr<const task::TaskPlan> plan_;
     std::vector<double> units_;  // of the columns of the task's own, in SI
     TrialChart* chart_;
     QTreeWidget* table_;
-    int charted_ = 0;                      // column
-    std::vector<session::TrialEnd> ends_;  // a row each
+    int charted_ = 0;                               // column
+    bool chosen_ = false;                           // by a click
+    std::vector<session::TrialEnd> ends_;           // a row each
+    QStringList figures_;                           // names of the columns behind the task's own
+    std::map<std::pair<int, int>, Figures> found_;  // by trial and attempt
 };
 
 }  // namespace dihaptic::gui

@@ -28,4 +28,8 @@ Table RunningTrials::table() const {
     return reader_ ? reader_->trials() : Table{};
 }
 
+size_t RunningTrials::ended() const {
+    return reader_ ? reader_->ended_trials() : 0;
+}
+
 }  // namespace dihaptic::analysis

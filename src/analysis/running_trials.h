@@ -18,6 +18,8 @@ class RunningTrials {
     void look();
     /// A row for each attempt so far; that of an attempt that goes on is not final.
     Table table() const;
+    /// Number of attempts that have ended.
+    size_t ended() const;
 
   private:
     recording::SessionFolder folder_;

@@ -286,6 +286,10 @@ Table SessionReader::trials() const {
     return out;
 }
 
+size_t SessionReader::ended_trials() const {
+    return pass_->reading.trials ? pass_->reading.trials->ended() : 0;
+}
+
 namespace {
 
 Table trial_table(const SessionFigures& figures, const recording::SessionInfo& info) {

@@ -97,6 +97,8 @@ class SessionReader {
     void add(const servo::Frame& frame);
     /// The attempts at a task's trials so far, as trials.csv will have them; no row without a task.
     Table trials() const;
+    /// Number of these attempts that have ended.
+    size_t ended_trials() const;
 
   private:
     friend SessionFigures finish_session(const recording::SessionFolder&, recording::SessionInfo,

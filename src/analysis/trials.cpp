@@ -208,6 +208,11 @@ Table TrialFinder::table(const recording::SessionInfo& info) const {
     return table;
 }
 
+size_t TrialFinder::ended() const {
+    return static_cast<size_t>(
+        std::ranges::count_if(rows_, [](const Row& row) { return row.outcome >= 0; }));
+}
+
 std::vector<Table::Column> trial_columns() {
     std::vector<Table::Column> out = list_figures(TrialHead{}).columns;
     append(out, task::kTrialListColumns);

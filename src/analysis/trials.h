@@ -109,6 +109,8 @@ class TrialFinder {
 
     void add(const servo::Frame& frame);
     Table table(const recording::SessionInfo& info) const;
+    /// Number of attempts that have ended.
+    size_t ended() const;
 
   private:
     struct Row {

@@ -101,4 +101,14 @@ std::string Live::take_told() {
     return std::exchange(told_, "");
 }
 
+void Live::set_folder(const std::string& folder) {
+    const std::lock_guard lock(told_guard_);
+    folder_ = folder;
+}
+
+std::string Live::take_folder() {
+    const std::lock_guard lock(told_guard_);
+    return std::exchange(folder_, {});
+}
+
 }  // namespace dihaptic::session

@@ -99,6 +99,11 @@ struct Live {
     /// What tell() said since the last call; "" if nothing.
     std::string take_told();
 
+    /// From the session's thread: the folder that it is recorded in, before its first tick.
+    void set_folder(const std::string& folder);
+    /// That folder, for who takes it; "" before it is set, and once it was taken.
+    std::string take_folder();
+
     /// From the window's thread: the picture of a tick was handed to the screen at `at`.
     void note_shown(int64_t tick, Clock::time_point at) noexcept;
     /// The same in a headset, or on a screen to tracked eyes. `X_WV`: of the head then, see
@@ -116,8 +121,9 @@ struct Live {
     static constexpr Clock::rep kNever = 0;
     std::atomic<Clock::rep> alive_{kNever};  // time of the last note_alive(), plus its `more`
 
-    std::mutex told_guard_;
+    std::mutex told_guard_;  // of both
     std::string told_;
+    std::string folder_;
 
     std::atomic<Clock::rep> zero_{
         std::numeric_limits<Clock::rep>::max()};    // of the session's clock

@@ -310,7 +310,10 @@ void Run::make_director() {
     whole_ = plan_.task ? kLongest : from_seconds(plan_.driver->duration());
     result_.timing.reserve(static_cast<size_t>(std::min(whole_, kLongestTimed) / servo_->period()) +
                            2);
-    if (live_ != nullptr) live_->prepare(*servo_, plan_.scene);
+    if (live_ != nullptr) {
+        live_->prepare(*servo_, plan_.scene);
+        live_->set_folder(folder_.path());
+    }
     if (options_.decider != nullptr) options_.decider->begin(folder_.path(), !real_);
     director_.emplace(plan_, options_, stop_, info_.phases, *servo_,
                       outward_ ? &*outward_ : nullptr, onlookers_ ? &*onlookers_ : nullptr);

@@ -202,11 +202,13 @@ class Interruptions(unittest.TestCase):
             self.assertEqual(dihaptic("run", "scenes/block-on-table.yaml", "--out", out).returncode, 0)
             folder = session_of(out)
             whole = os.path.getsize(folder + "session.nwb")
+            # where the thread sanitizer would write a file of its own as a program starts
+            nowhere = dict(os.environ, TMPDIR="/nowhere")
             for share in [0, 0.001, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 0.99, 0.999]:
                 for name in MADE:
                     pathlib.Path(folder + name).unlink(missing_ok=True)
                 limit = with_largest_file(int(whole * share))
-                result = dihaptic("recover", folder, preexec_fn=limit)
+                result = dihaptic("recover", folder, preexec_fn=limit, env=nowhere)
                 self.assertEqual(result.returncode, 2, f"{share} {result.returncode} {result.stderr}")
                 self.assertIn("session.nwb: error: cannot be written: File too large", result.stderr)
                 self.assertIn("'dihaptic recover " + folder.rstrip("/") + "'", result.stderr)

@@ -1,0 +1,85 @@
+// Tests what the panel of trials shows of attempts, and of what is measured of them a moment later.
+#include "trials_panel.h"
+
+#include <gtest/gtest.h>
+
+#include <QApplication>
+
+#include "session/plan.h"
+
+namespace dihaptic::gui {
+namespace {
+
+class TrialsPanelTest : public ::testing::Test {
+  protected:
+    TrialsPanelTest() {
+        session::Request request;
+        request.file = "experiments/visuomotor-rotation.yaml";
+        request.participant = "S07";
+        panel_.set_plan(session::make_plan(request).task);
+    }
+    void end(int trial, int attempt) {
+        session::TrialEnd end;
+        end.trial = trial;
+        end.attempt = attempt;
+        end.start = trial;
+        end.stop = trial + 0.5;
+        panel_.add(end);
+    }
+    QTreeWidget& table() const { return *panel_.findChild<QTreeWidget*>(); }
+    /// What a row has in a column, by its name; "hidden" if that is not shown.
+    std::string text(int row, const char* name) const {
+        for (int i = 0; i < table().columnCount(); ++i) {
+            if (table().headerItem()->text(i) != name) continue;
+            return table().isColumnHidden(i) ? "hidden"
+                                             : table().topLevelItem(row)->text(i).toStdString();
+        }
+        return "no column";
+    }
+
+    int count_ = 1;
+    char name_[5] = "test";
+    char* names_[2] = {name_, nullptr};
+    const bool offscreen_ = qputenv("QT_QPA_PLATFORM", "offscreen");
+    QApplication application_{count_, names_};
+    TrialsPanel panel_;
+};
+
+TEST_F(TrialsPanelTest, ShowsWhatIsMeasuredOnceItIsFound) {
+    end(1, 1);
+    end(1, 2);
+    EXPECT_EQ(text(0, "hand_angle_deg"), "no column");
+    const Table::Cell none = kUnmeasured;
+    Table found;
+    for (const char* name : {"start_time", "trial_num", "attempt", "outcome", "peak_grip_N",
+                             "peak_force_N", "hand_angle_deg", "shown_extent_mm", "not_measured"})
+        found.columns.push_back({name, "meaning"});
+    found.rows = {{0.0, 1.0, 1.0, "too slow", none, 1.0, none, none, ""},
+                  {2.0, 1.0, 2.0, "reached", none, 1.0, -12.25, none, ""},
+                  {4.0, 2.0, 1.0, "interrupted", none, 1.0, 3.5, none, ""}};
+    panel_.set_figures(found);
+    EXPECT_EQ(text(0, "hand_angle_deg"), "");
+    EXPECT_EQ(text(1, "hand_angle_deg"), "-12.25");
+    EXPECT_EQ(text(1, "shown_extent_mm"), "hidden");
+    EXPECT_EQ(text(1, "not_measured"), "hidden");
+    EXPECT_EQ(text(1, "peak_grip_N"), "no column") << "it is shown as grip";
+    end(2, 1);  // its figures were found before
+    EXPECT_EQ(text(2, "hand_angle_deg"), "3.5");
+    end(3, 1);
+    EXPECT_EQ(text(3, "hand_angle_deg"), "");
+    panel_.set_plan(nullptr);
+    EXPECT_EQ(text(0, "hand_angle_deg"), "no column");
+}
+
+TEST_F(TrialsPanelTest, TakesATableThatSaysNothing) {
+    end(1, 1);
+    panel_.set_figures({});
+    Table other;
+    other.columns = {{"trial_num", ""}};
+    other.rows = {{1.0}};
+    panel_.set_figures(other);
+    EXPECT_EQ(table().topLevelItemCount(), 1);
+}
+
+}  // namespace
+}  // namespace dihaptic::gui

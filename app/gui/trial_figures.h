@@ -1,0 +1,36 @@
+// Reads what is found of a running session's trials (errors, angles, the task's own measures), in a
+// thread of its own, from the log that the session writes.
+#pragma once
+
+#include <QObject>
+#include <atomic>
+#include <thread>
+
+#include "base/table.h"
+
+namespace dihaptic::gui {
+
+class TrialFigures : public QObject {
+    Q_OBJECT
+
+  public:
+    TrialFigures();
+    ~TrialFigures() override;
+
+    /// Follows the session that is recorded in a folder; what was followed before is dropped.
+    void follow(const QString& folder);
+    /// The session is over: what is still to be read of it is read.
+    void finish() { over_ = true; }
+
+  Q_SIGNALS:
+    /// A row for each attempt so far, as trials.csv will have it.
+    void found(const dihaptic::Table& trials);
+
+  private:
+    void tell(Table table, const std::stop_token& stop);
+
+    std::atomic<bool> over_{false};
+    std::jthread thread_;
+};
+
+}  // namespace dihaptic::gui
