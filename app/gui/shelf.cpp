@@ -1,5 +1,7 @@
 #include "shelf.h"
 
+#include <sys/resource.h>
+
 #include <QCoreApplication>
 #include <QCryptographicHash>
 #include <QDir>
@@ -85,6 +87,8 @@ void Shelf::draw_next() {
             draw_next();
         });
         drawing_->setStandardErrorFile(QProcess::nullDevice());
+        // nobody waits for the picture: it gives way to the window, and to other programs
+        drawing_->setChildProcessModifier([] { setpriority(PRIO_PROCESS, 0, 19); });
         drawing_->start(QCoreApplication::applicationDirPath() + "/dihaptic",
                         {"picture", file, "--size", "480x300", "-o", picture});
         return;
