@@ -15,22 +15,24 @@ class Lifter(dh.Person):
 
     enough = 0.8  # force on a finger with which it lifts [N]
 
-    def __init__(self):
+    def __init__(self, aim_mm=10):
+        self.aim_mm = aim_mm  # half the aperture that it wants when it holds something: the smaller, the firmer
         self.at = {}
         self.gripped = False
 
     def act(self, seen):
         height = seen.fingers["thumb"][2]
+        closed = self.aim_mm / 1000
         x, z = 0.04, 0.09  # half the aperture, and the height, that it wants [m]
         if seen.state == "lift":
             if abs(seen.felt("thumb")[0]) > self.enough:
                 self.gripped = True
-            x = 0.01 if self.gripped or height < 0.03 else 0.04
+            x = closed if self.gripped or height < 0.03 else 0.04
             z = 0.055 if self.gripped else 0.02
         elif seen.state == "hold":
-            x, z = 0.01, 0.055
+            x, z = closed, 0.055
         elif seen.state == "put down":
-            x = 0.01 if height > 0.022 and self.gripped else 0.04
+            x = closed if height > 0.022 and self.gripped else 0.04
             z = 0.018
             self.gripped = x < 0.02
         else:
@@ -54,3 +56,18 @@ print(session.lifts[["trial_num", "lift", "static_grip_N", "static_load_N"]])
 # %%
 axes = session.plot("grip_force", align="lift_off", by="perturbation")
 axes.figure.savefig("lifter.png")
+
+# %% [markdown]
+# A study of such people is a rehearsal: each is made by its number, and what its attributes are stands in the table of
+# `people`. Here each wants to close the hand further than the one before, and grips the more firmly:
+
+# %%
+study = dh.rehearse(
+    dh.shipped("experiments/first-trials.yaml"),
+    people=4,
+    jobs=2,
+    person=lambda number: Lifter(aim_mm=12 - 2 * number),
+    out="lifters",
+)
+grips = study.table("lifts").groupby("id").static_grip_N.mean()
+print(study.people.set_index("id")[["aim_mm"]].join(grips))
