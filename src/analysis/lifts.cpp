@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <ranges>
 
 #include "analysis/savitzky_golay.h"
 #include "model/grasp.h"
@@ -498,9 +497,10 @@ std::vector<Range> lifts_in(const GraspTrace& trace, const Vec3& gravity) {
         lifted = false;
     }
     out.back().last = signals.size();
-    const auto untouched = [&](size_t i) { return !trace.samples()[i].touched(); };
-    const auto rest = std::views::iota(out.back().first, out.back().last);
-    if (out.size() > 1 && std::ranges::all_of(rest, untouched)) out.pop_back();
+    bool untouched = true;
+    for (size_t i = out.back().first; i < out.back().last && untouched; ++i)
+        untouched = !trace.samples()[i].touched();
+    if (out.size() > 1 && untouched) out.pop_back();
     return out;
 }
 
