@@ -162,6 +162,10 @@ void print_left_out(const Found& found) {
 /// the hand.
 class Collection {
   public:
+    explicit Collection(const std::map<Key, std::string>& people) {
+        for (const auto& [key, session] : people) note_traits(read_yaml(session + "/person.yaml"));
+    }
+
     void add(const Key& key, const std::string& session) {
         const Node person = read_yaml(session + "/person.yaml");
         const Node* group = person.find("group");
@@ -197,13 +201,22 @@ class Collection {
     size_t rows(const std::string& name) const { return tables_.at(name).size() - 1; }
 
   private:
-    static Table person_table(const Node& person) {
-        Table out;
-        out.rows.resize(1);
+    /// What people are like has a column each, though not everybody has it: people whom Python
+    /// moves need not be of one class.
+    void note_traits(const Node& person) {
         for (const auto& entry : person.entries) {
             if (entry.key == "id" || entry.key == "group") continue;
-            out.columns.push_back({entry.key, ""});
-            out.rows[0].push_back(entry.value.scalar);
+            if (std::ranges::find(traits_, entry.key) == traits_.end())
+                traits_.push_back(entry.key);
+        }
+    }
+    Table person_table(const Node& person) const {
+        Table out;
+        out.rows.resize(1);
+        for (const std::string& trait : traits_) {
+            const Node* const value = person.find(trait);
+            out.columns.push_back({trait, ""});
+            out.rows[0].push_back(value == nullptr ? "" : value->scalar);
         }
         return out;
     }
@@ -241,6 +254,7 @@ class Collection {
         }
     }
 
+    std::vector<std::string> traits_;  // columns of people.csv
     std::vector<std::string> front_;
     std::map<std::string, Rows> tables_;
 };
@@ -254,7 +268,7 @@ void collect(const CollectOptions& options) {
         exit_code = kFailed;
         return;
     }
-    Collection collection;
+    Collection collection(people);
     {
         ProgressLine line("collecting");
         double done = 0;

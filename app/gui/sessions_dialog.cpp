@@ -37,6 +37,7 @@ enum Column {
 };
 
 constexpr const char* kNote = "note.txt";
+constexpr int kLooked = 20;  // sessions after which columns have the widths that they need
 
 /// Reads a table of a session's; calls `count` with it, if it is there and whole.
 QString counted_in(const QString& file, const std::function<QString(const CsvFile&)>& count) {
@@ -111,65 +112,76 @@ SessionsDialog::SessionsDialog(const QString& folder, QWidget* parent)
     note_->setAutoDefault(false);
     note_->setToolTip(tr("Kept in the session's folder, and in its report"));
     connect(note_, &QPushButton::clicked, this, &SessionsDialog::write_note);
-    fill(folder);
-    buttons->button(QDialogButtonBox::Open)->setEnabled(list_->topLevelItemCount() > 0);
-    note_->setEnabled(list_->topLevelItemCount() > 0);
+    open_ = buttons->button(QDialogButtonBox::Open);
+    open_->setEnabled(false);
+    note_->setEnabled(false);
+    waiting_ =
+        QDir(folder).entryInfoList(QDir::Dirs | QDir::NoDotAndDotDot, QDir::Name | QDir::Reversed);
+    connect(&filling_, &QTimer::timeout, this, &SessionsDialog::fill_one);
+    filling_.start(0);
     connect(buttons, &QDialogButtonBox::accepted, this, &SessionsDialog::choose);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
     connect(list_, &QTreeWidget::itemActivated, this, &SessionsDialog::choose);
     resize(1000, 480);
 }
 
-void SessionsDialog::fill(const QString& folder) {
-    const QFileInfoList all =
-        QDir(folder).entryInfoList(QDir::Dirs | QDir::NoDotAndDotDot, QDir::Name | QDir::Reversed);
-    for (const QFileInfo& entry : all) {
-        const QString path = entry.filePath();
-        recording::SessionInfo info;
-        QString state = tr("cannot be read"), time;
-        try {
-            const auto session = recording::SessionFolder::open(path.toStdString());
-            info = session.read_info();
-            state = QString::fromLatin1(enum_name(info.state).data());
-            time = time_of(session, info);
-        } catch (const Error&) {
-            if (!QFileInfo::exists(path + "/raw.log")) continue;  // no session
-        }
-        auto* item = new QTreeWidgetItem(
-            list_, {QString::fromStdString(info.started).left(16).replace('T', ' '),
-                    QString::fromStdString(info.title), QString::fromStdString(info.participant.id),
-                    QString::fromStdString(info.moved_by.name()), state, time, trials_in(path),
-                    lifts_in(path), note_of(path), entry.fileName()});
-        item->setToolTip(Column::note, item->text(Column::note));
-        item->setData(0, Qt::UserRole, path);
-        for (const Column number : {Column::lasted, Column::trials, Column::lifts})
-            item->setTextAlignment(number, Qt::AlignRight | Qt::AlignVCenter);
+/// Adds a session to the list; one at a time, since a session that runs needs the window to answer.
+void SessionsDialog::fill_one() {
+    if (waiting_.isEmpty()) return filling_.stop();
+    const QFileInfo entry = waiting_.takeFirst();
+    const QString path = entry.filePath();
+    recording::SessionInfo info;
+    QString state = tr("cannot be read"), time;
+    try {
+        const auto session = recording::SessionFolder::open(path.toStdString());
+        info = session.read_info();
+        state = QString::fromLatin1(enum_name(info.state).data());
+        time = time_of(session, info);
+    } catch (const Error&) {
+        if (!QFileInfo::exists(path + "/raw.log")) return;  // no session
     }
+    auto* item = new QTreeWidgetItem(
+        list_, {QString::fromStdString(info.started).left(16).replace('T', ' '),
+                QString::fromStdString(info.title), QString::fromStdString(info.participant.id),
+                QString::fromStdString(info.moved_by.name()), state, time, trials_in(path),
+                lifts_in(path), note_of(path), entry.fileName()});
+    item->setToolTip(Column::note, item->text(Column::note));
+    item->setData(0, Qt::UserRole, path);
+    for (const Column number : {Column::lasted, Column::trials, Column::lifts})
+        item->setTextAlignment(number, Qt::AlignRight | Qt::AlignVCenter);
+    if (list_->topLevelItemCount() == 1) list_->setCurrentItem(item);
+    open_->setEnabled(true);
+    note_->setEnabled(true);
+    if (list_->topLevelItemCount() <= kLooked || waiting_.isEmpty()) fit_columns();
+}
+
+void SessionsDialog::fit_columns() {
     for (int column = 0; column < list_->columnCount(); ++column)
         list_->resizeColumnToContents(column);
     list_->setColumnWidth(Column::note, std::min(250, list_->columnWidth(Column::note)));
-    list_->setCurrentItem(list_->topLevelItem(0));
 }
 
 void SessionsDialog::write_note() {
     QTreeWidgetItem* const item = list_->currentItem();
     if (item == nullptr) return;
-    QInputDialog ask(this);
-    ask.setWindowTitle(tr("Note"));
-    ask.setLabelText(tr("Note about %1").arg(item->text(Column::folder_name)));
-    ask.setOption(QInputDialog::UsePlainTextEditForTextInput);
-    ask.setTextValue(item->text(Column::note));
-    for (auto* edit : ask.findChildren<QPlainTextEdit*>()) edit->setTabChangesFocus(true);
-    if (ask.exec() != QDialog::Accepted) return;
-    const QString text = ask.textValue();
+    const QString session = item->data(0, Qt::UserRole).toString();
+    const std::string file = (session + "/" + kNote).toStdString();
     try {
-        const QString file = item->data(0, Qt::UserRole).toString() + "/" + kNote;
-        write_file(text.trimmed().toStdString() + "\n", file.toStdString());
-        item->setText(Column::note, text.trimmed());
-        item->setToolTip(Column::note, text.trimmed());
+        // as it is now: somebody may have written it since the list was made
+        const std::string before = is_there(file) ? read_text_file(file) : "";
+        QInputDialog ask(this);
+        ask.setWindowTitle(tr("Note"));
+        ask.setLabelText(tr("Note about %1").arg(item->text(Column::folder_name)));
+        ask.setOption(QInputDialog::UsePlainTextEditForTextInput);
+        ask.setTextValue(QString::fromStdString(before).trimmed());
+        for (auto* edit : ask.findChildren<QPlainTextEdit*>()) edit->setTabChangesFocus(true);
+        if (ask.exec() != QDialog::Accepted) return;
+        write_file(ask.textValue().trimmed().toStdString() + "\n", file);
     } catch (const Error& e) {
         QMessageBox::warning(this, tr("Note"), QString::fromStdString(e.problems().front().text()));
     }
+    item->setText(Column::note, note_of(session));
+    item->setToolTip(Column::note, item->text(Column::note));
 }
 
 void SessionsDialog::choose() {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <QDialog>
+#include <QFileInfo>
+#include <QTimer>
 
 class QPushButton;
 class QTreeWidget;
@@ -21,13 +23,17 @@ class SessionsDialog : public QDialog {
     void chosen(const QStringList& folders);
 
   private:
-    void fill(const QString& folder);
+    void fill_one();
+    void fit_columns();
     void choose();
     /// Asks for a note about a session, which is kept in its folder.
     void write_note();
 
     QTreeWidget* list_;
+    QPushButton* open_;
     QPushButton* note_;
+    QFileInfoList waiting_;  // folders that are not listed yet
+    QTimer filling_;
 };
 
 }  // namespace dihaptic::gui

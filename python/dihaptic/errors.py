@@ -42,12 +42,16 @@ class Error(ValueError):
     """
 
     def __init__(self, problems: list[Problem]) -> None:
+        super().__init__()
+        self._take(problems)
+
+    def _take(self, problems: list[Problem]) -> None:
         # Python says already that it is an error
-        super().__init__("\n".join(problem.text().removeprefix("error: ") for problem in problems))
+        self.args = ("\n".join(problem.text().removeprefix("error: ") for problem in problems),)
         self.problems = problems
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _again, (type(self), self.problems)
+        return _again, (type(self), self.problems), self.__dict__
 
 
 def _again(kind: type[Error], problems: list[Problem]) -> Error:

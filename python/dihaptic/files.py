@@ -243,7 +243,8 @@ class File(Part):
             try:
                 yield file
             except Error as why:
-                raise Error([self._at_object(file, problem) for problem in why.problems]) from None
+                why._take([self._at_object(file, problem) for problem in why.problems])
+                raise
 
     def _read_anew(self) -> list[Any]:
         with tempfile.TemporaryDirectory(prefix="dihaptic-") as folder:

@@ -94,7 +94,8 @@ class Person:
     act() is called every 10 ms of the session's time (`every`), with what is seen and felt; it leads
     the fingers, and presses keys. Slow is allowed: the clock is virtual. What it raises ends the
     session, whose files are made all the same; a note of the exception names its folder. Attributes
-    that are numbers or texts stand in the session's person.yaml, and in the people of a rehearsal.
+    that are numbers or texts, or None, stand in the session's person.yaml, and are columns of the
+    people of a rehearsal; `group` is that of the tables' second column.
 
     >>> import dihaptic as dh
     >>> class Waits(dh.Person):
@@ -145,18 +146,22 @@ class Person:
         own = [vars(kind) for kind in reversed(type(self).__mro__) if issubclass(kind, Person) and kind is not Person]
         named = {name: value for names in [*own, vars(self)] for name, value in names.items() if name[0] != "_"}
         traits = {name: value.item() if isinstance(value, np.generic) else value for name, value in named.items()}
-        lines: dict[str, bool | int | float | str] = {"id": ppid, "class": type(self).__name__}
-        lines |= {name: value for name, value in traits.items() if isinstance(value, (bool, int, float, str))}
-        return "".join(f"{name}: {_yaml(value)}\n" for name, value in lines.items())
+        traits = {name: value for name, value in traits.items() if value is None or isinstance(value, (int, float, str))}
+        for name in _TAKEN & traits.keys():
+            raise error("is a column that the people of a rehearsal have already", "Call it otherwise.", key=name)
+        lines = {"id": ppid, "class": type(self).__name__, **traits}
+        return "".join(f"{_yaml(name)}: {_yaml(value)}\n" for name, value in lines.items())
 
     def _do(
         self, sitting: _native.Sitting, out: str | Path, between: str = "", keep_recordings: bool = True
     ) -> Ended:
+        if "_sitting" in self.__dict__:
+            raise error("does another session now", "Give each session a person of its own.", key=type(self).__name__)
         if not 1e-4 <= self.every <= 1:
             raise error(f"is {self.every}", "Give the time between two looks, 0.0001 to 1 s.", key="every")
+        name, traits = type(self).__name__, self._traits(sitting.participant())
         self.__dict__.update(_sitting=sitting, _fingers=dict(sitting.items())["fingers"])
         seen = Seen(sitting)
-        name, traits = type(self).__name__, self._traits(sitting.participant())
         try:
             ended = Ended(
                 *sitting.run(lambda: self.act(seen), self.every, name, traits, str(out), between, keep_recordings)
@@ -171,10 +176,18 @@ class Person:
         return ended
 
 
-def _yaml(value: bool | int | float | str) -> str:
+#: Columns that the people of a rehearsal have in any case.
+_TAKEN = frozenset({"id", "class", "seed", "simulated", "moved_by"})
+
+
+def _yaml(value: bool | int | float | str | None) -> str:
+    if value is None or value != value:
+        return ""  # not known
     if isinstance(value, bool):
         return "yes" if value else "no"
-    return json.dumps(value) if isinstance(value, str) else repr(value)
+    if isinstance(value, str):
+        return json.dumps(str(value).encode("utf-8", "replace").decode(), ensure_ascii=False)
+    return repr(int(value)) if isinstance(value, int) else repr(float(value))
 
 
 @dataclass(frozen=True)

@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
+import ctypes
+import fcntl
 import multiprocessing
+import os
+import pickle
+import random
 import shutil
+import signal
 import sys
-from collections.abc import Callable, Iterator
-from concurrent.futures import ProcessPoolExecutor, as_completed
+import traceback
+from collections.abc import Callable
 from dataclasses import dataclass
+from multiprocessing.connection import Connection, wait
+from multiprocessing.context import ForkProcess
 from pathlib import Path
 from typing import TypeVar
 
+import numpy as np
 import pandas as pd
 
 from . import _native
@@ -20,6 +29,8 @@ from .files import Input, on_disk
 from .person import Ended, Person
 from .program import call, ended_of
 from .tables import read_table
+
+_PR_SET_PDEATHSIG = 1  # <sys/prctl.h>
 
 
 def rehearse(
@@ -39,9 +50,11 @@ def rehearse(
 
     Who is in the folder already is not done again. The tables are the same whatever `jobs`.
     `person`: makes a simulated person of your own, by number, from 1; otherwise they are drawn from
-    `population`. `between`: makes what decides between a person's trials. What one of these raises
-    ends the rehearsal; those who were done before stay. `keep_recordings`: with raw.log and
-    session.nwb of each, hundreds of MB. Raises Error.
+    `population`. `between`: makes what decides between a person's trials. What these draw from
+    `random` and `numpy.random` follows `seed` and the number; a generator of your own is to be made
+    from the number too, since people may be done in processes of their own. What one of these raises
+    ends the rehearsal, and so does a decision that cannot be; those who were done before stay.
+    `keep_recordings`: with raw.log and session.nwb of each, hundreds of MB. Raises Error.
 
     >>> import dihaptic as dh
     >>> study = dh.rehearse("experiments/first-trials.yaml", 2, out=f"{folder}/study", progress=False)
@@ -128,56 +141,130 @@ class _Study:
 
     def claim(self, people: int, jobs: int) -> None:
         """Checks what was given, and that nothing else is in the folder. Raises Error."""
-        for name, value, most in (("people", people, _native.most_people), ("jobs", jobs, 1024)):
-            if not 1 <= value <= most:
-                raise error(f"is {value}", f"Ask for 1 to {most}.", key=name)
+        for name, value, least, most in (
+            ("people", people, 1, _native.most_people),
+            ("jobs", jobs, 1, 1024),
+            ("seed", self.seed, 0, 2**64 - 1),
+        ):
+            if not least <= value <= most:
+                raise error(f"is {value}", f"Give {least} to {most}.", key=name)
         if self.person is not None and self.population:
             raise error("are given twice", "Leave out population or person.", key="people")
-        person = _made(self.person, 1, Person)
-        rules = _made(self.between, 1, BetweenTrials)
-        self.folder.mkdir(parents=True, exist_ok=True)
+        sitting = self._sitting(1)
+        self._seed(1)
+        person, rules = _made(self.person, 1, Person), _made(self.between, 1, BetweenTrials)
+        if person is not None and people > 1 and _made(self.person, 2, Person) is person:
+            raise error("is one object for all", "Make a person for each number.", key="person")
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+        except OSError as why:
+            raise error(f"cannot be made: {why.strerror}", "Give another `out`.", file=str(self.folder)) from None
         names = ["" if it is None else type(it).__name__ for it in (person, rules)]
-        self._sitting(1).claim(
+        sitting.claim(
             str(self.folder), names[0], self.population, names[1], people, "dihaptic.rehearse() of Python, as before"
         )
 
     def run(self, people: int, jobs: int, progress: bool) -> None:
         """Lets everybody do it who has not yet."""
         waiting = [n for n in range(1, people + 1) if not (self.folder / _native.person_id(n)).exists()]
-        for done, _ in enumerate(self._each(waiting, jobs), 1):
+        done = 0
+
+        def tell() -> None:
+            nonlocal done
+            done += 1
             if progress:
                 sys.stderr.write(f"\rrehearsing {done} of {len(waiting)}")
                 sys.stderr.flush()
+
+        if min(jobs, len(waiting)) <= 1:
+            for number in waiting:
+                self._do(number)  # here, where a debugger stops in it
+                tell()
+        else:
+            self._in_processes(waiting, jobs, tell)
         if progress:
             sys.stderr.write("\r" + " " * 40 + "\r")
 
-    def _each(self, numbers: list[int], jobs: int) -> Iterator[None]:
-        if min(jobs, len(numbers)) <= 1:
-            yield from map(self._do, numbers)  # here, where a debugger stops in it
-            return
-        # forked, so that classes of a notebook are there, too
-        fork = multiprocessing.get_context("fork")
-        with ProcessPoolExecutor(jobs, fork, initializer=_share, initargs=(self,)) as workers:
-            tasks = [workers.submit(_do_shared, number) for number in numbers]
-            try:
-                for task in as_completed(tasks):
-                    yield task.result()
-            finally:
-                workers.shutdown(wait=True, cancel_futures=True)
+    def _in_processes(self, waiting: list[int], jobs: int, tell: Callable[[], None]) -> None:
+        """A process for each person, so many at a time; the first that fails is the last that begins."""
+        fork = multiprocessing.get_context("fork")  # classes of a notebook are there, too
+        running: dict[Connection, ForkProcess] = {}
+        failed: BaseException | None = None
+        numbers = iter(waiting)
+        try:
+            while True:
+                while len(running) < jobs and failed is None and (number := next(numbers, None)) is not None:
+                    here, there = fork.Pipe(duplex=False)
+                    process = fork.Process(target=self._child, args=(number, there))
+                    process.start()
+                    there.close()
+                    running[here] = process
+                if not running:
+                    break
+                answered = wait(list(running))
+                for here in [here for here in running if here in answered]:
+                    process = running.pop(here)
+                    try:
+                        why = here.recv()
+                    except EOFError:
+                        why = error(f"a person's process ended by itself ({process.exitcode})", "Rehearse again.")
+                    process.join()
+                    if why is None:
+                        tell()
+                    elif failed is None:
+                        failed = why
+        except BaseException:  # Ctrl-C: each ends its session in order
+            for process in running.values():
+                os.kill(process.pid or 0, signal.SIGINT)
+            for process in running.values():
+                process.join()
+            raise
+        if failed is not None:
+            raise failed
+
+    def _child(self, number: int, answer: Connection) -> None:
+        # a parent that is killed leaves nobody behind
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+        why = None
+        try:
+            self._do(number)
+        except BaseException as raised:
+            raised.add_note("".join(traceback.format_exception(raised)))
+            why = _that_travels(raised)
+        answer.send(why)
+
+    def _seed(self, number: int) -> None:
+        random.seed(f"{self.seed} {number}")
+        np.random.seed([self.seed & 0xFFFFFFFF, self.seed >> 32, number])
 
     def _do(self, number: int) -> None:
         ppid = _native.person_id(number)
         place = self.folder / f"{_native.unfinished}{ppid}"
-        shutil.rmtree(place, ignore_errors=True)
-        with listening(_made(self.between, number, BetweenTrials)) as asking:
+        place.mkdir(exist_ok=True)
+        with (place / "messages.txt").open("a") as lock:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except BlockingIOError:
+                raise error("another program does this session now", "Wait until that has ended.", key=ppid) from None
+            if not (self.folder / ppid).exists():  # another program may have done it just now
+                for left in set(place.iterdir()) - {place / "messages.txt"}:
+                    shutil.rmtree(left)
+                self._record(number, ppid, place)
+            shutil.rmtree(place)
+
+    def _record(self, number: int, ppid: str, place: Path) -> None:
+        self._seed(number)
+        rules = _made(self.between, number, BetweenTrials)
+        with listening(rules) as asking:
             ended = self._session(number, ppid, place, asking)
-        if not ended.good:
-            raise error("\n".join(ended.said) or "was interrupted", f"Its files are in {ended.folder}.", key=ppid)
+        wrong = [] if rules is None else [line for line in ended.said if "decides between trials" in line]
+        if wrong or not ended.good:
+            told = "\n".join([*(rules.failures if rules else []), *(wrong or ended.said)])
+            raise error(told or "was interrupted", f"Its files are in {ended.folder}.", key=ppid)
         if not self.keep_recordings:
             for recording in ("raw.log", "session.nwb"):
                 (Path(ended.folder) / recording).unlink(missing_ok=True)
         Path(ended.folder).rename(self.folder / ppid)  # appears complete, or not at all
-        shutil.rmtree(place)
 
     def _session(self, number: int, ppid: str, place: Path, asking: list[str]) -> Ended:
         person = _made(self.person, number, Person)
@@ -205,12 +292,13 @@ def _made(make: Callable[[int], Made] | None, number: int, kind: type[Made]) -> 
     return it
 
 
-_shared: list[_Study] = []
-
-
-def _share(study: _Study) -> None:
-    _shared.append(study)
-
-
-def _do_shared(number: int) -> None:
-    _shared[-1]._do(number)
+def _that_travels(why: BaseException) -> BaseException:
+    """An exception, or one that says the same if it cannot go from one process to another."""
+    try:
+        pickle.loads(pickle.dumps(why))
+        return why
+    except Exception:
+        told = RuntimeError(f"{type(why).__name__}: {why}")
+        for note in why.__notes__:
+            told.add_note(note)
+        return told

@@ -40,8 +40,12 @@ class PythonHand : public task::SeeingDriver {
         led_[finger]->v_WT = velocity;
     }
     void press(char key) { key_ = key; }
-    /// What act() raised, if anything.
-    std::exception_ptr thrown() const { return thrown_; }
+    /// Raises what act() raised, if anything.
+    void raise() {
+        if (const std::exception_ptr thrown = std::exchange(thrown_, nullptr))
+            std::rethrow_exception(thrown);
+    }
+    void forget() { act_ = py::function(); }
 
     const servo::Frame& frame() const {
         if (frame_ != nullptr) return *frame_;
@@ -120,11 +124,13 @@ class Sitting {
                           recording::program_version() + ", Python's " + doing.name, "",
                           std::to_string(plan_.seed)};
         plan_.person = doing.traits;
+        plan_.resumable = false;
         session::RunOptions options;
         options.out = doing.out;
         options.command = "dihaptic.run(person=" + doing.name + ")";
         options.participant.id = participant_;
         options.keep_log = doing.keep_recordings;
+        const Forgetting at_the_end{*hand_};
         const py::gil_scoped_release others_may_run;
         std::optional<session::Decider> decider;
         if (!doing.between.empty()) {
@@ -137,7 +143,7 @@ class Sitting {
     }
     /// Raises what act() raised, if anything.
     void raise() const {
-        if (hand_ && hand_->thrown()) std::rethrow_exception(hand_->thrown());
+        if (hand_) hand_->raise();
     }
     /// Makes a folder the place of a rehearsal of this experiment, or checks that it is one.
     /// `name`: of the class that its people are of; empty: they are of a population, by its file.
@@ -196,6 +202,12 @@ class Sitting {
     const std::string& participant() const { return participant_; }
 
   private:
+    /// Lets go of act(), which holds the person, which holds this: Python would free none of them.
+    struct Forgetting {
+        PythonHand& hand;
+        ~Forgetting() { hand.forget(); }
+    };
+
     static session::Plan plan_of(const std::string& file, const std::string& rig,
                                  const std::vector<std::string>& set, uint64_t seed,
                                  const std::string& participant) {

@@ -1,10 +1,17 @@
 """People of one's own, and rules between their trials, make rehearsals like the program's."""
 
 import contextlib
+import enum
+import fcntl
+import gc
 import io
+import math
 import pathlib
 import tempfile
 import unittest
+import weakref
+
+import numpy as np
 
 import dihaptic as dh
 
@@ -99,8 +106,79 @@ class Rehearsals(unittest.TestCase):
                 self.rehearse(3, out=f"jobs{jobs}", person=Breaks, jobs=jobs)
             self.assertTrue((self.folder / f"jobs{jobs}/sim-001/trials.csv").is_file())
             self.assertFalse((self.folder / f"jobs{jobs}/sim-002").exists())
-            if jobs == 1:
-                self.assertIn("unfinished-sim-002", told.exception.__notes__[0])
+            self.assertIn("unfinished-sim-002", told.exception.__notes__[0])
+
+    def test_whatever_a_person_raises_comes_out(self):
+        class Two(Exception):  # cannot be unpickled
+            def __init__(self, a, b):
+                super().__init__(f"{a} {b}")
+
+        def wrong_finger(person):
+            person.lead("pinky", (0, 0, 0))
+
+        def raise_it(why):
+            raise why
+
+        for name, act, kind, text in (
+            ("stop", lambda person: raise_it(StopIteration("enough")), StopIteration, "enough"),
+            ("two", lambda person: raise_it(Two("a", "b")), Exception, "a b"),
+            ("pinky", wrong_finger, dh.NotThere, "pinky"),
+        ):
+            class Person(Every):
+                def act(self, seen):
+                    act(self)
+
+            for jobs in (1, 2):
+                with self.subTest(name, jobs=jobs), self.assertRaisesRegex(kind, text) as told:
+                    self.rehearse(3, out=f"{name}{jobs}", person=Person, jobs=jobs)
+                self.assertIn("The session until then", "".join(told.exception.__notes__))
+
+    def test_what_is_drawn_is_a_person_s_own_whatever_jobs(self):
+        class Drawn(Every):
+            def __init__(self, number):
+                super().__init__(number)
+                self.gain = np.random.normal()
+
+        gains = [self.rehearse(4, out=f"jobs{jobs}", person=Drawn, jobs=jobs).people.gain.tolist() for jobs in (1, 3)]
+        self.assertEqual(gains[0], gains[1])
+        self.assertEqual(len(set(gains[0])), 4)
+
+    def test_people_may_have_different_attributes_of_any_kind(self):
+        class Side(enum.IntEnum):
+            LEFT = 1
+
+        class Odd(Every):
+            def __init__(self, number):
+                super().__init__(number)
+                self.null = 'a: "b" # c\n d'
+                self.side = Side.LEFT
+                self.gain = math.nan if number == 2 else np.float32(0.5)
+                self.limp = None
+                setattr(self, "größe", "🙂")
+                if number == 2:
+                    self.lesion = " left"
+
+        people = self.rehearse(2, person=lambda number: (Odd if number < 3 else Every)(number)).people
+        self.assertEqual(people["null"].tolist(), ['a: "b" # c\n d'] * 2)
+        self.assertEqual(people["größe"].tolist(), ["🙂"] * 2)
+        self.assertEqual(people.side.tolist(), [1, 1])
+        self.assertEqual(people.gain.fillna(-1).tolist(), [0.5, -1])
+        self.assertEqual(people.lesion.fillna("").tolist(), ["", " left"])
+        self.assertTrue(people.limp.isna().all())
+        for name in ("id", "class", "seed", "simulated", "moved_by"):
+            named = type("Named", (Every,), {name: "me"})
+            with self.subTest(name), self.assertRaisesRegex(dh.Error, f"{name}: is a column"):
+                self.rehearse(1, out=name, person=named)
+
+    def test_one_does_a_person_s_session_at_a_time(self):
+        place = self.folder / "study/unfinished-sim-001"
+        place.mkdir(parents=True)
+        with (place / "messages.txt").open("w") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            with self.assertRaisesRegex(dh.Error, "sim-001: another program does this session"):
+                self.rehearse(1, person=Every)
+        self.assertEqual(len(self.rehearse(1, person=Every).sessions), 1)
+        self.assertFalse(place.exists())
 
     def test_rules_decide_between_trials_of_one_s_own_people_and_of_the_program_s(self):
         for name, person in (("own", Every), ("program's", None)):
@@ -110,6 +188,20 @@ class Rehearsals(unittest.TestCase):
                     self.assertEqual(trials.trial_num.iloc[0], TRIALS)
                 events = dh.read_table(study.sessions[0] / "events.csv")
                 self.assertTrue(events.detail.str.contains("The last first").any())
+
+    def test_a_decision_that_is_wrong_ends_it(self):
+        def deciding(decide):
+            return lambda number: type("Rules", (dh.BetweenTrials,), {"decide": lambda self, last: decide()})()
+
+        for name, decide, why in (
+            ("raises", lambda: 1 / 0, "division by zero"),
+            ("chooses", lambda: dh.Next(trial_num=99), "trial 99"),
+            ("sets", lambda: dh.Next(variables={"gain": 2}), "gain"),
+            ("leaves", lambda: exit(), "decides between trials"),
+        ):
+            for person in (Every, None):
+                with self.subTest(name, person=person), self.assertRaisesRegex(dh.Error, f"(?s)sim-001: .*{why}"):
+                    self.rehearse(1, out=f"{name}{person}", person=person, between=deciding(decide))
 
     def test_rules_that_decide_nothing_change_nothing(self):
         class Silent(dh.BetweenTrials):
@@ -140,6 +232,8 @@ class Rehearsals(unittest.TestCase):
             ({"person": Every, "population": "populations/adults.yaml"}, "given twice"),
             ({"person": Every, "jobs": 0}, "jobs: is 0"),
             ({"person": Every, "people": 10000}, "people: is 10000"),
+            ({"person": Every, "seed": -1}, "seed: is -1"),
+            ({"person": lambda number, one=Every(1): one}, "person: is one object"),
         ):
             with self.subTest(why), self.assertRaisesRegex(dh.Error, why):
                 self.rehearse(**given)
@@ -160,6 +254,26 @@ class Sessions(unittest.TestCase):
         session = dh.run(experiment(), person=Every(1), between=LastFirst(), out=self.folder)
         self.assertEqual(session.trials.trial_num.tolist(), [4, 1, 2, 3])
         self.assertEqual(session.trials.outcome.tolist(), ["yes", "none", "yes", "none"])
+
+    def test_a_person_is_freed_afterwards(self):
+        person = Every(1)
+        dh.run(experiment(), person=person, out=self.folder)
+        with self.assertRaises(ZeroDivisionError):
+            dh.run(experiment(), person=Breaks(2), out=self.folder)
+        gone = weakref.ref(person)
+        del person
+        gc.collect()
+        self.assertIsNone(gone())
+
+    def test_a_person_does_one_session_at_a_time(self):
+        class Nested(Every):
+            def act(self, seen):
+                dh.run(experiment(), person=self, out=self.out)
+
+        person = Nested(1)
+        person.out = str(self.folder)
+        with self.assertRaisesRegex(dh.Error, "Nested: does another session now"):
+            dh.run(experiment(), person=person, out=self.folder)
 
     def test_a_session_that_a_person_ended_is_named_and_complete_as_far_as_it_goes(self):
         class Leaves(Every):

@@ -441,6 +441,13 @@ void average_hold(Lift& lift, const GraspTrace& trace, const Signals& signals, R
     lift.height = mean(part(signals.height, hold));
 }
 
+bool is_touched(const GraspTrace& trace, Range range) {
+    for (size_t i = range.first; i < range.last; ++i) {
+        if (trace.samples()[i].touched()) return true;
+    }
+    return false;
+}
+
 /// How far the object moved along the digits that touched it throughout; along that one along which
 /// it moved least. 0 if none touched it throughout, as when it is handed over.
 double slid_down(const GraspTrace& trace, Range air) {
@@ -490,6 +497,8 @@ std::vector<Range> lifts_in(const GraspTrace& trace, const Vec3& gravity) {
         const GraspTrace::Sample& sample = trace.samples()[i];
         alone = stands(sample) && !sample.touched() ? alone + 1 : 0;
         if (stands(sample) && !lifted) floor = signals.height[i];
+        // a pause between two lifts is of none of them
+        if (sample.resumed && !lifted && alone > 0) out.back().first = i + 1;
         lifted = lifted || signals.height[i] - floor >= kLeastHeight;
         if (!lifted || alone < parting) continue;
         out.back().last = i + 1;
@@ -497,10 +506,7 @@ std::vector<Range> lifts_in(const GraspTrace& trace, const Vec3& gravity) {
         lifted = false;
     }
     out.back().last = signals.size();
-    bool untouched = true;
-    for (size_t i = out.back().first; i < out.back().last && untouched; ++i)
-        untouched = !trace.samples()[i].touched();
-    if (out.size() > 1 && untouched) out.pop_back();
+    if (out.size() > 1 && !is_touched(trace, out.back())) out.pop_back();
     return out;
 }
 

@@ -118,7 +118,8 @@ struct Lift {
 };
 
 /// Parts of a trace with a lift each: each but the last ends when the object, after it was lifted,
-/// has stood untouched for a while. One part, if nothing was lifted.
+/// has stood untouched for a while; the next begins there, or after a pause in which nothing is
+/// held. One part, if nothing was lifted.
 std::vector<Range> lifts_in(const GraspTrace& trace, const Vec3& gravity);
 
 /// Finds the lift in the trace of one attempt, in which the object lies at first. `friction`:

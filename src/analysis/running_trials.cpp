@@ -1,7 +1,6 @@
 #include "analysis/running_trials.h"
 
 #include "analysis/trials.h"
-#include "recording/raw_log.h"
 
 namespace dihaptic::analysis {
 
@@ -12,15 +11,14 @@ RunningTrials::RunningTrials(const std::string& folder)
 }
 
 void RunningTrials::look() {
-    recording::RawLogReader log(folder_.raw_log());  // anew: the file has grown
-    if (!reader_) reader_.emplace(folder_, info_, log.head());
-    const auto chunks = log.places();
-    for (bool follows = false; read_ < chunks.size(); follows = true) {
-        log.go_to(chunks[read_], follows);
-        const servo::Frame* frame = log.next();
-        if (frame == nullptr) return;  // the chunk is being written
-        for (; frame != nullptr; frame = log.next()) reader_->add(*frame);
-        ++read_;
+    if (!log_) {
+        log_.emplace(folder_.raw_log());
+        reader_.emplace(folder_, info_, log_->head());
+    }
+    while (const auto chunk = log_->following(last_ ? &*last_ : nullptr)) {
+        log_->go_to(*chunk, last_.has_value());
+        while (const servo::Frame* frame = log_->next()) reader_->add(*frame);
+        last_ = chunk;
     }
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "analysis/session_report.h"
+#include "recording/raw_log.h"
 #include "recording/session.h"
 
 namespace dihaptic::analysis {
@@ -24,8 +25,9 @@ class RunningTrials {
   private:
     recording::SessionFolder folder_;
     recording::SessionInfo info_;
+    std::optional<recording::RawLogReader> log_;
     std::optional<SessionReader> reader_;
-    size_t read_ = 0;  // chunks of the log
+    std::optional<recording::ChunkPlace> last_;  // chunk that was read
 };
 
 }  // namespace dihaptic::analysis

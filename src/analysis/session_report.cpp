@@ -199,9 +199,8 @@ struct SessionReader::Pass {
             lift.attempt = number;
             reading.lifts.push_back(std::move(lift));
         };
-        const std::vector<Range> parts =
-            reading.trials ? std::vector<Range>(1) : lifts_in(trace, facts.gravity);
-        if (parts.size() == 1) return add(trace, std::max(attempt, 1));
+        if (reading.trials) return add(trace, std::max(attempt, 1));
+        const std::vector<Range> parts = lifts_in(trace, facts.gravity);
         for (size_t i = 0; i < parts.size(); ++i)
             add(trace.part(parts[i]), static_cast<int>(i) + 1);
     }

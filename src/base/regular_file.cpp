@@ -50,6 +50,11 @@ RegularFile::RegularFile(RegularFile&& other) noexcept
       descriptor_(std::exchange(other.descriptor_, -1)),
       size_(other.size_) {}
 
+void RegularFile::look_again() {
+    struct stat status {};
+    if (::fstat(descriptor_, &status) == 0) size_ = status.st_size;
+}
+
 size_t RegularFile::read(int64_t at, std::span<std::byte> out) const {
     size_t done = 0;
     while (done < out.size()) {

@@ -18,8 +18,10 @@ class RegularFile {
     RegularFile(RegularFile&& other) noexcept;
     RegularFile& operator=(RegularFile&&) = delete;
 
-    /// Size of the file when it was opened [bytes].
+    /// Size of the file when it was opened, or looked at again [bytes].
     int64_t size() const { return size_; }
+    /// Takes the size that the file has now: another program may be writing it.
+    void look_again();
     /// Reads from byte `at` on and returns the number of bytes read, which is smaller than
     /// out.size() only at the file's end. Throws Error when the disk cannot read them.
     size_t read(int64_t at, std::span<std::byte> out) const;

@@ -17,6 +17,10 @@ constexpr int64_t kBlock = 1 << 16;
 constexpr int64_t kMostWasted = int64_t{1} << 30;
 constexpr std::array kKinds{kHead, kData, kPacked, kDone};
 
+bool has_frames(uint32_t kind) {
+    return kind == kData || kind == kPacked;
+}
+
 }  // namespace
 
 ChunkReader::ChunkReader(const std::string& file) : name_(file), file_(file) {
@@ -44,17 +48,23 @@ ChunkReader::ChunkReader(const std::string& file) : name_(file), file_(file) {
     first_ = end_;
 }
 
+/// Whether the header of an own chunk is at a place.
+bool ChunkReader::is_next(const ChunkPlace& place, ChunkHeader& out) const {
+    return header_at(place.at, out) && out.session == session_ &&
+           (version_ == 1 || out.number == place.number) &&
+           std::find(kKinds.begin(), kKinds.end(), out.kind) != kKinds.end();
+}
+
 std::vector<ChunkPlace> ChunkReader::places() const {
     std::vector<ChunkPlace> out;
-    const auto has_frames = [](uint32_t kind) { return kind == kData || kind == kPacked; };
     ChunkPlace place{first_, 1};
     ChunkHeader header;
-    while (header_at(place.at, header) && header.session == session_ &&
-           (version_ == 1 || header.number == place.number) &&
-           std::find(kKinds.begin(), kKinds.end(), header.kind) != kKinds.end()) {
+    // what is written meanwhile does not count
+    while (place.at < file_.size() && is_next(place, header)) {
+        const int64_t end = place.at + header_size() + header.size;
+        if (end > file_.size()) return out;  // it was not written completely
         if (has_frames(header.kind)) out.push_back(place);
-        place.at += header_size() + header.size;
-        ++place.number;
+        place = {end, place.number + 1};
     }
     if (place.at == file_.size()) return out;
     out.clear();
@@ -64,6 +74,19 @@ std::vector<ChunkPlace> ChunkReader::places() const {
         if (own && has_frames(chunk->kind)) out.push_back(chunk->in_file);
     }
     return out;
+}
+
+std::optional<ChunkPlace> ChunkReader::following(const ChunkPlace* last) {
+    file_.look_again();
+    ChunkPlace place{first_, 1};
+    ChunkHeader header;
+    if (last != nullptr) {
+        if (!header_at(last->at, header)) return std::nullopt;
+        place = {last->at + header_size() + header.size, last->number + 1};
+    }
+    const bool whole = is_next(place, header) && has_frames(header.kind) &&
+                       place.at + header_size() + header.size <= file_.size();
+    return whole ? std::optional(place) : std::nullopt;
 }
 
 void ChunkReader::go_to(const ChunkPlace& place) {

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,9 @@ class ChunkReader {
     std::vector<ChunkPlace> places() const;
     /// Makes next() go on with this chunk.
     void go_to(const ChunkPlace& place);
+    /// Where the chunk with frames is that follows another one (null: the first), in a file that
+    /// may still be written; nullopt as long as it is not there as a whole.
+    std::optional<ChunkPlace> following(const ChunkPlace* last);
 
     /// After the end: number of bytes behind the last whole chunk.
     int64_t tail() const { return file_.size() - end_; }
@@ -71,6 +75,7 @@ class ChunkReader {
         Chunk::Place place = Chunk::Place::own;
     };
     bool header_at(int64_t at, ChunkHeader& out) const;
+    bool is_next(const ChunkPlace& place, ChunkHeader& out) const;
     bool read_at(int64_t at, ChunkHeader& out);
     bool find(int64_t from, Found& found, ChunkHeader& header);
     int64_t find_kind(int64_t from) const;

@@ -109,6 +109,9 @@ class RawLogReader {
 
     /// Where the chunks with frames are, in their order.
     std::vector<ChunkPlace> places() const { return chunks_.places(); }
+    /// Where the chunk with frames is that follows another one (null: the first), in a log that may
+    /// still be written; nullopt as long as it is not there as a whole.
+    std::optional<ChunkPlace> following(const ChunkPlace* last) { return chunks_.following(last); }
     /// Makes next() give the frames of this chunk alone. `follows`: it comes after what was read
     /// last, so that bodies are where they were; otherwise what health() has found is forgotten.
     void go_to(const ChunkPlace& place, bool follows = false);

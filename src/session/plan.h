@@ -54,6 +54,7 @@ struct Plan {
     std::shared_ptr<const task::TaskPlan> task;  ///< trials; null if the experiment has none
     std::shared_ptr<task::SeeingDriver> seeing;  ///< the driver, if it acts on what it sees
     std::string person;               ///< text of person.yaml, if the driver is a simulated person
+    bool resumable = true;            ///< its driver can be made anew from its files
     std::vector<task::Attempt> done;  ///< attempts made by an earlier part of the session
     std::string resumes;              ///< folder of that earlier part; empty if there is none
     std::vector<Problem> warnings;

@@ -426,10 +426,10 @@ std::string Run::fault_text() const {
     const bool stopped = fault.kind == haptics::FaultKind::stopped;
     if (!stopped) out += " The second before it is in fault.csv.";
     if (live_ != nullptr) return out;  // the window says how to go on
-    if (plan_.task) {
+    if (plan_.task && plan_.resumable) {
         out += fmt::format(" dihaptic resume {} goes on with the trials that are left.",
                            folder_.path());
-    } else if (!stopped) {
+    } else if (!plan_.task && !stopped) {
         out += " Then start the session again.";
     }
     return out;

@@ -49,7 +49,11 @@ Table facts(const SessionData& session) {
     row("end", info.finished);
     for (const std::string& note : info.notes) row("note", note);
     const std::string written = session.folder.file("note.txt");
-    if (is_there(written)) row("note by hand", read_text_file(written));
+    try {
+        if (is_there(written)) row("note by hand", read_text_file(written));
+    } catch (const Error& e) {
+        row("note by hand", e.what());
+    }
     return table;
 }
 

@@ -230,6 +230,25 @@ TEST(Lifts, OfOneTraceAreParted) {
     EXPECT_NEAR(lifts[1].static_load, other.weight, 1e-9);
 }
 
+TEST(Lifts, APauseBetweenThemIsOfNone) {
+    Plan plan;
+    plan.stands = true;
+    Plan idle = plan;
+    idle.grip = idle.height = 0;
+    idle.pauses_at = 2;
+    GraspTrace trace(1, kTick);
+    for (const Plan& next : {idle, plan, idle, plan}) add_lift(trace, next);
+    const std::vector<Range> parts = lifts_in(trace, kGravity);
+    ASSERT_EQ(parts.size(), 2u);
+    const double friction[] = {kFriction, kFriction};
+    for (size_t i = 0; i < parts.size(); ++i) {
+        const Lift lift = find_lift(trace.part(parts[i]), kGravity, friction);
+        EXPECT_EQ(lift.mark, "complete");
+        EXPECT_NEAR(lift.lift_off,
+                    static_cast<double>(2 * i + 1) * kSamples * kTick + plan.lift_off, 0.01);
+    }
+}
+
 TEST(Lifts, WithNothingAfterThemAreNoMore) {
     Plan idle;
     idle.stands = true;

@@ -26,11 +26,10 @@ size_t differences(const Table& table, const CsvFile& whole) {
     return out;
 }
 
-TEST(RunningTrials, AreThoseOfTheSessionWhenItIsOver) {
-    Sessions sessions;
-    const std::string made = sessions.make(Mover::simulated_person);
+/// Feeds a session's log in pieces, and compares what is found with trials.csv.
+void expect_found(const std::string& made, size_t least_rows) {
     const CsvFile whole(made + "/trials.csv");
-    ASSERT_GT(whole.rows(), 3u);
+    ASSERT_GE(whole.rows(), least_rows);
     std::string bytes;
     {
         std::ifstream file(made + "/raw.log", std::ios::binary);
@@ -53,10 +52,29 @@ TEST(RunningTrials, AreThoseOfTheSessionWhenItIsOver) {
         EXPECT_GE(trials.ended(), ended);
         ended = trials.ended();
     }
-    EXPECT_EQ(ended, whole.rows());
+    size_t all = 0;
+    for (size_t i = 0; i < whole.rows(); ++i)
+        all += whole.text(i, "outcome") != "interrupted" ? 1 : 0;
+    EXPECT_EQ(ended, all);
     const Table table = trials.table();
     EXPECT_EQ(table.rows.size(), whole.rows());
     EXPECT_EQ(differences(table, whole), 0u);
+}
+
+TEST(RunningTrials, AreThoseOfTheSessionWhenItIsOver) {
+    Sessions sessions;
+    expect_found(sessions.make(Mover::simulated_person), 4);
+}
+
+TEST(RunningTrials, KnowWhereBodiesRestInALogThatAThreadWrote) {
+    Sessions sessions;
+    sessions.files.replace("  reach: {",
+                           "  own_measures:\n    - { name: height_mm, of: block.z, take: min }\n"
+                           "  reach: {");
+    sessions.files.keep_first_block();
+    const std::string made = sessions.make(Mover::simulated_person, true);
+    EXPECT_NEAR(CsvFile(made + "/trials.csv").number(0, "height_mm"), 20, 0.1);
+    expect_found(made, 1);
 }
 
 TEST(RunningTrials, AreToldFromNoTrials) {
