@@ -182,6 +182,7 @@ void SessionsDialog::write_note() {
     }
     item->setText(Column::note, note_of(session));
     item->setToolTip(Column::note, item->text(Column::note));
+    fit_columns();
 }
 
 void SessionsDialog::choose() {
