@@ -4,9 +4,10 @@ import os
 import time
 import unittest
 
-from window import Participants
+from window import Participants, starts_programs
 
 
+@starts_programs
 class Small(Participants):
     size = "1024x700"
     scale = "1"

@@ -5,9 +5,10 @@ import time
 import unittest
 
 import window
-from window import PROGRAM, Window, patient
+from window import PROGRAM, Window, patient, starts_programs
 
 
+@starts_programs
 class StartPage(Window):
     def open_without_a_file(self):
         self.log = open(self.folder.name + "/log", "w+")
