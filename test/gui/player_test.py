@@ -67,7 +67,7 @@ class Player(Window):
         folder = self.record()
         self.open(folder)
         time.sleep(1)
-        for _ in range(8):  # zoomed to a part of the session
+        for _ in range(12):  # zoomed to a part of the session
             self.xdotool("mousemove", "--window", self.name, "400", "750", "click", "4")
         self.key("ctrl+shift+s")
         time.sleep(0.5)
