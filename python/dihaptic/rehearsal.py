@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import ctypes
 import fcntl
 import multiprocessing
@@ -12,7 +13,7 @@ import shutil
 import signal
 import sys
 import traceback
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkProcess
@@ -151,10 +152,10 @@ class _Study:
         if self.person is not None and self.population:
             raise error("are given twice", "Leave out population or person.", key="people")
         sitting = self._sitting(1)
-        self._seed(1)
-        person, rules = _made(self.person, 1, Person), _made(self.between, 1, BetweenTrials)
-        if person is not None and people > 1 and _made(self.person, 2, Person) is person:
-            raise error("is one object for all", "Make a person for each number.", key="person")
+        with self._drawing(1):
+            person, rules = _made(self.person, 1, Person), _made(self.between, 1, BetweenTrials)
+            if person is not None and people > 1 and _made(self.person, 2, Person) is person:
+                raise error("is one object for all", "Make a person for each number.", key="person")
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
         except OSError as why:
@@ -233,9 +234,17 @@ class _Study:
             why = _that_travels(raised)
         answer.send(why)
 
-    def _seed(self, number: int) -> None:
+    @contextlib.contextmanager
+    def _drawing(self, number: int) -> Iterator[None]:
+        """What is drawn here is a person's own; what the caller draws later is as if nothing had been."""
+        before, of_numpy = random.getstate(), np.random.get_state()
         random.seed(f"{self.seed} {number}")
         np.random.seed([self.seed & 0xFFFFFFFF, self.seed >> 32, number])
+        try:
+            yield
+        finally:
+            random.setstate(before)
+            np.random.set_state(of_numpy)
 
     def _do(self, number: int) -> None:
         ppid = _native.person_id(number)
@@ -249,11 +258,11 @@ class _Study:
             if not (self.folder / ppid).exists():  # another program may have done it just now
                 for left in set(place.iterdir()) - {place / "messages.txt"}:
                     shutil.rmtree(left)
-                self._record(number, ppid, place)
+                with self._drawing(number):
+                    self._record(number, ppid, place)
             shutil.rmtree(place)
 
     def _record(self, number: int, ppid: str, place: Path) -> None:
-        self._seed(number)
         rules = _made(self.between, number, BetweenTrials)
         with listening(rules) as asking:
             ended = self._session(number, ppid, place, asking)

@@ -142,6 +142,11 @@ class Rehearsals(unittest.TestCase):
         gains = [self.rehearse(4, out=f"jobs{jobs}", person=Drawn, jobs=jobs).people.gain.tolist() for jobs in (1, 3)]
         self.assertEqual(gains[0], gains[1])
         self.assertEqual(len(set(gains[0])), 4)
+        np.random.seed(1)
+        expected = np.random.normal()
+        np.random.seed(1)
+        self.rehearse(1, out="between", person=Drawn)
+        self.assertEqual(np.random.normal(), expected, "the caller's own numbers")
 
     def test_people_may_have_different_attributes_of_any_kind(self):
         class Side(enum.IntEnum):
