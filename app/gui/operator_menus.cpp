@@ -132,7 +132,7 @@ void OperatorWindow::make_help_menu() {
     page(tr("This &window"), "window");
     page(tr("&Files: scenes, rigs, experiments"), "files");
     page(tr("&Experiments"), "experiments");
-    page(tr("&What is recorded"), "quantities");
+    page(tr("What is &recorded"), "quantities");
     page(tr("&Safety"), "safety");
     help->addSeparator();
     help->addAction(tr("&About Dihaptic"), this, [this] {

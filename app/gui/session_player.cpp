@@ -175,7 +175,7 @@ void SessionPlayer::make_menus() {
                         [this, name] { statusBar()->showMessage(show_help_page(name)); });
     };
     page(tr("This &window"), "window");
-    page(tr("&What is recorded"), "quantities");
+    page(tr("What is &recorded"), "quantities");
     page(tr("&Tables of a session"), "tables");
 }
 
