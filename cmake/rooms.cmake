@@ -35,9 +35,10 @@ endfunction()
 # that it may include; LINKS the outside libraries, which stay private; SOURCES generated files.
 # A room's doors are reached through an include folder of their own, so that to include another header, or a room that is
 # not named (or used by one that is named), does not compile: arrows point down only, and end at doors. Tests may
-# look into every room. LEAKY: libraries that its tests load, and that are gone by the end, keep memory.
+# look into every room. LEAKY: libraries that its tests load, and that are gone by the end, keep memory. TEST_LOCK: what
+# its tests use one at a time, with those of other rooms.
 function(dihaptic_room name)
-    cmake_parse_arguments(ROOM "LEAKY" "" "DOORS;USES;LINKS;SOURCES;TEST_USES" ${ARGN})
+    cmake_parse_arguments(ROOM "LEAKY" "TEST_LOCK" "DOORS;USES;LINKS;SOURCES;TEST_USES" ${ARGN})
     set(folder ${CMAKE_CURRENT_SOURCE_DIR})
 
     # relative: the folder that holds the project may be called test itself
@@ -90,8 +91,12 @@ function(dihaptic_room name)
         if(ROOM_LEAKY AND DIHAPTIC_SANITIZE)
             set(leaks ENVIRONMENT_MODIFICATION ASAN_OPTIONS=string_append::detect_leaks=0)
         endif()
+        set(lock "")
+        if(ROOM_TEST_LOCK)
+            set(lock RESOURCE_LOCK ${ROOM_TEST_LOCK})
+        endif()
         gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
-            PROPERTIES LABELS ${name} TIMEOUT ${DIHAPTIC_TIMEOUT} ${leaks})
+            PROPERTIES LABELS ${name} TIMEOUT ${DIHAPTIC_TIMEOUT} ${leaks} ${lock})
     endif()
     file(GLOB soaks CONFIGURE_DEPENDS ${folder}/soak/*_soak.cpp)
     if(DIHAPTIC_SOAKS AND soaks)

@@ -66,15 +66,19 @@ class Process {
     bool answers() const { return answers_; }
 
     /// Sends a message and waits for the answer. Throws Error with the problems that the keeper
-    /// reports, or when it does not answer.
-    json ask(const json& message, Time most) {
+    /// reports, or when it does not answer within `most`, or until `given_up` says true.
+    json ask(const json& message, Time most, const std::function<bool()>& given_up = {}) {
         std::optional<json> answer;
         if (answers_) {
             send(socket_, message);
-            answer = receive(socket_, most);
+            answer = receive(socket_, most, given_up);
         }
         // an answer that comes too late would be taken for the next one
         answers_ = answer.has_value();
+        if (!answers_ && given_up && given_up()) {
+            throw Error("interrupted while the program that keeps the devices did not answer",
+                        "Start again; if it never answers, switch the devices off and on first.");
+        }
         if (!answers_) {
             throw Error("the program that keeps the devices does not answer",
                         "Switch the devices off and on, and start again.");
@@ -168,13 +172,13 @@ class KeptDevices final : public devices::DeviceGroup {
             // kept only once its devices are made: otherwise the next try starts another keeper
             process_.reset();
             auto fresh = std::make_unique<Process>(order_.keeping.program);
-            fresh->ask(to_json(order_), kSetUp);
+            fresh->ask(to_json(order_), kSetUp, order_.keeping.given_up);
             process_ = std::move(fresh);
         }
         SharedPage& page = process_->page();
         page.ended.store(0);
         page.off.store(0);
-        process_->ask({{"do", "activate"}}, kSetUp);
+        process_->ask({{"do", "activate"}}, kSetUp, order_.keeping.given_up);
         lost_ = false;
         watch_over(&page);
     }
@@ -211,6 +215,7 @@ class KeptDevices final : public devices::DeviceGroup {
         if (lost_ || !await_answer(limit_)) return false;
         SharedPage& page = process_->page();
         fill(page);
+        page.asked_at.store(monotonic(), std::memory_order_relaxed);
         page.request.store(request, std::memory_order_relaxed);
         page.asked.fetch_add(1, std::memory_order_release);
         advance(page.bell);
@@ -304,7 +309,7 @@ std::string program() {
 
 std::unique_ptr<devices::DeviceGroup> keep_devices(const Order& order) {
     auto process = std::make_unique<Process>(order.keeping.program);
-    const json made = process->ask(to_json(order), kSetUp);
+    const json made = process->ask(to_json(order), kSetUp, order.keeping.given_up);
     return std::make_unique<KeptDevices>(order, std::move(process), made);
 }
 

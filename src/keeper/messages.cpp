@@ -60,6 +60,23 @@ Node node_of(const json& in) {
     return node;
 }
 
+/// Whether there is a message, within `most`; false soon after `given_up` says true.
+bool await_message(int socket, Time most, const std::function<bool()>& given_up) {
+    constexpr int64_t kLook = 20;  // between looks at `given_up` [ms]
+    const auto end = std::chrono::steady_clock::now() + most;
+    pollfd readable{socket, POLLIN, 0};
+    while (true) {
+        const auto left =
+            std::chrono::ceil<std::chrono::milliseconds>(end - std::chrono::steady_clock::now());
+        const int64_t wait = std::clamp<int64_t>(left.count(), 0, kLook);
+        const int ready = poll(&readable, 1, static_cast<int>(wait));
+        if (ready > 0) return true;
+        // a signal that is handled, such as Ctrl-C, interrupts it too
+        if ((ready < 0 && errno != EINTR) || left.count() <= 0) return false;
+        if (given_up && given_up()) return false;
+    }
+}
+
 }  // namespace
 
 json to_json(const Order& order) {
@@ -143,18 +160,8 @@ void send(int socket, const json& message) {
     ::send(socket, text.data(), text.size(), MSG_NOSIGNAL);
 }
 
-std::optional<json> receive(int socket, Time most) {
-    if (most > Time(0)) {
-        const auto end = std::chrono::steady_clock::now() + most;
-        pollfd readable{socket, POLLIN, 0};
-        int ready = 0;
-        do {
-            const auto left = std::chrono::ceil<std::chrono::milliseconds>(
-                end - std::chrono::steady_clock::now());
-            ready = poll(&readable, 1, static_cast<int>(std::max<int64_t>(left.count(), 0)));
-        } while (ready < 0 && errno == EINTR);  // by a signal that is handled, Ctrl-C above all
-        if (ready <= 0) return std::nullopt;
-    }
+std::optional<json> receive(int socket, Time most, const std::function<bool()>& given_up) {
+    if (most > Time(0) && !await_message(socket, most, given_up)) return std::nullopt;
     const ssize_t size = recv(socket, nullptr, 0, MSG_PEEK | MSG_TRUNC);
     if (size <= 0) return std::nullopt;
     std::string text(static_cast<size_t>(size), '\0');

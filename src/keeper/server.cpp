@@ -20,7 +20,9 @@ Server::Server(SharedPage& page, const Order& order, const InRealTime& in_real_t
       in_real_time_(in_real_time),
       longest_silence_(from_seconds(order.keeping.longest_silence)),
       tick_(from_seconds(order.tick)),
-      priority_(order.keeping.priority) {
+      priority_(order.keeping.priority),
+      backend_(order.backend) {
+    for (const devices::DeviceConfig& config : order.configs) places_.push_back(config.place);
     const devices::Backend* const backend = devices::find_backend(order.backend);
     if (backend == nullptr || order.configs.empty() || order.configs.size() > kMostDevices) {
         throw Error("a rig of real devices has one to eight of them, of one backend",
@@ -39,7 +41,9 @@ Server::~Server() {
 
 void Server::activate() {
     deactivate();
+    std::vector<devices::DeviceClaim> claims = devices::claim_devices(backend_, *devices_, places_);
     devices_->activate();
+    claims_ = std::move(claims);
     holding_ = behind_ = false;
     busy_since_.store(0);
     page_.answered.store(page_.asked.load());
@@ -73,6 +77,7 @@ void Server::deactivate() {
         watcher_.join();
     }
     devices_->deactivate();
+    claims_.clear();
 }
 
 void Server::serve_all() noexcept {
@@ -88,7 +93,8 @@ void Server::serve_all() noexcept {
             wait_on(page_.bell, bell, holding_ ? left : kIdle);
             continue;
         }
-        heard = monotonic();
+        // a keeper that was stopped finds requests that have waited meanwhile
+        heard = page_.asked_at.load(std::memory_order_relaxed);
         const Request request = page_.request.load(std::memory_order_relaxed);
         if (request == Request::quit) return;
         serve(request);
@@ -100,11 +106,12 @@ void Server::serve_all() noexcept {
 
 void Server::serve(Request request) noexcept {
     if (request == Request::read) read(Time(page_.now));
-    if (request == Request::write) write();
+    if (request == Request::write) overslept_since(page_.asked_at.load()) ? write_zero() : write();
     if (request == Request::pace) {
         replied_ = page_.replied.load();
         turn_time_ = Time(0);
         behind_ = false;
+        turned_ = monotonic();
         devices_->pace([this] { return take_turn(); });
         holding_ = false;
     }
@@ -174,18 +181,36 @@ bool Server::await_reply() noexcept {
 
 /// One tick of devices that pace: the program computes between reading and writing.
 bool Server::take_turn() noexcept {
+    const bool overslept = holding_ && overslept_since(turned_);
+    const int64_t begin = monotonic();
     read(turn_time_);
     turn_time_ += tick_;
+    if (overslept) {
+        behind_ = true;
+        return end_turn(false);
+    }
     replied_ = page_.replied.load(std::memory_order_acquire);
     if (page_.closing.load() == 0) advance(page_.offered);
-    const bool replied = await_reply();
+    const bool replied = await_reply() && !overslept_since(begin);
     behind_ = !replied;
+    return end_turn(replied);
+}
+
+/// Whether this process was stopped meanwhile, or another kept the processor from it: the force
+/// that acts is older than any may be.
+bool Server::overslept_since(int64_t time) const noexcept {
+    return monotonic() - time > longest_silence_.count();
+}
+
+/// Writes what the program replied, or zero. Returns whether another turn may follow.
+bool Server::end_turn(bool replied) noexcept {
     if (replied && !ended()) {
         write();
     } else {
         write_zero();
         if (ended()) switch_off();
     }
+    turned_ = monotonic();
     return page_.closing.load() == 0;
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <thread>
 
+#include "devices/device_claim.h"
 #include "keeper/keeper.h"
 #include "keeper/order.h"
 #include "keeper/shared_page.h"
@@ -41,6 +42,8 @@ class Server {
     void serve_all() noexcept;
     void serve(Request request) noexcept;
     bool take_turn() noexcept;
+    bool end_turn(bool replied) noexcept;
+    bool overslept_since(int64_t time) const noexcept;
     bool await_reply() noexcept;
     void read(Time now) noexcept;
     void write() noexcept;
@@ -55,13 +58,17 @@ class Server {
     Time longest_silence_;
     Time tick_;
     int priority_;
+    std::string backend_;
+    std::vector<Place> places_;  // of the devices, by device
     std::unique_ptr<devices::DeviceGroup> devices_;
+    std::vector<devices::DeviceClaim> claims_;  // while the devices are active
     std::vector<devices::Reading> readings_;
     std::vector<Wrench> wrenches_;
     std::atomic<bool> holding_{false};    // the devices may hold a force that is not zero
     uint32_t replied_ = 0;                // SharedPage::replied at the beginning of this turn
     bool behind_ = false;                 // the program missed the last turn
     Time turn_time_{0};                   // time of this turn, counted in ticks
+    int64_t turned_ = 0;                  // end of the last turn, monotonic()
     std::atomic<int64_t> busy_since_{0};  // begin of a call to the devices, monotonic(); 0: no call
     std::atomic<bool> watching_{false};
     std::thread serving_;

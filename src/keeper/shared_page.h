@@ -26,6 +26,8 @@ struct SharedPage {
     std::atomic<uint32_t> closing{0};  ///< 1: pacing is to end
     /// Written by the keeper, too, when it ends: atomic, since its own threads see no order there.
     std::atomic<Request> request{};
+    /// When the newest request was made, monotonic(): the keeper may have slept since.
+    std::atomic<int64_t> asked_at{0};
     int64_t now = 0;  ///< time of a reading [ns]
     Wrench wrenches[kMostDevices];
 
@@ -37,6 +39,7 @@ struct SharedPage {
 };
 static_assert(std::atomic<uint32_t>::is_always_lock_free);
 static_assert(std::atomic<Request>::is_always_lock_free);
+static_assert(std::atomic<int64_t>::is_always_lock_free);
 static_assert(sizeof(std::atomic<uint32_t>) == sizeof(uint32_t));
 
 /// Ends force: sets `ended`, and wakes the keeper. Async-signal-safe.

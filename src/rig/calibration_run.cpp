@@ -158,7 +158,9 @@ Ball common_ball(const Rig& rig) {
 }  // namespace
 
 CalibrationSampler::CalibrationSampler(const Rig& rig, const hand::Driver* driver)
-    : devices_(devices_of(rig, driver)), reader_(*devices_, held_fingers(rig)) {
+    : devices_(devices_of(rig, driver)),
+      claims_(claim_devices(rig, held_fingers(rig), *devices_)),
+      reader_(*devices_, held_fingers(rig)) {
     for (size_t i = 0; i < rig.devices.size(); ++i) {
         const devices::DeviceInfo& info = devices_->info(static_cast<int>(i));
         input_.devices.push_back(

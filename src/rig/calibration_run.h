@@ -40,6 +40,7 @@ class CalibrationSampler {
     }
 
     std::unique_ptr<devices::DeviceGroup> devices_;
+    std::vector<devices::DeviceClaim> claims_;
     DeviceReader reader_;
     CalibrationInput input_;
 };

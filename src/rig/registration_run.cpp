@@ -53,6 +53,7 @@ class Endpoint {
     Endpoint(const Rig& rig, const std::string& finger, const hand::Driver* driver)
         : X_WD_(device_of(rig, finger).X_WD()),
           devices_(make(rig, finger, driver)),
+          claims_(claim_devices(rig, {finger}, *devices_)),
           reader_(*devices_, {finger}) {
         devices_->activate();
     }
@@ -76,6 +77,7 @@ class Endpoint {
 
     Pose X_WD_;
     std::unique_ptr<devices::DeviceGroup> devices_;
+    std::vector<devices::DeviceClaim> claims_;
     DeviceReader reader_;
 };
 

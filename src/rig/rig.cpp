@@ -11,6 +11,7 @@
 #include "base/field_writer.h"
 #include "base/text_file.h"
 #include "rig/corrected_devices.h"
+#include "rig/libraries.h"
 
 namespace dihaptic::rig {
 namespace {
@@ -207,8 +208,9 @@ const Device& device_of(const Rig& rig, const std::string& finger) {
                             fmt::join(held_fingers(rig), ", ")));
 }
 
-Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics) {
+Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics, NamedBy named_by) {
     Rig rig;
+    rig.named_by = named_by;
     try {
         read_fields(rig, read_yaml(file), diagnostics);
     } catch (const Error& e) {
@@ -220,14 +222,14 @@ Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics) {
     return rig;
 }
 
-Rig read_rig_to_register(const std::string& file, Diagnostics& diagnostics) {
-    Rig rig = read_rig_to_calibrate(file, diagnostics);
+Rig read_rig_to_register(const std::string& file, Diagnostics& diagnostics, NamedBy named_by) {
+    Rig rig = read_rig_to_calibrate(file, diagnostics, named_by);
     if (!rig.calibration.empty()) read_calibration(rig, beside(file, rig.calibration), diagnostics);
     return rig;
 }
 
-Rig read_rig(const std::string& file, Diagnostics& diagnostics) {
-    Rig rig = read_rig_to_register(file, diagnostics);
+Rig read_rig(const std::string& file, Diagnostics& diagnostics, NamedBy named_by) {
+    Rig rig = read_rig_to_register(file, diagnostics, named_by);
     for (Display& display : rig.displays) {
         if (display.registration.empty()) continue;
         read_registration(rig, display, beside(file, display.registration), diagnostics);
@@ -422,6 +424,7 @@ std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
                                                    const std::vector<std::string>& fingers,
                                                    const devices::Context& context,
                                                    const std::optional<keeper::Keeping>& keeping) {
+    check_libraries(rig);
     const auto [backend, configs] = held_by(rig, fingers);
     auto group = backend.real && keeping
                      ? keeper::keep_devices({backend.name, configs, context.tick, *keeping})
@@ -435,6 +438,16 @@ std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
     }
     if (adjusted) return make_corrected(std::move(group), std::move(adjustments));
     return group;
+}
+
+std::vector<devices::DeviceClaim> claim_devices(const Rig& rig,
+                                                const std::vector<std::string>& fingers,
+                                                const devices::DeviceGroup& devices) {
+    const auto [backend, configs] = held_by(rig, fingers);
+    if (!backend.real) return {};
+    std::vector<Place> places;
+    for (const devices::DeviceConfig& config : configs) places.push_back(config.place);
+    return devices::claim_devices(backend.name, devices, places);
 }
 
 std::optional<Eigen::AlignedBox3d> wall_box(const Rig& rig) {

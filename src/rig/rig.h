@@ -1,6 +1,7 @@
 // The rig: which devices there are, where they stand, and which finger each holds (docs/files.md).
 #pragma once
 
+#include "devices/device_claim.h"
 #include "devices/device_group.h"
 #include "keeper/kept_devices.h"
 #include "outlets/head_tracker.h"
@@ -77,6 +78,9 @@ struct Wall {
     Eigen::AlignedBox3d box() const { return {centre - size / 2, centre + size / 2}; }
 };
 
+/// Who named a rig's file: the operator, or another file, which may be a stranger's.
+enum class NamedBy { a_file, the_operator };
+
 /// A rig file. All its positions are in one frame, in which `origin` is the world's origin.
 /// read_rig() subtracts that: the positions that it returns are in the world.
 struct Rig {
@@ -96,6 +100,7 @@ struct Rig {
     Place place;
     std::optional<Calibration> calibrated;  ///< content of the file `calibration`
     Vec3 moved_by = Vec3::Zero();           ///< the file's `origin`, before it became zero [m]
+    NamedBy named_by = NamedBy::a_file;     ///< whether its libraries are loaded (libraries.h)
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -129,11 +134,13 @@ struct Rig {
 };
 
 /// Reads a rig file, its calibration and registrations; every problem goes to `diagnostics`.
-Rig read_rig(const std::string& file, Diagnostics& diagnostics);
+Rig read_rig(const std::string& file, Diagnostics& diagnostics, NamedBy named_by = NamedBy::a_file);
 /// Reads it without registrations, which may be missing: for a rig whose displays are registered.
-Rig read_rig_to_register(const std::string& file, Diagnostics& diagnostics);
+Rig read_rig_to_register(const std::string& file, Diagnostics& diagnostics,
+                         NamedBy named_by = NamedBy::a_file);
 /// Reads it without its calibration as well: for a rig to be calibrated.
-Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics);
+Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics,
+                          NamedBy named_by = NamedBy::a_file);
 
 /// Path of a rig's calibration: the file that the rig names, or else one beside the rig file.
 std::string calibration_file(const Rig& rig, const std::string& rig_file);
@@ -177,6 +184,11 @@ std::vector<devices::DeviceInfo> describe(const Rig& rig, const std::vector<std:
 std::unique_ptr<devices::DeviceGroup> make_devices(
     const Rig& rig, const std::vector<std::string>& fingers, const devices::Context& context,
     const std::optional<keeper::Keeping>& keeping = {});
+/// Claims real devices that make_devices() made for this process to own, before it activates them;
+/// a keeper does so itself. Throws Error when another program has one.
+std::vector<devices::DeviceClaim> claim_devices(const Rig& rig,
+                                                const std::vector<std::string>& fingers,
+                                                const devices::DeviceGroup& devices);
 /// The fingers that hold a device, in the file's order.
 std::vector<std::string> held_fingers(const Rig& rig);
 /// The display of that name; if it is empty, the only one. Throws Error when there is none.

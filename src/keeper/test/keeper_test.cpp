@@ -2,6 +2,11 @@
 // own process. test/force_test.py tests the whole program.
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -213,6 +218,88 @@ TEST_P(Kept, DevicesAreAtZeroWhenTheProgramIsAboutToDie) {
         return ++ticks < 300;
     });
     EXPECT_GT(again, 1);
+}
+
+/// The keeper that this process started last, which has no other children.
+pid_t keeper_pid() {
+    std::ifstream children("/proc/self/task/" + std::to_string(getpid()) + "/children");
+    pid_t out = 0;
+    for (pid_t one = 0; children >> one;) out = one;
+    return out;
+}
+
+TEST_P(Kept, DevicesOfAKeeperThatWasStoppedLoseTheirForceAtOnceWhenItGoesOn) {
+    // the firmware's watchdog would do so by itself
+    if (!hd) {
+        for (devices::DeviceConfig& config : order.configs)
+            config.options.set("watchdog", Node::of("no"));
+    }
+    const auto kept = keep_devices(order);
+    const pid_t keeper = keeper_pid();
+    ASSERT_GT(keeper, 0);
+    kept->activate();
+    std::vector<devices::Reading> readings(2);
+    int ticks = 0;
+    double gone = std::nan("");
+    run(*kept, [&] {
+        kept->read(Time(ticks), readings);
+        const bool last = ++ticks == 300;
+        if (last) {
+            EXPECT_GT(felt[0].force, 1);
+            kill(keeper, SIGSTOP);
+            waitpid(keeper, nullptr, WUNTRACED);
+        }
+        kept->write(kPush);  // what it finds when it goes on is old
+        if (!last) return true;
+        // longer than any force may last without a word, and than HD's callbacks that were missed
+        std::this_thread::sleep_for(milliseconds(150));
+        const int64_t begin = monotonic();
+        kill(keeper, SIGCONT);
+        gone = felt.gone_after(begin);
+        return false;
+    });
+    // the half of what the force would be held once more, on a machine that is not busy
+    EXPECT_LT(gone, order.keeping.longest_silence / 2);
+}
+
+TEST(Keeper, ThatDoesNotAnswerIsGivenUpWhenTheProgramIsInterrupted) {
+    const testing::TemporaryFolder folder;
+    Order order = order_on("forcedimension");
+    order.keeping.program = folder.write("silent", "#!/bin/sh\nexec sleep 60\n");
+    std::filesystem::permissions(order.keeping.program, std::filesystem::perms::owner_all);
+    const int64_t begin = monotonic();
+    order.keeping.given_up = [begin] { return monotonic() - begin > 100'000'000; };
+    try {
+        keep_devices(order);
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("interrupted while"), std::string::npos) << e.what();
+    }
+    // and its process is ended, which takes kSetDown
+    EXPECT_LT(static_cast<double>(monotonic() - begin) * 1e-9, 20);
+}
+
+TEST_P(Kept, DevicesHaveOneOwnerAtATime) {
+    const auto first = keep_devices(order);
+    const pid_t owner = keeper_pid();
+    const auto second = keep_devices(order);
+    first->activate();
+    try {
+        second->activate();
+        FAIL();
+    } catch (const Error& e) {
+        const std::string told = e.what();
+        EXPECT_NE(told.find("rig.yaml:11: error: serial: "), std::string::npos) << told;
+        EXPECT_NE(told.find("is in use by dihaptic-keeper (process " + std::to_string(owner) +
+                            " of user "),
+                  std::string::npos)
+            << told;
+    }
+    first->deactivate();
+    second->activate();
+    // the kernel gives back what a keeper had that is killed
+    kill(keeper_pid(), SIGKILL);
+    first->activate();
 }
 
 TEST(ForceOff, IsDoneWhereNothingIsKept) {

@@ -45,7 +45,7 @@ struct Person {
             "  - {name: right, position_mm: [30, -30, 0]}\n"
             "  - {name: back, position_mm: [0, 30, 10]}\n";
         Diagnostics diagnostics;
-        rig = read_rig(folder.write("rig.yaml", text), diagnostics);
+        rig = read_rig(folder.write("rig.yaml", text), diagnostics, NamedBy::the_operator);
         diagnostics.throw_if_errors();
         X_WD = poses(rig, held_fingers(rig));
         X_WD[0] = X_WD[0] * Pose{rotation_xyz({0.02, -0.01, 0.03}), {0.002, -0.001, 0.003}};

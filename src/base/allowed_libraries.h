@@ -1,0 +1,24 @@
+// The libraries that a user allows this program to load, wherever they are named: files that come
+// from others may name libraries too, and loading one runs its code.
+//
+// The list is a YAML file of the user's, $XDG_CONFIG_HOME/dihaptic/libraries.yaml or
+// ~/.config/dihaptic/libraries.yaml:
+//
+//   - /opt/OpenHaptics/lib/libHD.so
+#pragma once
+
+#include <string>
+
+namespace dihaptic {
+
+/// Path of the list; "" if the user has no home.
+std::string allowed_libraries_file();
+
+/// Whether the loader finds a library of this name by itself, in the system's folders: the name has
+/// no folder.
+bool is_system_library(const std::string& name);
+
+/// Whether the list has this file. Throws Error when the list cannot be read.
+bool is_allowed_library(const std::string& path);
+
+}  // namespace dihaptic

@@ -1,0 +1,62 @@
+#include "rig/libraries.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "base/allowed_libraries.h"
+
+namespace dihaptic::rig {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The path as it would stand in the list of libraries that are allowed.
+std::string whole(const std::string& path) {
+    std::error_code failed;
+    const fs::path out = fs::weakly_canonical(fs::absolute(path, failed), failed);
+    return failed ? path : out.string();
+}
+
+Problem refusal(const Place& place, const std::string& path) {
+    const std::string list = allowed_libraries_file();
+    std::string remedy = "If you trust it, ";
+    if (!list.empty()) remedy += fmt::format("add the line '- {}' to {}; or ", whole(path), list);
+    return {Severity::error, place, "library",
+            fmt::format("'{}' is not loaded: its code could do anything, and it is named by a file "
+                        "that you did not name yourself",
+                        path),
+            remedy + "name the rig yourself: --rig, or Rig in the window."};
+}
+
+void look_at(const Place& place, const std::string& path, std::vector<Problem>& out) {
+    if (is_system_library(path)) return;
+    try {
+        if (!is_allowed_library(path)) out.push_back(refusal(place, path));
+    } catch (const Error& e) {
+        out.insert(out.end(), e.problems().begin(), e.problems().end());
+    }
+}
+
+void look_at(const Node& options, std::vector<Problem>& out) {
+    if (const Node* library = options.find("library"))
+        look_at(library->place, library->scalar, out);
+}
+
+}  // namespace
+
+std::vector<Problem> strange_libraries(const Rig& rig) {
+    std::vector<Problem> out;
+    for (const Device& device : rig.devices) look_at(device.options, out);
+    for (const outlets::OutletConfig& outlet : rig.outlets) look_at(outlet.options, out);
+    if (rig.head) look_at(rig.head->place, rig.head->library, out);
+    return out;
+}
+
+void check_libraries(const Rig& rig) {
+    if (rig.named_by == NamedBy::the_operator) return;
+    if (std::vector<Problem> strange = strange_libraries(rig); !strange.empty())
+        throw Error(std::move(strange));
+}
+
+}  // namespace dihaptic::rig
