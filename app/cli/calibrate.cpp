@@ -14,7 +14,8 @@ struct CalibrateOptions {
 
 void calibrate(const CalibrateOptions& options) {
     Diagnostics diagnostics;
-    const rig::Rig rig = rig::read_rig_to_calibrate(options.rig, diagnostics);
+    const rig::Rig rig =
+        rig::read_rig_to_calibrate(options.rig, diagnostics, rig::NamedBy::the_operator);
     diagnostics.throw_if_errors();
     print(diagnostics.problems());
     const std::string out =

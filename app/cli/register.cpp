@@ -40,7 +40,8 @@ void draw_crosses(const rig::Display& display, const RegisterOptions& options) {
 
 void register_display(const RegisterOptions& options) {
     Diagnostics diagnostics;
-    const rig::Rig rig = rig::read_rig_to_register(options.rig, diagnostics);
+    const rig::Rig rig =
+        rig::read_rig_to_register(options.rig, diagnostics, rig::NamedBy::the_operator);
     diagnostics.throw_if_errors();
     print(diagnostics.problems());
     const rig::Display& display = rig::display_of(rig, options.display);

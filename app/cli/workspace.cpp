@@ -39,7 +39,7 @@ void check_wall(const rig::Rig& rig, const std::vector<rig::Reach>& reaches) {
 
 void show_workspace(const std::string& file, const std::string& out) {
     Diagnostics diagnostics;
-    const rig::Rig rig = rig::read_rig(file, diagnostics);
+    const rig::Rig rig = rig::read_rig(file, diagnostics, rig::NamedBy::the_operator);
     diagnostics.throw_if_errors();
     print(diagnostics.problems());
     check_output(out, file, "the rig file");

@@ -14,9 +14,9 @@
 
 namespace dihaptic::gui {
 
-void Calibrator::calibrate(const QString& rig_file) {
+void Calibrator::calibrate(const QString& rig_file, rig::NamedBy named_by) {
     Diagnostics diagnostics;
-    const rig::Rig rig = rig::read_rig_to_calibrate(rig_file.toStdString(), diagnostics);
+    const rig::Rig rig = rig::read_rig_to_calibrate(rig_file.toStdString(), diagnostics, named_by);
     for (const Problem& problem : diagnostics.problems())
         Q_EMIT logged(QString::fromStdString(problem.text()), true);
     if (diagnostics.has_errors()) return;
@@ -83,9 +83,9 @@ void Calibrator::ask_to_store(const rig::Rig& rig, const rig::CalibrationResult&
     dialog->open();
 }
 
-void Calibrator::register_display(const QString& rig_file) {
+void Calibrator::register_display(const QString& rig_file, rig::NamedBy named_by) {
     Diagnostics diagnostics;
-    const rig::Rig rig = rig::read_rig_to_register(rig_file.toStdString(), diagnostics);
+    const rig::Rig rig = rig::read_rig_to_register(rig_file.toStdString(), diagnostics, named_by);
     for (const Problem& problem : diagnostics.problems())
         Q_EMIT logged(QString::fromStdString(problem.text()), true);
     if (diagnostics.has_errors() || rig.displays.empty()) return;

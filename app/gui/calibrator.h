@@ -19,11 +19,11 @@ class Calibrator : public QObject {
     /// `window`: parent of its dialogs.
     explicit Calibrator(QWidget* window) : QObject(window), window_(window) {}
 
-    /// Asks at the end whether to store the result.
-    void calibrate(const QString& rig_file);
+    /// Asks at the end whether to store the result. `named_by`: who chose that file.
+    void calibrate(const QString& rig_file, rig::NamedBy named_by);
     /// Shows crosses on the rig's first display, and asks at the end whether to store where they
     /// were touched.
-    void register_display(const QString& rig_file);
+    void register_display(const QString& rig_file, rig::NamedBy named_by);
     /// Makes a check for a session's start, to be called in the session's thread: the person holds
     /// endpoints together, or skips it, and it returns warnings if the calibration no longer holds.
     /// `ends`: whether the session is to end.

@@ -78,8 +78,9 @@ void OperatorWindow::make_session_menu() {
                                            [this] { show_checklist(false); });
     calibrate_action_ =
         session->addAction(tr("&Calibrate the rig ..."), this, &OperatorWindow::calibrate);
-    register_action_ = session->addAction(tr("Re&gister the display ..."), this,
-                                          [this] { calibrator_->register_display(rig_file()); });
+    register_action_ = session->addAction(tr("Re&gister the display ..."), this, [this] {
+        calibrator_->register_display(rig_file(), rig_named_by());
+    });
 }
 
 void OperatorWindow::make_view_menu() {

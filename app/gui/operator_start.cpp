@@ -95,7 +95,7 @@ void OperatorWindow::remedy(session::Remedy remedy) {
         case session::Remedy::calibrate:
             return calibrate();
         case session::Remedy::register_display:
-            return calibrator_->register_display(rig_file());
+            return calibrator_->register_display(rig_file(), rig_named_by());
         case session::Remedy::choose_folder:
             return choose_folder();
         case session::Remedy::allow_real_time:
@@ -203,11 +203,15 @@ QString OperatorWindow::rig_file() const {
     return rig.isEmpty() ? "" : QDir::cleanPath(rig);
 }
 
+rig::NamedBy OperatorWindow::rig_named_by() const {
+    return session_->rig().isEmpty() ? rig::NamedBy::a_file : rig::NamedBy::the_operator;
+}
+
 void OperatorWindow::calibrate() {
     if (runner_.running() || loader_.loading()) return;
     const QString rig = rig_file();
     if (rig.isEmpty()) return log(tr("There is no rig file to calibrate: choose a rig."), true);
-    calibrator_->calibrate(rig);
+    calibrator_->calibrate(rig, rig_named_by());
 }
 
 }  // namespace dihaptic::gui

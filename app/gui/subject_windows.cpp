@@ -1,6 +1,7 @@
 #include "subject_windows.h"
 
 #include "base/field_writer.h"
+#include "rig/libraries.h"
 
 namespace dihaptic::gui {
 
@@ -28,6 +29,17 @@ void SubjectWindows::track(const std::optional<outlets::TrackedHead>& head) {
     head ? follow_.start() : follow_.stop();
 }
 
+/// Whatever a tracker's library does, it does once it is loaded.
+void SubjectWindows::track_head_of(const rig::Rig& rig) {
+    try {
+        if (rig.head) rig::check_libraries(rig);
+        track(rig.head);
+    } catch (const Error& e) {
+        track({});
+        Q_EMIT told(e.what(), true);
+    }
+}
+
 void SubjectWindows::follow_head() {
     for (const outlets::HeadTracker::Told& told : tracker_->take_told())
         Q_EMIT this->told(QString::fromStdString(told.what), told.problem);
@@ -53,7 +65,7 @@ void SubjectWindows::open(const rig::Rig& rig) {
         if (windows_.empty()) add(std::optional<rig::Display>());
         connect(first(), &SceneWidget::presented, this, &SubjectWindows::show_first);
     }
-    track(rig.head);
+    track_head_of(rig);
     Q_EMIT changed();
 }
 
@@ -91,7 +103,7 @@ void SubjectWindows::set_scene(const scene::Scene& scene, const servo::Frame& fr
     const bool same_headset =
         headset_ ? rig.headset && headset_->is_at(*rig.headset) : !rig.headset;
     if (windows_.size() != windows_of(rig) || !same_headset) open(rig);
-    track(rig.head);
+    track_head_of(rig);
     if (headset_) headset_->set_scene(scene, frame);
     for (size_t i = 0; i < windows_.size(); ++i) {
         SceneWidget& widget = windows_[i]->scene();

@@ -54,6 +54,7 @@ class SubjectWindows : public QObject {
   private:
     void add(const std::optional<rig::Display>& display);
     void add(const rig::Headset& headset);
+    void track_head_of(const rig::Rig& rig);
     void track(const std::optional<outlets::TrackedHead>& head);
     /// Gives the windows the newest pose of the head.
     void follow_head();

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import json
+import os
 import socket
 import tempfile
 import threading
@@ -15,6 +16,8 @@ from typing import Any
 
 import pandas as pd
 
+from ._peer import peer
+from ._text import to_json
 from .errors import error
 
 
@@ -126,20 +129,31 @@ class BetweenTrials:
                 answer["message"] = list(self.messages).index(chosen.message)
         except Exception as why:  # whatever it is: the session goes on
             self.failures.append(traceback.format_exc())
-            return {"number": question["number"], "failed": f"{type(why).__name__}: {why}"}
+            return {"number": question["number"], "failed": f"{type(why).__name__}: {_text_of(why)}"}
         return answer
 
     def _serve(self, listening: socket.socket) -> None:
         with contextlib.suppress(OSError):
             connection, _ = listening.accept()
+            while peer(connection).uid not in {0, os.geteuid()}:
+                connection.close()
+                connection, _ = listening.accept()
             with connection, connection.makefile("rw", encoding="utf-8") as lines:
-                lines.write(json.dumps({"messages": list(self.messages)}) + "\n")
+                lines.write(to_json({"messages": list(self.messages)}) + "\n")
                 lines.flush()
                 for line in lines:
                     answer = self._answer(json.loads(line))
                     if answer is not None:
-                        lines.write(json.dumps(answer) + "\n")
+                        lines.write(to_json(answer) + "\n")
                         lines.flush()
+
+
+def _text_of(why: Exception) -> str:
+    """In one line."""
+    try:
+        return " ".join(str(why).split())
+    except Exception as another:
+        return f"its text cannot be had ({type(another).__name__})"
 
 
 def _check(rules: BetweenTrials) -> None:

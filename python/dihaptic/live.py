@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import socket
 import time
 from collections.abc import Iterator
@@ -12,6 +13,8 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from ._peer import peer
+from ._text import to_json
 from .errors import error
 
 _LONGEST = 1 << 20  # message [bytes]
@@ -129,7 +132,7 @@ class Live:
 
     def _send(self, message: dict[str, Any]) -> None:
         with suppress(ConnectionError):  # it is over, as the next moment would tell
-            self._socket.send(json.dumps(message).encode())
+            self._socket.send(to_json(message).encode())
 
     def _receive(self) -> dict[str, Any] | None:
         """The next message; None: the session is over."""
@@ -153,13 +156,25 @@ class Live:
 
 def _connected(folder: Path) -> socket.socket | None:
     """The other end of src/session/onlookers.h; None: no session runs in that folder."""
+    try:
+        descriptor = os.open(folder / "onlookers", os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+        with open(descriptor, "rb") as file:
+            name = file.read(100)
+            owner = os.fstat(descriptor).st_uid
+    except OSError:
+        return None
+    if not name.startswith(b"dihaptic/session/"):
+        return None
     connection = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
     try:
-        is_at = folder.stat()
-        connection.connect(f"\0dihaptic/session/{is_at.st_dev}/{is_at.st_ino}")
+        connection.connect(b"\0" + name)
     except OSError:
         connection.close()
         return None
+    # root may watch the session of whose folder it is; anybody else only their own
+    if peer(connection).uid not in {0, os.geteuid() or owner}:
+        connection.close()
+        raise error("is answered for by another user's program", "Watch a session of your own.", file=str(folder))
     return connection
 
 

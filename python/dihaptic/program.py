@@ -229,7 +229,10 @@ def _watch(stream: IO[str], said: list[str], progress: bool) -> None:
     shown = False
     for line in stream:
         at = _PROGRESS.match(line)
-        if at is None:
+        if line.startswith("waiting: "):  # may last, so it is told at once
+            sys.stderr.write(line)
+            sys.stderr.flush()
+        elif at is None:
             said.append(line.rstrip("\n"))
         elif progress:
             sys.stderr.write(f"\r{at['what']} {at['share']} %".ljust(40))

@@ -1,6 +1,7 @@
 """What is decided between trials in Python acts, is recorded, and never holds a session up."""
 
 import json
+import os
 import pathlib
 import signal
 import socket
@@ -194,6 +195,65 @@ class Deciding(unittest.TestCase):
         self.assertEqual(len(session.trials), TRIALS)
         self.assertIn("failed (ZeroDivisionError: division by zero)", told)
         self.assertIn("in decide", rules.failures[0])
+
+    def test_a_reason_is_not_lost_whatever_is_in_it(self):
+        class Odd(Exception):
+            def __str__(self):
+                raise ValueError
+
+        class Raises(dh.BetweenTrials):
+            messages = ("caf\udce9",)
+
+            def decide(self, last):
+                raise [
+                    ValueError("no file caf\udce9\nhere \x1b[1m"),
+                    Odd(),
+                    ValueError("\u00fc" * 300),
+                    KeyError("x"),
+                ][last.trial_num % 4]
+
+        session, told = self.run_it(with_variable([{"name": "trials", "kind": "baseline", "repeats": 3}]), Raises())
+        for what in (
+            r"failed (ValueError: no file caf\udce9 here \ufffd[1m)",
+            "failed (Odd: its text cannot be had (ValueError))",
+            "failed (ValueError: \u00fc\u00fc\u00fc",
+        ):
+            self.assertIn(what.replace(r"\ufffd", "\ufffd"), told)
+        self.assertIn(r"caf\udce9", "\n".join(session.info["notes"]))
+        self.assertEqual(dh.load(session.folder).info["state"], "complete")
+
+    def test_one_that_never_answers_is_told_of_while_the_session_waits(self):
+        def silent(server):
+            connection, _ = server.accept()
+            connection.sendall(b'{"messages": []}\n')
+            time.sleep(8)
+            connection.close()
+
+        done = self.against(silent)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("waiting: What decides between trials has not answered for 5 s, after trial 0.", done.stderr)
+
+    @unittest.skipUnless(os.geteuid() == 0, "wants to be another user")
+    def test_another_users_program_decides_nothing(self):
+        os.chmod(self.folder.name, 0o755)
+        path = f"{self.folder.name}/there/between"
+        pathlib.Path(path).parent.mkdir()
+        os.chown(pathlib.Path(path).parent, 65534, -1)
+        stranger = (
+            "import socket, sys; s = socket.socket(socket.AF_UNIX); s.bind(sys.argv[1]); s.listen();"
+            "print('there', flush=True); s.accept()[0].send(b'{\"messages\": []}\\n'); sys.stdin.read()"
+        )
+        process = subprocess.Popen(
+            ["/usr/bin/python3", "-c", stranger, path],
+            user=65534, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+        )  # fmt: skip
+        self.addCleanup(process.wait)
+        self.addCleanup(process.stdin.close)
+        self.addCleanup(process.stdout.close)
+        self.assertEqual(process.stdout.readline(), b"there\n")
+        done = subprocess.run([program(), "run", self.file(), "--between", path], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 2, done.stdout)
+        self.assertRegex(done.stderr, r"is another user's: python3.* \(process \d+ of user nobody")
 
     def test_in_real_time_a_slow_one_holds_nothing_up(self):
         """One that takes 50 ms is waited for; one that takes longer than the patience is not."""

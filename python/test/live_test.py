@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import shutil
 import socket
 import subprocess
 import tempfile
@@ -67,7 +68,7 @@ class Live(unittest.TestCase):
         return dh.load(folder), said
 
     def address(self, folder):
-        return f"\0dihaptic/session/{folder.stat().st_dev}/{folder.stat().st_ino}"
+        return b"\0" + (folder / "onlookers").read_bytes()
 
     def until(self, live, end_s):
         """What is seen of a session that is then ended."""
@@ -184,6 +185,37 @@ class Live(unittest.TestCase):
         session, said = self.session(run)
         self.assertNotIn("WARNING", said)
         self.assertTrue((np.diff(session.t) > 0).all())
+
+    def test_has_an_address_that_its_user_alone_can_read_while_it_runs(self):
+        run = self.start("experiments/lift-block.yaml")
+        with dh.observe(self.out) as live:
+            file = live.session / "onlookers"
+            self.assertEqual(file.stat().st_mode & 0o777, 0o600)
+            self.assertRegex(file.read_text(), "^dihaptic/session/[0-9a-f]{32}$")
+            shutil.copytree(live.session, self.folder / "copy")
+            live.end()
+        self.assertFalse(self.session(run)[0].folder.joinpath("onlookers").exists())
+
+    @unittest.skipUnless(os.geteuid() == 0, "wants to be another user")
+    def test_is_not_taken_from_another_users_program(self):
+        stranger = (
+            "import socket, sys; s = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET);"
+            "s.bind('\\0' + sys.argv[1]); s.listen(); print('there', flush=True);"
+            "s.accept()[0].send(b'{\"session\": \"x\", \"states\": [], \"outcomes\": []}'); sys.stdin.read()"
+        )
+        name = f"dihaptic/session/{os.getpid():032x}"
+        process = subprocess.Popen(
+            ["/usr/bin/python3", "-c", stranger, name],
+            user=65534, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+        )  # fmt: skip
+        self.addCleanup(process.wait)
+        self.addCleanup(process.stdin.close)
+        self.addCleanup(process.stdout.close)
+        self.assertEqual(process.stdout.readline(), b"there\n")
+        self.out.mkdir()
+        (self.out / "onlookers").write_text(name)
+        with self.assertRaisesRegex(dh.Error, "is answered for by another user's program"):
+            dh.observe(self.out, patience_s=0)
 
     @unittest.skipUnless(os.geteuid() == 0, "wants to be another user")
     def test_is_seen_by_no_other_user(self):

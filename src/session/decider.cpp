@@ -15,7 +15,10 @@
 #include <optional>
 #include <thread>
 
+#include "base/json.h"
+#include "base/peer.h"
 #include "base/plural.h"
+#include "base/text.h"
 #include "base/unit.h"
 
 namespace dihaptic::session {
@@ -28,10 +31,23 @@ constexpr int kGreeting = 5000;             // longest wait for the greeting [ms
 constexpr size_t kLongestLine = 64 * 1024;  // [bytes]
 constexpr size_t kMostMessages = 64;
 constexpr size_t kMostNotes = 10;
+constexpr size_t kLongestReason = 200;         // [bytes]
+constexpr std::chrono::seconds kSilence{5};    // after which it is told that one waits
+constexpr std::chrono::seconds kReminder{20};  // after which it is told again
 
 Error refused(const std::string& socket, const std::string& what) {
     return Error({socket, 0}, "", what,
                  "Start what decides between trials first; dihaptic.run() of Python does both.");
+}
+
+/// Why it failed, in one line that any file can have.
+std::string reason(std::string text) {
+    if (text.size() > kLongestReason) {
+        size_t end = kLongestReason;
+        while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+        text.resize(end);
+    }
+    return mended(text, Lines::one);
 }
 
 /// The lines that come through a socket.
@@ -47,6 +63,11 @@ class Lines {
             const std::string why = std::strerror(errno);
             if (descriptor_ >= 0) close(descriptor_);
             throw refused(path, "does not answer: " + why);
+        }
+        if (const auto peer = peer_of(descriptor_); !peer || !peer->is_trusted()) {
+            close(descriptor_);
+            throw refused(path,
+                          "is another user's: " + (peer ? peer->describe() : "whose, is unknown"));
         }
     }
     ~Lines() { close(descriptor_); }
@@ -104,6 +125,9 @@ struct Decider::Parts {
     int64_t asked = 0;
     int asked_trial = 0;
     std::vector<std::string> notes;
+    std::function<void(const std::string&)> waiting;
+    std::chrono::steady_clock::time_point asked_at;
+    std::chrono::steady_clock::duration told_after{};  // from asked_at; zero: it has answered
     std::atomic<bool> ended{false};
     std::thread thread;
 
@@ -115,7 +139,9 @@ struct Decider::Parts {
     void take(const std::string& line);
     void set(const Json& values, task::Decision& out);
     void choose(const Json& json, task::Decision& out);
+    void tell_of_silence();
     void decide(task::Decision out) {
+        told_after = {};
         out.number = asked;
         between->decide(out);
     }
@@ -131,13 +157,15 @@ void Decider::Parts::greet() {
     for (int waited = 0; waited < kGreeting && !gone; waited += 100) {
         const auto line = lines.read(std::chrono::milliseconds(100), gone);
         if (!line) continue;
-        const Json json = Json::parse(*line, nullptr, false);
+        const Json json = parse_json(*line);
         if (!json.is_object() || !json.contains("messages") || !json["messages"].is_array() ||
             json["messages"].size() > kMostMessages)
             throw refused(path, "does not begin with its messages");
         for (const Json& message : json["messages"]) {
             if (!message.is_string()) throw refused(path, "has a message that is no text");
             messages.push_back(message.get<std::string>());
+            if (const auto fault = find_fault(messages.back()))
+                throw refused(path, "has a message that " + fault->what);
         }
         return;
     }
@@ -152,6 +180,8 @@ void Decider::Parts::ask(const task::Ended& attempt) {
     }
     asked = attempt.number;
     asked_trial = attempt.trial;
+    asked_at = std::chrono::steady_clock::now();
+    told_after = kSilence;
     lines.send(
         {{"number", attempt.number},
          {"trial_num", attempt.trial},
@@ -196,7 +226,7 @@ void Decider::Parts::choose(const Json& json, task::Decision& out) {
 }
 
 void Decider::Parts::take(const std::string& line) {
-    const Json json = Json::parse(line, nullptr, false);
+    const Json json = parse_json(line);
     if (!json.is_object() || !json.contains("number") || !json["number"].is_number_integer()) {
         note("says what is no answer");
         decide({});
@@ -206,10 +236,23 @@ void Decider::Parts::take(const std::string& line) {
     task::Decision out;
     if (json.contains("failed") && json["failed"].is_string())
         note(fmt::format("failed ({}): the trials went on as the file has them",
-                         json["failed"].get<std::string>().substr(0, 200)));
+                         reason(json["failed"].get<std::string>())));
     if (json.contains("set") && json["set"].is_object()) set(json["set"], out);
     choose(json, out);
     decide(out);
+}
+
+/// On the virtual clock the session stands still until the answer comes.
+void Decider::Parts::tell_of_silence() {
+    const auto silent = std::chrono::steady_clock::now() - asked_at;
+    if (told_after == told_after.zero() || silent < told_after || between->gone()) return;
+    told_after += kReminder;
+    if (!waiting) return;
+    waiting(fmt::format(
+        "What decides between trials has not answered for {:.0f} s, after trial {}. After {} s the "
+        "session goes on without it; Ctrl-C ends it.",
+        std::chrono::duration<double>(silent).count(), asked_trial,
+        task::Between::kLongest.count()));
 }
 
 void Decider::Parts::run(bool waits) noexcept {
@@ -218,6 +261,7 @@ void Decider::Parts::run(bool waits) noexcept {
     while (!ended && !gone) {
         if (const auto question = between->question()) ask(*question);
         if (const auto line = lines.read(pause, gone)) take(*line);
+        if (waits) tell_of_silence();
     }
     if (gone) note("went away: the trials went on as the file has them");
     between->leave();
@@ -250,7 +294,9 @@ void Decider::prepare(Plan& plan) {
     plan.task = task;
 }
 
-void Decider::begin(const std::string& folder, bool waits) {
+void Decider::begin(const std::string& folder, bool waits,
+                    std::function<void(const std::string&)> waiting) {
+    parts_->waiting = std::move(waiting);
     Json names = Json::array();
     for (const Variable& variable : parts_->variables) names.push_back(variable.name);
     parts_->between.emplace(kPatience, waits);

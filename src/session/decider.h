@@ -1,7 +1,7 @@
 // Decider lets another program decide between a session's trials: a script that knows what each
 // attempt's outcome was, and sets the task's variables, chooses the next trial, or shows a message.
 // That program listens on a UNIX socket; the package dihaptic for Python does (docs/python.md).
-// Both sides send lines of JSON:
+// It has to be this user's, or root's. Both sides send lines of JSON:
 //
 //   it       {"messages": ["Slower"]}
 //   session  {"session": "sessions/...", "outcomes": [...], "variables": [...], "patience_s": 1}
@@ -18,6 +18,7 @@
 // nobody to decide.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,8 +39,10 @@ class Decider {
 
     /// Adds the messages that it may show to the plan's. Throws Error when the plan has no trials.
     void prepare(Plan& plan);
-    /// Begins to ask, for a session in that folder. `waits`: its clock is virtual.
-    void begin(const std::string& folder, bool waits);
+    /// Begins to ask, for a session in that folder. `waits`: its clock is virtual; then `waiting`
+    /// is told, from another thread, that the session waits for an answer, and told again.
+    void begin(const std::string& folder, bool waits,
+               std::function<void(const std::string& what)> waiting = {});
     /// What the director asks; null before begin().
     task::Between* between() const;
     /// Ends it; returns what went wrong, in sentences.

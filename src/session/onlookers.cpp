@@ -1,14 +1,17 @@
 #include "session/onlookers.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <poll.h>
+#include <sys/random.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cmath>
@@ -19,9 +22,12 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "base/json.h"
 #include "base/latest.h"
+#include "base/peer.h"
 #include "base/plural.h"
 #include "base/ring.h"
+#include "base/text_file.h"
 #include "session/knob_turner.h"
 #include "task/recorded.h"
 
@@ -36,6 +42,8 @@ constexpr int kBusy = 2, kIdle = 50;  // between looks, at frames and for a newc
 constexpr auto kLastPatience = std::chrono::seconds(1);  // with readers, once the session is over
 constexpr size_t kLongestMessage = 64 * 1024;            // [bytes]
 constexpr size_t kMostOnlookers = 16;
+constexpr const char* kNames = "dihaptic/session/";  // how all names begin
+constexpr int64_t kLongestName = 100;
 constexpr size_t kMostWatched = 64;
 
 /// What an onlooker asks for that cannot be done.
@@ -43,25 +51,47 @@ struct Refusal {
     std::string why;
 };
 
-/// Its address is of the abstract kind: nothing is left when the program is killed, and the folder
-/// may be on any file system, and its path of any length.
+/// A name that nobody can foresee: another user would take it first.
+std::string fresh_name() {
+    std::array<unsigned char, 16> chance{};
+    if (getrandom(chance.data(), chance.size(), 0) != static_cast<ssize_t>(chance.size()))
+        return "";
+    return fmt::format("{}{:02x}", kNames, fmt::join(chance, ""));
+}
+
+std::string name_file(const std::string& folder) {
+    return folder + "/onlookers";
+}
+
+Error cannot_be_watched(const std::string& why) {
+    return Error(fmt::format("No other program can watch this session: {}", why),
+                 "It runs all the same.");
+}
+
+/// Its address is of the abstract kind: a killed program leaves none that is in the way, and the
+/// folder may be on any file system, its path of any length. A file of this user's says the name.
 class Listening {
   public:
     explicit Listening(const std::string& folder)
-        : socket_(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
+        : file_(name_file(folder)),
+          socket_(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
         sockaddr_un address{};
         address.sun_family = AF_UNIX;
-        const std::string name = socket_name(folder);
+        const std::string name = fresh_name();
         std::memcpy(address.sun_path + 1, name.data(), name.size());
         const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
         const auto* const at = reinterpret_cast<const sockaddr*>(&address);
-        if (socket_ >= 0 && bind(socket_, at, size) == 0 && listen(socket_, 4) == 0) return;
+        if (!name.empty() && socket_ >= 0 && bind(socket_, at, size) == 0 &&
+            listen(socket_, 4) == 0 && publish(name))
+            return;
         const std::string why = std::strerror(errno);
         if (socket_ >= 0) close(socket_);
-        throw Error(fmt::format("No other program can watch this session: {}", why),
-                    "It runs all the same.");
+        throw cannot_be_watched(why);
     }
-    ~Listening() { close(socket_); }
+    ~Listening() {
+        unlink(file_.c_str());
+        close(socket_);
+    }
     Listening(const Listening&) = delete;
     Listening& operator=(const Listening&) = delete;
 
@@ -69,16 +99,27 @@ class Listening {
     /// The socket of a newcomer, if there is one, whom this user has started; else -1.
     int accept() const {
         const int newcomer = accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC);
-        ucred who{};
-        socklen_t size = sizeof who;
-        if (newcomer < 0 || (getsockopt(newcomer, SOL_SOCKET, SO_PEERCRED, &who, &size) == 0 &&
-                             (who.uid == geteuid() || who.uid == 0)))
-            return newcomer;
+        if (newcomer < 0) return -1;
+        if (const auto who = peer_of(newcomer); who && who->is_trusted()) return newcomer;
         close(newcomer);
         return -1;
     }
 
   private:
+    /// Writes the name where this user's programs look for it.
+    bool publish(const std::string& name) const {
+        const int file = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
+                                S_IRUSR | S_IWUSR);
+        if (file < 0) return false;
+        const bool written =
+            write(file, name.data(), name.size()) == static_cast<ssize_t>(name.size());
+        const int why = errno;
+        close(file);
+        errno = why;
+        return written;
+    }
+
+    std::string file_;
     int socket_;
 };
 
@@ -247,7 +288,7 @@ void Onlookers::Parts::welcome() {
 
 void Onlookers::Parts::hear(Onlooker& onlooker, const std::string& text) {
     try {
-        const Json asked = Json::parse(text, nullptr, false);
+        const Json asked = parse_json(text);
         if (!asked.is_object()) throw Refusal{"A message is an object of JSON: {\"key\": \"y\"}."};
         if (asked.contains("watch")) {
             watch(onlooker, asked);
@@ -375,11 +416,10 @@ Json Onlookers::Parts::picture_of(const servo::Frame& frame, Onlooker& onlooker)
 }
 
 std::string socket_name(const std::string& folder) {
-    struct stat is {};
-    if (stat(folder.c_str(), &is) != 0)
-        throw Error(fmt::format("{}: {}", folder, std::strerror(errno)),
-                    "Look whether it is there.");
-    return fmt::format("dihaptic/session/{}/{}", is.st_dev, is.st_ino);
+    const std::string name = read_text_file(name_file(folder), kLongestName);
+    if (name.starts_with(kNames)) return name;
+    throw Error({name_file(folder), 0}, "", "names no socket of a session",
+                "Remove it: a session that runs writes its own.");
 }
 
 Onlookers::Onlookers(const Plan& plan, const std::string& folder, bool real, bool knobs_elsewhere)

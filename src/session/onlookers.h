@@ -1,6 +1,9 @@
 // Onlookers are other programs that watch a running session, and may steer it: dihaptic.observe()
-// of Python, or one's own. They connect to the UNIX socket socket_name(), an abstract one of the
-// kind SOCK_SEQPACKET, in which every message is a whole one; only programs of the same user can.
+// of Python, or one's own. They connect to a UNIX socket of the kind SOCK_SEQPACKET, in which every
+// message is a whole one; only programs of the same user can. Its address is an abstract one that
+// nobody can foresee: while the session runs, the file `onlookers` in its folder, which this user
+// alone may read, has it, without the zero before it. Whoever connects asks the kernel whose
+// program answers (SO_PEERCRED): a folder may come from anywhere.
 // Both sides send objects of JSON:
 //
 //   session  {"session": "sessions/...", "clock": "real", "states": [...], "outcomes": [...]}
@@ -33,8 +36,8 @@
 
 namespace dihaptic::session {
 
-/// Name of the socket of a session in that folder, behind a zero: "dihaptic/session/DEVICE/INODE",
-/// two decimal numbers that stat() has of the folder. Throws Error when there is no folder.
+/// Name of the socket of a session that runs in that folder, behind a zero. Throws Error when none
+/// does.
 std::string socket_name(const std::string& folder);
 
 class Onlookers {

@@ -2,8 +2,16 @@
 
 #include <fmt/format.h>
 
+#include "rig/libraries.h"
+
 namespace dihaptic::session {
 namespace {
+
+/// The rig's outlets, once it is clear that what they load may be loaded.
+const std::vector<outlets::OutletConfig>& outlets_of(const Plan& plan) {
+    rig::check_libraries(plan.rig);
+    return plan.rig.outlets;
+}
 
 outlets::About about(const Plan& plan, const std::string& session) {
     outlets::About out{session, 1 / plan.settings.tick(), {}};
@@ -19,7 +27,7 @@ outlets::About about(const Plan& plan, const std::string& session) {
 }  // namespace
 
 Outward::Outward(const Plan& plan, const std::string& session)
-    : station_(plan.rig.outlets, about(plan, session)) {
+    : station_(outlets_of(plan), about(plan, session)) {
     if (station_.wants_samples()) values_.resize(6 * plan.scene.fingers.size());
 }
 

@@ -60,6 +60,7 @@ Recorded record(const Plan& plan, RunOptions options, const std::atomic<bool>& s
     out.figures = reader ? analysis::finish_tables(folder, out.info, std::move(*reader))
                          : analysis::finish_session(folder, out.info, progressed);
     out.lock.reset();
+    out.earlier.reset();
     out.notes = closing_notes(out, plan);
     return out;
 }

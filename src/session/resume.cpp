@@ -11,6 +11,7 @@
 #include "base/field_reader.h"
 #include "base/plural.h"
 #include "base/regular_file.h"
+#include "base/shell_word.h"
 #include "base/table.h"
 #include "recording/raw_log.h"
 
@@ -57,13 +58,21 @@ const char* who_goes_on(Mover mover) {
     }
 }
 
+/// The table in a file; nullopt if it is not there, or cannot be read.
+std::optional<CsvFile> table_in(const std::string& file) {
+    try {
+        return CsvFile(file);
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
 /// Number of trials with at least one attempt that ended, even if the trial is to be done again.
 size_t trials_done(const recording::SessionFolder& folder) {
-    if (!is_there(folder.file("trials.csv"))) return 0;
-    const CsvFile trials(folder.file("trials.csv"));
+    const auto trials = table_in(folder.file("trials.csv"));
     std::set<std::string> done;  // a trial may have several attempts
-    for (size_t i = 0; i < trials.rows(); ++i) {
-        if (trials.text(i, "outcome") != "interrupted") done.insert(trials.text(i, "trial_num"));
+    for (size_t i = 0; trials && i < trials->rows(); ++i) {
+        if (trials->text(i, "outcome") != "interrupted") done.insert(trials->text(i, "trial_num"));
     }
     return done.size();
 }
@@ -78,6 +87,16 @@ bool at_rest(const recording::SessionFolder& folder) {
     }
 }
 
+/// Whether the session has trials left. One whose files were changed since it ended has them until
+/// the opposite is known: rest_of() then says what was changed, and what to do.
+bool may_go_on(const recording::SessionFolder& folder) {
+    try {
+        return trials_left(folder.path());
+    } catch (const Error&) {
+        return true;
+    }
+}
+
 /// The session if its trials are not all done; otherwise nullopt.
 std::optional<Unfinished> unfinished(const recording::SessionFolder& folder,
                                      const recording::SessionInfo& info) {
@@ -86,12 +105,46 @@ std::optional<Unfinished> unfinished(const recording::SessionFolder& folder,
         return std::nullopt;
     // a session that was killed has no tables yet
     const bool killed = info.state == SessionState::running;
-    if (!killed && !trials_left(folder.path())) return std::nullopt;
-    return Unfinished{folder.path(), info.started, trials_done(folder),
-                      CsvFile(folder.file("trial-list.csv")).rows(), info.moved_by};
+    if (!killed && !may_go_on(folder)) return std::nullopt;
+    const auto list = table_in(folder.file("trial-list.csv"));
+    return Unfinished{folder.path(), info.started, trials_done(folder), list ? list->rows() : 0,
+                      info.moved_by};
+}
+
+/// The session in the folder `parent` that goes on with the one of that name; "" if there is none.
+std::string successor(const std::string& name, const std::string& parent) {
+    std::error_code failed;
+    for (fs::directory_iterator i(parent, failed), end; !failed && i != end; i.increment(failed)) {
+        try {
+            const auto folder = recording::SessionFolder::open(i->path().string());
+            if (fs::path(folder.read_info().resumes).filename() == name) return folder.path();
+        } catch (const Error&) {
+            continue;  // not a session, or damaged
+        }
+    }
+    return "";
+}
+
+void check_not_resumed(const std::string& session, const std::string& out) {
+    const fs::path folder = fs::canonical(session);
+    for (const std::string& parent : {folder.parent_path().string(), out}) {
+        const std::string next = successor(folder.filename().string(), parent);
+        if (next.empty()) continue;
+        throw Error({session, 0}, "", fmt::format("was resumed already, as {}", next),
+                    fmt::format("Go on with that one: dihaptic resume {}. If it is not to count, "
+                                "move its folder elsewhere.",
+                                shell_word(next)));
+    }
 }
 
 }  // namespace
+
+recording::SessionLock claim(const std::string& session, const std::string& out) {
+    const auto folder = recording::SessionFolder::open(session);
+    recording::SessionLock lock(folder);
+    check_not_resumed(folder.path(), out);
+    return lock;
+}
 
 std::string Rest::describe() const {
     return fmt::format("goes on with {}: {} done\n{}\n", plan.resumes,
@@ -101,6 +154,7 @@ std::string Rest::describe() const {
 
 Rest rest_of(const std::string& session, Seat seat, const std::function<void(double)>& progress) {
     const auto folder = recording::SessionFolder::open(session);
+    check_not_resumed(folder.path(), "");
     Rest out;
     Diagnostics ignored;  // recover_session() reports the same problems
     const recording::RawLogReader log(folder.raw_log());

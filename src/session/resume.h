@@ -26,6 +26,11 @@ struct Rest {
 /// trials, or when what moved its hand is not known or cannot do so here.
 Rest rest_of(const std::string& session, Seat seat, const std::function<void(double)>& progress);
 
+/// Keeps others from resuming that session, which nobody does twice: the trials that are left are
+/// done once. Throws Error when another program resumes it now, or when a session beside it or in
+/// the folder `out` has resumed it already.
+recording::SessionLock claim(const std::string& session, const std::string& out);
+
 /// A session whose trials are not all done.
 struct Unfinished {
     std::string folder;

@@ -85,10 +85,10 @@ class Between {
     /// Number of decisions for a trial that was not to be done in the block.
     int refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
 
-  private:
     /// In virtual time a session waits no longer than this for an answer, and then for none.
     static constexpr std::chrono::seconds kLongest{60};
 
+  private:
     double patience_;
     bool waits_;
     int64_t asked_ = 0;

@@ -5,11 +5,13 @@ Usage: rigs_test.py PROGRAM, from the project's folder.
 import os
 import pathlib
 import re
+import signal
+import subprocess
 import tempfile
 import time
 import unittest
 
-from program import dihaptic, session_of
+from program import PROGRAM, dihaptic, patient, session_of, wait_for_log
 
 
 class Commands(unittest.TestCase):
@@ -105,6 +107,68 @@ class Commands(unittest.TestCase):
             result = dihaptic("calibrate", rig)
             self.assertEqual(result.returncode, 2, result.stdout)
             self.assertRegex(result.stderr, r"rig.yaml:\d+: error: jig: its points are on a line")
+
+
+class Libraries(unittest.TestCase):
+    """An experiment, its rig and a library in one folder, as they come from somebody else."""
+
+    TRIALS = ("hand: {centre_mm: [0, 0, 100]}\n"
+              "task: {states: [{name: wait, exits: [{when: time, after_s: 0.5, outcome: done}]}], feedback_s: 0, "
+              "blocks: [{name: all, repeats: 8}]}\n")
+
+    def setUp(self):
+        holder = tempfile.TemporaryDirectory()
+        self.addCleanup(holder.cleanup)
+        self.folder = pathlib.Path(holder.name)
+        self.library = self.folder / "libours.so"
+        self.library.symlink_to(pathlib.Path(PROGRAM).resolve().parent / "src/outlets/fake_lsl.so")
+        self.rig = self.folder / "rig.yaml"
+        self.rig.write_text("devices:\n  - {finger: thumb, backend: simulated}\n  - {finger: index, backend: simulated}\n"
+                            f"outlets:\n  - kind: lsl\n    options:\n      library: {self.library}\n")
+        self.experiment = self.folder / "experiment.yaml"
+        scene = pathlib.Path("scenes/block-on-table.yaml").absolute()
+        self.experiment.write_text(f"scene: {scene}\nrig: rig.yaml\n" + self.TRIALS)
+        self.env = {**os.environ, "XDG_CONFIG_HOME": str(self.folder / "config")}
+
+    def allow(self):
+        mine = self.folder / "config/dihaptic/libraries.yaml"
+        mine.parent.mkdir(parents=True)
+        mine.write_text(f"- {self.library}\n")
+
+    def run_it(self, *more):
+        return dihaptic("run", str(self.experiment), "--clock", "real", "--out", str(self.folder / "out"), *more, env=self.env)
+
+    def refused(self, result, rig):
+        self.assertEqual(result.returncode, 2, result.stdout)
+        self.assertRegex(result.stderr, f"{rig}:\\d+: error: library: '.*/libours.so' is not loaded: .*you did not name yourself")
+        self.assertIn(f"add the line '- {self.library.resolve()}' to {self.folder}/config/dihaptic/libraries.yaml", result.stderr)
+
+    def test_that_an_experiments_rig_names_is_not_loaded_until_the_user_allows_it(self):
+        self.refused(self.run_it(), "rig.yaml")
+        self.assertEqual(list((self.folder / "out").iterdir()), [])
+        checked = dihaptic("check", str(self.experiment), env=self.env)
+        self.assertEqual(checked.returncode, 0, checked.stderr)
+        self.assertIn("is not loaded", checked.stdout + checked.stderr)
+        self.allow()
+        self.assertEqual(self.run_it().returncode, 0)
+
+    def test_that_a_sessions_frozen_rig_names_is_not_loaded_either(self):
+        process = subprocess.Popen([PROGRAM, "run", str(self.experiment), "--rig", str(self.rig), "--clock", "real", "--out",
+                                    str(self.folder / "out")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+                                   env=self.env)
+        wait_for_log(str(self.folder / "out"), 40000)
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        said = process.communicate(timeout=patient(60))
+        self.assertEqual(process.returncode, 1, said)
+        session = session_of(str(self.folder / "out"))
+        self.refused(dihaptic("resume", session, env=self.env), "rig.yaml")
+        self.allow()
+        resumed = dihaptic("resume", session, env=self.env)
+        self.assertEqual(resumed.returncode, 0, resumed.stderr)
+        again = dihaptic("resume", session, env=self.env)
+        self.assertEqual(again.returncode, 2, again.stdout)
+        self.assertIn("was resumed already, as " + str(self.folder / "out"), again.stderr)
 
 
 if __name__ == "__main__":

@@ -26,6 +26,7 @@ class Force(Window):
 
     def open(self, more=""):
         library = pathlib.Path(PROGRAM).resolve().parent / "src/devices/libfake_hd.so"
+        self.allow(library)
         # a busy machine is another test's
         title = "title: Two fakes\nsettings: {safety: {max_pause_ms: 1000}}\n"
         pathlib.Path(self.folder.name + "/rig.yaml").write_text(title + more + "devices:\n" + "".join(

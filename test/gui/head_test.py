@@ -29,6 +29,7 @@ class Head(Window):
         super().setUp()
         self.stream = pathlib.Path(self.folder.name, "stream")
         self.environment["DIHAPTIC_FAKE_LSL_IN"] = str(self.stream)
+        self.allow(LIBRARY)
 
     def send(self, x, y, z):
         """The tracked body, 80 mm above the eyes, in the tracker's frame, 100 mm above the table."""

@@ -58,6 +58,7 @@ class Rigs(Window):
         """Two devices that nobody moves, and how far apart they are said to have been; `more`: of the rig."""
         self.real_rig = True
         library = pathlib.Path(PROGRAM).resolve().parent / "src/devices/libfake_hd.so"
+        self.allow(library)
         pathlib.Path(self.folder.name + "/mine.yaml").write_text(
             f"date: {time.strftime('%Y-%m-%d')}\ndevices: [{{finger: thumb}}, {{finger: index, together_mm: {together}}}]\n")
         self.with_rig("title: Two fakes\ncalibration: mine.yaml\ndevices:\n" + "".join(

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "devices/haply/answerer.h"
 
 namespace dihaptic::devices::haply {
 namespace {
@@ -43,6 +44,7 @@ class TimedSocket {
     ~TimedSocket() { close(); }
 
     executor_type get_executor() noexcept { return context_.get_executor(); }
+    int descriptor() const noexcept { return fd_.load(); }
     void set_deadline(Steady::time_point deadline) { deadline_ = deadline; }
 
     /// Connects to the first of the host's addresses that answers before the deadline.
@@ -247,6 +249,12 @@ void Connection::open(const Url& url, Time time_out) {
         throw Error(fmt::format("what listens at {} is no WebSocket service ({})", where,
                                 ec == net::error::timed_out ? "no answer in time" : ec.message()),
                     "Correct url: another program may have the Inverse Service's port.");
+    }
+    if (const auto user = user_at_other_end(impl_->stream.next_layer().descriptor());
+        user && !may_serve(*user)) {
+        throw Error(fmt::format("what answers at {} is a program of another user's (number {})",
+                                where, *user),
+                    "Have that ended, or correct url: the Inverse Service is the machine's own.");
     }
     impl_->stream.text(true);
     impl_->stream.auto_fragment(false);

@@ -74,6 +74,50 @@ TEST(Rest, OfASessionThatDoesNotSayWhoMovedItIsRefused) {
                   std::string::npos);
 }
 
+TEST(Rest, IsDoneOnce) {
+    Sessions sessions;
+    const std::string cut = sessions.make(Mover::script, true);
+    const Rest one = rest_of(cut, Seat::terminal, {});
+    const Rest other = rest_of(cut, Seat::terminal, {});
+    const std::string next = sessions.files.run(one.plan).folder;
+    // who was about to go on with it, and who comes later
+    const auto told = [&](const auto& tried) -> std::string {
+        try {
+            tried();
+            return "";
+        } catch (const Error& e) {
+            return e.what();
+        }
+    };
+    const std::string wanted = "was resumed already, as " + next;
+    const std::string late = told([&] { sessions.files.run(other.plan); });
+    EXPECT_NE(late.find(wanted), std::string::npos) << late;
+    EXPECT_NE(refusal(cut, Seat::terminal).find("dihaptic resume " + next), std::string::npos);
+    std::filesystem::rename(next, sessions.files.folder.file("elsewhere"));
+    EXPECT_EQ(refusal(cut, Seat::terminal), "");
+    // a session that was made elsewhere is seen by who names that folder
+    EXPECT_THROW(claim(cut, sessions.files.folder.path()), Error);
+    EXPECT_NO_THROW(claim(cut, sessions.files.folder.file("nothing")));
+}
+
+TEST(Rest, IsDoneByOneAtATime) {
+    Sessions sessions;
+    const std::string cut = sessions.make(Mover::script, true);
+    const Rest rest = rest_of(cut, Seat::terminal, {});
+    const auto before =
+        std::distance(std::filesystem::directory_iterator(std::filesystem::path(cut).parent_path()),
+                      std::filesystem::directory_iterator());
+    {
+        const recording::SessionLock other = claim(cut, "");
+        EXPECT_THROW(sessions.files.run(rest.plan), Error);
+    }
+    EXPECT_EQ(
+        std::distance(std::filesystem::directory_iterator(std::filesystem::path(cut).parent_path()),
+                      std::filesystem::directory_iterator()),
+        before);
+    sessions.files.run(rest.plan);
+}
+
 TEST(Unfinished, SessionsOfTheParticipantAreFoundUntilOneGoesOnWithThem) {
     Sessions sessions;
     const std::string parent = sessions.files.folder.file("sessions");

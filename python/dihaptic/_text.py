@@ -1,0 +1,19 @@
+"""Texts that Python hands to the programs, which read UTF-8 alone."""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import Any
+
+
+def to_json(value: Any) -> str:
+    r"""One line of JSON. Half of a surrogate pair, which is no character and which Python has for a byte that it could not
+    read, is written as Python's own escape for it.
+
+    >>> from dihaptic._text import to_json
+    >>> print(to_json({"failed": "no file caf\udce9"}))
+    {"failed": "no file caf\\udce9"}
+    """
+    text = json.dumps(value, ensure_ascii=False)
+    return re.sub("[\ud800-\udfff]", lambda half: rf"\\u{ord(half[0]):04x}", text)
