@@ -92,7 +92,19 @@ bool BlockLu::analyse(int nodes, std::span<const std::pair<int, int>> edges,
     }
     nodes_ = nodes;
     edges_.assign(edges.begin(), edges.end());
+    count_products();
     return true;
+}
+
+/// A node is inverted, and taken out of its later neighbours, and of each pair of them.
+void BlockLu::count_products() noexcept {
+    constexpr int64_t kInverse = 8;  // takes as long as so many products
+    products_ = 0;
+    for (size_t k = 0; k < order_.size(); ++k) {
+        const auto others = static_cast<int64_t>(later(k).size());
+        products_ += 1 + others;
+        if (k >= constant_) products_ += kInverse + others * (1 + others);
+    }
 }
 
 void BlockLu::forget_pattern() noexcept {

@@ -46,6 +46,8 @@ class BlockLu {
     void solve(std::span<Vector> x) noexcept;
 
     int blocks() const noexcept { return used_; }
+    /// Products of two blocks as which a solve counts.
+    int64_t products() const noexcept { return products_; }
 
   private:
     bool same_pattern(int nodes, std::span<const std::pair<int, int>> edges,
@@ -55,6 +57,7 @@ class BlockLu {
     int degree_of(int node) noexcept;
     int least_connected(int nodes, bool varies) const noexcept;
     bool eliminate(int node) noexcept;
+    void count_products() noexcept;
     /// Nodes of the order that are eliminated after its k-th.
     std::span<const int> later(size_t k) const noexcept {
         return {later_.data() + later_begin_[k], later_begin_[k + 1] - later_begin_[k]};
@@ -74,6 +77,7 @@ class BlockLu {
     size_t used_words_ = 0;  // words that the pattern's nodes need
     int nodes_ = 0;
     int used_ = 0;
+    int64_t products_ = 0;
     std::vector<std::pair<int, int>> edges_;  // the analysed pattern
     std::vector<uint64_t> adjacency_;         // bit sets, by node
     std::vector<int> degree_;

@@ -111,6 +111,8 @@ void BodySystem<Dim>::assemble_row(const ContactProblem& problem, const ProblemC
     fill(row.Ht_a, contact.a, contact.p_AC_W, -1);
     fill(row.Ht_b, contact.b, contact.p_BC_W, 1);
     row.q[0] += contact.bias;
+    // what no impulse can push apart is no contact: on rails, deep inside what is fixed
+    if (diagonal[0] == 0 && contact.compliance == 0) row.q[0] = std::max(row.q[0], 0.0);
     const int rows = D == 4 && diagonal[D - 1] > 0 ? 4 : 3;
     const double mean = diagonal.sum() / rows;
     row.unit = mean > 0 ? 1 / std::sqrt(mean) : 1;
@@ -185,6 +187,7 @@ void BodySystem<Dim>::gather(std::span<const Vec> r) noexcept {
 
 template <int Dim>
 void BodySystem<Dim>::velocity(std::span<const Vec> r, std::span<Vec> u) noexcept {
+    work_->spend(Visits::velocity * static_cast<int64_t>(size()));
     gather(r);
     for (size_t j = 0; j < rows_.size(); ++j) {
         u[j] = rows_[j].q;
@@ -230,6 +233,7 @@ void BodySystem<Dim>::add_to_matrix(const ContactRows& row, const Linearised<D>&
 
 template <int Dim>
 void BodySystem<Dim>::newton_step(std::span<Linearised<D>> contacts, std::span<Vec> d) noexcept {
+    work_->spend(step_visits());
     soften(contacts);
     if (!kept_) {
         lu_.set_identity();

@@ -17,6 +17,7 @@
 #include "contact/block_lu.h"
 #include "contact/law.h"
 #include "contact/rows.h"
+#include "contact/work.h"
 
 namespace dihaptic::contact {
 
@@ -29,6 +30,13 @@ class BodySystem {
     void reserve(int bodies, int contacts, int joints);
     /// Allocates if the problem is larger than reserved.
     void assemble(const ContactProblem& problem) noexcept;
+    /// Has what follows counted.
+    void count_in(Work& work) noexcept { work_ = &work; }
+    Work& work() const noexcept { return *work_; }
+    /// What a step of Newton's method costs, without its law [visits].
+    int64_t step_visits() const noexcept {
+        return Visits::matrix * static_cast<int64_t>(size()) + Visits::product * lu_.products();
+    }
     /// Finds the matrix for newton_step(). False if it is larger than reserved.
     bool prepare_newton() noexcept;
 
@@ -47,11 +55,14 @@ class BodySystem {
     /// Solves (I + G W) d = -c; changes G and c.
     void newton_step(std::span<Linearised<D>> contacts, std::span<Vec> d) noexcept;
     /// Projected Gauss-Seidel sweeps on a law, until one changes no contact's velocity by more than
-    /// `enough` [m/s]. Returns their number.
+    /// `enough` [m/s], or their work is used up. Returns their number.
     template <class Law>
     int sweep(const Law& law, std::span<Vec> r, int most, double enough = -1) noexcept {
         gather(r);
+        const int64_t visits = Law::kVisits * static_cast<int64_t>(size());
         for (int sweep = 1; sweep <= most; ++sweep) {
+            if (!work_->affords(visits)) return sweep - 1;
+            work_->spend(visits);
             if (pass(law, r) <= enough * std::abs(enough)) return sweep;
         }
         return most;
@@ -133,6 +144,7 @@ class BodySystem {
     std::vector<std::pair<int, int>> edges_;
     std::vector<char> varies_;  // by body: whether a row is on it that is not linear
     BlockLu lu_;
+    Work* work_ = nullptr;
     bool kept_ = false;  // what linear rows add to the matrix is in it
     bool finite_ = true;
 };

@@ -33,12 +33,14 @@ void DelassusSystem::assemble(const DelassusProblem& problem) {
 }
 
 void DelassusSystem::velocity(std::span<const Vec> r, std::span<Vec> u) noexcept {
+    work_->spend(Visits::velocity * static_cast<int64_t>(size()));
     Eigen::Map<Eigen::VectorXd> out(u.data()->data(), q_.size());
     out = q_;
     out.noalias() += W_ * stacked(r);
 }
 
 void DelassusSystem::newton_step(std::span<const Linearised<3>> contacts, std::span<Vec> d) {
+    work_->spend(step_visits());
     const Eigen::Index n = q_.size();
     Eigen::MatrixXd A(n, n);
     Eigen::VectorXd b(n);

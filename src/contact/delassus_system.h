@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "contact/law.h"
+#include "contact/work.h"
 
 namespace dihaptic::contact {
 
@@ -23,6 +24,11 @@ class DelassusSystem {
     Vec q(size_t j) const noexcept { return q_.segment<3>(3 * static_cast<Eigen::Index>(j)); }
     double unit(size_t j) const noexcept { return units_[j]; }
 
+    /// What is counted is as if there were bodies: such problems are solved outside of ticks.
+    void count_in(Work& work) noexcept { work_ = &work; }
+    Work& work() const noexcept { return *work_; }
+    int64_t step_visits() const noexcept { return Visits::matrix * static_cast<int64_t>(size()); }
+
     void velocity(std::span<const Vec> r, std::span<Vec> u) noexcept;
     void newton_step(std::span<const Linearised<3>> contacts, std::span<Vec> d);
     static bool prepare_newton() noexcept { return true; }
@@ -30,7 +36,10 @@ class DelassusSystem {
     /// As BodySystem::sweep().
     template <class Law>
     int sweep(const Law& law, std::span<Vec> r, int most, double enough = -1) noexcept {
+        const int64_t visits = Law::kVisits * static_cast<int64_t>(size());
         for (int sweep = 1; sweep <= most; ++sweep) {
+            if (!work_->affords(visits)) return sweep - 1;
+            work_->spend(visits);
             if (pass(law, r) <= enough * std::abs(enough)) return sweep;
         }
         return most;
@@ -62,6 +71,7 @@ class DelassusSystem {
     Eigen::VectorXd q_;
     std::vector<Scale> scales_;
     std::vector<double> units_;
+    Work* work_ = nullptr;
 };
 
 }  // namespace dihaptic::contact

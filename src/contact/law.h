@@ -198,6 +198,8 @@ double linearise_normal(const Scale& scale, const Eigen::Matrix<double, D, 1>& r
 
 /// Coulomb's law: normal and tangential part together.
 struct Coulomb {
+    /// What a sweep, or to judge an answer, costs of each contact (work.h).
+    static constexpr int kVisits = 1;
     template <int D>
     static double linearise(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
                             const Eigen::Matrix<double, D, 1>& u, double rho, Linearised<D>& out,
@@ -241,6 +243,7 @@ struct Coulomb {
 /// Normal impulses, with the tangential ones fixed: the contact projection of staggered
 /// projections.
 struct NormalOnly {
+    static constexpr int kVisits = 1;
     template <int D>
     static double linearise(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
                             const Eigen::Matrix<double, D, 1>& u, double rho, Linearised<D>& out,
@@ -286,6 +289,7 @@ struct FrictionOfLoad {
 /// Coulomb's law for sweeps: one over all normal impulses, then one over all friction. In stacks
 /// this leaves two thirds of the error that both at once leave.
 struct NormalThenFriction {
+    static constexpr int kVisits = 2;
     NormalOnly normal;
     FrictionOfLoad friction;
 };
@@ -293,6 +297,7 @@ struct NormalThenFriction {
 /// Tangential impulses on discs of fixed radius mu r_N: the friction projection of staggered
 /// projections. Contacts without load have no friction and are left out.
 struct FrictionOnly {
+    static constexpr int kVisits = 1;
     std::span<const double> normal;  ///< by contact, of the scaled system
 
     template <int D>
@@ -335,6 +340,7 @@ struct FrictionOnly {
 /// multipliers eliminated.
 template <int T>
 struct Polygonal {
+    static constexpr int kVisits = 6;
     std::span<const Polygon<T>> polygon;  ///< by contact
     using Tangent = Eigen::Matrix<double, T, 1>;
 

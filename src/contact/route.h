@@ -16,7 +16,8 @@ enum class Route {
     coarse_polygon,  ///< newton, started from an answer on a polygon of four directions
     staggered_projections,
     sweeps,  ///< newton, started after many projected Gauss-Seidel sweeps
-    sequential_impulse
+    sequential_impulse,
+    out_of_work  ///< sweeps, which ended what the tick's counted work had not sufficed for
 };
 constexpr auto enum_names(Route) {
     return std::array{"none",
@@ -27,7 +28,8 @@ constexpr auto enum_names(Route) {
                       "coarse_polygon",
                       "staggered_projections",
                       "sweeps",
-                      "sequential_impulse"};
+                      "sequential_impulse",
+                      "out_of_work"};
 }
 
 }  // namespace dihaptic::contact

@@ -52,20 +52,28 @@ class Solve {
     }
 
     void run(Solver solver, SolveSettings settings, SolveDetail* detail) {
+        Work alone;
+        Work& work = settings.tick != nullptr ? *settings.tick : alone;
+        const int64_t before = work.spent();
+        system_.count_in(work);
+        work.begin_exact();
+        work.spend(visits(Visits::assembly));
+        answer(solver, settings, detail);
+        stats_.work = work.spent() - before;
+    }
+
+  private:
+    void answer(Solver solver, SolveSettings settings, SolveDetail* detail) {
         project();
         const bool sweeps = solver == Solver::sequential_impulse;
         if (sweeps) settings.work = kUnbounded;  // it has bounds of its own
         const bool bounded = settings.work < kUnbounded;
-        const bool exact = !sweeps && affords(kFewestSteps, settings) && system_.prepare_newton();
-        bool first = true;
-        for (const Route route : hand_over(solver, exact, bounded)) {
-            if (route == Route::none || outcome_.converged) break;
-            if (route == Route::coarse_polygon && System::D != 3) continue;
-            ask(route, first, settings, detail);
-            if (first && exact) stats_.fallback = !outcome_.converged;
-            first = false;
-        }
-        stats_.ended = bounded && stats_.route == Route::sequential_impulse;
+        out_of_work_ = !sweeps && !system_.work().affords(visits(kFewestSteps * kVisitsPerStep));
+        const bool exact =
+            !sweeps && !out_of_work_ && affords(kFewestSteps, settings) && system_.prepare_newton();
+        hand_on(hand_over(solver, exact, bounded), exact, settings, detail);
+        if (out_of_work_) stats_.route = Route::out_of_work;
+        stats_.ended = out_of_work_ || (bounded && stats_.route == Route::sequential_impulse);
         if (!exact) stats_.fallback = !sweeps;
         const Residual residual = end_inside_cone();
         stats_.residual = residual.given;
@@ -74,7 +82,28 @@ class Solve {
         stats_.missed = !own && !(residual.judged() <= kTolerance);
     }
 
-  private:
+    /// Asks one after another; what the tick's work does not suffice for is ended by sweeps.
+    void hand_on(std::span<const Route> routes, bool exact, const SolveSettings& settings,
+                 SolveDetail* detail) {
+        bool first = true;
+        for (const Route route : routes) {
+            if (route == Route::none || outcome_.converged) return;
+            if (route == Route::coarse_polygon && System::D != 3) continue;
+            if (exact && !may_step()) break;
+            ask(route, first, settings, detail);
+            if (first && exact) stats_.fallback = !outcome_.converged;
+            first = false;
+        }
+        if (outcome_.converged || may_step()) return;
+        stats_.fallback = out_of_work_ = true;
+        ask(Route::sequential_impulse, false, settings, detail);
+    }
+
+    /// Whether the tick's work allows another pair of steps, of which all but sweeps are made.
+    bool may_step() const { return system_.work().affords(2 * system_.step_visits()); }
+
+    int64_t visits(int64_t of_each) const { return of_each * static_cast<int64_t>(r_.size()); }
+
     /// Whether the work allowed suffices for this many of Newton's steps.
     bool affords(int steps, const SolveSettings& settings) const {
         return static_cast<size_t>(settings.work) >= contacts_ * kVisitsPerStep * steps;
@@ -84,8 +113,8 @@ class Solve {
         stats_.route = route;
         outcome_ = by(route, first, settings, detail);
         stats_.iterations += outcome_.iterations;
-        const int visits = route == Route::sequential_impulse ? kVisitsPerSweep : kVisitsPerStep;
-        stats_.work += static_cast<int>(r_.size()) * visits * outcome_.iterations;
+        const int of_each = route == Route::sequential_impulse ? kVisitsPerSweep : kVisitsPerStep;
+        counted_ += static_cast<int>(r_.size()) * of_each * outcome_.iterations;
         if (first && outcome_.iterations == 0)
             stats_.route = r_.empty() ? Route::none : Route::start;
     }
@@ -126,10 +155,15 @@ class Solve {
     }
 
     Outcome by_sweeps_alone(const SolveSettings& settings) {
-        const int left = std::max(0, settings.work - stats_.work);
+        const int left = std::max(0, settings.work - counted_);
         const int affordable = left / (kVisitsPerSweep * static_cast<int>(contacts_));
-        return sequential_impulse(system_, r_, settings.sweeps,
-                                  std::max(affordable, kFewestSweeps));
+        const int most = std::max(affordable, kFewestSweeps);
+        system_.work().begin_sweeps(visits(kFewestSweeps * kVisitsPerSweep));
+        const Outcome outcome = sequential_impulse(system_, r_, settings.sweeps, most);
+        const bool cut = outcome.iterations < std::min(most, settings.sweeps.most) &&
+                         !system_.work().affords(visits(kVisitsPerSweep));
+        out_of_work_ = out_of_work_ || cut;
+        return outcome;
     }
 
     Outcome by_newton(std::span<const NewtonStart> starts = kNewtonStarts,
@@ -174,7 +208,7 @@ class Solve {
         if (unprojected.judged() > kTolerance) return swap();
         if (stats_.route != Route::staggered_projections) return unprojected;
         std::copy(r_.begin(), r_.end(), newton_memory_.best.begin());
-        for (int sweep = 0; sweep < kConeSweeps; ++sweep) {
+        for (int sweep = 0; sweep < kConeSweeps && may_step(); ++sweep) {
             system_.sweep(law::Coulomb{}, r_, 1);
             if (const Residual swept = cone_residual(); swept.judged() <= kTolerance) return swept;
         }
@@ -200,6 +234,8 @@ class Solve {
     size_t contacts_;  // at least 1
     SolveStats& stats_;
     Outcome outcome_;
+    int counted_ = 0;           // of the work allowed
+    bool out_of_work_ = false;  // of the tick
 };
 
 template <int D>

@@ -14,6 +14,7 @@
 #include "contact/problem.h"
 #include "contact/route.h"
 #include "contact/solver_settings.h"
+#include "contact/work.h"
 
 namespace dihaptic::contact {
 
@@ -37,9 +38,9 @@ struct SolveStats {
     bool fallback = false;  ///< a solver other than the one asked for answered
     bool missed = false;    ///< the impulses in use, the best found, miss the tolerance
     bool refused = false;   ///< the problem held values that are not numbers: there are no impulses
-    bool ended = false;     ///< counted work ended it by sweeps
+    bool ended = false;     ///< counted work ended it by sweeps, or ended its sweeps
     Route route = Route::none;
-    int work = 0;  ///< that it took [visits]
+    int64_t work = 0;  ///< that it took [visits]
 
     /// Combines several problems of one step: iterations and work are summed, of other values it
     /// keeps the worst. The route is that of a problem that another solver answered, if any; among

@@ -36,11 +36,14 @@ struct SweepSettings {
 /// Work is counted in visits: a visit is what a sweep does to one contact.
 constexpr int kUnbounded = std::numeric_limits<int>::max();
 
+class Work;
+
 struct SolveSettings {
     PolygonSettings polygon;
     SweepSettings sweeps;
     int work = kUnbounded;  ///< visits until sweeps end the solve, of which kFewestSweeps are
                             ///< always made; not for sequential_impulse
+    Work* tick = nullptr;   ///< for all solves of a tick together; every solver obeys it
 };
 
 }  // namespace dihaptic::contact

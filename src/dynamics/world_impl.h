@@ -87,6 +87,7 @@ struct World::Impl {
     bool diverged = false;
     bool has_fingers = false;
     double held_residual = 0;  // of the islands with a finger
+    contact::Work work;        // of the step's solves
 
     void add(const std::string& name, const scene::Shape& shape, double mass,
              double friction_coefficient, double torsion_radius, const Pose& X_WB,
@@ -146,6 +147,8 @@ struct World::Impl {
     void find_islands();
     /// Joins bodies that touch or are joined to groups.
     void join_groups();
+    /// Number of islands with a finger that touches something.
+    int64_t held_islands() const;
     /// Solves island by island.
     contact::SolveStats solve(double h);
     contact::SolveStats solve_with_entered(double h, std::vector<BodyState>& states);

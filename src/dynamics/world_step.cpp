@@ -241,6 +241,8 @@ contact::SolveStats World::Impl::solve_with_entered(double h, std::vector<BodySt
         items[i].w_before = items[i].body->getAngularVelocity();
     }
     find_islands();
+    work = has_fingers ? contact::Work(kMostSolveWork) : contact::Work();
+    contact::Work search = has_fingers ? contact::Work(kMostSearchWork) : contact::Work();
     contact::SolveStats stats = solve(h);
     for (int pass = 0; pass < kMostPasses && all_sound(); ++pass) {
         for (const size_t i : awake) {
@@ -252,7 +254,7 @@ contact::SolveStats World::Impl::solve_with_entered(double h, std::vector<BodySt
             if (h * change.length() <= kKnocked) continue;
             for (const auto& part : items[i].parts) collision->widen_bounds(*part, h);
         }
-        if (!collision->find_entered(h, settings.penetration_recovery)) break;
+        if (!collision->find_entered(h, settings.penetration_recovery, search)) break;
         collect_awake(states);
         prepare_contacts(collision->entered(), h);
         for (const size_t i : awake) {
@@ -264,6 +266,11 @@ contact::SolveStats World::Impl::solve_with_entered(double h, std::vector<BodySt
         stats = solve(h);
         stats.iterations += before.iterations;
         stats.work += before.work;
+    }
+    stats.work += search.spent();
+    if (collision->search_was_cut()) {
+        stats.missed = stats.ended = true;
+        stats.route = contact::Route::out_of_work;
     }
     return stats;
 }
@@ -409,9 +416,21 @@ void World::Impl::find_islands() {
     std::sort(contacts_of_islands.begin(), contacts_of_islands.end());
 }
 
+int64_t World::Impl::held_islands() const {
+    int64_t count = 0;
+    size_t last = items.size();  // from here on islands are without a finger
+    for (const auto& contact : contacts_of_islands) {
+        if (contact.island >= items.size()) break;
+        if (contact.island != last) ++count;
+        last = contact.island;
+    }
+    return count;
+}
+
 contact::SolveStats World::Impl::solve(double h) {
     contact::SolveStats stats;
     held_residual = 0;
+    int64_t left = held_islands();
     auto body = bodies_of_islands.begin();
     auto contact = contacts_of_islands.begin();
     auto joint = joints_of_islands.begin();
@@ -426,6 +445,7 @@ contact::SolveStats World::Impl::solve(double h) {
         take(joint, joints_of_islands.end(), island, island_joints);
         if (island_contacts.empty() && island_joints.empty()) continue;
         const bool held = island < items.size();
+        work.share(held ? left-- : 1);  // none with a finger takes what others need
         const contact::SolveStats one = solve_island(h, held);
         if (held) held_residual = std::max(held_residual, one.residual);
         stats.join(one);
@@ -440,7 +460,8 @@ contact::SolveStats World::Impl::solve_island(double h, bool held) {
     if (watcher) watcher(problem.problem(), problem.impulses());
     const contact::SolveSettings how{{settings.friction_directions, settings.friction_frame},
                                      {settings.iterations, settings.tolerance},
-                                     has_fingers && !held ? kMostWork : contact::kUnbounded};
+                                     has_fingers && !held ? kMostWork : contact::kUnbounded,
+                                     &work};
     const contact::SolveStats stats = solve_guessing(how, h);
     problem.store(island_contacts);
     island_change.clear();
@@ -467,14 +488,18 @@ contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& ho
     const bool sweeps = settings.solver == Solver::sequential_impulse;
     const Solver solver = sweeps && !island_joints.empty() ? Solver::newton : settings.solver;
     int iterations = 0;
-    int work = 0;
+    int64_t work_before = 0;
     for (int guess = 1;; ++guess) {
         contact::SolveStats stats;
         solvers.solve(solver, how, problem.problem(), problem.impulses(), problem.joint_impulses(),
                       stats);
         iterations = stats.iterations += iterations;
-        work = stats.work += work;
-        stats.missed = stats.missed || guess > kMostGuesses;  // its joints are off a little then
+        work_before = stats.work += work_before;
+        const bool out_of_work = stats.route == contact::Route::out_of_work;
+        // its joints are off a little then
+        stats.missed =
+            stats.missed || guess > kMostGuesses || (out_of_work && !island_joints.empty());
+        if (out_of_work) return stats;
         if (island_joints.empty() || stats.refused || guess > kMostGuesses) return stats;
         island_change.clear();
         for (size_t i = 0; i < island_bodies.size(); ++i)

@@ -136,7 +136,7 @@ class ProximalNewton {
         std::copy(r_.begin(), r_.end(), memory_.best.begin());
         judge();
         for (const NewtonStart& start : starts) {
-            if (out_.converged || out_.iterations >= most_iterations_ || begin(start)) break;
+            if (out_.converged || !may_step() || begin(start)) break;
             take_steps(start);
             out_.converged = out_.converged || out_.residual <= kSafe * tolerance_;
         }
@@ -160,8 +160,14 @@ class ProximalNewton {
     static constexpr int kRescueSweeps = 5;
     static constexpr double kScatter = 0.3;  // of |q|
 
+    /// Whether counted work allows another step.
+    bool may_step() const {
+        return out_.iterations < most_iterations_ && system_.work().affords(system_.step_visits());
+    }
+
     /// Keeps r if it is the best so far. Returns whether it is good enough.
     bool judge() {
+        system_.work().spend(Law::kVisits * static_cast<int64_t>(r_.size()));
         system_.velocity(r_, memory_.u);
         residual_ = measure_(std::span<const Vec>(r_), std::span<const Vec>(memory_.u));
         if (out_.residual <= tolerance_ && residual_ > kStalledShare * out_.residual) ++stalled_;
@@ -195,7 +201,7 @@ class ProximalNewton {
     void take_steps(const NewtonStart& start) {
         rho_ = start.rho;
         begin_proximal_step();
-        for (int step = 0; step < start.most_steps && out_.iterations < most_iterations_; ++step) {
+        for (int step = 0; step < start.most_steps && may_step(); ++step) {
             system_.newton_step(memory_.linearised, memory_.d);
             ++inner_;
             if (move(1) || shorten(start.halvings)) return;

@@ -59,7 +59,8 @@ class StaggeredProjections {
             solve_for(law::NormalOnly{});  // a first guess of the loads, with the start's friction
             for (size_t j = 0; j < r_.size(); ++j) memory_.normal[j] = load_of(j);
         }
-        while (out_.residual > kTarget * tolerance_ && out_.iterations < most_iterations) {
+        while (out_.residual > kTarget * tolerance_ && out_.iterations < most_iterations &&
+               system_.work().affords(2 * system_.step_visits())) {
             ++out_.iterations;
             solve_pair();
             const double residual = judge();
@@ -156,6 +157,7 @@ class StaggeredProjections {
             memory_.normal.swap(memory_.image);
             return;
         }
+        system_.work().spend(Visits::acceleration * static_cast<int64_t>(r_.size()));
         memory_.anderson.advance(memory_.normal, memory_.image);
         for (double& value : memory_.normal) value = std::max(0.0, value);
     }

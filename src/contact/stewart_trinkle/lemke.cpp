@@ -42,11 +42,12 @@ void Lemke::start(int variables) noexcept {
     std::fill_n(q_.begin(), static_cast<size_t>(n_), 0.0);
 }
 
-bool Lemke::solve(int attempt) noexcept {
+bool Lemke::solve(int attempt, int64_t most_pivots) noexcept {
     const auto n = static_cast<size_t>(n_);
     const size_t z0 = 2 * n;
     const size_t right = 2 * n + 1;
-    const int most_pivots = pivots_ + kPivotsPerVariable * n_;
+    const int most =
+        pivots_ + static_cast<int>(std::min<int64_t>(kPivotsPerVariable * n_, most_pivots));
     double least = 0;
     for (int i = 0; i < n_; ++i) {
         double* r = row(i);
@@ -69,7 +70,7 @@ bool Lemke::solve(int attempt) noexcept {
         if (lexicographically_less(i, -row(i)[z0], leaving, -row(leaving)[z0])) leaving = i;
     }
     int entering = static_cast<int>(z0);
-    for (; pivots_ < most_pivots; ++pivots_) {
+    for (; pivots_ < most; ++pivots_) {
         const int left = basis_[static_cast<size_t>(leaving)];
         pivot(leaving, entering);
         if (left == static_cast<int>(z0)) {
@@ -168,7 +169,7 @@ bool Lemke::try_last_basis() noexcept {
         if (sum < -small) return false;
         w_[static_cast<size_t>(i)] = sum;
     }
-    std::fill_n(z_.begin(), static_cast<size_t>(n_), 0.0);
+    std::fill(z_.begin(), z_.begin() + n_, 0.0);
     for (int i = 0; i < m; ++i) {
         const auto variable = static_cast<size_t>(last_basis_[static_cast<size_t>(i)]);
         z_[variable] = std::max(0.0, right_[static_cast<size_t>(i)]);

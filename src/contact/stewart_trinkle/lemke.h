@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Dense>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -27,14 +29,21 @@ class Lemke {
     double w(int i) const noexcept { return w_[static_cast<size_t>(i)]; }
 
     /// Pivots along covering vector number `attempt`: 0 is all ones, others are scattered about
-    /// that. Allocates nothing. False if no solution is found within the limit of pivots.
-    bool solve(int attempt) noexcept;
+    /// that. Allocates nothing. False if no solution is found within its limit of pivots, or this
+    /// one.
+    bool solve(int attempt, int64_t most_pivots = std::numeric_limits<int64_t>::max()) noexcept;
     /// Tries the set of variables that were positive in the last solution with the present M and q.
     /// False if it does not solve the problem.
     bool try_last_basis() noexcept;
     bool solve_last_basis(int m) noexcept;
 
     int pivots() const noexcept { return pivots_; }
+    /// Entries of the tableau that a pivot changes, and that try_last_basis() does.
+    int64_t pivot_entries() const noexcept { return int64_t{n_} * (2 * n_ + 2); }
+    int64_t basis_entries() const noexcept {
+        const auto m = static_cast<int64_t>(last_basis_.size());
+        return m * m * m / 2 + int64_t{n_} * n_;
+    }
 
   private:
     using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

@@ -187,6 +187,7 @@ class StewartTrinkle {
             const Tangent along = asked(j, r[j]);
             if (along.norm() > 0) next = along.normalized();
         }
+        system_.work().spend(Visits::acceleration * static_cast<int64_t>(r.size()));
         m_.anderson.advance(m_.aim, m_.image);
         for (size_t j = 0; j < r.size(); ++j) m_.polygons[j].turn_to(Map(&m_.aim[j * T]));
     }
@@ -201,7 +202,8 @@ class StewartTrinkle {
             once(std::isfinite(last) ? kInnerOfLast * last : 0);
             if (!follows() || out.residual <= kTarget * tolerance_ ||
                 (out.converged && residual_ > kStalledShare * last) ||
-                static_cast<size_t>(out.iterations) * r.size() > kMostWork)
+                static_cast<size_t>(out.iterations) * r.size() > kMostWork ||
+                !system_.work().affords(system_.step_visits()))
                 return;
             last = residual_;
             turn_faster(r);
@@ -210,6 +212,8 @@ class StewartTrinkle {
 
     /// Whether r is an answer that needs no more work; keeps it if it is the best.
     bool accept(std::span<const Vec> r, Route route, StewartTrinkleOutcome& out) {
+        using Law = law::Polygonal<T>;
+        system_.work().spend(Law::kVisits * static_cast<int64_t>(r.size()));
         const std::span<const Vec> u(m_.newton.u);
         const Residual own = residual(r, u);
         residual_ = own.judged();
@@ -305,11 +309,38 @@ class StewartTrinkle {
         }
     }
 
+    /// Whether a problem of so many variables may be filled in, and spends that work.
+    bool affords_entries(int64_t variables) {
+        constexpr int64_t kOfEach = 4;  // an entry is a product, and there is the tableau
+        const int64_t visits = kOfEach * variables * variables / Visits::entries + 1;
+        if (!system_.work().affords(visits)) return false;
+        system_.work().spend(visits);
+        return true;
+    }
+    bool try_last_basis() {
+        const int64_t visits = m_.lemke.basis_entries() / Visits::entries + 1;
+        if (!system_.work().affords(visits)) return false;
+        system_.work().spend(visits);
+        return m_.lemke.try_last_basis();
+    }
+    /// Pivots along one covering vector after another.
+    bool pivot() {
+        constexpr int kAttempts = 4;
+        const int64_t visits = m_.lemke.pivot_entries() / Visits::entries + 1;
+        for (int attempt = 0; attempt < kAttempts; ++attempt) {
+            const int before = m_.lemke.pivots();
+            const bool solved = m_.lemke.solve(attempt, system_.work().times(visits));
+            // a search begins with the tableau's entries
+            system_.work().spend(visits * (1 + m_.lemke.pivots() - before));
+            if (solved) return true;
+        }
+        return false;
+    }
+
     /// Solves by Lemke's method, to `enough` at least.
     void lemke_once(std::span<Vec> r, double enough, StewartTrinkleOutcome& out) {
         constexpr double kRho = 1e-3;
         constexpr int kMostProximal = 30;
-        constexpr int kAttempts = 4;
         if (system_.size() == 0) return;
         Lemke& lcp = m_.lemke;
         const int directions = m_.polygons[0].count();
@@ -323,10 +354,9 @@ class StewartTrinkle {
         }
         begin_proximal(block, out);
         for (int step = 0; step < kMostProximal; ++step) {
+            if (!affords_entries(variables)) return;
             fill(kRho, m_.last);
-            bool solved = step > 0 && lcp.try_last_basis();
-            for (int attempt = 0; attempt < kAttempts && !solved; ++attempt)
-                solved = lcp.solve(attempt);
+            const bool solved = (step > 0 && try_last_basis()) || pivot();
             out.iterations += lcp.pivots() + 1;
             if (!solved) return;
             for (size_t j = 0; j < r.size(); ++j) {

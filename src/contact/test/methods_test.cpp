@@ -345,6 +345,8 @@ TEST(StewartTrinkleTest, LemkeAloneSolvesGrasps) {
             delassus(testing::random_problem(random, 1 + i % 3, 1 + i % 6));
         DelassusSystem system;
         system.assemble(problem);
+        Work work;
+        system.count_in(work);
         StewartTrinkleMemory<DelassusSystem> memory;
         memory.reserve(system.size(), system.size());
         StewartTrinkle<DelassusSystem> method(system, {8, DirectionFrame::fixed}, kTolerance,

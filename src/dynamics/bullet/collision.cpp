@@ -26,6 +26,20 @@ constexpr double kMostRoundMargin = 5e-2;  // [m]
 constexpr double kStride = 2e-3;
 constexpr double kMostStrides = 64;
 
+/// What a stride of two shapes counts as [visits]: the axes that may part polyhedra, times
+/// vertices.
+int64_t stride_visits(const btCollisionShape& a, const btCollisionShape& b) {
+    constexpr int64_t kFewest = 100;  // of two boxes, and of round shapes
+    constexpr int64_t kProductsPerVisit = 20;
+    const auto* p = static_cast<const Polyhedron*>(a.getUserPointer());
+    const auto* q = static_cast<const Polyhedron*>(b.getUserPointer());
+    if (p == nullptr || q == nullptr) return kFewest;
+    const size_t axes =
+        p->faces.size() + q->faces.size() + p->directions.size() * q->directions.size();
+    const auto products = static_cast<int64_t>(axes * (p->vertices.size() + q->vertices.size()));
+    return std::max(kFewest, products / kProductsPerVisit);
+}
+
 /// Largest speed of a point of a body's part due to rotation; the body's centre may lie anywhere
 /// [m/s].
 double turning(const btCollisionObject& body, const btCollisionShape& shape,
@@ -232,6 +246,7 @@ void Collision::forget() {
 }
 
 void Collision::find_contacts(double h) {
+    search_was_cut_ = false;
     step_ = h;
     btDispatcherInfo info;
     info.m_timeStep = h;
@@ -327,13 +342,13 @@ bool Collision::look_at(btBroadphasePair& pair, const btDispatcherInfo& info) {
     return woke;
 }
 
-bool Collision::find_entered(double h, double recovery) {
+bool Collision::find_entered(double h, double recovery, contact::Work& work) {
     if (live_is_stale_ || live_version_ != pairs_.version) list_live_pairs();
     new_.clear();
     for (const int i : live_) {
-        if (entered_count_ == entered_.size()) break;
+        if (entered_count_ == entered_.size() || search_was_cut_) break;
         btPersistentManifold& out = *entered_[entered_count_];
-        if (!enters(pairs_.getOverlappingPairArray()[i], h, recovery, out)) continue;
+        if (!enters(pairs_.getOverlappingPairArray()[i], h, recovery, out, work)) continue;
         ++entered_count_;
         manifolds_.push_back(&out);
         new_.push_back(&out);
@@ -349,8 +364,8 @@ bool Collision::find_entered(double h, double recovery) {
     return true;
 }
 
-bool Collision::enters(btBroadphasePair& pair, double h, double recovery,
-                       btPersistentManifold& out) {
+bool Collision::enters(btBroadphasePair& pair, double h, double recovery, btPersistentManifold& out,
+                       contact::Work& work) {
     const CollisionPart& part_a = part(pair.m_pProxy0);
     const CollisionPart& part_b = part(pair.m_pProxy1);
     btRigidBody& a = *btRigidBody::upcast(part_a.body);
@@ -370,8 +385,12 @@ bool Collision::enters(btBroadphasePair& pair, double h, double recovery,
     const bool swapped = scratch_.size() > 0 && scratch_[0]->getBody0() != &a;
     out.setBodies(swapped ? &b : &a, swapped ? &a : &b);
     const auto strides = static_cast<int>(std::clamp(std::ceil(way / kStride), 1.0, kMostStrides));
+    const int64_t visits = stride_visits(*part_a.shape, *part_b.shape);
     bool found = false;
     for (int stride = 1; stride <= strides && !found; ++stride) {
+        search_was_cut_ = !work.affords(visits);
+        if (search_was_cut_) break;
+        work.spend(visits);
         const double t = h * stride / strides;
         move_on(a, from_a, t);
         move_on(b, from_b, t);

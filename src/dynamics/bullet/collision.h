@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "contact/work.h"
 #include "dynamics/bullet/polyhedron_algorithm.h"
 #include "dynamics/bullet/shape.h"
 
@@ -47,8 +48,11 @@ class Collision {
     /// contacts to manifolds() for those that would enter each other by more than `kEntered`
     /// although the step's contacts hold; README.md derives these contacts. The share `recovery` of
     /// a penetration is removed per step. False if there are none. Wakes bodies as find_contacts()
-    /// does.
-    bool find_entered(double h, double recovery);
+    /// does. Strides along the way are counted in `work`, and the search ends where they are used
+    /// up: search_was_cut().
+    bool find_entered(double h, double recovery, contact::Work& work);
+    /// Whether find_entered() left out strides since the last find_contacts().
+    bool search_was_cut() const { return search_was_cut_; }
 
     /// Notes that bodies fell asleep or woke, so that other pairs must be searched.
     void sleepers_changed() { live_is_stale_ = true; }
@@ -104,7 +108,8 @@ class Collision {
     void sort_by_bodies();
     void list_live_pairs();
     bool look_at(btBroadphasePair& pair, const btDispatcherInfo& info);
-    bool enters(btBroadphasePair& pair, double h, double recovery, btPersistentManifold& out);
+    bool enters(btBroadphasePair& pair, double h, double recovery, btPersistentManifold& out,
+                contact::Work& work);
 
     btDefaultCollisionConfiguration configuration_;
     /// Has memory for its manifolds, and gives new ones a breaking threshold of this world:
@@ -151,6 +156,7 @@ class Collision {
     bool live_is_stale_ = true;
     std::vector<char> looked_at_;  // by pair
     bool overflowed_ = false;
+    bool search_was_cut_ = false;
 };
 
 constexpr int kAwake = 1;

@@ -1,0 +1,99 @@
+// Tests that counted work bounds every step that a hand waits for, and that the step says so.
+#include <gtest/gtest.h>
+
+#include "dynamics/test/extreme.h"
+
+namespace dihaptic::dynamics::bounded_test {
+namespace {
+
+/// What may come on top for each contact: assembly and the fewest sweeps, in each of five passes.
+constexpr int64_t kOnTop = 200;
+
+TEST(Bounded, NoStepOfAnExtremeSceneDoesMoreThanItMay) {
+    int touched = 0;
+    int out_of_work = 0;
+    for (uint64_t seed = 0; seed < 24; ++seed) {
+        Extreme extreme(seed);
+        for (int i = 0; i < 24; ++i) {
+            // twenty times a second, and more often than that
+            if (i % 6 == 0) extreme.world().set_solver(Solver((i / 6 + seed) % contact::kSolvers));
+            if (extreme.step(i) == StepStatus::diverged) extreme.world().mend();
+            const contact::SolveStats& stats = extreme.world().solve_stats();
+            const auto contacts = static_cast<int64_t>(extreme.world().contacts().size());
+            EXPECT_LE(stats.work,
+                      World::kMostSolveWork + World::kMostSearchWork + kOnTop * (contacts + 100))
+                << seed << " " << i;
+            if (stats.work >= World::kMostSolveWork + World::kMostSearchWork) {
+                EXPECT_EQ(stats.route, contact::Route::out_of_work) << seed << " " << i;
+            }
+            EXPECT_GE(stats.ended, stats.route == contact::Route::out_of_work);
+            out_of_work += stats.route == contact::Route::out_of_work ? 1 : 0;
+            touched += extreme.touched() ? 1 : 0;
+        }
+    }
+    EXPECT_GT(touched, 200);
+    EXPECT_GT(out_of_work, 20);
+}
+
+TEST(Bounded, IsTheSameToTheBitWhenItIsRepeated) {
+    const auto end = [] {
+        Extreme extreme(7);
+        for (int i = 0; i < 20; ++i) {
+            if (i % 5 == 0) extreme.world().set_solver(Solver(i / 5 % contact::kSolvers));
+            extreme.step(i);
+        }
+        Vec3 sum = Vec3::Zero();
+        for (const BodyState& state : extreme.world().states()) sum += state.X_WB.p + state.v_WB;
+        return sum;
+    };
+    EXPECT_EQ(end(), end());
+}
+
+/// A block in the air between two pads; and, where it is so, a third pad on one that two walls
+/// crush, for which there is no answer.
+World two_hands(bool crushed) {
+    scene::Scene scene;
+    scene.bodies = {table(), box("crushed", Vec3::Constant(0.04), {0.5, 0, 0.02}, 0.1),
+                    block({0, 0, 0.3})};
+    if (crushed) {
+        scene.bodies.push_back(box("left wall", {0.04, 1, 1}, {0.5 - 0.035, 0, 0}, 0));
+        scene.bodies.push_back(box("right wall", {0.04, 1, 1}, {0.5 + 0.035, 0, 0}, 0));
+    }
+    World world(scene, awake());
+    scene::Finger finger;
+    finger.shape = scene::Shape::box({0.005, 0.02, 0.02});
+    finger.mass = 1;
+    for (const Vec3& place : {Vec3(-0.0225, 0, 0.3), Vec3(0.0225, 0, 0.3), Vec3(0.5, 0, 0.05)}) {
+        finger.name = "finger " + std::to_string(world.size());
+        world.add_proxy(finger, place);
+    }
+    world.activate();
+    return world;
+}
+void squeeze(World& world) {
+    const int first = world.scene_size();
+    for (const int finger : {first, first + 1}) {
+        const Vec3 v = world.state({finger}).v_WB;
+        world.set_velocity({finger}, {v.x(), 0, 0});
+        world.apply({finger}, {finger == first ? 5.0 : -5.0, 0, 0}, Vec3::Zero());
+    }
+    world.apply({first + 2}, {0, 0, -5}, Vec3::Zero());
+    world.step(kStep);
+}
+
+TEST(Bounded, AHandWithoutAnAnswerLeavesTheOtherItsExactness) {
+    World alone = two_hands(false);
+    World beside = two_hands(true);
+    int out_of_work = 0;
+    for (int i = 0; i < 50; ++i) {
+        squeeze(alone);
+        squeeze(beside);
+        out_of_work += beside.solve_stats().route == contact::Route::out_of_work ? 1 : 0;
+        EXPECT_FALSE(alone.solve_stats().ended);
+    }
+    EXPECT_GT(out_of_work, 25);
+    EXPECT_LT((alone.state({2}).X_WB.p - beside.state({2}).X_WB.p).norm(), 1e-9);
+}
+
+}  // namespace
+}  // namespace dihaptic::dynamics::bounded_test
