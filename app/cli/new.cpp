@@ -3,9 +3,14 @@
 
 #include <array>
 #include <cctype>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
+#include <optional>
 
+#include "base/output.h"
+#include "base/shell_word.h"
 #include "base/text_file.h"
 #include "command.h"
 #include "common/on_path.h"
@@ -64,20 +69,19 @@ fs::path place_of(std::string path) {
 /// Makes the folder under another name first, so that nothing half-made is ever found under its
 /// own.
 void make_study(const fs::path& folder) {
-    const std::string part = part_name(folder.string());
-    std::error_code failed;
-    if (!fs::create_directory(part, failed))
-        throw Error({folder.string(), 0}, "", fmt::format("cannot be made: {}", failed.message()),
+    std::optional<Output> study;
+    try {
+        study.emplace(folder.string());
+    } catch (const Error&) {
+        throw Error({folder.string(), 0}, "",
+                    fmt::format("cannot be made: {}", std::strerror(errno)),
                     "Go to a folder of your own first (cd), or name one: dihaptic new study "
                     "~/my-study.");
-    try {
-        for (const StudyFile& file : study_files())
-            write_file(std::string(file.text), fmt::format("{}/{}", part, file.name));
-        fs::rename(part, folder);
-    } catch (const std::exception&) {
-        fs::remove_all(part, failed);
-        throw;
     }
+    fs::create_directory(study->path());
+    for (const StudyFile& file : study_files())
+        write_file(std::string(file.text), fmt::format("{}/{}", study->path(), file.name));
+    study->keep();
 }
 
 void new_study(const std::string& path) {
@@ -87,7 +91,7 @@ void new_study(const std::string& path) {
     for (const StudyFile& file : study_files()) names.emplace_back(file.name);
     fmt::print("{}: {}\n", folder.string(), fmt::join(names, ", "));
     fmt::print("next: cd {}, where README.md says what to type, from top to bottom\n",
-               folder.string());
+               shell_word(folder.string()));
     const char* const paths = std::getenv("PATH");
     if (!app::shell_finds_program(paths == nullptr ? "" : paths))
         fmt::print("so that your shell finds dihaptic there: {}\n", app::path_command());

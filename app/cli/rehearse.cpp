@@ -1,6 +1,4 @@
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -12,13 +10,15 @@
 #include "base/field_writer.h"
 #include "base/plural.h"
 #include "base/regular_file.h"
+#include "base/shell_word.h"
 #include "base/text_file.h"
 #include "command.h"
 #include "person/population.h"
 #include "person/simulated_limits.h"
+#include "rehearse_command.h"
 #include "session/rehearsal.h"
+#include "session/unfinished_folder.h"
 #include "shards.h"
-#include "shell_word.h"
 #include "summary.h"
 
 namespace dihaptic::cli {
@@ -57,43 +57,14 @@ Shard parse_shard(const std::string& text) {
     return shard;
 }
 
-/// Folder in which a person's session is made, and then the folder of the complete session.
-std::string unfinished(const RehearseOptions& options, const std::string& id) {
-    return options.out + "/" + session::kUnfinished + id;
-}
-std::string finished(const RehearseOptions& options, const std::string& id) {
-    return options.out + "/" + id;
-}
-
-/// Exit status of a person's process, when another program is doing that person.
-constexpr int kAnothers = 3;
-
-/// Removes what a killed program left in the folder of an unfinished session, and sends this
-/// process' messages to a file there, which is locked as long as the process lives. Returns kOk, or
-/// kAnothers.
-int begin(const std::string& folder) {
-    const std::string name = folder + "/messages.txt";
-    const int messages = open(name.c_str(), O_CREAT | O_RDWR, 0644);
-    if (messages < 0) return kOk;
-    // on a file system without locks there is nothing to wait for
-    if (flock(messages, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) return kAnothers;
-    [[maybe_unused]] const int emptied = ftruncate(messages, 0);
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        if (entry.path() != name) fs::remove_all(entry.path());
-    }
-    dup2(messages, STDOUT_FILENO);
-    dup2(messages, STDERR_FILENO);
-    return kOk;
-}
-
-/// Runs one person's session in a process of its own, so that others go on if it fails. Returns the
-/// exit status of the process.
-int run_person(const RehearseOptions& options, const std::string& id) {
-    const std::string folder = unfinished(options, id);
+/// Runs one person's session, in a process of its own. Returns its exit status.
+int run_person(const RehearseOptions& options, const std::string& id,
+               const session::UnfinishedFolder& place) {
     try {
-        if (const int code = begin(folder); code != kOk) return code;
-        if (fs::exists(finished(options, id))) {  // by another program, just now
-            fs::remove_all(folder);
+        dup2(place.messages(), STDOUT_FILENO);
+        dup2(place.messages(), STDERR_FILENO);
+        if (place.is_done()) {  // by another program, just now
+            place.remove();
             return kOk;
         }
         session::Request request = options.request;
@@ -102,7 +73,7 @@ int run_person(const RehearseOptions& options, const std::string& id) {
         session::Plan plan = session::make_plan(request);
         session::sit_down(plan, person::draw_person(*options.population, plan.seed, id));
         session::RunOptions run;
-        run.out = folder;
+        run.out = place.path();
         run.command = command_line();
         run.participant.id = id;
         run.keep_log = options.keep_recordings;
@@ -115,8 +86,8 @@ int run_person(const RehearseOptions& options, const std::string& id) {
             }
             return kFailed;
         }
-        fs::rename(session.folder, finished(options, id));  // appears complete, or not at all
-        fs::remove_all(folder);
+        place.finish(session.folder);
+        place.remove();
         return kOk;
     } catch (const std::exception& e) {
         fmt::print("{}\n", e.what());
@@ -125,13 +96,13 @@ int run_person(const RehearseOptions& options, const std::string& id) {
     }
 }
 
-/// Starts a person's process.
-pid_t start(const RehearseOptions& options, const std::string& id) {
-    fs::create_directories(unfinished(options, id));
+/// Starts a person's process, so that others go on if it fails.
+pid_t start(const RehearseOptions& options, const std::string& id,
+            const session::UnfinishedFolder& place) {
     std::fflush(nullptr);
     const pid_t child = fork();
     if (child == 0) {
-        const int code = run_person(options, id);
+        const int code = run_person(options, id, place);
         std::fflush(nullptr);
         _exit(code);
     }
@@ -148,13 +119,11 @@ std::string what_became(int status) {
 }
 
 /// What to say of a person's process that failed. If the disk is full it left no message.
-std::string messages_of(const RehearseOptions& options, const std::string& id, int status) {
-    if (WIFEXITED(status) && WEXITSTATUS(status) == kAnothers)
-        return "Another dihaptic is doing this session now: wait until that has ended.";
-    const std::string messages = read_text_file(unfinished(options, id) + "/messages.txt");
+std::string why_failed(const RehearseOptions& options, const std::string& id) {
+    const std::string messages = session::messages_of(options.out, id);
     if (!messages.empty() || stop_requested) return messages;
     return fmt::format("It left no message: look whether the disk is full (df -h {}).",
-                       options.out);
+                       shell_word(options.out));
 }
 
 std::string usual_folder(const session::Request& request) {
@@ -170,7 +139,7 @@ struct Roster {
 Roster roster_of(const RehearseOptions& options, const Shard& shard) {
     Roster roster;
     for (int person = shard.number; person <= options.people; person += shard.of) {
-        if (fs::exists(finished(options, person_id(person)))) {
+        if (fs::exists(options.out + "/" + person_id(person))) {
             ++roster.there;
         } else {
             roster.waiting.push_back(person_id(person));
@@ -179,56 +148,88 @@ Roster roster_of(const RehearseOptions& options, const Shard& shard) {
     return roster;
 }
 
-/// Rehearses people. Returns what to print about those whose sessions failed.
-std::vector<std::string> run_people(const RehearseOptions& options,
-                                    const std::vector<std::string>& people) {
-    ProgressLine line("rehearsing");
-    std::map<pid_t, std::string> running;
-    std::vector<std::string> failed;
-    const size_t all = people.size();
-    size_t next = 0;
-    size_t done = 0;
-    while (!running.empty() || (next < all && !stop_requested)) {
-        while (static_cast<int>(running.size()) < options.jobs && next < all && !stop_requested) {
-            const std::string& id = people[next++];
-            running[start(options, id)] = id;
+/// Rehearses people, as many at a time as are asked for.
+class Crowd {
+  public:
+    Crowd(const RehearseOptions& options, const std::vector<std::string>& people)
+        : options_(options), people_(people), line_("rehearsing") {}
+
+    /// Returns what to print about those whose sessions failed.
+    std::vector<std::string> run() {
+        while (!running_.empty() || (next_ < people_.size() && !stop_requested)) {
+            while (static_cast<int>(running_.size()) < options_.jobs && next_ < people_.size() &&
+                   !stop_requested) {
+                begin(people_[next_++]);
+            }
+            if (!running_.empty()) wait();
         }
+        if (done_ < people_.size()) exit_code = kFailed;
+        return std::move(failed_);
+    }
+
+  private:
+    void begin(const std::string& id) {
+        try {
+            if (const auto place = session::UnfinishedFolder::take(options_.out, id)) {
+                running_[start(options_, id, *place)] = id;
+                return;
+            }
+            fail(id, "failed",
+                 "Another dihaptic is doing this session now: wait until that has ended.");
+        } catch (const Error& e) {
+            fail(id, "failed", e.what());
+        }
+    }
+    void wait() {
         int status = 0;
         const pid_t child = waitpid(-1, &status, 0);
-        if (child < 0 && errno == EINTR) continue;
-        if (child < 0)
-            throw Error({options.out, 0}, "",
+        if (child < 0 && errno == EINTR) return;
+        if (child < 0) {
+            throw Error({options_.out, 0}, "",
                         "is not watched over: " + std::string(std::strerror(errno)),
                         "Start it again: it goes on with those that are missing.");
-        const auto ended = running.find(child);
-        if (ended == running.end()) continue;
-        if (status != 0) {
-            failed.push_back(fmt::format("{}: {}. {}", ended->second, what_became(status),
-                                         messages_of(options, ended->second, status)));
-        } else {
-            ++done;
         }
-        running.erase(ended);
-        line.show(static_cast<double>(done + failed.size()) / static_cast<double>(all),
-                  fmt::format("{} of {}", done, all));
+        const auto ended = running_.find(child);
+        if (ended == running_.end()) return;
+        const std::string id = ended->second;
+        running_.erase(ended);
+        if (status == 0) {
+            ++done_;
+            show();
+        } else {
+            fail(id, what_became(status), why_failed(options_, id));
+        }
     }
-    if (done < all) exit_code = kFailed;
-    return failed;
-}
+    void fail(const std::string& id, const std::string& what, const std::string& why) {
+        failed_.push_back(fmt::format("{}: {}. {}", id, what, why));
+        show();
+    }
+    void show() {
+        line_.show(
+            static_cast<double>(done_ + failed_.size()) / static_cast<double>(people_.size()),
+            fmt::format("{} of {}", done_, people_.size()));
+    }
+
+    const RehearseOptions& options_;
+    const std::vector<std::string>& people_;
+    ProgressLine line_;
+    std::map<pid_t, std::string> running_;
+    std::vector<std::string> failed_;
+    size_t next_ = 0;
+    size_t done_ = 0;
+};
 
 /// The command that does all these people, from any folder.
 std::string command_again(const RehearseOptions& options) {
-    const auto whole = [](const std::string& file) {
-        return shell_word(fs::absolute(file).lexically_normal().string());
-    };
-    std::string out = fmt::format(
-        "{} rehearse {} --people {} --seed {} --out {}", whole(fs::read_symlink("/proc/self/exe")),
-        whole(options.request.file), options.people, options.request.seed, whole(options.out));
-    if (!options.population_file.empty()) out += " --population " + whole(options.population_file);
-    if (options.real_objects) out += " --real-objects";
-    if (options.keep_recordings) out += " --keep-recordings";
-    if (options.jobs != 1) out += fmt::format(" --jobs {}", options.jobs);
-    return out;
+    return RehearseCommand{options.request.file,
+                           options.people,
+                           std::to_string(options.request.seed),
+                           options.out,
+                           options.population_file,
+                           options.real_objects,
+                           options.keep_recordings,
+                           options.jobs}
+        .text();
 }
 
 /// Reads and checks everything, and claims the folder. Returns the experiment's title, and what is
@@ -305,7 +306,7 @@ void rehearse(RehearseOptions& options) {
     const std::string title = prepare(options, shard).first;
     const Roster roster = roster_of(options, shard);
     fmt::print("{}\n{}\n", title, to_do(roster));
-    for (const std::string& text : run_people(options, roster.waiting))
+    for (const std::string& text : Crowd(options, roster.waiting).run())
         fmt::print(stderr, "{}\n", text);
     print_next(options, shard);
 }

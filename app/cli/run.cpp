@@ -11,6 +11,7 @@
 
 #include "base/figure.h"
 #include "base/plural.h"
+#include "base/text.h"
 #include "command.h"
 #include "common/stop_signals.h"
 #include "escape_key.h"
@@ -52,6 +53,10 @@ class Console {
   public:
     explicit Console(session::RunOptions& run) {
         run.warn = [](const std::string& message) { fmt::print("WARNING: {}\n", message); };
+        run.waiting = [](const std::string& what) {
+            fmt::print(stderr, "\nwaiting: {}\n", what);
+            std::fflush(stderr);
+        };
         if (run.clock != session::Clock::real) return;
         escape_.emplace(stop_requested, key_);
         no_suspension_.emplace();
@@ -113,14 +118,21 @@ bool has_task(const std::string& file) {
     return task::read_experiment(file, ignored).task.has_value();
 }
 
-/// Asks on the terminal for what is not known about the person yet. Answers are not checked here.
+/// Asks on the terminal for what is not known about the person yet, and again while the answer has
+/// what cannot be written down, such as that of an arrow key.
 void ask(recording::Participant& participant) {
     if (isatty(STDIN_FILENO) == 0) return;
     const auto question = [](const char* text, std::string& answer) {
         if (!answer.empty()) return;
-        fmt::print("{}: ", text);
-        std::fflush(stdout);
-        std::getline(std::cin, answer);
+        while (std::cin) {
+            fmt::print("{}: ", text);
+            std::fflush(stdout);
+            std::getline(std::cin, answer);
+            const auto fault = find_fault(answer, Lines::one);
+            if (!fault) return;
+            fmt::print("the answer {}; type it again without\n", fault->what);
+            answer.clear();
+        }
     };
     question("participant, e.g. S07", participant.id);
     question("age in years", participant.age);
@@ -150,7 +162,8 @@ void run_one(SessionOptions& options) {
 
 void run_plan(session::Plan plan, session::RunOptions run) {
     run.onlookers = true;
-    auto devices = session::open_devices(plan, rig::is_real(plan.rig) ? keeper::program() : "");
+    auto devices = session::open_devices(plan, rig::is_real(plan.rig) ? keeper::program() : "",
+                                         [] { return stop_requested.load(); });
     print(plan.warnings);
     fmt::print("{}\n", plan.title);
     Console console(run);

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
-
 #include "base/text_file.h"
 #include "command.h"
 #include "session/plan.h"
@@ -19,19 +16,6 @@ struct TuneOptions {
     bool json = false;
 };
 
-/// Throws Error when the file cannot be written: before a minute of computing, not after it. A map
-/// that is there stays until it is replaced.
-void check_writable(const std::string& file) {
-    std::error_code ignored;
-    const bool is_new = !std::filesystem::exists(file, ignored);
-    if (std::ofstream(file, std::ios::app)) {
-        if (is_new) std::filesystem::remove(file, ignored);
-        return;
-    }
-    throw Error({file, 0}, "", "cannot be written",
-                "Name another file by --map, in a folder that there is and with room left.");
-}
-
 void run(TuneOptions options) {
     if (!options.coupling.empty())
         options.request.set.push_back("coupling.kind=" + options.coupling);
@@ -42,7 +26,8 @@ void run(TuneOptions options) {
     const session::Plan plan = session::make_plan(options.request);
     const measure::TuneSetup setup = measure::tune_setup(plan.rig, scene::finger_names(plan.scene),
                                                          plan.settings, plan.hand.impedance);
-    check_writable(options.map);
+    // before a minute of computing, not after it
+    check_output(options.map, options.request.file, "the file that is tuned");
     const auto result = with_progress("tune", [&](const measure::Progress& progress) {
         return measure::tune(setup, stop_requested, progress);
     });

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "base/installed.h"
+#include "base/text.h"
 
 namespace dihaptic::cli {
 
@@ -122,11 +123,28 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
             fmt::format(" See {} --help.", std::filesystem::path(argv[0]).filename().string()));
 }
 
+/// What is typed, and the folder that it is typed in, go into what is recorded. Throws Error when
+/// they could not be read again from there.
+void check_typed(int argc, char** argv) {
+    for (int i = 1; i < argc; ++i) check_text(argv[i], fmt::format("command line, word {}", i));
+    if (argc < 2 || argv[1][0] == '-') return;
+    std::error_code gone;
+    check_text(std::filesystem::current_path(gone).string(), "the folder that you are in");
+}
+
+/// The command with the files that it was given, for a message.
+std::string what_is_done(int argc, char** argv) {
+    std::string out = std::filesystem::path(argv[0]).filename().string();
+    for (int i = 1; i < argc; ++i) out += std::string(" ") + argv[i];
+    return out;
+}
+
 }  // namespace
 
 int run_program(CLI::App& app, int argc, char** argv) {
     app.require_subcommand(1);
     try {
+        check_typed(argc, argv);
         refuse_unknown_command(app, argc, argv);
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -139,6 +157,13 @@ int run_program(CLI::App& app, int argc, char** argv) {
         fmt::print(stderr, "{}: error: {}. Check what is there, and its permissions.\n",
                    e.path1().string(), e.code().message());
         return kBadInput;
+    } catch (const std::bad_alloc&) {
+        fmt::print(
+            stderr,
+            "error: {} needs more memory than there is. Close other programs, give it smaller "
+            "files, or allow more (ulimit -v).\n",
+            what_is_done(argc, argv));
+        return kFailed;
     } catch (const std::exception& e) {
         fmt::print(stderr, "error: {}. Please report this, with the command that you typed.\n",
                    e.what());

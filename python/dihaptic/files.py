@@ -192,10 +192,14 @@ class File(Part):
         path = Path(file)
         # all is there before any file is touched, and each takes the place of an older one whole
         written = self._written(path)
-        for name, text in written.items():
-            name.with_name(f".{name.name}.new").write_text(text, encoding="utf-8")
         for name in written:
-            os.replace(name.with_name(f".{name.name}.new"), name)
+            if name.is_symlink():
+                raise error("is a link, and nothing is written through one", "Name another file.", str(name))
+        with tempfile.TemporaryDirectory(prefix=f".{path.name}.", dir=path.parent) as making:
+            for name, text in written.items():
+                Path(making, name.name).write_text(text, encoding="utf-8")
+            for name in written:
+                os.replace(Path(making, name.name), name)
         return path
 
     def _written(self, path: Path) -> dict[Path, str]:

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import contextlib
 import ctypes
-import fcntl
 import multiprocessing
 import os
 import pickle
 import random
-import shutil
+import shlex
 import signal
 import sys
 import traceback
@@ -112,7 +111,7 @@ class Rehearsal:
     def table(self, name: str) -> pd.DataFrame:
         """A table of all people by its name. Raises Error."""
         if not self.tables:
-            raise error("has no tables yet", f"Type dihaptic collect {self.folder}.", file=str(self.folder))
+            raise error("has no tables yet", f"Type dihaptic collect {shlex.quote(str(self.folder))}.", file=str(self.folder))
         if name not in self.tables:
             raise NotThere(name, "is no table of this rehearsal", self.tables, "Rehearsal.tables lists them.")
         return read_table(self.folder / f"{name}.csv")
@@ -248,24 +247,18 @@ class _Study:
 
     def _do(self, number: int) -> None:
         ppid = _native.person_id(number)
-        place = self.folder / f"{_native.unfinished}{ppid}"
-        place.mkdir(exist_ok=True)
-        with (place / "messages.txt").open("a") as lock:
-            try:
-                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-            except BlockingIOError:
-                raise error("another program does this session now", "Wait until that has ended.", key=ppid) from None
-            if not (self.folder / ppid).exists():  # another program may have done it just now
-                for left in set(place.iterdir()) - {place / "messages.txt"}:
-                    shutil.rmtree(left)
-                with self._drawing(number):
-                    self._record(number, ppid, place)
-            shutil.rmtree(place)
+        place = _native.UnfinishedFolder.take(str(self.folder), ppid)
+        if place is None:
+            raise error("another program does this session now", "Wait until that has ended.", key=ppid)
+        if not place.is_done():  # another program may have done it just now
+            with self._drawing(number):
+                self._record(number, ppid, place)
+        place.remove()
 
-    def _record(self, number: int, ppid: str, place: Path) -> None:
+    def _record(self, number: int, ppid: str, place: _native.UnfinishedFolder) -> None:
         rules = _made(self.between, number, BetweenTrials)
         with listening(rules) as asking:
-            ended = self._session(number, ppid, place, asking)
+            ended = self._session(number, ppid, Path(place.path), asking)
         wrong = [] if rules is None else [line for line in ended.said if "decides between trials" in line]
         if wrong or not ended.good:
             told = "\n".join([*(rules.failures if rules else []), *(wrong or ended.said)])
@@ -273,7 +266,7 @@ class _Study:
         if not self.keep_recordings:
             for recording in ("raw.log", "session.nwb"):
                 (Path(ended.folder) / recording).unlink(missing_ok=True)
-        Path(ended.folder).rename(self.folder / ppid)  # appears complete, or not at all
+        place.finish(ended.folder)
 
     def _session(self, number: int, ppid: str, place: Path, asking: list[str]) -> Ended:
         person = _made(self.person, number, Person)

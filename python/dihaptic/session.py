@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator
 from functools import cached_property
 from pathlib import Path
@@ -122,6 +123,8 @@ class Session:
     def table(self, name: str) -> pd.DataFrame:
         """A table by its name, with its units in `attrs`. Raises NotThere.
 
+        Warns of a table that was cut, edited or exchanged since the session ended.
+
         >>> import dihaptic as dh
         >>> dh.load(lift_session).table("lifts").lift.item()
         'complete'
@@ -129,7 +132,13 @@ class Session:
         file = self.folder / f"{name}.csv"
         if not file.is_file():
             raise NotThere(name, "is no table of this session", self.tables, "Session.tables lists them.")
+        self._tell_changes(file)
         return read_table(file)
+
+    def _tell_changes(self, file: Path) -> None:
+        """Warns of a table that is not what it was when the session ended."""
+        for what in _native.broken_seals(str(self.folder), file.name):
+            warnings.warn(what, stacklevel=3)
 
     @cached_property
     def trials(self) -> pd.DataFrame:
@@ -293,9 +302,18 @@ class Session:
                 file=str(self.folder),
             )
         try:
-            return h5py.File(file, "r")
-        except OSError as why:
+            opened = h5py.File(file, "r")
+            leads_out = _what_leads_out(opened)
+        except (OSError, RuntimeError) as why:
             raise _damaged(self.folder, why) from None
+        if leads_out:
+            opened.close()
+            raise error(
+                f"has {leads_out[0]} in another file, where HDF5 would read without asking",
+                "No session of Dihaptic has that: look where it comes from. dihaptic recover makes it anew.",
+                file=str(file),
+            )
+        return opened
 
     @property
     def _items(self) -> vocabulary.Items:
@@ -342,6 +360,26 @@ class Session:
         table = pd.DataFrame(rows, columns=columns[: rows.shape[1]])
         table.insert(0, "time", self._times(series))
         return table
+
+
+def _what_leads_out(file: h5py.File) -> list[str]:
+    """The names whose content is in another file: links, data sets with raw data elsewhere, virtual ones."""
+    out = []
+
+    def look(group: h5py.Group) -> None:
+        for name in group:
+            link = group.get(name, getlink=True)
+            if isinstance(link, h5py.ExternalLink):
+                out.append(f"{group.name}/{name}")
+            elif isinstance(link, h5py.HardLink):
+                item = group[name]
+                if isinstance(item, h5py.Group):
+                    look(item)
+                elif isinstance(item, h5py.Dataset) and (item.external or item.is_virtual):
+                    out.append(item.name)
+
+    look(file)
+    return out
 
 
 def _damaged(folder: Path, why: Exception) -> Error:

@@ -15,6 +15,7 @@
 #include "session/decider.h"
 #include "session/record.h"
 #include "session/rehearsal.h"
+#include "session/unfinished_folder.h"
 
 namespace py = pybind11;
 
@@ -228,7 +229,12 @@ class Sitting {
 void add_person(py::module_& m) {
     m.def("person_id", &session::person_id);
     m.attr("most_people") = session::kMostPeople;
-    m.attr("unfinished") = session::kUnfinished;
+    py::class_<session::UnfinishedFolder>(m, "UnfinishedFolder")
+        .def_static("take", &session::UnfinishedFolder::take)
+        .def_property_readonly("path", &session::UnfinishedFolder::path)
+        .def("is_done", &session::UnfinishedFolder::is_done)
+        .def("finish", &session::UnfinishedFolder::finish)
+        .def("remove", &session::UnfinishedFolder::remove);
     py::class_<Sitting>(m, "Sitting")
         .def(py::init<const std::string&, const std::string&, const std::vector<std::string>&,
                       uint64_t, const std::string&>())

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/text.h"
 #include "base/unit.h"
 
 namespace dihaptic {
@@ -30,10 +31,7 @@ std::string Problem::text() const {
     if (!remedy.empty()) out += " " + remedy;
     end_sentence(out);
     // names come from files, and may hold characters that would move a terminal's cursor
-    for (char& c : out) {
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-    }
-    return out;
+    return mended(out, Lines::one);
 }
 
 namespace {
@@ -77,17 +75,49 @@ Error::Error(const Place& place, std::string key, std::string what, std::string 
     : Error({problem(Severity::error, place, std::move(key), std::move(what), std::move(remedy))}) {
 }
 
+namespace {
+
+/// Nobody mends more at once, and a file may have a hundred thousand mistakes.
+constexpr size_t kMostErrors = 200;
+constexpr size_t kMostWarnings = 1000;
+constexpr const char* kMore = "more is wrong than what is told above";
+
+/// Whether nothing more is told.
+bool is_full(const std::vector<Problem>& problems) {
+    return !problems.empty() && problems.back().what == kMore;
+}
+
+size_t errors(const std::vector<Problem>& problems) {
+    return static_cast<size_t>(
+        std::count_if(problems.begin(), problems.end(),
+                      [](const Problem& p) { return p.severity == Severity::error; }));
+}
+
+/// Adds it, unless so many have been told that nobody reads another. No error is lost while there
+/// are none but warnings.
+void tell(std::vector<Problem>& problems, Problem next) {
+    if (is_full(problems)) return;
+    if (next.severity == Severity::warning && problems.size() >= kMostWarnings) return;
+    problems.push_back(std::move(next));
+    if (problems.size() < kMostErrors || errors(problems) < kMostErrors) return;
+    problems.push_back(
+        {Severity::error, problems.back().place, "", kMore, "Mend these first, and check again."});
+}
+
+}  // namespace
+
 void Diagnostics::error(const Place& place, std::string key, std::string what, std::string remedy,
                         std::vector<Choice> choices) {
-    problems_.push_back(
-        problem(Severity::error, place, std::move(key), std::move(what), std::move(remedy)));
-    problems_.back().choices = std::move(choices);
+    Problem next =
+        problem(Severity::error, place, std::move(key), std::move(what), std::move(remedy));
+    next.choices = std::move(choices);
+    tell(problems_, std::move(next));
 }
 
 void Diagnostics::warning(const Place& place, std::string key, std::string what,
                           std::string remedy) {
-    problems_.push_back(
-        problem(Severity::warning, place, std::move(key), std::move(what), std::move(remedy)));
+    tell(problems_,
+         problem(Severity::warning, place, std::move(key), std::move(what), std::move(remedy)));
 }
 
 void Diagnostics::unknown_key(const Place& place, std::string key, std::string remedy,
@@ -101,7 +131,7 @@ void Diagnostics::unknown_key(const Place& place, std::string key, std::string r
 }
 
 void Diagnostics::add(const std::vector<Problem>& problems) {
-    problems_.insert(problems_.end(), problems.begin(), problems.end());
+    for (const Problem& problem : problems) tell(problems_, problem);
 }
 
 bool Diagnostics::has_errors() const {

@@ -26,13 +26,9 @@ void check_output(const std::string& file, const std::string& input, const std::
 /// Whether what was written is synchronised to the disk at once, or when the system gets to it.
 enum class Keep { in_time, at_once };
 /// Replaces a file's content so that a reader sees either the old or the new, with Keep::at_once
-/// even after a loss of power. Throws Error when the file cannot be written.
+/// even after a loss of power. Throws Error when the file cannot be written, and when its name is a
+/// link's: nothing is written through one.
 void write_file(const std::string& text, const std::string& file, Keep keep = Keep::in_time);
-
-/// The name that a file, or folder, has while it is being made: `file`.PROCESS.part.
-std::string part_name(const std::string& file);
-/// Removes the unfinished parts of `file` that killed programs left behind.
-void remove_dead_parts(const std::string& file);
 
 /// Returns the number that a word says as a whole, "+1e3" too; nullopt if it says no number, or one
 /// that is not finite.

@@ -127,8 +127,8 @@ RawLogReader::RawLogReader(const std::string& file) : file_(file), chunks_(file)
 
 void RawLogReader::read_head() {
     const std::vector<std::byte>& bytes = chunks_.head();
-    const Node text =
-        parse_yaml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file_);
+    const Node text = parse_yaml({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file_,
+                                 Words::mended);
     const Node* const schema = text.find("schema");
     decoder_.emplace(schema == nullptr ? "" : schema->scalar, file_);
     health_.not_recorded = decoder_->missing();

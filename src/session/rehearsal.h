@@ -10,9 +10,6 @@
 
 namespace dihaptic::session {
 
-/// With this the name of a folder begins in which a person's session is made.
-inline constexpr const char* kUnfinished = "unfinished-";
-
 inline constexpr int kMostPeople = 9999;
 
 /// What the latest command asked for. It is no part of the rehearsal's identity.

@@ -45,7 +45,7 @@ int start(const std::vector<std::string>& words, int in, int err, int& process) 
 }  // namespace
 
 Movie::Movie(const std::string& file, int width, int height, int frames_per_second)
-    : file_(file), part_(part_name(file)) {
+    : file_(file), output_(file) {
     remove_dead_parts(file);
     if (width % 2 != 0 || height % 2 != 0)
         throw Error(fmt::format("a video cannot be {}x{}", width, height),
@@ -83,7 +83,7 @@ Movie::Movie(const std::string& file, int width, int height, int frames_per_seco
                        "+faststart",
                        "-f",
                        "mp4",
-                       "file:" + part_},
+                       "file:" + output_.path()},
                       ends[1], said_, process_);
         close(ends[1]);
     }
@@ -101,7 +101,6 @@ Movie::~Movie() {
     if (process_ >= 0) {
         kill(process_, SIGKILL);
         wait();
-        unlink(part_.c_str());
     }
     close(said_);
 }
@@ -117,7 +116,6 @@ int Movie::wait() {
 
 void Movie::fail() {
     wait();
-    unlink(part_.c_str());
     std::array<char, 500> text{};
     const ssize_t size = pread(said_, text.data(), text.size(), 0);
     std::string why(text.data(), size > 0 ? static_cast<size_t>(size) : 0);
@@ -137,7 +135,8 @@ void Movie::add(const Image& image) {
 }
 
 void Movie::finish() {
-    if (wait() != 0 || std::rename(part_.c_str(), file_.c_str()) != 0) fail();
+    if (wait() != 0) fail();
+    output_.keep();
 }
 
 }  // namespace dihaptic::view

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/image.h"
+#include "base/output.h"
 
 namespace dihaptic::view {
 
@@ -26,7 +27,7 @@ class Movie {
     [[noreturn]] void fail();
 
     std::string file_;
-    std::string part_;
+    Output output_;
     int pictures_ = -1;  // socket from which ffmpeg reads pictures
     int said_ = -1;      // memory file to which ffmpeg writes its errors
     int process_ = -1;

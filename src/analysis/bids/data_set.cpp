@@ -10,6 +10,7 @@
 
 #include "analysis/bids/motion.h"
 #include "analysis/bids/tsv.h"
+#include "base/output.h"
 #include "base/regular_file.h"
 #include "base/text_file.h"
 

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/diagnostics.h"
+#include "base/output.h"
 #include "base/regular_file.h"
 #include "base/table.h"
 #include "base/text_file.h"

@@ -1,0 +1,144 @@
+#include "session/unfinished_folder.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "base/output.h"
+#include "base/text.h"
+#include "base/text_file.h"
+
+namespace dihaptic::session {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kMessages = "messages.txt";
+
+std::string folder_of(const std::string& rehearsal, const std::string& id) {
+    return fmt::format("{}/{}{}", rehearsal, kUnfinished, id);
+}
+
+/// A folder that is held open, by a path that leads to it whatever its name leads to by now.
+fs::path held(int folder) {
+    return fmt::format("/proc/self/fd/{}", folder);
+}
+
+/// Whether a file is this user's, and has no other name by which it would be changed too.
+bool is_own_file(int descriptor) {
+    struct stat file {};
+    return ::fstat(descriptor, &file) == 0 && S_ISREG(file.st_mode) && file.st_nlink == 1 &&
+           file.st_uid == ::geteuid();
+}
+
+[[noreturn]] void refuse(const std::string& what, const std::string& why) {
+    throw Error({what, 0}, "", why, "Look at it, and move it away; nothing in it was changed.");
+}
+
+/// Whether sessions of this person have such names: DATE_TIME_EXPERIMENT_PERSON, with _2 and so on.
+bool is_session(const fs::directory_entry& entry, const std::string& id) {
+    const std::string name = entry.path().filename().string();
+    const size_t at = name.rfind("_" + id);
+    if (at == std::string::npos || !fs::is_directory(entry.symlink_status())) return false;
+    const std::string rest = name.substr(at + 1 + id.size());
+    return rest.empty() ||
+           (rest.front() == '_' && rest.find_first_not_of("0123456789", 1) == std::string::npos);
+}
+
+}  // namespace
+
+UnfinishedFolder::UnfinishedFolder(const std::string& rehearsal, const std::string& id)
+    : done_(rehearsal + "/" + id), path_(folder_of(rehearsal, id)) {
+    std::error_code ignored;
+    fs::create_directory(path_, ignored);
+    folder_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (folder_ >= 0) return;
+    if (errno == ELOOP || errno == ENOTDIR)
+        refuse(path_, "is a link, or a file, and no folder in which a session could be made");
+    throw Error({path_, 0}, "", fmt::format("cannot be made: {}", std::strerror(errno)),
+                "Check the folder's permissions and the disk's space.");
+}
+
+UnfinishedFolder::~UnfinishedFolder() {
+    if (messages_ >= 0) ::close(messages_);
+    if (folder_ >= 0) ::close(folder_);
+}
+
+UnfinishedFolder::UnfinishedFolder(UnfinishedFolder&& other) noexcept
+    : done_(std::move(other.done_)),
+      path_(std::move(other.path_)),
+      folder_(std::exchange(other.folder_, -1)),
+      messages_(std::exchange(other.messages_, -1)) {}
+
+bool UnfinishedFolder::lock() {
+    messages_ =
+        ::openat(folder_, kMessages, O_CREAT | O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0644);
+    if (messages_ < 0 && errno != ELOOP && errno != ENXIO) {
+        throw Error({path_ + "/" + kMessages, 0}, "",
+                    fmt::format("cannot be written: {}", std::strerror(errno)),
+                    "Check the folder's permissions and the disk's space.");
+    }
+    if (messages_ < 0 || !is_own_file(messages_))
+        refuse(path_ + "/" + kMessages, "is a link, is no file, or is another user's");
+    // on a file system without locks there is nothing to wait for
+    return ::flock(messages_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+std::optional<UnfinishedFolder> UnfinishedFolder::take(const std::string& rehearsal,
+                                                       const std::string& id) {
+    UnfinishedFolder out(rehearsal, id);
+    if (!out.lock()) return std::nullopt;
+    for (const auto& entry : fs::directory_iterator(held(out.folder_))) {
+        if (entry.path().filename() == kMessages || is_session(entry, id)) continue;
+        refuse(out.path_ + "/" + entry.path().filename().string(),
+               "is no session, and no rehearsal put it there");
+    }
+    out.remove_sessions();
+    [[maybe_unused]] const int emptied = ::ftruncate(out.messages_, 0);
+    return out;
+}
+
+void UnfinishedFolder::remove_sessions() const {
+    std::vector<fs::path> sessions;
+    for (const auto& entry : fs::directory_iterator(held(folder_))) {
+        if (entry.path().filename() != kMessages) sessions.push_back(entry.path());
+    }
+    for (const fs::path& session : sessions) fs::remove_all(session);  // follows no link
+}
+
+bool UnfinishedFolder::is_done() const {
+    return fs::exists(fs::symlink_status(done_));
+}
+
+void UnfinishedFolder::finish(const std::string& session) const {
+    std::error_code failed;
+    fs::rename(session, done_, failed);  // appears complete, or not at all
+    if (!failed) return;
+    throw Error({done_, 0}, "", "cannot be made: " + failed.message(),
+                fmt::format("The session is complete, in {}: move it there yourself.", session));
+}
+
+void UnfinishedFolder::remove() const {
+    remove_sessions();
+    ::unlinkat(folder_, kMessages, 0);
+    ::rmdir(path_.c_str());  // what somebody put there meanwhile stays
+}
+
+std::string messages_of(const std::string& rehearsal, const std::string& id) {
+    try {
+        return mended(read_text_file(folder_of(rehearsal, id) + "/" + kMessages, 1'000'000));
+    } catch (const Error&) {
+        return "";
+    }
+}
+
+}  // namespace dihaptic::session

@@ -1,0 +1,190 @@
+"""What commands write and delete, with links, pipes and folders at every name that they use.
+
+Each arrangement is a fresh folder as a stranger may hand it over: it has what a command works on, and a trap at one
+of the names that the command would write to or delete. What the trap leads to must stay as it is, and the command
+must end, and say so if it could not do what it was asked.
+
+Usage: attack/links_test.py PROGRAM, from the project's folder. DIHAPTIC_ATTACKS=all tries all arrangements; otherwise
+a sample of them is tried.
+"""
+import datetime
+import itertools
+import os
+import pathlib
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+sys.path.append("test/cli")
+from program import PROGRAM, dihaptic, patient
+
+PROGRAM = os.path.abspath(PROGRAM)
+ALL = os.environ.get("DIHAPTIC_ATTACKS") == "all"
+SAMPLE = 60
+TRAPS = ["link to a file", "link to a folder", "link to nothing", "link to itself", "second name of a file", "pipe",
+         "folder", "link to a device"]
+
+
+def write_experiment(file):
+    """Sessions of a tenth of a second of processor time."""
+    text = pathlib.Path("experiments/rotation-reversal.yaml").read_text().replace("../", os.getcwd() + "/")
+    pathlib.Path(file).write_text(re.sub(r"repeats: (64|160|16|48)\b", "repeats: 1", text))
+
+
+def everything(folder):
+    """What is in a folder: each name, with what it is, its size, its time and its bytes."""
+    out = {}
+    for path in sorted(pathlib.Path(folder).rglob("*")):
+        about = path.lstat()
+        out[str(path)] = (about.st_mode, about.st_size, about.st_mtime_ns, path.is_file() and path.read_bytes())
+    return out
+
+
+def set_trap(kind, name, foreign):
+    """Puts a trap at a name; what is there goes."""
+    if name.is_symlink() or name.is_file():
+        name.unlink()
+    elif name.is_dir():
+        shutil.rmtree(name)
+    name.parent.mkdir(parents=True, exist_ok=True)
+    if kind == "link to a file":
+        name.symlink_to(foreign / "file")
+    elif kind == "link to a folder":
+        name.symlink_to(foreign / "folder")
+    elif kind == "link to nothing":
+        name.symlink_to(foreign / "new")
+    elif kind == "link to itself":
+        name.symlink_to(name)
+    elif kind == "second name of a file":
+        os.link(foreign / "file", name)
+    elif kind == "pipe":
+        os.mkfifo(name)
+    elif kind == "link to a device":
+        name.symlink_to("/dev/full")
+    else:
+        name.mkdir()
+        (name / "theirs").write_text("theirs")
+
+
+class Made:
+    """What the commands work on, made once."""
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        self.experiment = self.folder / "short.yaml"
+        write_experiment(self.experiment)
+        self.do("run", self.experiment, "--simulate", "--participant", "S01", "--out", self.folder / "out")
+        (self.session,) = (self.folder / "out").iterdir()
+        self.do("rehearse", self.experiment, "--people", "2", "--out", self.folder / "two")
+
+    def do(self, *arguments):
+        result = dihaptic(*map(str, arguments))
+        assert result.returncode == 0, result.stderr
+
+
+def names_in(folder):
+    return [str(path.relative_to(folder)) for path in pathlib.Path(folder).rglob("*")]
+
+
+def commands(made):
+    """Of each command: its name, what prepares its folder, its arguments in there, and names that it uses for a while."""
+    session = lambda place: shutil.copytree(made.session, place / "session")
+    interrupted = lambda place: (session(place), (place / "session/session.yaml").unlink())
+
+    def missing(place):
+        shutil.copytree(made.folder / "two", place / "r")
+        shutil.rmtree(place / "r/sim-002")
+
+    def left(place):
+        missing(place)
+        (place / "r/unfinished-sim-002").mkdir()
+        (place / "r/unfinished-sim-002/messages.txt").write_text("")
+
+    again = ["rehearse", made.experiment, "--people", "2", "--out", "r"]
+    unfinished = ["r/unfinished-sim-002", "r/unfinished-sim-002/messages.txt"]
+    soon = [f"s/{datetime.datetime.now() + datetime.timedelta(seconds=s):%Y-%m-%d_%H%M%S}_short_S01" for s in range(3)]
+    return [
+        ("rehearse", missing, again, unfinished),
+        ("rehearse again", left, again, unfinished),
+        ("collect", missing, ["collect", "r"], []),
+        ("run", lambda place: None, ["run", made.experiment, "--simulate", "--participant", "S01", "--out", "s"], soon),
+        ("recover", interrupted, ["recover", "session"], []),
+        ("report", session, ["report", "session"], []),
+        ("report of a rehearsal", missing, ["report", "r"], []),
+        ("export", session, ["export", "session", "--bids", "data"], []),
+        ("resume", session, ["resume", "session"], []),
+        ("replay", session, ["replay", "session"], []),
+        ("picture", session, ["picture", "session", "-o", "p.png"], []),
+        ("workspace", lambda place: None, ["workspace", os.path.abspath("rigs/premium-arms.yaml"), "-o", "w.svg"], []),
+        ("new study", lambda place: None, ["new", "study", "mine"], []),
+    ]
+
+
+class Links(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.made = Made(folder.name)
+
+    def arrangements(self):
+        """Each command with a trap at each name that it makes, changes or deletes."""
+        out = []
+        for name, prepare, arguments, more in commands(self.made):
+            with tempfile.TemporaryDirectory() as folder:
+                place = pathlib.Path(folder)
+                prepare(place)
+                before = everything(place)
+                self.do(arguments, place)
+                after = everything(place)
+                used = [path for path in {*before, *after} if before.get(path) != after.get(path)]
+                names = sorted({str(pathlib.Path(path).relative_to(place)) for path in used} | set(more))
+            # a session's folder gets another name each time
+            names = [trap for trap in names if not re.match(r"(s|\.)/\d{4}-|\d{4}-", trap) or trap in more]
+            out += [(name, kind, trap) for trap, kind in itertools.product(names, TRAPS)]
+        return out
+
+    def do(self, arguments, place):
+        return subprocess.run([PROGRAM, *map(str, arguments)], cwd=place, capture_output=True, text=True,
+                              timeout=patient(60), stdin=subprocess.DEVNULL)
+
+    def test_nothing_outside_changes(self):
+        arrangements = self.arrangements()
+        self.assertGreater(len(arrangements), 400)
+        chosen = arrangements if ALL else random.Random(1).sample(arrangements, SAMPLE)
+        silent = 0
+        for name, kind, trap in chosen:
+            with self.subTest(command=name, trap=trap, kind=kind):
+                silent += self.spring(name, kind, trap)
+        print(f"{len(chosen)} of {len(arrangements)} arrangements; in {silent} the command did what it was asked")
+
+    def spring(self, name, kind, trap):
+        with tempfile.TemporaryDirectory() as folder:
+            place, foreign = pathlib.Path(folder, "place"), pathlib.Path(folder, "foreign")
+            (foreign / "folder/inner").mkdir(parents=True)
+            for file in ("file", "folder/a", "folder/inner/b", "folder/messages.txt"):
+                (foreign / file).write_text("theirs")
+            place.mkdir()
+            _, prepare, arguments, _ = next(row for row in commands(self.made) if row[0] == name)
+            prepare(place)
+            set_trap(kind, place / trap, foreign)
+            before = everything(foreign)
+            began = time.monotonic()
+            result = self.do(arguments, place)
+            self.assertEqual(everything(foreign), before, result.stderr)
+            self.assertNotIn("Please report", result.stderr)
+            self.assertGreaterEqual(result.returncode, 0, result.stderr)
+            if kind == "folder" and (place / trap).is_dir():
+                self.assertTrue((place / trap / "theirs").exists() or result.returncode != 0, result.stderr)
+            if result.returncode != 0:
+                self.assertTrue(result.stderr.strip() + result.stdout.strip(), f"nothing was said in {time.monotonic() - began:.1f} s")
+            return result.returncode == 0
+
+
+if __name__ == "__main__":
+    unittest.main()
