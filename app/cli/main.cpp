@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "base/companion.h"
 #include "command.h"
 #include "common/steady_output.h"
 #include "common/stop_signals.h"
@@ -49,6 +50,9 @@ int main(int argc, char** argv) {
     app::stop_on_signals(cli::stop_requested);
     keeper::take_force_away_at_death();
     cli::make_output_steady();
+    tell_companion_waits([](const std::string& what, int seconds, int most) {
+        fmt::print(stderr, "{}: {} s so far, {} s at most\n", what, seconds, most);
+    });
     cli::typed = "dihaptic";
     for (int i = 1; i < argc; ++i) cli::typed += std::string(" ") + argv[i];
     if (argc <= 1) {

@@ -1,6 +1,12 @@
 // Names that may stand somewhere in a file, for a problem that lists them (Problem::choices).
+//
+// Files may hold thousands of names, and as many mistakes: a problem shows some names only, and of
+// those after the first hundred nothing more than what is wrong is worked out.
 #pragma once
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -8,11 +14,35 @@
 
 namespace dihaptic {
 
+constexpr size_t kMostExplained = 100;  // problems
+constexpr size_t kMostListed = 50;      // names
+
 template <class Names>
 std::vector<Choice> choices_of(const Names& names) {
     std::vector<Choice> out;
-    for (const auto& name : names) out.push_back({std::string(name), ""});
+    for (const auto& name : names) {
+        if (out.size() == kMostExplained * kMostListed) break;
+        out.push_back({std::string(name), ""});
+    }
     return out;
+}
+
+/// "a, b, c", or the first of many.
+inline std::string listed(const std::vector<std::string>& names) {
+    std::string out;
+    for (size_t i = 0; i < std::min(names.size(), kMostListed); ++i)
+        out += (i > 0 ? ", " : "") + names[i];
+    if (names.size() > kMostListed) out += fmt::format(" and {} more", names.size() - kMostListed);
+    return out;
+}
+
+/// What to do about a name that is none of these: "Did you mean x?", or "Known: x, y.".
+inline std::string meant(const std::string& name, const std::vector<std::string>& names,
+                         const Diagnostics& so_far, const char* these = "Known:") {
+    if (so_far.problems().size() > kMostExplained) return "";
+    const std::string guess = nearest(name, names);
+    return guess.empty() ? fmt::format("{} {}.", these, listed(names))
+                         : fmt::format("Did you mean {}?", guess);
 }
 
 }  // namespace dihaptic

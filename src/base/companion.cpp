@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstring>
@@ -103,19 +104,29 @@ bool limit(pid_t process, const CompanionLimits& limits) {
            set(RLIMIT_FSIZE, limits.output, limits.output) && set(RLIMIT_CORE, 0, 0);
 }
 
-/// Waits until a process has ended, and leaves it to be reaped; false if that takes longer than
-/// `seconds`.
-bool wait_for(pid_t process, int seconds) {
+std::atomic<CompanionWait> told_of_waits{nullptr};
+
+/// Waits until a process has ended, and leaves it to be reaped; false if that takes longer than the
+/// task may.
+bool wait_for(pid_t process, const CompanionTask& task) {
     using Clock = std::chrono::steady_clock;
-    const auto end = Clock::now() + std::chrono::seconds(seconds);
+    const auto begin = Clock::now();
+    const auto end = begin + std::chrono::seconds(task.limits.time);
+    auto tell = std::chrono::seconds(1);
     const int watch = static_cast<int>(syscall(SYS_pidfd_open, process, 0));
     if (watch < 0) return false;
     pollfd ended{watch, POLLIN, 0};
     int ready = 0;
     do {
-        const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()).count();
+        const auto until = std::min(end, begin + tell);
+        const auto left =
+            std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now()).count();
         ready = poll(&ended, 1, static_cast<int>(std::max<int64_t>(left, 0)));
-    } while (ready < 0 && errno == EINTR);
+        if (ready != 0 || until == end) continue;
+        if (const CompanionWait told = told_of_waits; told != nullptr)
+            told(task.what, static_cast<int>(tell.count()), task.limits.time);
+        tell *= 2;
+    } while (ready == 0 ? Clock::now() < end : ready < 0 && errno == EINTR);
     close(watch);
     return ready > 0;
 }
@@ -138,7 +149,7 @@ Ended run(const CompanionTask& task, const std::string& path, int in, int out) {
     const bool limited = limit(process, task.limits);
     {
         const std::stop_callback stopped(task.stop, [process] { kill(process, SIGTERM); });
-        if (limited) ended.late = !wait_for(process, task.limits.time);
+        if (limited) ended.late = !wait_for(process, task);
         if (!limited || ended.late) kill(process, SIGKILL);
         siginfo_t ignored{};
         while (waitid(P_PID, static_cast<id_t>(process), &ignored, WEXITED | WNOWAIT) < 0 &&
@@ -168,6 +179,10 @@ std::string failure(const CompanionTask& task, const Ended& ended) {
 }
 
 }  // namespace
+
+void tell_companion_waits(CompanionWait tell) noexcept {
+    told_of_waits = tell;
+}
 
 std::string companion(const std::string& name) {
     return in_or_above_program({name, "libexec/dihaptic/" + name});

@@ -39,6 +39,12 @@ struct CompanionTask {
     std::stop_token stop = {};  ///< ends the companion
 };
 
+/// Is told what companions are waited for: after a second, and again whenever that time has doubled.
+/// `what`: CompanionTask::what; `most`: when it is killed [s]. Null, as at first: nobody is told. It
+/// is called by the thread that waits.
+using CompanionWait = void (*)(const std::string& what, int seconds, int most);
+void tell_companion_waits(CompanionWait tell) noexcept;
+
 /// Runs a companion on `input`, which it reads from its standard input, and returns what it writes
 /// to its standard output. Returns nullopt when it refuses the input, by an exit status other than
 /// 0; the exit status 3 is an error instead, and means that memory ran out. Throws Error when the

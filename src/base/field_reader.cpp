@@ -65,8 +65,9 @@ Place FieldReader::place() const {
 }
 
 Place FieldReader::place_of(std::string_view name) const {
+    const std::string start = std::string(name) + "_";
     for (const auto& [key, node] : mapping_.entries) {
-        if (key == name || key.starts_with(std::string(name) + "_")) return node.place;
+        if (key == name || key.starts_with(start)) return node.place;
     }
     return mapping_.place;
 }
@@ -475,6 +476,10 @@ void FieldReader::finish() {
         if (key.find_first_of("()") != std::string::npos) {
             diagnostics_.error(node.place, key, "was cut off from the text before it by a comma",
                                "Put that text in quotes, e.g. when: \"gripped(block, hand)\".");
+            continue;
+        }
+        if (diagnostics_.problems().size() > kMostExplained) {
+            diagnostics_.unknown_key(node.place, key, "");
             continue;
         }
         const std::string guess = nearest(key, known);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include "base/checksum.h"
 #include "base/diagnostics.h"
 #include "base/regular_file.h"
 #include "base/text_file.h"
@@ -13,6 +14,14 @@ namespace {
 
 constexpr int64_t kMostPng = 200'000'000;  // [bytes]
 constexpr int64_t kMostPixels = 64'000'000;
+
+/// The last chunk of a PNG file is IEND (PNG specification, 11.2.5); without it, pixels may be
+/// missing.
+void check_whole(const std::string& bytes, const std::string& file) {
+    if (!bytes.starts_with("\x89PNG") || bytes.rfind("IEND") != std::string::npos) return;
+    throw Error({file, 0}, "", "was cut short: its end is missing",
+                "Copy it again, or export it anew.");
+}
 
 }  // namespace
 
@@ -32,9 +41,11 @@ void write_png(const Image& image, const std::string& file) {
 
 Image read_png(const std::string& file) {
     const std::string bytes = read_bytes(file, kMostPng);
+    check_whole(bytes, file);
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
     Image image;
+    image.checksum = checksum_of(bytes);
     if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) != 0) {
         if (int64_t{png.width} * png.height > kMostPixels) {
             png_image_free(&png);

@@ -1,12 +1,17 @@
 #include "base/node.h"
 
+#include <fmt/format.h>
 #include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <sstream>
 
+#include "base/text.h"
 #include "base/text_file.h"
+#include "base/unsaved.h"
 
 namespace dihaptic {
 
@@ -43,123 +48,222 @@ void Node::set(const std::string& key, Node value) {
 namespace {
 
 /// An alias (*name) inside what it names never ends, and aliases of aliases double at each level.
-constexpr int kDeepest = 32;
-constexpr size_t kMostNodes = 1'000'000;
+constexpr size_t kDeepest = 32;
+constexpr size_t kMostNodes = 500'000;
 
-Node convert(const YAML::Node& in, const std::string& file, size_t& count, int depth = 0) {
-    Node out;
-    out.place = {file, in.Mark().line + 1};
-    if (depth > kDeepest || ++count > kMostNodes) {
-        throw Error(out.place, "", "is nested too deeply, or too large",
-                    "Write it out without aliases (*name).");
-    }
-    switch (in.Type()) {
-        case YAML::NodeType::Scalar:
-            out.kind = Node::Kind::scalar;
-            out.scalar = in.Scalar();
-            break;
-        case YAML::NodeType::Sequence:
-            out.kind = Node::Kind::sequence;
-            for (const auto& item : in) out.items.push_back(convert(item, file, count, depth + 1));
-            break;
-        case YAML::NodeType::Map:
-            out.kind = Node::Kind::mapping;
-            for (const auto& entry : in) {
-                const Place at{file, entry.first.Mark().line + 1};
-                if (!entry.first.IsScalar()) throw Error(at, "", "a key must be a word", "");
-                const std::string key = entry.first.Scalar();
-                if (out.find(key) != nullptr) {
-                    throw Error(at, key, "is given twice", "Keep one of the two lines.");
-                }
-                Node value = convert(entry.second, file, count, depth + 1);
-                value.place = at;
-                out.entries.push_back({key, std::move(value)});
-            }
-            break;
-        default:
-            break;
-    }
-    return out;
-}
-
-/// The lines at which documents start, from 0.
-class DocumentStarts final : public YAML::EventHandler {
+/// Makes the tree while the text is read, so that what is too deep or too large is refused where it
+/// begins to be. In YAML::Load()'s tree each look at a key would search all of them.
+class TreeBuilder final : public YAML::EventHandler {
   public:
-    std::vector<int> lines;
+    TreeBuilder(const std::string& file, Words words) : file_(file), words_(words) {
+        root_.place = {file, 1};
+    }
+
+    Node take() { return std::move(root_); }
 
   private:
-    void OnDocumentStart(const YAML::Mark&) override { lines.push_back(-1); }
-    void OnDocumentEnd() override {}
-    void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { see(mark); }
-    void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override { see(mark); }
-    void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
-                  const std::string&) override {
-        see(mark);
+    /// A list or mapping whose end has not been read.
+    struct Open {
+        Node node;
+        YAML::anchor_t anchor;
+        size_t count;       // of nodes before it
+        size_t height = 0;  // levels below it
+        std::optional<Node> key = std::nullopt;
+    };
+    struct Named {
+        Node node;
+        size_t count;
+        size_t height;
+    };
+
+    void OnDocumentStart(const YAML::Mark&) override { ++documents_; }
+    // a stray comma is a document without anything in it
+    void OnDocumentEnd() override { check_single(file_place(0)); }
+    void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
+        add(begin(Node::Kind::null, mark), anchor);
     }
-    void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+    void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+                  const std::string& text) override {
+        Node node = begin(Node::Kind::scalar, mark);
+        node.scalar = text;
+        if (const auto fault = find_fault(text)) {
+            node.scalar = mended(text);
+            if (words_ == Words::checked)
+                throw Error(node.place, shortened(node.scalar), fault->what, fault->remedy);
+        }
+        add(std::move(node), anchor);
+    }
+    void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
                          YAML::EmitterStyle::value) override {
-        see(mark);
+        open(begin(Node::Kind::sequence, mark), anchor);
     }
-    void OnSequenceEnd() override {}
-    void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t,
+    void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
                     YAML::EmitterStyle::value) override {
-        see(mark);
+        open(begin(Node::Kind::mapping, mark), anchor);
     }
-    void OnMapEnd() override {}
-    void see(const YAML::Mark& mark) {
-        if (lines.back() < 0) lines.back() = mark.line;
+    void OnSequenceEnd() override { close(); }
+    void OnMapEnd() override {
+        check_keys(open_.back().node);
+        close();
     }
+    void OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) override;
+
+    Place file_place(int line) const { return {file_, line + 1}; }
+    void check_single(const Place& place) const;
+    void check_size(const Place& place, size_t height) const;
+    static void check_keys(const Node& mapping);
+    Node begin(Node::Kind kind, const YAML::Mark& mark);
+    void open(Node node, YAML::anchor_t anchor) {
+        const size_t before = count_ - 1;
+        open_.push_back({std::move(node), anchor, before});
+    }
+    void close();
+    /// Adds what has been read as a whole.
+    void add(Node node, YAML::anchor_t anchor, size_t count = 1, size_t height = 0);
+    void put(Node node);
+
+    const std::string& file_;
+    const Words words_;
+    int documents_ = 0;
+    size_t count_ = 0;
+    std::vector<Open> open_;
+    std::map<YAML::anchor_t, Named> named_;
+    Node root_;
 };
 
-/// Throws Error where a second document starts. YAML::LoadAll() would read all documents, and never
-/// end at a stray comma, which starts none.
-void check_single(const std::string& text, const std::string& file) {
-    std::istringstream in(text);
-    YAML::Parser parser(in);
-    DocumentStarts starts;
-    while (starts.lines.size() < 2 && parser.HandleNextDocument(starts)) {
-    }
-    if (starts.lines.size() < 2) return;
-    throw Error({file, std::max(0, starts.lines[1]) + 1}, "",
+void TreeBuilder::check_single(const Place& place) const {
+    if (documents_ < 2) return;
+    throw Error(place, "",
                 "a second YAML document starts here (after '---', or after a bracket that closed "
                 "the first)",
                 "Keep one document a file.");
 }
 
-YAML::Node emit(const Node& node) {
-    YAML::Node out;
+/// `height`: levels below what begins here.
+void TreeBuilder::check_size(const Place& place, size_t height) const {
+    if (open_.size() + height > kDeepest)
+        throw Error(place, "", fmt::format("is nested too deeply: in more than {} lists", kDeepest),
+                    "Look for brackets that are not closed, or write it out without aliases "
+                    "(*name).");
+    if (count_ > kMostNodes)
+        throw Error(place, "",
+                    fmt::format("is too large: from here on it has more than {} keys and values",
+                                kMostNodes),
+                    "Check that it is the right file; aliases (*name) count as if they were "
+                    "written out.");
+}
+
+void TreeBuilder::check_keys(const Node& mapping) {
+    std::vector<const Node::Entry*> sorted;
+    sorted.reserve(mapping.entries.size());
+    for (const Node::Entry& entry : mapping.entries) sorted.push_back(&entry);
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const auto* a, const auto* b) { return a->key < b->key; });
+    const Node::Entry* second = nullptr;
+    for (size_t i = 1; i < sorted.size(); ++i) {
+        if (sorted[i - 1]->key == sorted[i]->key && (second == nullptr || sorted[i] < second))
+            second = sorted[i];
+    }
+    if (second == nullptr) return;
+    throw Error(second->value.place, second->key, "is given twice", "Keep one of the two lines.");
+}
+
+Node TreeBuilder::begin(Node::Kind kind, const YAML::Mark& mark) {
+    Node node;
+    node.kind = kind;
+    node.place = file_place(mark.line);
+    check_single(node.place);
+    ++count_;
+    check_size(node.place, 0);
+    return node;
+}
+
+void TreeBuilder::OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) {
+    const Place place = file_place(mark.line);
+    check_single(place);
+    const auto named = named_.find(anchor);
+    if (named == named_.end())
+        throw Error(place, "", "an alias (*name) stands in what it names, which is endless",
+                    "Write it out without the alias.");
+    const auto& [node, count, height] = named->second;
+    count_ += count;
+    check_size(place, height);
+    add(node, 0, count, height);
+}
+
+void TreeBuilder::close() {
+    Open whole = std::move(open_.back());
+    open_.pop_back();
+    add(std::move(whole.node), whole.anchor, count_ - whole.count, whole.height);
+}
+
+void TreeBuilder::add(Node node, YAML::anchor_t anchor, size_t count, size_t height) {
+    if (!open_.empty()) open_.back().height = std::max(open_.back().height, height + 1);
+    if (anchor != 0) {
+        count_ += count;  // it is kept twice
+        check_size(node.place, 0);
+        named_[anchor] = {node, count, height};
+    }
+    put(std::move(node));
+}
+
+void TreeBuilder::put(Node node) {
+    if (open_.empty()) {
+        root_ = std::move(node);
+        return;
+    }
+    Open& parent = open_.back();
+    if (parent.node.kind == Node::Kind::sequence) {
+        parent.node.items.push_back(std::move(node));
+    } else if (parent.key) {
+        node.place = parent.key->place;
+        parent.node.entries.push_back({std::move(parent.key->scalar), std::move(node)});
+        parent.key.reset();
+    } else if (node.kind == Node::Kind::scalar) {
+        parent.key = std::move(node);
+    } else {
+        throw Error(node.place, "", "a key must be a word", "");
+    }
+}
+
+void emit(const Node& node, YAML::Emitter& out) {
     switch (node.kind) {
         case Node::Kind::null:
+            out << YAML::Null;
             break;
         case Node::Kind::scalar:
-            out = node.scalar;
+            out << node.scalar;
             break;
         case Node::Kind::sequence:
-            out = YAML::Node(YAML::NodeType::Sequence);
-            for (const Node& item : node.items) out.push_back(emit(item));
             if (std::all_of(node.items.begin(), node.items.end(),
-                            [](const Node& item) { return item.kind == Node::Kind::scalar; })) {
-                out.SetStyle(YAML::EmitterStyle::Flow);
-            }
+                            [](const Node& item) { return item.kind == Node::Kind::scalar; }))
+                out << YAML::Flow;
+            out << YAML::BeginSeq;
+            for (const Node& item : node.items) emit(item, out);
+            out << YAML::EndSeq;
             break;
         case Node::Kind::mapping:
-            out = YAML::Node(YAML::NodeType::Map);
-            for (const auto& [key, value] : node.entries) out[key] = emit(value);
+            out << YAML::BeginMap;
+            for (const auto& [key, value] : node.entries) {
+                out << YAML::Key << key << YAML::Value;
+                emit(value, out);
+            }
+            out << YAML::EndMap;
             break;
     }
-    return out;
 }
 
 }  // namespace
 
-Node parse_yaml(const std::string& text, const std::string& file) {
+Node parse_yaml(const std::string& text, const std::string& file, Words words) {
     try {
-        check_single(text, file);
-        size_t count = 0;
-        Node root = convert(YAML::Load(text), file, count);
-        root.place.file = file;
-        if (root.place.line == 0) root.place.line = 1;
-        return root;
+        std::istringstream in(text);
+        YAML::Parser parser(in);
+        TreeBuilder builder(file, words);
+        // the second document is refused; YAML::LoadAll() never ends at a stray comma
+        while (parser.HandleNextDocument(builder)) {
+        }
+        return builder.take();
     } catch (const YAML::Exception& e) {
         throw Error({file, e.mark.line + 1}, "", "is not YAML: " + e.msg,
                     "Check the indentation (spaces, no tabs) and the brackets near this line.");
@@ -167,12 +271,13 @@ Node parse_yaml(const std::string& text, const std::string& file) {
 }
 
 Node read_yaml(const std::string& file) {
+    if (const std::string* text = Unsaved::text_of(file)) return parse_yaml(*text, file);
     return parse_yaml(read_text_file(file, kMostYaml), file);
 }
 
 std::string to_yaml(const Node& node) {
     YAML::Emitter out;
-    out << emit(node);
+    emit(node, out);
     return std::string(out.c_str()) + "\n";
 }
 

@@ -89,8 +89,26 @@ void write_csv(const Table& table, const std::string& file) {
     write_file(to_csv(table), file);
 }
 
+namespace {
+
+constexpr size_t kMostColumns = 10'000;
+constexpr size_t kMostCells = 20'000'000;  // in memory each takes more than its text
+
+/// Refuses a table that would take all memory: commas alone are a cell each.
+void check_table_size(const std::string& file, size_t line, size_t columns, size_t cells) {
+    if (columns <= kMostColumns && cells <= kMostCells) return;
+    throw Error({file, static_cast<int>(line)}, "",
+                columns > kMostColumns
+                    ? fmt::format("this line has more than {} cells", kMostColumns)
+                    : fmt::format("from here on the table has more than {} cells", kMostCells),
+                "Check that it is the right file, or make it smaller.");
+}
+
+}  // namespace
+
 std::vector<std::vector<std::string>> read_csv(const std::string& file) {
     const std::string text = read_text_file(file, kMostTable);
+    size_t line = 1, cells = 0;
     std::vector<std::vector<std::string>> rows;
     std::string cell;
     std::vector<std::string> row;
@@ -103,6 +121,7 @@ std::vector<std::vector<std::string>> read_csv(const std::string& file) {
             } else if (c == '"') {
                 quoted = false;
             } else {
+                if (c == '\n') ++line;
                 cell += c;
             }
         } else if (c == '"') {
@@ -110,7 +129,10 @@ std::vector<std::vector<std::string>> read_csv(const std::string& file) {
         } else if (c == ',' || c == '\n') {
             row.push_back(std::move(cell));
             cell.clear();
+            cells += c == '\n' ? 3 : 1;  // a line without cells takes as much as three
+            check_table_size(file, line, row.size(), cells);
             if (c == '\n') {
+                ++line;
                 rows.push_back(std::move(row));
                 row.clear();
             }

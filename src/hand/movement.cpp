@@ -10,6 +10,7 @@
 #include <set>
 #include <string_view>
 
+#include "base/checksum.h"
 #include "base/plural.h"
 #include "base/statistics.h"
 #include "base/text_file.h"
@@ -83,6 +84,14 @@ void check_separator(const std::string& file, const std::string& header) {
     }
 }
 
+/// Refuses lines that no movement has, before they are taken apart.
+void check_columns(std::string_view line, const Place& place) {
+    constexpr int64_t kMost = 1000;  // of 256 fingers
+    if (std::count(line.begin(), line.end(), ',') < kMost) return;
+    throw Error(place, "", fmt::format("this line has more than {} columns", kMost),
+                "Check that it is the right file.");
+}
+
 /// What a column's name says about it.
 struct Heading {
     enum class Kind { unknown, occluded, time, position };
@@ -150,6 +159,7 @@ void check_complete(const Columns& columns, const Place& place, Diagnostics& dia
 
 Columns read_header(const std::string& file, const std::string& header, Diagnostics& diagnostics) {
     const Place place{file, 1};
+    check_columns(header, place);
     Columns columns;
     columns.keys = split(header);
     std::set<std::string> seen;
@@ -280,6 +290,7 @@ void read_lines(const std::string& text, RecordingAxes axes, Movement& movement,
         if (!line) break;
         if (line->empty()) continue;
         const Place place{file, lines.number()};
+        check_columns(*line, place);
         const std::vector<std::string> cells = split(*line);
         if (cells.size() != columns.keys.size()) {
             problems.error(
@@ -311,7 +322,9 @@ Movement read_movement(const std::string& file, RecordingAxes axes, Diagnostics&
     movement.file = file;
     Diagnostics problems;
     try {
-        read_lines(read_text_file(file), axes, movement, problems);
+        const std::string text = read_text_file(file);
+        movement.checksum = checksum_of(text);
+        read_lines(text, axes, movement, problems);
     } catch (const Error& e) {
         problems.add(e.problems());
     }

@@ -10,6 +10,7 @@
 
 #include "base/field_writer.h"
 #include "base/installed.h"
+#include "base/named_file.h"
 #include "base/random.h"
 #include "person/shipped_populations.h"
 
@@ -256,13 +257,16 @@ Traits with_names(Traits traits, const Population& population, const std::string
 /// Reads a file, and those it is based on. `above`: the files that are based on this one.
 Population read_based(std::set<fs::path> above, const std::string& file) {
     Diagnostics diagnostics;
-    Population out = parse(read_yaml(file), diagnostics);
+    const Node root = read_yaml(file);
+    Population out = parse(root, diagnostics);
     if (!out.based_on.empty()) {
+        const Place place = root.find("based_on")->place;
         above.insert(fs::weakly_canonical(file));
         const fs::path base = named_in(fs::path(file).parent_path().string(), out.based_on);
         if (above.contains(fs::weakly_canonical(base)))
-            throw Error({file, 0}, "based_on", "leads back to the file itself",
+            throw Error(place, "based_on", "leads back to the file itself",
                         "Name a file that is based on no other, or on another one.");
+        check_named(base.string(), place, "based_on");
         out = resolved(std::move(out), read_based(above, base.string()));
     }
     return checked(std::move(out), file, diagnostics);

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
-#include <zlib.h>
 
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <chrono>
@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <optional>
 
+#include "base/checksum.h"
 #include "base/disk.h"
 #include "base/field_writer.h"
 #include "base/regular_file.h"
@@ -33,6 +34,53 @@ std::string text_of(const std::string& file) {
     } catch (const Error&) {
         return "";
     }
+}
+
+/// What YAML can be read of a text without its last line, or without some more; a line that was cut
+/// off may have a wrong meaning.
+Node first_lines(std::string text) {
+    // each attempt reads all lines again
+    constexpr int kMostAttempts = 100;
+    constexpr size_t kMostRead = 1'000'000;  // bytes
+    size_t read = 0;
+    for (int i = 0; i < kMostAttempts && read < kMostRead; ++i) {
+        const size_t end = text.rfind('\n');
+        if (end == std::string::npos) break;
+        text.resize(end);
+        read += end;
+        try {
+            return parse_yaml(text, "");
+        } catch (const Error&) {
+            continue;
+        }
+    }
+    return {};
+}
+
+/// What can be read of a damaged session.yaml: its keys up to the one in which the damage is, and
+/// of that one the first lines. All is read once but that one.
+Node readable_part(const std::string& text) {
+    Node out = Node::mapping();
+    const auto take = [&](const Node& part) {
+        out.entries.insert(out.entries.end(), part.entries.begin(), part.entries.end());
+    };
+    const auto begins_key = [&](size_t at) {
+        return std::isalpha(static_cast<unsigned char>(text[at])) != 0;
+    };
+    for (size_t from = 0, to = 0; from < text.size(); from = to) {
+        do {
+            to = std::min(text.find('\n', to), text.size() - 1) + 1;
+        } while (to < text.size() && !begins_key(to));
+        const std::string key = text.substr(from, to - from);
+        try {
+            if (!key.ends_with('\n')) throw Error("is cut off", "");
+            take(parse_yaml(key, ""));
+        } catch (const Error&) {
+            take(first_lines(key));
+            break;
+        }
+    }
+    return out;
 }
 
 std::string iso(const std::tm& local) {
@@ -135,19 +183,9 @@ SessionInfo SessionFolder::read_info(const Setup& setup, Diagnostics& diagnostic
         check_log(*whole, setup);
         return *whole;
     }
-    // reads the most whole lines that it can; a line that was cut off may have a wrong meaning
     SessionInfo info;
-    std::string text = text_of(file("session.yaml"));
-    for (size_t end = text.rfind('\n'); end != std::string::npos; end = text.rfind('\n')) {
-        text.resize(end);
-        try {
-            Diagnostics ignored;  // the file is known to be damaged
-            read_fields(info, parse_yaml(text, ""), ignored);
-            break;
-        } catch (const Error&) {
-            info = {};
-        }
-    }
+    Diagnostics ignored;  // the file is known to be damaged
+    read_fields(info, readable_part(text_of(file("session.yaml"))), ignored);
     static_cast<Setup&>(info) = setup;
     const bool when = !info.started.empty();
     if (!when) info.started = start_by_name(path_);
@@ -196,14 +234,14 @@ void SessionFolder::sync() const {
 InputFile SessionFolder::input(const std::string& name) const {
     const RegularFile in(file(name));
     std::vector<std::byte> block(1 << 16);
-    uLong crc = crc32_z(0, nullptr, 0);
+    Checksum sum;
     for (int64_t at = 0; at < in.size();) {
         const size_t read = in.read(at, block);
         if (read == 0) break;
-        crc = crc32_z(crc, reinterpret_cast<const Bytef*>(block.data()), read);
+        sum.add(std::span(block).first(read));
         at += static_cast<int64_t>(read);
     }
-    return {name, fmt::format("{:08x}", crc)};
+    return {name, sum.text()};
 }
 
 uint64_t SessionFolder::seed_of(const SessionInfo& info) const {

@@ -6,11 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
+#include <map>
+#include <optional>
 #include <set>
 
 #include "base/choices.h"
 #include "base/installed.h"
 #include "scene/colour.h"
+#include "scene/finger_set.h"
 #include "scene/mesh.h"
 #include "scene/names.h"
 #include "scene/relief_picture.h"
@@ -38,47 +42,77 @@ void keep_colours(Shape& shape, const Mesh& mesh, const std::string& file,
     if (!mesh.colours.empty()) shape.coloured = std::make_shared<const Mesh>(mesh);
 }
 
-/// `coloured`: the colours of meshes are drawn.
-void load_meshes(Shape& shape, bool coloured, const std::string& folder, Diagnostics& diagnostics,
-                 const std::stop_token& stop) {
-    for (Part& part : shape.parts) load_meshes(part.shape, coloured, folder, diagnostics, stop);
+/// The meshes of a scene, each read once however many bodies have it.
+class Meshes {
+  public:
+    Meshes(std::string folder, Diagnostics& diagnostics, const std::stop_token& stop)
+        : folder_(std::move(folder)), diagnostics_(diagnostics), stop_(stop) {}
+
+    /// `coloured`: the colours of meshes are drawn.
+    void load(Shape& shape, bool coloured);
+
+  private:
+    /// Null if it could not be read, which has been told.
+    const Mesh* read(const std::string& file, double unit, const Place& place);
+    void load_file(Shape& shape, bool coloured, const std::string& file);
+
+    const std::string folder_;
+    Diagnostics& diagnostics_;
+    const std::stop_token& stop_;
+    std::map<std::pair<std::string, double>, std::optional<Mesh>> known_;
+};
+
+const Mesh* Meshes::read(const std::string& file, double unit, const Place& place) {
+    const auto [known, is_new] = known_.try_emplace({file, unit});
+    if (is_new) known->second = read_mesh(file, unit, place, stop_);
+    return known->second ? &*known->second : nullptr;
+}
+
+void Meshes::load(Shape& shape, bool coloured) {
+    for (Part& part : shape.parts) load(part.shape, coloured);
     if (shape.kind != ShapeKind::mesh || shape.file.empty()) return;
-    const std::string file = named_in(folder, shape.file);
-    const Place& place = shape.file_place;
     try {
-        const Mesh mesh = read_mesh(file, metres(shape.unit), place, stop);
-        shape.hull = convex_hull(mesh.vertices);
-        if (shape.hull.faces.empty()) {
-            diagnostics.error(place, "file",
-                              "the mesh " + file +
-                                  " encloses no volume: its vertices lie in a plane or on a line",
-                              "Give it some thickness.");
-            return;
-        }
-        if (const double size = extent(shape); size < kSmallest || size > kLargest) {
-            diagnostics.error(place, "unit", fmt::format("the mesh {} is {:g} m large", file, size),
-                              "Give the unit of its coordinates: m, cm or mm.");
-            return;
-        }
-        if (coloured) keep_colours(shape, mesh, file, diagnostics);
-        if (shape.concave) {
-            shape.surface = closed(mesh, file, place);
-            shape.solid = integrate(shape.surface.vertices, shape.surface.faces);
-            shape.pieces = convex_pieces(shape.surface, file, place, diagnostics, stop);
-            return;
-        }
-        const double solid = integrate(mesh.vertices, mesh.faces).volume;
-        const double hull = integrate(shape.hull.vertices, shape.hull.faces).volume;
-        if (solid > 0 && solid < 0.98 * hull) {
-            diagnostics.warning(
-                place, "file",
-                fmt::format("the mesh {} is not convex: its convex hull, of {:.0f} % more volume, "
-                            "stands in for it",
-                            file, 100 * (hull / solid - 1)),
-                "Add concave: yes to feel the mesh itself.");
-        }
+        load_file(shape, coloured, named_in(folder_, shape.file));
     } catch (const Error& e) {
-        diagnostics.add(e.problems());
+        diagnostics_.add(e.problems());
+    }
+}
+
+void Meshes::load_file(Shape& shape, bool coloured, const std::string& file) {
+    const Place& place = shape.file_place;
+    const Mesh* const found = read(file, metres(shape.unit), place);
+    if (found == nullptr) return;
+    const Mesh& mesh = *found;
+    shape.checksum = mesh.checksum;
+    shape.hull = convex_hull(mesh.vertices);
+    if (shape.hull.faces.empty()) {
+        diagnostics_.error(
+            place, "file",
+            "the mesh " + file + " encloses no volume: its vertices lie in a plane or on a line",
+            "Give it some thickness.");
+        return;
+    }
+    if (const double size = extent(shape); size < kSmallest || size > kLargest) {
+        diagnostics_.error(place, "unit", fmt::format("the mesh {} is {:g} m large", file, size),
+                           "Give the unit of its coordinates: m, cm or mm.");
+        return;
+    }
+    if (coloured) keep_colours(shape, mesh, file, diagnostics_);
+    if (shape.concave) {
+        shape.surface = closed(mesh, file, place);
+        shape.solid = integrate(shape.surface.vertices, shape.surface.faces);
+        shape.pieces = convex_pieces(shape.surface, file, place, diagnostics_, stop_);
+        return;
+    }
+    const double solid = integrate(mesh.vertices, mesh.faces).volume;
+    const double hull = integrate(shape.hull.vertices, shape.hull.faces).volume;
+    if (solid > 0 && solid < 0.98 * hull) {
+        diagnostics_.warning(
+            place, "file",
+            fmt::format("the mesh {} is not convex: its convex hull, of {:.0f} % more volume, "
+                        "stands in for it",
+                        file, 100 * (hull / solid - 1)),
+            "Add concave: yes to feel the mesh itself.");
     }
 }
 
@@ -166,6 +200,28 @@ void check_body(const Body& body, Diagnostics& diagnostics) {
     }
 }
 
+/// Refuses more things than a scene may have, and leaves out those beyond; false if it does.
+template <class Thing>
+bool check_count(std::vector<Thing>& things, size_t most, const char* key,
+                 Diagnostics& diagnostics) {
+    if (things.size() <= most) return true;
+    diagnostics.error(
+        things[most].place, key,
+        fmt::format("there are {}, where {} are the most", things.size(), most),
+        "Leave out those from here on, or put fewer together in a scene of their own.");
+    things.resize(most);
+    return false;
+}
+
+bool check_counts(Scene& scene, Diagnostics& diagnostics) {
+    bool out = check_count(scene.bodies, kMostThings, "bodies", diagnostics);
+    out &= check_count(scene.joints, kMostThings, "joints", diagnostics);
+    out &= check_count(scene.pairs, kMostThings, "pairs", diagnostics);
+    out &= check_count(scene.lattices, kMostLattices, "lattices", diagnostics);
+    out &= check_count(scene.fingers, kMostFingers, "fingers", diagnostics);
+    return out;
+}
+
 /// A body "thumb_proxy" and the thumb's proxy would both have a column thumb_proxy_position.
 void check_columns(const Scene& scene, Diagnostics& diagnostics) {
     std::set<std::string> taken;
@@ -190,7 +246,12 @@ void check_columns(const Scene& scene, Diagnostics& diagnostics) {
 }
 
 void check_names(const Scene& scene, Diagnostics& diagnostics) {
+    // thumb and index of a file that names no fingers stand nowhere in it
+    const bool in_file = !scene.fingers.empty() && !scene.fingers.front().place.file.empty();
     std::set<std::string> names;
+    for (const Finger& finger : scene.fingers) {
+        if (!in_file) names.insert(finger.name);
+    }
     const auto check = [&](const std::string& name, const Place& place) {
         // names become parts of paths, in the session's folder and in its NWB file
         const bool bad = name.starts_with('.') || name.find_first_of("/\\") != std::string::npos ||
@@ -206,11 +267,15 @@ void check_names(const Scene& scene, Diagnostics& diagnostics) {
         }
         if (!name.empty() && !names.insert(name).second) {
             diagnostics.error(place, "name", fmt::format("'{}' is used twice", name),
-                              "Give each body, finger and joint a name of its own.");
+                              in_file ? "Give each body, finger and joint a name of its own."
+                                      : "Give each body, finger and joint a name of its own; where "
+                                        "fingers are left out, they are called thumb and index.");
         }
     };
     for (const Body& body : scene.bodies) check(body.name, body.place);
-    for (const Finger& finger : scene.fingers) check(finger.name, finger.place);
+    for (const Finger& finger : scene.fingers) {
+        if (in_file) check(finger.name, finger.place);
+    }
     for (const Joint& joint : scene.joints) check(joint.name, joint.place);
     check_columns(scene, diagnostics);
 }
@@ -225,11 +290,8 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
     const auto must_exist = [&](const std::string& name, const char* key, const Place& place,
                                 const std::vector<std::string>& choices) {
         if (std::find(known.begin(), known.end(), name) != known.end()) return;
-        const std::string guess = nearest(name, known);
         diagnostics.error(place, key, fmt::format("there is no body or finger '{}'", name),
-                          guess.empty() ? fmt::format("There are {}.", fmt::join(known, ", "))
-                                        : fmt::format("Did you mean {}?", guess),
-                          choices_of(choices));
+                          meant(name, known, diagnostics, "There are"), choices_of(choices));
     };
     std::set<std::pair<std::string, std::string>> pairs;
     for (const Pair& pair : scene.pairs) {
@@ -482,13 +544,25 @@ void place_joints(Scene& scene, Diagnostics& diagnostics) {
     }
 }
 
+/// Radius about its origin of a sphere that the body lies in [m].
+double reach(const Body& body) {
+    if (body.shape.kind == ShapeKind::plane) return std::numeric_limits<double>::infinity();
+    const Bounds box = bounds(body.shape);
+    return box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).norm();
+}
+
 /// Warns of bodies that start inside a fixed one: contact forces would push or shoot them out.
 void check_overlaps(const Scene& scene, Diagnostics& diagnostics) {
     constexpr double kDeep = 1e-3;  // [m]
-    for (const Body& body : scene.bodies) {
+    std::vector<double> reaches;
+    for (const Body& body : scene.bodies) reaches.push_back(reach(body));
+    for (size_t i = 0; i < scene.bodies.size(); ++i) {
+        const Body& body = scene.bodies[i];
         if (!body.moves_at_all()) continue;
-        for (const Body& fixed : scene.bodies) {
+        for (size_t j = 0; j < scene.bodies.size(); ++j) {
+            const Body& fixed = scene.bodies[j];
             if (fixed.moves_at_all()) continue;
+            if ((body.position - fixed.position).norm() > reaches[i] + reaches[j]) continue;
             double deepest = 0;
             const auto sink = [&](const Body& of, const Body& in) {
                 for (const Vec3& p : marks(of.shape)) {
@@ -513,11 +587,8 @@ void report_unknown_body(const std::string& name, const Scene& scene, const Plac
                          const char* key, Diagnostics& diagnostics) {
     std::vector<std::string> bodies;
     for (const Body& body : scene.bodies) bodies.push_back(body.name);
-    const std::string guess = nearest(name, bodies);
     diagnostics.error(place, key, fmt::format("there is no body '{}'", name),
-                      guess.empty() ? fmt::format("There are {}.", fmt::join(bodies, ", "))
-                                    : fmt::format("Did you mean {}?", guess),
-                      choices_of(bodies));
+                      meant(name, bodies, diagnostics, "There are"), choices_of(bodies));
 }
 
 int Scene::find(const std::string& name) const {
@@ -579,19 +650,22 @@ bool flies(const Scene& scene, const Body& body) {
 void complete(Scene& scene, const std::string& folder, Diagnostics& diagnostics,
               const std::stop_token& stop) {
     if (scene.fingers.empty()) scene.fingers = default_fingers();
+    if (!check_counts(scene, diagnostics)) return;
     place_joints(scene, diagnostics);
     expand_lattices(scene, diagnostics);
+    if (!check_counts(scene, diagnostics)) return;
     std::stable_partition(scene.joints.begin(), scene.joints.end(),
                           [](const Joint& joint) { return joint.recorded; });
+    Meshes meshes(folder, diagnostics, stop);
     for (Body& body : scene.bodies) {
-        load_meshes(body.shape, has_own_colours(body) && !body.seen, folder, diagnostics, stop);
+        meshes.load(body.shape, has_own_colours(body) && !body.seen);
         load_relief(body.surface, folder, diagnostics);
         check_parts(body.shape, body.place, diagnostics);
         check_body(body, diagnostics);
     }
     load_looks(scene, folder, diagnostics, stop);
     for (Finger& finger : scene.fingers) {
-        load_meshes(finger.shape, false, folder, diagnostics, stop);
+        meshes.load(finger.shape, false);
         check_parts(finger.shape, finger.place, diagnostics);
         check_plausible(finger.shape, finger.place, diagnostics);
         if (finger.shape.kind == ShapeKind::plane) {

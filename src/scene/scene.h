@@ -23,6 +23,10 @@ namespace dihaptic::scene {
 constexpr double kLightest = 1e-6;  // [kg]
 constexpr double kHeaviest = 1000;  // [kg]
 constexpr double kFurthest = 100;   // from the world's origin [m]
+/// Of bodies, of joints and of pairs each: some checks look at each two of them, and no tick steps
+/// a tenth of them.
+constexpr size_t kMostThings = 4000;
+constexpr size_t kMostLattices = 100;
 
 /// A set of world axes: x is 1, y is 2, z is 4.
 enum class Axes { none, x, y, xy, z, xz, yz, xyz };

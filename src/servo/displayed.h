@@ -2,8 +2,6 @@
 // use only these functions.
 #pragma once
 
-#include <bit>
-
 #include "servo/frame.h"
 
 namespace dihaptic::servo {
@@ -81,18 +79,18 @@ inline Pose displayed_handle(const Frame& frame, size_t finger) noexcept {
     return map != nullptr ? map->displayed(X_WH) : X_WH;
 }
 
-/// Where the frame shows the middle of some fingers' handles, which is at p_W now. `fingers`: one
-/// bit each.
-inline Vec3 displayed_hand(const Frame& frame, uint32_t fingers, const Vec3& p_W) noexcept {
+/// Where the frame shows the middle of some fingers' handles, which is at p_W now.
+inline Vec3 displayed_hand(const Frame& frame, const scene::FingerSet& fingers,
+                           const Vec3& p_W) noexcept {
     if (frame.task.displaced.empty()) {
         const VisualMap* map = map_of(frame, kMovesProxies);
         return map != nullptr ? map->displayed(p_W) : p_W;
     }
     Vec3 sum = Vec3::Zero();
     for (size_t i = 0; i < frame.fingers.size(); ++i) {
-        if ((fingers >> i & 1u) != 0) sum += displayed_handle(frame, i).p;
+        if (scene::contains(fingers, i)) sum += displayed_handle(frame, i).p;
     }
-    return sum / static_cast<double>(std::popcount(fingers));
+    return sum / static_cast<double>(fingers.count());
 }
 
 /// Centre of the frame's i-th target as it is shown.

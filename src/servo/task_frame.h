@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/geometry.h"
+#include "scene/finger_set.h"
 #include "servo/term.h"
 
 namespace dihaptic::servo {
@@ -258,7 +259,6 @@ struct TaskFrame {
     static constexpr size_t kMostLoads = 16;
     static constexpr size_t kMostMotors = 8;
     static constexpr size_t kMostVariables = 32;
-    static constexpr size_t kMostFingers = 32;
     static constexpr size_t kMostSounds = 32;
     static constexpr size_t kMostLines = 6;
     static constexpr size_t kMostNumbers = 28;
@@ -294,8 +294,8 @@ struct TaskFrame {
         drives.reserve(bodies);
         motors.reserve(kMostMotors);
         variables.reserve(kMostVariables);
-        looks.reserve(bodies + kMostFingers);
-        displaced.reserve(1 + kMostFingers);
+        looks.reserve(bodies + scene::kMostFingers);
+        displaced.reserve(1 + scene::kMostFingers);
         sounds.reserve(kMostSounds);
         lines.reserve(kMostLines);
         numbers.reserve(kMostNumbers);

@@ -6,13 +6,17 @@
 #include <climits>
 #include <filesystem>
 
+#include "base/checksum.h"
 #include "base/field_writer.h"
 #include "base/installed.h"
+#include "base/named_file.h"
 #include "base/regular_file.h"
 #include "base/table.h"
 #include "base/text_file.h"
 #include "person/person.h"
 #include "person/simulated_limits.h"
+#include "recording/seal.h"
+#include "rig/libraries.h"
 #include "session/plan_checks.h"
 #include "session/safety_limits.h"
 #include "sound/player.h"
@@ -75,6 +79,7 @@ void plan_scene(Plan& plan, const Request& request, const task::Experiment& expe
                 Diagnostics& diagnostics) {
     const std::string file =
         experiment.scene.empty() ? plan.file : named_in(folder_of(plan.file), experiment.scene);
+    if (!experiment.scene.empty()) check_named(file, experiment.place, "scene");
     plan.scene_folder = folder_of(file);
     plan.scene = scene::read_scene(file, diagnostics, request.stop);
     diagnostics.throw_if_errors();
@@ -91,7 +96,10 @@ std::string rig_file(const Request& request, const task::Experiment& experiment)
 void plan_rig(Plan& plan, const Request& request, const task::Experiment& experiment,
               Diagnostics& diagnostics) {
     if (const std::string file = rig_file(request, experiment); !file.empty()) {
-        plan.rig = rig::read_rig(file, diagnostics);
+        const bool typed = !request.rig.empty();
+        if (!typed) check_named(file, experiment.place, "rig");
+        plan.rig = rig::read_rig(file, diagnostics,
+                                 typed ? rig::NamedBy::the_operator : rig::NamedBy::a_file);
     } else {
         // a mouse can turn the hand, which is felt only if orientation is measured
         plan.rig = rig::simulated_rig(scene::finger_names(plan.scene), request.mouse);
@@ -103,6 +111,9 @@ void plan_rig(Plan& plan, const Request& request, const task::Experiment& experi
                             "Rehearse on devices like them by --rig, or rig: another file.");
         plan.rig = rig::simulated_rig(scene::finger_names(plan.scene));
     }
+    if (plan.rig.named_by == rig::NamedBy::the_operator) return;
+    for (const Problem& one : rig::strange_libraries(plan.rig))
+        diagnostics.warning(one.place, one.key, one.what, one.remedy);
 }
 
 /// Overlays the settings of scene, rig, experiment and command line, in this order; the later wins.
@@ -123,7 +134,9 @@ void plan_settings(Plan& plan, const Request& request, const task::Experiment& e
 std::string movement_file(const Request& request, const task::Experiment& experiment) {
     if (!request.movement.empty()) return request.movement;
     if (!experiment.movement || experiment.movement->file.empty()) return "";
-    return named_in(folder_of(request.file), experiment.movement->file);
+    const std::string file = named_in(folder_of(request.file), experiment.movement->file);
+    check_named(file, experiment.movement->file_place, "file");
+    return file;
 }
 
 void check_use_of_movement(const Plan& plan, const Request& request,
@@ -288,13 +301,16 @@ void sit_down(Plan& plan, const person::Traits& traits) {
 
 namespace {
 
-/// Reads the attempts from trials.csv, which has a row for each in the order they were made.
-std::vector<task::Attempt> attempts_made(const task::TaskPlan& plan, const std::string& file) {
+/// Reads the attempts from trials.csv, which has a row for each in the order they were made, and
+/// its checksum.
+std::vector<task::Attempt> attempts_made(const task::TaskPlan& plan, const std::string& file,
+                                         std::string& checksum) {
     const auto bad = [&](const char* what) {
         return Error({file, 0}, "", what,
                      "Make it anew from raw.log: dihaptic recover, on the session's folder.");
     };
     const std::string text = read_bytes(file, kMostTable);
+    checksum = checksum_of(text);
     if (text.empty()) throw bad("is empty");
     if (!text.ends_with('\n')) throw bad("is cut off in its last line");
     const CsvFile trials(file);
@@ -354,6 +370,12 @@ recording::Mover mover_of(const recording::SessionInfo& info, const Plan& plan,
     return mover;
 }
 
+/// The path of a folder with its name, which "." lacks, for those who look which session it is.
+std::string named(const std::string& folder) {
+    const fs::path name = fs::path(folder).filename();
+    return name == "." || name == ".." ? fs::canonical(folder).string() : folder;
+}
+
 /// The plan of a session from its own files, with how each of its attempts ended.
 Plan frozen_plan(const recording::SessionFolder& folder, const recording::SessionInfo& info,
                  Diagnostics& diagnostics) {
@@ -362,13 +384,15 @@ Plan frozen_plan(const recording::SessionFolder& folder, const recording::Sessio
                     "Run the experiment again; dihaptic recover makes the files of what there is.");
     }
     diagnostics.add(folder.changed(info.inputs, Severity::error));
+    constexpr std::string_view kDone[] = {"trials.csv"};
+    diagnostics.add(recording::broken_seals(folder, info, Severity::error, kDone));
     diagnostics.throw_if_errors();
     Plan plan;
     plan.file = info.experiment;
     plan.title = info.title;
     plan.study = info.study;
     plan.seed = folder.seed_of(info);
-    plan.resumes = folder.path();
+    plan.resumes = named(folder.path());
     plan.scene_folder = folder.path();
     plan.scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
     plan.rig = rig::read_rig(folder.file("rig.yaml"), diagnostics);
@@ -383,7 +407,7 @@ Plan frozen_plan(const recording::SessionFolder& folder, const recording::Sessio
     made->trials = task::read_trial_list(made->task, folder.file("trial-list.csv"));
     task::resolve_all(*made, diagnostics);
     plan.task = made;
-    plan.done = attempts_made(*made, folder.file("trials.csv"));
+    plan.done = attempts_made(*made, folder.file("trials.csv"), plan.done_checksum);
     return plan;
 }
 
@@ -394,7 +418,7 @@ bool any_left(const Plan& plan) {
 }  // namespace
 
 bool trials_left(const std::string& session) {
-    const auto folder = recording::SessionFolder::open(session);
+    const auto folder = recording::SessionFolder::open_tables(session);
     Diagnostics diagnostics;
     return any_left(frozen_plan(folder, folder.read_info(), diagnostics));
 }
@@ -424,12 +448,13 @@ void apply_setting(servo::Settings& settings, const std::string& text) {
     diagnostics.throw_if_errors();
 }
 
-std::unique_ptr<devices::DeviceGroup> open_devices(Plan& plan, const std::string& keeper) {
+std::unique_ptr<devices::DeviceGroup> open_devices(Plan& plan, const std::string& keeper,
+                                                   const std::function<bool()>& given_up) {
     std::optional<keeper::Keeping> keeping;
     if (!keeper.empty()) {
         // one tick more than the servo allows itself, as in its own watchdog
         const double silence = plan.settings.safety.max_pause + plan.settings.tick();
-        keeping = {keeper, silence, plan.settings.real_time_priority};
+        keeping = {keeper, silence, plan.settings.real_time_priority, given_up};
     }
     auto out =
         rig::make_devices(plan.rig, scene::finger_names(plan.scene), context_of(plan), keeping);

@@ -9,7 +9,10 @@
 #include <memory>
 #include <numbers>
 
+#include "base/checksum.h"
 #include "base/random.h"
+#include "base/regular_file.h"
+#include "sound/cut_short.h"
 
 namespace dihaptic::sound {
 namespace {
@@ -123,15 +126,31 @@ std::vector<float> resampled(const std::vector<float>& samples, double from, dou
     return out;
 }
 
+/// Refuses a file that was cut short: a sound that lasts half as long as it is meant to, or whose
+/// end is missing, would be heard by every participant.
+void check_whole(const task::SoundSpec& sound, const std::string& fault) {
+    if (fault.empty()) return;
+    throw Error(sound.place, "file",
+                fmt::format("{} was cut short, or made by a program that did not fill in its "
+                            "length: it {}",
+                            sound.file, fault),
+                "Copy it again; if it is all there, write it anew, e.g. with sox FILE NEW.wav.");
+}
+
 std::vector<float> from_file(const task::SoundSpec& sound, double rate) {
     const auto refuse = [&](const std::string& why) {
         throw Error(sound.place, "file", fmt::format("{} {}", sound.file, why),
                     "Give a WAV, FLAC or Ogg file, e.g. made with sox or Audacity.");
     };
+    const std::string bytes = read_bytes(sound.file, task::SoundSpec::kLargest);
+    if (!sound.checksum.empty() && checksum_of(bytes) != sound.checksum)
+        throw Error(sound.place, "file", sound.file + " was changed since it was read first",
+                    "Start again once nothing writes it any more.");
     SF_INFO info{};
     const std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> file(
         sf_open(sound.file.c_str(), SFM_READ, &info), sf_close);
     if (!file) refuse(fmt::format("is no sound file: {}", sf_strerror(nullptr)));
+    check_whole(sound, cut_short(bytes));
     if (info.frames <= 0) refuse("has no samples");
     if (static_cast<double>(info.frames) > kLongest * info.samplerate)
         refuse(fmt::format("is longer than {:g} s", kLongest));
@@ -139,6 +158,8 @@ std::vector<float> from_file(const task::SoundSpec& sound, double rate) {
     std::vector<float> all(static_cast<size_t>(info.frames) * channels);
     const auto read = static_cast<size_t>(sf_readf_float(file.get(), all.data(), info.frames));
     if (read == 0) refuse(fmt::format("cannot be read: {}", sf_strerror(file.get())));
+    if (read < static_cast<size_t>(info.frames))
+        check_whole(sound, fmt::format("ends after {} of {} samples", read, info.frames));
     std::vector<float> mean(read);
     for (size_t i = 0; i < read; ++i) {
         for (size_t k = 0; k < channels; ++k)

@@ -22,8 +22,9 @@ struct MovementSpec {
     std::optional<double>
         width;  ///< width of the block along the grasp; unset: from aperture and squeeze [m]
     std::optional<double>
-        grasp_at;  ///< when the fingers closed; unset: found from the movement [s]
-    Place place;   ///< where the file names the block
+        grasp_at;      ///< when the fingers closed; unset: found from the movement [s]
+    Place place;       ///< where the file names the block
+    Place file_place;  ///< where it names the movement
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -44,7 +45,10 @@ struct MovementSpec {
           Field::of(Quantity::time)
               .within(0, hand::kLongestScript)
               .says("When the fingers closed; left out, it is found from the movement."));
-        if constexpr (requires { v.place(); }) place = v.place_of("block");
+        if constexpr (requires { v.place(); }) {
+            place = v.place_of("block");
+            file_place = v.place_of("file");
+        }
     }
 };
 

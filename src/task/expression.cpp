@@ -469,7 +469,7 @@ class Compiler : Parts {
         if (thing.body >= 0) return thing.body;
         throw Fault{column, fmt::format("'{}' is not a body", thing_), "Name a body."};
     }
-    uint32_t fingers_argument() {
+    scene::FingerSet fingers_argument() {
         if (!take(",")) return quantities_.thing("")->fingers;
         const size_t column = token().column;
         const Quantities::Thing thing = thing_argument();
@@ -551,7 +551,7 @@ class Compiler : Parts {
         }
         int all = constant(1);
         for (size_t i = 0; i < quantities_.fingers().size(); ++i) {
-            if ((thing.fingers >> i & 1u) == 0) continue;
+            if (!scene::contains(thing.fingers, i)) continue;
             const Value v = of_thing(quantities_.fingers()[i], "handle_velocity", name.column);
             const int one = apply(kLess, apply(kNorm, v.node), limit.node[0]);
             all = apply(kAnd, all, one);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cctype>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,13 +39,10 @@ inline int look_up(const std::vector<std::string>& names, const std::string& nam
                    Diagnostics& diagnostics) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found != names.end()) return static_cast<int>(found - names.begin());
-    const std::string guess = nearest(name, names);
-    diagnostics.error(place, key,
-                      name.empty() ? "is missing" : fmt::format("'{}' is {}", name, what),
-                      names.empty()    ? "There is none to name: add one first."
-                      : !guess.empty() ? fmt::format("Did you mean {}?", guess)
-                                       : fmt::format("Known: {}.", fmt::join(names, ", ")),
-                      choices_of(names));
+    diagnostics.error(
+        place, key, name.empty() ? "is missing" : fmt::format("'{}' is {}", name, what),
+        names.empty() ? "There is none to name: add one first." : meant(name, names, diagnostics),
+        choices_of(names));
     return -1;
 }
 
@@ -61,14 +59,11 @@ inline Vec3 axis_of(const std::optional<Vec3>& given, const Place& place, const 
 /// Reports an error for each name that is given twice.
 template <class T>
 void check_names(const std::vector<T>& list, const char* what, Diagnostics& diagnostics) {
-    for (size_t i = 0; i < list.size(); ++i) {
-        for (size_t j = 0; j < i; ++j) {
-            if (list[i].name != list[j].name || list[i].name.empty()) continue;
-            diagnostics.error(list[i].place, "name",
-                              fmt::format("there are two {} '{}'", what, list[i].name),
-                              "Give each a name of its own.");
-            break;
-        }
+    std::set<std::string_view> names;
+    for (const T& item : list) {
+        if (item.name.empty() || names.insert(item.name).second) continue;
+        diagnostics.error(item.place, "name", fmt::format("there are two {} '{}'", what, item.name),
+                          "Give each a name of its own.");
     }
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstring>
 
 #include "servo/displayed.h"
@@ -41,20 +40,21 @@ std::optional<int> component_of(std::string_view member, std::string_view whole,
 bool is_thing(const Quantities::Thing& thing, int body, int bodies) noexcept {
     const int finger = body - bodies;
     if (finger < 0) return body == thing.body;
-    return finger < 32 && (thing.fingers >> finger & 1u) != 0;
+    return scene::contains(thing.fingers, static_cast<size_t>(finger));
 }
 
 double fingers_that_press(const Quantities::Thing& body, const Quantities::Thing& who,
                           const servo::Frame& last) noexcept {
     const auto bodies = static_cast<int>(last.bodies.size());
-    uint32_t which = 0;
+    scene::FingerSet which;
     for (const servo::ContactFrame& contact : last.contacts) {
         if (contact.normal_force <= 0 || (contact.a != body.body && contact.b != body.body))
             continue;
         const int other = (contact.a == body.body ? contact.b : contact.a) - bodies;
-        if (other >= 0 && other < 32) which |= 1u << other;
+        const auto finger = static_cast<size_t>(other);
+        if (other >= 0 && scene::contains(who.fingers, finger)) which[finger] = true;
     }
-    return std::popcount(which & who.fingers);
+    return static_cast<double>(which.count());
 }
 
 double normal_force_between(const Quantities::Thing& a, const Quantities::Thing& b,
@@ -138,7 +138,7 @@ const std::vector<Quantities::Member>& Quantities::members_of(Source::From from)
 }
 
 Quantities::Quantities(Names names) : names_(std::move(names)) {
-    const uint32_t all = static_cast<uint32_t>((uint64_t{1} << names_.fingers.size()) - 1);
+    const scene::FingerSet all = scene::first_fingers(names_.fingers.size());
     names_.hands.push_back({"hand", all});
     names_.hands.push_back({"", all});
     add("time_in_state", {.dimension = dimension(Quantity::time), .kind = Kind::figure}, 1);
@@ -193,9 +193,9 @@ std::optional<Quantities::Thing> Quantities::thing(std::string_view name) const 
         return static_cast<size_t>(std::find(list.begin(), list.end(), name) - list.begin());
     };
     if (const size_t i = index(names_.fingers); i < names_.fingers.size())
-        return Thing{-1, uint32_t{1} << i};
+        return Thing{-1, scene::finger_set(i)};
     if (const size_t i = index(names_.bodies); i < names_.bodies.size())
-        return Thing{static_cast<int>(i), 0};
+        return Thing{static_cast<int>(i), {}};
     for (const Names::Hand& hand : names_.hands) {
         if (hand.name == name) return Thing{-1, hand.fingers};
     }
@@ -310,13 +310,15 @@ std::optional<Symbol> Quantities::find_member(const std::string& name, std::stri
 std::optional<Symbol> Quantities::find_of_finger(const std::string& name, std::string_view member,
                                                  int i) {
     using From = Source::From;
-    if (component_of(member, "shown")) return find_of_hand(name, member, 1u << i);
+    if (component_of(member, "shown"))
+        return find_of_hand(name, member, scene::finger_set(static_cast<size_t>(i)));
     if (const auto component = component_of(member, "")) {
         const std::string position = "handle_position";
         return find_member(name, *component < 0 ? position : position + "." + std::string(member),
                            {.from = From::handle, .index = i});
     }
-    if (member == "speed") return find_of_hand(name, member, 1u << i);
+    if (member == "speed")
+        return find_of_hand(name, member, scene::finger_set(static_cast<size_t>(i)));
     for (const From from : {From::handle, From::finger, From::turn}) {
         if (const auto found = find_member(name, member, {.from = from, .index = i})) return found;
     }
@@ -344,7 +346,7 @@ std::optional<Symbol> Quantities::find_of_body(const std::string& name, std::str
 
 /// Its middle, where that is displayed, and its speed.
 std::optional<Symbol> Quantities::find_of_hand(const std::string& name, std::string_view member,
-                                               uint32_t fingers) {
+                                               const scene::FingerSet& fingers) {
     Source source{.from = Source::From::middle, .a = {-1, fingers}};
     if (member == "speed") {
         source.format = Source::Format::norm;
@@ -396,8 +398,8 @@ int Quantities::slot_of(Source source) {
     return source.slot;
 }
 
-int Quantities::pressing(int body, uint32_t fingers) {
-    return slot_of({.from = Source::From::pressing, .a = {body, 0}, .b = {-1, fingers}});
+int Quantities::pressing(int body, const scene::FingerSet& fingers) {
+    return slot_of({.from = Source::From::pressing, .a = {body, {}}, .b = {-1, fingers}});
 }
 
 int Quantities::contact_force(const Thing& a, const Thing& b) {
@@ -410,9 +412,9 @@ double Quantities::middle(const Source& source, const servo::Frame& last,
     const bool speed = source.format == Source::Format::norm;
     Vec3 sum = Vec3::Zero();
     for (size_t i = 0; i < handles.size(); ++i) {
-        if ((source.a.fingers >> i & 1u) != 0) sum += speed ? handles[i].v_WH : handles[i].p_WH;
+        if (scene::contains(source.a.fingers, i)) sum += speed ? handles[i].v_WH : handles[i].p_WH;
     }
-    const Vec3 mean = sum / static_cast<double>(std::popcount(source.a.fingers));
+    const Vec3 mean = sum / static_cast<double>(source.a.fingers.count());
     if (speed) return mean.norm();
     return (source.shown ? servo::displayed_hand(last, source.a.fingers, mean)
                          : mean)[source.index];

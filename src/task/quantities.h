@@ -26,6 +26,7 @@
 
 #include "base/unit.h"
 #include "haptics/coupling.h"
+#include "scene/finger_set.h"
 #include "servo/frame.h"
 
 namespace dihaptic::task {
@@ -48,7 +49,7 @@ class Quantities {
     /// What has a place: a body, or one or more fingers.
     struct Thing {
         int body = -1;
-        uint32_t fingers = 0;  ///< one bit each
+        scene::FingerSet fingers{};
 
         bool operator==(const Thing&) const = default;
     };
@@ -59,7 +60,7 @@ class Quantities {
         std::vector<std::string> regions;
         struct Hand {
             std::string name;
-            uint32_t fingers;  ///< one bit each
+            scene::FingerSet fingers;
         };
         std::vector<Hand> hands;
     };
@@ -97,7 +98,7 @@ class Quantities {
     /// Slot of where a body begins the trial: x, y, z.
     int start(size_t body) const { return starts_ + 3 * static_cast<int>(body); }
     /// Slot of the number of these fingers that press the body.
-    int pressing(int body, uint32_t fingers);
+    int pressing(int body, const scene::FingerSet& fingers);
     /// Slot of the normal force between two things, summed over their fingers [N].
     int contact_force(const Thing& a, const Thing& b);
 
@@ -142,7 +143,7 @@ class Quantities {
     std::optional<Symbol> find_of_body(const std::string& name, std::string_view member, int i);
     std::optional<Symbol> find_of_joint(const std::string& name);
     std::optional<Symbol> find_of_hand(const std::string& name, std::string_view member,
-                                       uint32_t fingers);
+                                       const scene::FingerSet& fingers);
     std::optional<Symbol> find_of_region(std::string_view member, size_t i) const;
     int slot_of(Source source);
     static double read(const Source& source, const servo::Frame& last,

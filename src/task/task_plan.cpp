@@ -274,7 +274,8 @@ class Planner {
         for (const HandStep& step : state.hand) {
             const int reach = step.reach.empty() ? -1 : region(step.reach, step.place, "reach");
             out.hand.push_back({step, reach});
-            if (!step.fingers.empty()) out.hand.back().fingers = bits(step.fingers, step.place);
+            if (!step.fingers.empty())
+                out.hand.back().fingers = fingers_of(step.fingers, step.place);
         }
         if (state.exits.empty()) {
             error(state.place, state.name, "never ends",
@@ -283,13 +284,12 @@ class Planner {
         return out;
     }
 
-    /// One bit for each of the fingers.
-    uint32_t bits(const std::vector<std::string>& fingers, const Place& place) {
-        uint32_t out = 0;
+    scene::FingerSet fingers_of(const std::vector<std::string>& fingers, const Place& place) {
+        scene::FingerSet out;
         for (const std::string& finger : fingers) {
             const int i = look_up(fingers_, finger, place, "fingers", "none of the scene's fingers",
                                   diagnostics_);
-            if (i >= 0) out |= 1u << i;
+            if (i >= 0) out.set(static_cast<size_t>(i));
         }
         return out;
     }
@@ -331,7 +331,7 @@ class Planner {
     std::vector<Quantities::Names::Hand> hands() {
         std::vector<Quantities::Names::Hand> out;
         for (const Hand& hand : plan_.task.hands) {
-            out.push_back({hand.name, bits(hand.fingers, hand.place)});
+            out.push_back({hand.name, fingers_of(hand.fingers, hand.place)});
             const std::vector<std::string> joints = names_of(recorded_joints(scene_));
             const auto is = [&](const std::string& other) { return other == hand.name; };
             if (std::any_of(fingers_.begin(), fingers_.end(), is) ||
@@ -528,7 +528,7 @@ class Planner {
         const int i = look_up(known, exit.finger, exit.place, "finger",
                               "none of the scene's fingers, and no hand of the task", diagnostics_);
         if (i < 0 || exit.when != When::gripped) return;
-        if (std::popcount(plan_.quantities.thing(exit.finger)->fingers) < 2)
+        if (plan_.quantities.thing(exit.finger)->fingers.count() < 2)
             error(exit.place, "finger",
                   fmt::format("a grip takes two fingers, and '{}' is one", exit.finger),
                   "Name a hand, or use when: touched.");

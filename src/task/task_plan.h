@@ -68,9 +68,9 @@ struct TaskPlan {
     };
     struct Step {
         HandStep step;
-        int reach = -1;          ///< region
-        uint32_t fingers = ~0u;  ///< that move, one bit each
-        bool moves(size_t finger) const noexcept { return (fingers >> finger & 1u) != 0; }
+        int reach = -1;                                       ///< region
+        scene::FingerSet fingers = scene::FingerSet{}.set();  ///< that move
+        bool moves(size_t finger) const noexcept { return scene::contains(fingers, finger); }
     };
     /// What conditions and formulas name; a director has a copy.
     Quantities quantities;

@@ -8,6 +8,8 @@
 #include "base/clock.h"
 #include "base/diagnostics.h"
 #include "base/geometry.h"
+#include "base/image.h"
+#include "base/json.h"
 #include "base/random.h"
 #include "base/ring.h"
 #include "base/table.h"
@@ -119,6 +121,64 @@ TEST(Table, ACsvFileIsReadByTheNamesOfItsColumns) {
     EXPECT_FALSE(csv.has("c"));
     EXPECT_THROW(CsvFile(folder.write("none.csv", "")), Error);  // not even a header
     EXPECT_THROW(CsvFile(folder.file("nowhere.csv")), Error);
+}
+
+TEST(Table, OfCommasAloneIsRefusedWithItsLine) {
+    const testing::TemporaryFolder folder;
+    for (const auto& [text, says] :
+         {std::pair{"a,b\n1,2\n" + std::string(100'000, ','), "t.csv:3: error: this line has more"},
+          std::pair{"a\n" + std::string(7'000'000, '\n'),
+                    ": error: from here on the table has more"}}) {
+        try {
+            read_csv(folder.write("t.csv", text));
+            ADD_FAILURE() << says;
+        } catch (const Error& e) {
+            EXPECT_NE(std::string(e.what()).find(says), std::string::npos) << e.what();
+        }
+    }
+}
+
+TEST(Diagnostics, TellsSoManyMistakesAndThatThereAreMore) {
+    Diagnostics diagnostics;
+    for (int i = 0; i < 5000; ++i) diagnostics.warning({"a.yaml", i}, "k", "is odd", "");
+    for (int i = 0; i < 5000; ++i) diagnostics.error({"a.yaml", i}, "k", "is wrong", "");
+    const auto errors =
+        std::count_if(diagnostics.problems().begin(), diagnostics.problems().end(),
+                      [](const Problem& p) { return p.severity == Severity::error; });
+    EXPECT_EQ(errors, 201);
+    EXPECT_LT(diagnostics.problems().size(), 1300u);
+    EXPECT_EQ(diagnostics.problems().back().text(),
+              "a.yaml:199: error: more is wrong than what is told above. Mend these first, and "
+              "check again.");
+}
+
+TEST(Image, ThatWasCutShortIsRefused) {
+    const testing::TemporaryFolder folder;
+    Image image;
+    image.width = image.height = 64;
+    image.rgb.resize(3 * 64 * 64);
+    for (size_t i = 0; i < image.rgb.size(); ++i) image.rgb[i] = static_cast<uint8_t>(i * i);
+    write_png(image, folder.file("whole.png"));
+    EXPECT_EQ(read_png(folder.file("whole.png")).rgb, image.rgb);
+    const std::string whole = testing::read_file(folder.file("whole.png"));
+    for (const size_t missing : {size_t{8}, size_t{20}, whole.size() / 2}) {
+        try {
+            read_png(folder.write("cut.png", whole.substr(0, whole.size() - missing)));
+            ADD_FAILURE() << missing;
+        } catch (const Error& e) {
+            EXPECT_NE(std::string(e.what()).find("was cut short"), std::string::npos) << e.what();
+        }
+    }
+}
+
+TEST(Json, ThatIsNestedTooDeeplyIsNone) {
+    EXPECT_EQ(parse_json("{\"a\": [1, {\"b\": null}]}").dump(), "{\"a\":[1,{\"b\":null}]}");
+    EXPECT_TRUE(parse_json("{").is_discarded());
+    EXPECT_FALSE(parse_json(std::string(20, '[') + std::string(20, ']')).is_discarded());
+    for (const size_t deep : {40, 32'000})
+        EXPECT_TRUE(
+            parse_json("{\"every_ms\": " + std::string(deep, '[') + std::string(deep, ']') + "}")
+                .is_discarded());
 }
 
 TEST(Table, TransposedHasTheFirstColumnForItsHeader) {

@@ -39,6 +39,23 @@ TEST(Companion, ReadsItsInputAndGivesItsOutput) {
     EXPECT_EQ(run_companion(task("echo half; exit 1"), ""), std::nullopt);
 }
 
+int waits = 0;
+std::string waited_for;
+
+TEST(Companion, ThatTakesLongIsTold) {
+    tell_companion_waits([](const std::string& what, int seconds, int most) {
+        ++waits;
+        waited_for = what + " " + std::to_string(seconds) + " of " + std::to_string(most);
+    });
+    EXPECT_EQ(run_companion(task("sleep 0.1"), ""), "");
+    EXPECT_EQ(waits, 0);
+    EXPECT_EQ(run_companion(task("sleep 1.5; echo done"), ""), "done\n");
+    EXPECT_EQ(waited_for, "reading the thing 1 of 20");
+    tell_companion_waits(nullptr);
+    EXPECT_EQ(run_companion(task("sleep 1.2"), ""), "");
+    EXPECT_EQ(waits, 1);
+}
+
 TEST(Companion, ThatFailsIsToldWithItsInputThePlaceAndTheRemedy) {
     const std::string start = "scene.yaml:7: error: file: reading the thing ";
     EXPECT_EQ(failure(task("kill -SEGV $$")),

@@ -251,19 +251,47 @@ TEST(Node, RefusesAKeyGivenTwice) {
     }
 }
 
-TEST(Node, RefusesAliasesWithoutEnd) {
-    std::string doubling = "a: &a0 [x, x]\n";
-    for (int i = 0; i < 30; ++i) doubling += fmt::format("a{1}: &a{1} [*a{0}, *a{0}]\n", i, i + 1);
-    for (const std::string& yaml : {std::string("a: &a\n  - *a\n"), doubling}) {
-        try {
-            parse_yaml(yaml, "alias.yaml");
-            FAIL();
-        } catch (const Error& e) {
-            EXPECT_NE(std::string(e.what()).find("is nested too deeply, or too large"),
-                      std::string::npos)
-                << e.what();
-        }
+/// What parse_yaml() says of a text that it refuses.
+std::string refusal_of(const std::string& yaml) {
+    try {
+        parse_yaml(yaml, "far.yaml");
+    } catch (const Error& e) {
+        return e.what();
     }
+    return "nothing";
+}
+
+TEST(Node, RefusesAliasesWithoutEnd) {
+    std::string doubling = "a0: &a0 [x, x]\n";
+    for (int i = 0; i < 30; ++i) doubling += fmt::format("a{1}: &a{1} [*a{0}, *a{0}]\n", i, i + 1);
+    EXPECT_TRUE(
+        refusal_of(doubling).starts_with("far.yaml:16: error: is too large: from here on "
+                                         "it has more than 500000 keys and values."))
+        << refusal_of(doubling);
+    EXPECT_TRUE(refusal_of("a: &a\n  - *a\n")
+                    .starts_with("far.yaml:2: error: an alias (*name) stands in what it names"))
+        << refusal_of("a: &a\n  - *a\n");
+}
+
+TEST(Node, RefusesWhatIsNestedTooDeeply) {
+    EXPECT_EQ(refusal_of(std::string(32, '[') + std::string(32, ']')), "nothing");
+    // brackets that nothing closes, and levels that an alias brings with it
+    const std::string half = std::string(17, '[') + "x" + std::string(17, ']');
+    const std::string twice =
+        "a: &a " + half + "\nb: " + std::string(17, '[') + "*a" + std::string(17, ']') + "\n";
+    for (const std::string& yaml : {std::string(100'000, '['), std::string(100'000, '{'), twice}) {
+        EXPECT_NE(refusal_of(yaml).find("error: is nested too deeply"), std::string::npos)
+            << refusal_of(yaml);
+    }
+    EXPECT_TRUE(refusal_of(twice).starts_with("far.yaml:2:")) << refusal_of(twice);
+}
+
+TEST(Node, RepeatsWhatAnAliasNames) {
+    const Node root = parse_yaml("a: &a [1, {b: &b 2}]\nc: *a\n*b : *b\n", "alias.yaml");
+    ASSERT_EQ(root.entries.size(), 3U);
+    EXPECT_EQ(root.find("c")->items[1].find("b")->scalar, "2");
+    EXPECT_EQ(root.find("c")->place.line, 2);
+    EXPECT_EQ(root.find("2")->scalar, "2");
 }
 
 TEST(Node, RefusesASecondDocument) {

@@ -105,6 +105,25 @@ TEST(SessionFolder, AnInfoThatWasCutAnywhereGivesWhatItStillSays) {
     EXPECT_EQ(diagnostics.problems().size(), 1u);
 }
 
+TEST(SessionFolder, AnInfoWithAThousandDamagedLinesGivesWhatStandsBeforeThem) {
+    const testing::TemporaryFolder folder;
+    SessionInfo info;
+    info.command = "dihaptic run";
+    info.participant.id = "S07";
+    const SessionFolder session = small_session(folder, info);
+    const std::string whole = testing::read_file(session.file("session.yaml"));
+    std::string lines;
+    for (int i = 0; i < 1000; ++i) lines += "  a,\n";
+    const recording::Setup setup;
+    for (const std::string& damaged : {whole + "inputs: [\n" + lines, "[\n" + lines}) {
+        std::ofstream(session.file("session.yaml")) << damaged;
+        Diagnostics diagnostics;
+        const SessionInfo back = session.read_info(setup, diagnostics);
+        EXPECT_EQ(diagnostics.problems().size(), 1u);
+        EXPECT_EQ(back.participant.id, damaged.starts_with("[") ? "" : "S07");
+    }
+}
+
 TEST(SessionFolder, NamesInputsThatWereChangedOrAreGone) {
     const testing::TemporaryFolder folder;
     const SessionFolder session = small_session(folder, {});

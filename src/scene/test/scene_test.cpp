@@ -1,10 +1,12 @@
 #include "scene/scene.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <numbers>
 
+#include "scene/finger_set.h"
 #include "scene/mesh.h"
 #include "testing/files.h"
 
@@ -373,6 +375,54 @@ TEST(SceneFile, ANameThatNoRecordingCanHaveIsAnError) {
     EXPECT_NE(
         named(201).find("scene.yaml:2: error: name: has 201 bytes. Choose one of at most 200."),
         std::string::npos);
+}
+
+/// A scene with so many fingers, and one with so many bodies.
+std::string scene_with_fingers(size_t count) {
+    std::string out = kBlock + "fingers:\n";
+    for (size_t i = 0; i < count; ++i)
+        out += fmt::format("  - {{name: f{}, shape: sphere, radius_mm: 5}}\n", i);
+    return out;
+}
+std::string scene_with_bodies(size_t count) {
+    std::string out = "bodies:\n";
+    for (size_t i = 0; i < count; ++i)
+        out += fmt::format("  - {{name: b{}, shape: sphere, radius_mm: 5, mass_g: 1}}\n", i);
+    return out;
+}
+
+TEST(SceneFile, MoreFingersOrBodiesThanASceneMayHaveAreToldWhereTheyBegin) {
+    EXPECT_EQ(problems_of(scene_with_fingers(kMostFingers)), "");
+    EXPECT_NE(problems_of(scene_with_fingers(kMostFingers + 1))
+                  .find(fmt::format("scene.yaml:{}: error: fingers: there are 257, where 256 are "
+                                    "the most",
+                                    kMostFingers + 4)),
+              std::string::npos)
+        << problems_of(scene_with_fingers(kMostFingers + 1));
+    const std::string said = problems_of(scene_with_bodies(20'000));
+    EXPECT_NE(said.find("scene.yaml:4002: error: bodies: there are 20000, where 4000 are the most"),
+              std::string::npos)
+        << said;
+}
+
+TEST(SceneFile, NamesThatAreNotThereAreToldUpToAHundredThousandOfThem) {
+    std::string scene = scene_with_bodies(1000) + "pairs:\n";
+    for (int i = 0; i < 1000; ++i)
+        scene += fmt::format("  - {{between: [b{}, nobody{}], friction: 0.5}}\n", i, i);
+    const std::string said = problems_of(scene);
+    EXPECT_NE(said.find("there is no body or finger 'nobody0'"), std::string::npos);
+    EXPECT_NE(said.find("more is wrong than what is told above"), std::string::npos);
+    EXPECT_LT(std::count(said.begin(), said.end(), '\n'), 300);
+}
+
+TEST(SceneFile, ABodyThatIsCalledAsAFingerThatTheFileLeavesOutIsToldWithItsLine) {
+    const std::string said =
+        problems_of("bodies:\n  - {name: thumb, shape: sphere, radius_mm: 5, mass_g: 1}\n");
+    EXPECT_NE(said.find("scene.yaml:2: error: name: 'thumb' is used twice"), std::string::npos)
+        << said;
+    EXPECT_NE(said.find("where fingers are left out, they are called thumb and index"),
+              std::string::npos)
+        << said;
 }
 
 TEST(SceneFile, ABadMassIsOneError) {

@@ -8,6 +8,7 @@
 #include <complex>
 #include <numbers>
 
+#include "base/regular_file.h"
 #include "testing/files.h"
 
 namespace dihaptic::sound::wave_test {
@@ -161,6 +162,69 @@ TEST(Wave, AFileIsTheMeanOfItsChannelsAtTheDevicesRate) {
                 << rate << ", " << i;
         }
     }
+}
+
+std::string file_of(const testing::TemporaryFolder& folder, const std::string& name, int format) {
+    std::vector<float> samples(48000);
+    for (size_t i = 0; i < samples.size(); ++i)
+        samples[i] = static_cast<float>(0.4 * std::sin(0.1 * static_cast<double>(i)));
+    SF_INFO info{};
+    info.samplerate = 48000;
+    info.channels = 1;
+    info.format = format;
+    const std::string file = folder.file(name);
+    SNDFILE* const out = sf_open(file.c_str(), SFM_WRITE, &info);
+    sf_writef_float(out, samples.data(), static_cast<sf_count_t>(samples.size()));
+    sf_close(out);
+    return read_bytes(file, 1'000'000);
+}
+
+/// What make_wave() says of a sound file of these bytes; "" if it takes it.
+std::string refusal_of(const testing::TemporaryFolder& folder, const std::string& bytes) {
+    task::SoundSpec sound;
+    sound.name = "cut";
+    sound.place = {"experiment.yaml", 7};
+    sound.file = folder.write("cut", bytes);
+    try {
+        make_wave(sound, kRate, 1);
+    } catch (const Error& e) {
+        EXPECT_EQ(e.problems().front().place.line, 7);
+        return e.what();
+    }
+    return "";
+}
+
+TEST(Wave, AFileThatWasCutShortIsRefused) {
+    const testing::TemporaryFolder folder;
+    const std::pair<const char*, int> kinds[] = {
+        {"a.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16},
+        {"a.flac", SF_FORMAT_FLAC | SF_FORMAT_PCM_16},
+        {"a.ogg", SF_FORMAT_OGG | SF_FORMAT_VORBIS},
+        {"a.rf64", SF_FORMAT_RF64 | SF_FORMAT_PCM_16},
+    };
+    for (const auto& [name, format] : kinds) {
+        const std::string whole = file_of(folder, name, format);
+        EXPECT_EQ(refusal_of(folder, whole), "") << name;
+        for (const double share : {0.5, 0.9, 0.999}) {
+            const auto size = static_cast<size_t>(share * static_cast<double>(whole.size()));
+            EXPECT_NE(refusal_of(folder, whole.substr(0, size)), "") << name << " " << share;
+        }
+        EXPECT_NE(refusal_of(folder, whole.substr(0, whole.size() / 2)).find("cut short"),
+                  std::string::npos)
+            << name << refusal_of(folder, whole.substr(0, whole.size() / 2));
+    }
+}
+
+TEST(Wave, AWavThatClaimsMoreSamplesThanItHasIsRefused) {
+    const testing::TemporaryFolder folder;
+    std::string wav = file_of(folder, "a.wav", SF_FORMAT_WAV | SF_FORMAT_PCM_16);
+    const size_t size = wav.find("data") + 4;
+    for (size_t i = 0; i < 4; ++i) wav[size + i] = '\xff';
+    EXPECT_NE(refusal_of(folder, wav)
+                  .find("has 96000 bytes of samples, where its head says "
+                        "4294967295"),
+              std::string::npos)
+        << refusal_of(folder, wav);
 }
 
 TEST(Wave, AFileThatIsNoneIsRefusedWithARemedy) {

@@ -65,11 +65,12 @@ struct Grasp {
         return expression(quantities.values());
     }
 
-    Quantities quantities{{.fingers = {"thumb", "index"},
-                           .bodies = {"table", "block", "left plate"},
-                           .joints = {"drawer", "hinge"},
-                           .regions = {"goal", "far side"},
-                           .hands = {{"left", 3}, {"one", 2}}}};
+    Quantities quantities{
+        {.fingers = {"thumb", "index"},
+         .bodies = {"table", "block", "left plate"},
+         .joints = {"drawer", "hinge"},
+         .regions = {"goal", "far side"},
+         .hands = {{"left", scene::first_fingers(2)}, {"one", scene::finger_set(1)}}}};
     servo::Frame last;
     std::vector<haptics::Handle> handles{{{0, 0, 0.05}, {0.3, 0, 0.4}},
                                          {{0.04, 0, 0.07}, {0.01, 0, 0}}};
@@ -433,6 +434,53 @@ TEST(Expression, AllocatesNothingInTheTick) {
     }
     EXPECT_EQ(guard.count(), 0u);
     EXPECT_EQ(sum, 1000);
+}
+
+/// Each of many fingers is itself, and no other one of the same remainder.
+TEST(Expression, AnyNumberOfFingersAreToldApart) {
+    for (const size_t count : {2, 31, 32, 33, 64, 65, 200}) {
+        SCOPED_TRACE(count);
+        Quantities::Names names;
+        for (size_t i = 0; i < count; ++i) names.fingers.push_back(fmt::format("f{}", i));
+        names.bodies = {"block"};
+        names.hands = {{"last", scene::finger_set(count - 1)}};
+        Quantities quantities(names);
+        Diagnostics diagnostics;
+        servo::Frame last;
+        last.bodies.resize(1);
+        last.fingers.resize(count);
+        last.contacts.resize(2);
+        std::vector<haptics::Handle> handles(count);
+        for (size_t i = 0; i < count; ++i) handles[i].p_WH.x() = static_cast<double>(i);
+        const auto value = [&](const std::string& text) {
+            const Expression expression =
+                Expression::compile(text, quantities, {"task.yaml", 7}, "when", diagnostics);
+            for (const Problem& problem : diagnostics.problems()) ADD_FAILURE() << problem.text();
+            quantities.update(last, handles);
+            return expression(quantities.values());
+        };
+        for (const size_t touching : {size_t{0}, count / 2, count - 1}) {
+            last.contacts[0] = {.a = 0, .b = static_cast<int>(1 + touching), .normal_force = 2};
+            last.contacts[1] = last.contacts[0];  // another point of the same finger
+            double touched = 0;
+            for (size_t i = 0; i < count; ++i) {
+                const std::string finger = fmt::format("f{}", i);
+                const double here = i == touching;
+                EXPECT_EQ(value("1 if touched(block, " + finger + ") else 0"), here) << finger;
+                EXPECT_EQ(value("contact_force(block, " + finger + ") / 1 N"), 4 * here) << finger;
+                touched += value("1 if touched(block, " + finger + ") else 0");
+            }
+            EXPECT_EQ(touched, 1);
+            EXPECT_EQ(value("1 if gripped(block) else 0"), 0);
+            EXPECT_EQ(value("1 if touched(block) else 0"), 1);
+            EXPECT_EQ(value("1 if touched(block, last) else 0"), touching == count - 1);
+        }
+        EXPECT_NEAR(value("hand.x / 1 m"), static_cast<double>(count - 1) / 2, 1e-9);
+        EXPECT_EQ(value("last.x / 1 m"), static_cast<double>(count - 1));
+        last.contacts[0] = {.a = 0, .b = 1, .normal_force = 2};
+        last.contacts[1] = {.a = 0, .b = static_cast<int>(count), .normal_force = 2};
+        EXPECT_EQ(value("1 if gripped(block) else 0"), 1);
+    }
 }
 
 }  // namespace

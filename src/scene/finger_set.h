@@ -1,0 +1,30 @@
+// Some of a scene's fingers, by index.
+#pragma once
+
+#include <bitset>
+#include <cstddef>
+
+namespace dihaptic::scene {
+
+/// A scene with more fingers is refused when it is read.
+constexpr size_t kMostFingers = 256;
+
+using FingerSet = std::bitset<kMostFingers>;
+
+/// Also of an index that a damaged recording has, and no scene can have.
+inline bool contains(const FingerSet& fingers, size_t finger) noexcept {
+    return finger < fingers.size() && fingers[finger];
+}
+
+inline FingerSet finger_set(size_t finger) {
+    return FingerSet{}.set(finger);
+}
+
+/// The first `count` fingers.
+inline FingerSet first_fingers(size_t count) {
+    FingerSet out;
+    for (size_t i = 0; i < count && i < out.size(); ++i) out.set(i);
+    return out;
+}
+
+}  // namespace dihaptic::scene
