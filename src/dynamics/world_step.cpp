@@ -495,12 +495,10 @@ contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& ho
                       stats);
         iterations = stats.iterations += iterations;
         work_before = stats.work += work_before;
-        const bool out_of_work = stats.route == contact::Route::out_of_work;
-        // its joints are off a little then
-        stats.missed =
-            stats.missed || guess > kMostGuesses || (out_of_work && !island_joints.empty());
-        if (out_of_work) return stats;
-        if (island_joints.empty() || stats.refused || guess > kMostGuesses) return stats;
+        if (island_joints.empty()) return stats;
+        const bool is_last = guess > kMostGuesses || stats.route == contact::Route::out_of_work;
+        stats.missed = stats.missed || is_last;  // its joints are off a little then
+        if (is_last || stats.refused) return stats;
         island_change.clear();
         for (size_t i = 0; i < island_bodies.size(); ++i)
             island_change.push_back(solvers.velocity_change(static_cast<int>(i)));

@@ -364,6 +364,12 @@ bool Collision::find_entered(double h, double recovery, contact::Work& work) {
     return true;
 }
 
+bool Collision::affords(contact::Work& work, int64_t visits) {
+    search_was_cut_ = !work.affords(visits);
+    if (!search_was_cut_) work.spend(visits);
+    return !search_was_cut_;
+}
+
 bool Collision::enters(btBroadphasePair& pair, double h, double recovery, btPersistentManifold& out,
                        contact::Work& work) {
     const CollisionPart& part_a = part(pair.m_pProxy0);
@@ -387,10 +393,7 @@ bool Collision::enters(btBroadphasePair& pair, double h, double recovery, btPers
     const auto strides = static_cast<int>(std::clamp(std::ceil(way / kStride), 1.0, kMostStrides));
     const int64_t visits = stride_visits(*part_a.shape, *part_b.shape);
     bool found = false;
-    for (int stride = 1; stride <= strides && !found; ++stride) {
-        search_was_cut_ = !work.affords(visits);
-        if (search_was_cut_) break;
-        work.spend(visits);
+    for (int stride = 1; stride <= strides && !found && affords(work, visits); ++stride) {
         const double t = h * stride / strides;
         move_on(a, from_a, t);
         move_on(b, from_b, t);
@@ -408,7 +411,7 @@ bool Collision::enters(btBroadphasePair& pair, double h, double recovery, btPers
         const btTransform& from_0 = swapped ? from_b : from_a;
         const btTransform& from_1 = swapped ? from_a : from_b;
         for (int i = 0; i < out.getNumContacts(); ++i)
-            found = look_back(out, out.getContactPoint(i), from_0, from_1, t, h, recovery) || found;
+            found |= look_back(out, out.getContactPoint(i), from_0, from_1, t, h, recovery);
     }
     a.setWorldTransform(from_a);
     b.setWorldTransform(from_b);

@@ -108,6 +108,8 @@ class Collision {
     void sort_by_bodies();
     void list_live_pairs();
     bool look_at(btBroadphasePair& pair, const btDispatcherInfo& info);
+    /// Whether there is work for another stride, which it spends; notes if there is none.
+    bool affords(contact::Work& work, int64_t visits);
     bool enters(btBroadphasePair& pair, double h, double recovery, btPersistentManifold& out,
                 contact::Work& work);
 
