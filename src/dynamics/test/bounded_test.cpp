@@ -49,6 +49,30 @@ TEST(Bounded, IsTheSameToTheBitWhenItIsRepeated) {
     EXPECT_EQ(end(), end());
 }
 
+TEST(Bounded, APlateOnARailThatIsInsideTheTableIsSolvedAllTheSame) {
+    for (int solver = 0; solver < contact::kSolvers; ++solver) {
+        scene::Scene scene;
+        scene.bodies = {table(), box("plate", {0.006, 0.04, 0.04}, {0, 0, 0}, 0.02)};
+        scene.bodies[1].moves = scene::Axes::x;
+        scene.bodies[1].turns = scene::Axes::none;
+        Settings settings = awake();
+        settings.solver = static_cast<Solver>(solver);
+        World world(scene, settings);
+        scene::Finger finger;
+        finger.shape = scene::Shape::box({0.005, 0.02, 0.02});
+        finger.mass = 0.1;
+        const BodyIndex index = world.add_proxy(finger, {-0.0056, 0, 0.025});
+        world.activate();
+        for (int i = 0; i < 100; ++i) {
+            world.apply(index, {1, 0, 0}, Vec3::Zero());
+            world.step(kStep);
+            EXPECT_FALSE(world.solve_stats().missed) << solver << " " << i;
+        }
+        // 1 N pushed 120 g for 0.1 s
+        EXPECT_NEAR(world.state({1}).X_WB.p.x(), 0.5 * 1 / 0.12 * 0.01, 2e-3) << solver;
+    }
+}
+
 /// A block in the air between two pads; and, where it is so, a third pad on one that two walls
 /// crush, for which there is no answer.
 World two_hands(bool crushed) {
