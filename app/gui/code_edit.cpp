@@ -62,7 +62,7 @@ class CodeEdit::Margin final : public QWidget {
 };
 
 CodeEdit::CodeEdit(QWidget* parent)
-    : QPlainTextEdit(parent), words_(new QCompleter(this)), margin_(new Margin(*this)) {
+    : PlainText(parent), words_(new QCompleter(this)), margin_(new Margin(*this)) {
     QFont font("monospace");
     font.setStyleHint(QFont::Monospace);
     setFont(font);
@@ -100,7 +100,7 @@ void CodeEdit::lay_out() {
 void CodeEdit::resizeEvent(QResizeEvent* event) {
     // problems that are told below the text take lines from it, not the one that is written
     const bool seen = QRect(QPoint(), event->oldSize()).contains(cursorRect().center());
-    QPlainTextEdit::resizeEvent(event);
+    PlainText::resizeEvent(event);
     lay_out();
     if (seen) ensureCursorVisible();
 }
@@ -175,7 +175,7 @@ bool CodeEdit::viewportEvent(QEvent* event) {
         QToolTip::showText(help.globalPos(), found == problems_.end() ? "" : found->second, this);
         return true;
     }
-    return QPlainTextEdit::viewportEvent(event);
+    return PlainText::viewportEvent(event);
 }
 
 /// `anyhow`: also where no word has begun.
@@ -249,7 +249,7 @@ void CodeEdit::keyPressEvent(QKeyEvent* event) {
         insertPlainText("\n" + QString(length, ' '));
         return ensureCursorVisible();
     }
-    QPlainTextEdit::keyPressEvent(event);
+    PlainText::keyPressEvent(event);
     if (event->text().isEmpty()) return;
     const WordPlace now = word_place(text(), textCursor().position());
     if (choosing && now.asking == offered_.asking) {

@@ -3,15 +3,15 @@
 #pragma once
 
 #include <QCompleter>
-#include <QPlainTextEdit>
 #include <map>
 
 #include "base/written.h"
+#include "plain_text.h"
 #include "word_finder.h"
 
 namespace dihaptic::gui {
 
-class CodeEdit : public QPlainTextEdit {
+class CodeEdit : public PlainText {
     Q_OBJECT
 
   public:

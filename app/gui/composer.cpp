@@ -1,12 +1,12 @@
 #include "composer.h"
 
-#include <QDir>
-#include <QFile>
 #include <QFileInfo>
+#include <QLocale>
+#include <QMessageBox>
 #include <QRegularExpression>
-#include <QSaveFile>
 #include <QVBoxLayout>
 
+#include "base/text.h"
 #include "scene/body_text.h"
 
 namespace dihaptic::gui {
@@ -16,17 +16,17 @@ constexpr int kPause = 400;  // [ms]
 constexpr int kLook = 100;   // [ms]
 constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
 
-QByteArray content_of(const QString& file) {
-    QFile in(file);
-    return in.open(QIODevice::ReadOnly) ? in.readAll() : QByteArray();
+/// Whether an editor can show a file's bytes, and write them again as they were.
+bool is_text(const QByteArray& content) {
+    QByteArray text = content;
+    if (text.startsWith(kByteOrderMark)) text.remove(0, 3);
+    text.replace("\r\n", "\n");
+    return !find_fault(text.toStdString());
 }
 
-/// Writes a file as a whole; returns why it could not.
-QString write(const QString& file, const QByteArray& content) {
-    QSaveFile out(file);
-    if (!out.open(QIODevice::WriteOnly) || out.write(content) < 0 || !out.commit())
-        return out.errorString();
-    return "";
+/// Line of a text, counted from 1, in which a byte is.
+int line_of(const QByteArray& text, size_t at) {
+    return 1 + static_cast<int>(text.left(static_cast<qsizetype>(at)).count('\n'));
 }
 
 }  // namespace
@@ -54,9 +54,10 @@ Composer::Composer(QWidget* parent)
     });
     connect(edit_->document(), &QTextDocument::modificationChanged, this, [this](bool changed) {
         save_->setEnabled(changed);
+        if (!changed) drop_draft();
         Q_EMIT modified(changed);
     });
-    connect(&pause_, &QTimer::timeout, this, &Composer::edited);
+    connect(&pause_, &QTimer::timeout, this, &Composer::check);
     look_.setSingleShot(true);
     look_.setInterval(kLook);
     connect(edit_, &QPlainTextEdit::cursorPositionChanged, &look_, qOverload<>(&QTimer::start));
@@ -66,63 +67,154 @@ Composer::Composer(QWidget* parent)
     connect(edit_, &QPlainTextEdit::redoAvailable, this, &Composer::redo_available);
     connect(edit_, &CodeEdit::step_wanted, this, &Composer::step_wanted);
     connect(edit_, &CodeEdit::words_wanted, this,
-            [this](const WordPlace& place) { finder_.find(file_, place); });
+            [this](const WordPlace& place) { finder_.find(file_.name(), place); });
     connect(&finder_, &WordFinder::found, edit_, &CodeEdit::offer);
     connect(save_, &QPushButton::clicked, this, &Composer::save);
 }
 
 Composer::~Composer() {
-    remove_draft();
+    if (!leaves_) end_draft();
 }
 
 void Composer::forget() {
-    remove_draft();
-    file_.clear();
+    end_draft();
+    file_ = {};
     edit_->document()->setModified(false);
-}
-
-QString Composer::draft() const {
-    const QFileInfo file(file_);
-    return file.dir().filePath("." + file.completeBaseName() + ".draft.yaml");
-}
-
-void Composer::remove_draft() {
-    if (!file_.isEmpty()) QFile::remove(draft());
 }
 
 void Composer::open(const QString& file) {
-    const QByteArray content = content_of(file);
-    if (file == file_ && (changed() || content == read_)) return;
-    remove_draft();
-    file_ = file;
-    read_ = content;
-    edit_->setPlainText(QString::fromUtf8(content));
+    if (file == file_.name()) return look_again();
+    read_file(file);
+}
+
+void Composer::read_file(const QString& name) {
+    if (name != file_.name() || file_.leads_elsewhere()) end_draft();
+    file_ = EditedFile(name);
+    show_content();
+    note("");
+    if (!draft_) begin_draft();
+}
+
+void Composer::show_content() {
+    const QByteArray content = file_.content();
+    const bool text = is_text(content);
+    edit_->setPlainText(text ? QString::fromUtf8(content) : "");
     edit_->document()->setModified(false);
     pause_.stop();  // nobody typed this
-    edit_->setReadOnly(!QFileInfo(file).isWritable());
-    state_->setText(edit_->isReadOnly()
-                        ? tr("This file may not be written: save it under a name of "
-                             "your own first (Ctrl+Shift+S).")
-                        : "");
+    edit_->setReadOnly(!text || !file_.was_readable() || !QFileInfo(file_.name()).isWritable());
+}
+
+void Composer::look_again() {
+    if (!file_.leads_elsewhere() && !file_.has_changed()) {
+        if (content() == file_.content()) edit_->document()->setModified(false);
+        return note("");
+    }
+    const bool mine = changed() && content() != file_.content();
+    const bool readable = file_.is_readable();
+    if (readable && mine)
+        return note(tr("%1 was changed by another program after it was read here. Ctrl+S asks "
+                       "which is to stay.")
+                        .arg(file_.name()));
+    if (readable || !file_.was_readable() || !is_text(file_.content()))
+        return read_file(QString(file_.name()));
+    edit_->setReadOnly(false);
+    edit_->document()->setModified(true);
+    note(tr("%1 is no longer there, or cannot be read. Its text is kept here: Ctrl+S writes it "
+            "again.")
+             .arg(file_.name()));
+}
+
+void Composer::begin_draft() {
+    draft_.emplace(file_.path());
+    try {
+        has_draft_ = draft_->take();
+    } catch (const Error& e) {
+        draft_.reset();
+        return note(tr("What you type would be lost in a crash: %1").arg(e.what()));
+    }
+    note(note_);
+    const auto left = has_draft_ ? draft_->left() : std::nullopt;
+    if (!left) return;
+    if (left->text == edit_->text()) return draft_->remove();
+    offer(*left);
+}
+
+void Composer::offer(const Draft::Left& left) {
+    offer_ = new QMessageBox(this);
+    offer_->setAttribute(Qt::WA_DeleteOnClose);
+    offer_->setWindowTitle(tr("Unsaved text"));
+    offer_->setText(tr("A window that ended without saving left text of %1, of %2.\n\nGo on with "
+                       "it? The file stays as it is until you save.")
+                        .arg(file_.name(), QLocale().toString(left.at, "d MMMM, HH:mm")));
+    auto* go_on = offer_->addButton(tr("&Go on with it"), QMessageBox::AcceptRole);
+    auto* discard = offer_->addButton(tr("&Discard it"), QMessageBox::DestructiveRole);
+    offer_->setDefaultButton(go_on);
+    offer_->setEscapeButton(go_on);  // nothing is lost by this
+    connect(offer_, &QDialog::finished, this, [this, discard, text = left.text] {
+        const bool discarded = offer_->clickedButton() == discard;
+        offer_ = nullptr;
+        if (discarded) return draft_->remove();
+        take(text);
+    });
+    offer_->open();
+}
+
+/// As a step that can be undone: before it is what the file has.
+void Composer::take(const QString& text) {
+    edit_->setReadOnly(false);
+    QTextCursor cursor(edit_->document());
+    cursor.select(QTextCursor::Document);
+    cursor.insertText(text);
+    Q_EMIT draft_taken();
+    check();
+}
+
+void Composer::check() {
+    keep_draft();
+    Q_EMIT edited();
+}
+
+void Composer::keep_draft() {
+    if (!draft_ || offer_ || !changed()) return;
+    // the window that had it may be gone; what that one left was not offered yet
+    if (!has_draft_) begin_draft();
+    if (!has_draft_ || offer_) return;
+    try {
+        draft_->write(edit_->text());
+    } catch (const Error& e) {
+        note(tr("What you type would be lost in a crash: %1").arg(e.what()));
+    }
+}
+
+void Composer::drop_draft() {
+    if (has_draft_ && !offer_) draft_->remove();
+}
+
+void Composer::end_draft() {
+    drop_draft();
+    delete offer_;  // what it offers stays
+    draft_.reset();
+    has_draft_ = false;
+}
+
+bool Composer::leave_draft() {
+    keep_draft();
+    return leaves_ = has_draft_;
 }
 
 QByteArray Composer::content() const {
     QString text = edit_->text();
-    if (read_.contains("\r\n")) text.replace("\n", "\r\n");
-    return (read_.startsWith(kByteOrderMark) ? kByteOrderMark : "") + text.toUtf8();
+    if (file_.content().contains("\r\n")) text.replace("\n", "\r\n");
+    return (file_.content().startsWith(kByteOrderMark) ? kByteOrderMark : "") + text.toUtf8();
 }
 
-QString Composer::source() {
-    if (!changed()) return file_;
-    const QString why = write(draft(), content());
-    if (why.isEmpty()) return draft();
-    state_->setText(tr("The text cannot be checked as you type: %1: %2").arg(draft(), why));
-    return file_;
+std::optional<std::string> Composer::unsaved() const {
+    return changed() ? std::optional(edit_->text().toStdString()) : std::nullopt;
 }
 
 bool Composer::go_to(const Place& place) {
     const QString file = QString::fromStdString(place.file);
-    if (place.line < 1 || (file != file_ && file != draft())) return false;
+    if (place.line < 1 || file != file_.name()) return false;
     edit_->go_to(place.line);
     return true;
 }
@@ -141,7 +233,7 @@ bool Composer::move(const std::string& body, const BodyWay& way) {
     }
     try {
         edit_->change(scene::moved_body(edit_->text().toStdString(), body, way.way, way.turn));
-        state_->setText(problems_);
+        show_state();
         return true;
     } catch (const Error& e) {
         state_->setText(e.what());
@@ -151,32 +243,104 @@ bool Composer::move(const std::string& body, const BodyWay& way) {
 
 bool Composer::save() {
     if (!changed()) return true;
-    const QByteArray written = content();
-    if (const QString why = write(file_, written); !why.isEmpty()) {
-        state_->setText(tr("%1 cannot be written: %2").arg(file_, why));
-        return false;
+    if (!may_write()) return false;
+    try {
+        file_.write(content());
+    } catch (const Error& e) {
+        return refuse(e.what());
     }
-    read_ = written;
     pause_.stop();
     edit_->document()->setModified(false);
-    remove_draft();
+    note("");
     Q_EMIT saved();
     return true;
 }
 
+bool Composer::is_writable_text() {
+    const QByteArray text = edit_->text().toUtf8();
+    const auto fault = find_fault(text.toStdString());
+    if (!fault) return true;
+    const int line = line_of(text, fault->at);
+    edit_->go_to(line);
+    return refuse(tr("line %1: %2. Nothing was written.")
+                      .arg(QString::number(line), QString::fromStdString(fault->what)));
+}
+
+bool Composer::may_write() {
+    if (!is_writable_text()) return false;
+    if (file_.leads_elsewhere())
+        return refuse(
+            tr("%1 has become a link, or leads elsewhere than when it was opened: nothing "
+               "was written. Save the text under another name (Ctrl+Shift+S).")
+                .arg(file_.name()));
+    return !file_.is_there() || !file_.has_changed() || may_overwrite();
+}
+
+bool Composer::may_overwrite() {
+    QMessageBox box(QMessageBox::Warning, tr("Overwrite?"),
+                    tr("%1 was changed by another program after it was read here. Overwrite that "
+                       "with this text?")
+                        .arg(file_.name()),
+                    QMessageBox::NoButton, this);
+    auto* overwrite = box.addButton(tr("&Overwrite"), QMessageBox::DestructiveRole);
+    box.setDefaultButton(box.addButton(QMessageBox::Cancel));
+    box.exec();
+    return box.clickedButton() == overwrite ||
+           refuse(tr("Not saved: %1 was changed by another program. Save the text under another "
+                     "name (Ctrl+Shift+S), or open the file again to read what it has now.")
+                      .arg(file_.name()));
+}
+
 bool Composer::save_as(const QString& file) {
-    if (const QString why = write(file, content()); !why.isEmpty()) {
-        state_->setText(tr("%1 cannot be written: %2").arg(file, why));
-        return false;
+    if (!is_writable_text()) return false;
+    try {
+        replace_file(file, content());
+    } catch (const Error& e) {
+        return refuse(e.what());
     }
     forget();
     return true;
 }
 
+void Composer::note(const QString& text) {
+    QStringList all;
+    if (file_.is_link()) all += tr("This is a link: what is saved goes to %1.").arg(file_.path());
+    if (draft_ && !has_draft_)
+        all += tr("Another window has %1 open. What you type here is not kept through a crash, and "
+                  "Ctrl+S asks before it overwrites what was saved there.")
+                   .arg(file_.name());
+    if (!text.isEmpty()) all += text;
+    note_ = text;
+    const QString now = all.join("\n");
+    if (now != notes_ && !now.isEmpty()) Q_EMIT told(now);
+    notes_ = now;
+    show_state();
+}
+
+bool Composer::refuse(const QString& why) {
+    state_->setText(why);
+    Q_EMIT told(why);
+    return false;
+}
+
+void Composer::show_state() {
+    QStringList all;
+    if (!notes_.isEmpty()) all += notes_;
+    if (edit_->isReadOnly())
+        all += is_text(file_.content())
+                   ? tr("This file may not be written: save it under a name of your own first "
+                        "(Ctrl+Shift+S).")
+                   : tr("This file is not UTF-8 text, or has control characters: it is not shown, "
+                        "and cannot be edited here.");
+    else if (!problems_.isEmpty())
+        all += problems_;
+    state_->setText(all.join("\n"));
+}
+
 void Composer::check_now() {
     if (!pause_.isActive()) return;
     pause_.stop();
-    Q_EMIT edited();
+    check();
 }
 
 void Composer::show_problems(const QStringList& problems) {
@@ -186,14 +350,13 @@ void Composer::show_problems(const QStringList& problems) {
     QStringList all;
     for (const QString& problem : problems) {
         const auto match = place.match(problem);
-        const bool here =
-            match.hasMatch() && (match.captured(1) == file_ || match.captured(1) == draft());
+        const bool here = match.hasMatch() && match.captured(1) == file_.name();
         if (here) marks[match.captured(2).toInt()] = match.captured(3);
         all += here ? tr("line %1: %2").arg(match.captured(2), match.captured(3)) : problem;
     }
     edit_->mark(marks);
     problems_ = all.join("\n");
-    if (!edit_->isReadOnly()) state_->setText(problems_);
+    show_state();
 }
 
 }  // namespace dihaptic::gui

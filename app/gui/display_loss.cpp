@@ -1,8 +1,8 @@
 #include "display_loss.h"
 
-#include <X11/Xlib.h>
+#include <QString>
 
-#include <QtGlobal>
+#include <X11/Xlib.h>  // last: makes macros of plain words
 
 namespace dihaptic::gui {
 namespace {

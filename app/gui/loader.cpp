@@ -1,5 +1,6 @@
 #include "loader.h"
 
+#include "base/unsaved.h"
 #include "person/population.h"
 
 namespace dihaptic::gui {
@@ -47,7 +48,8 @@ Opened open(const Wanted& wanted, std::unique_ptr<devices::DeviceGroup>& devices
     out.frame = resting->tick(Time(0), {});
     if (wanted.to_run) {
         devices =
-            session::open_devices(out.plan, rig::is_real(out.plan.rig) ? keeper::program() : "");
+            session::open_devices(out.plan, rig::is_real(out.plan.rig) ? keeper::program() : "",
+                                  [stop = wanted.request.stop] { return stop.stop_requested(); });
     }
     describe_devices(out, X_WD);
     return out;
@@ -80,6 +82,8 @@ void Loader::run(const Wanted& wanted) {
     std::optional<Opened> result;
     QStringList problems;
     devices_.reset();  // of a session that was not started after all
+    std::optional<Unsaved> unsaved;
+    if (wanted.text) unsaved.emplace(wanted.request.file, *wanted.text);
     try {
         result = open(wanted, devices_);
     } catch (const Error& e) {

@@ -33,6 +33,8 @@ struct Wanted {
     bool by_person = false;  ///< a simulated person moves the hand
     /// Folder of the session to go on with, in place of the request; "": none.
     std::string resumes;
+    /// Stands in place of what the request's file has.
+    std::optional<std::string> text = std::nullopt;
 };
 
 class Loader : public QObject {

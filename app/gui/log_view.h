@@ -1,13 +1,14 @@
 // The log, which keeps its last line in sight.
 #pragma once
 
-#include <QPlainTextEdit>
 #include <QScrollBar>
 #include <QTime>
 
+#include "plain_text.h"
+
 namespace dihaptic::gui {
 
-class LogView : public QPlainTextEdit {
+class LogView : public PlainText {
   public:
     LogView() {
         setReadOnly(true);
@@ -25,7 +26,7 @@ class LogView : public QPlainTextEdit {
 
   protected:
     void resizeEvent(QResizeEvent* event) override {
-        QPlainTextEdit::resizeEvent(event);
+        PlainText::resizeEvent(event);
         show_last();
     }
 

@@ -9,6 +9,7 @@
 #include "display_loss.h"
 #include "escape_listener.h"
 #include "keeper/at_death.h"
+#include "lost_windows.h"
 #include "operator_window.h"
 #include "recording/session.h"
 #include "session_player.h"
@@ -26,6 +27,15 @@ int look_at(const QStringList& folders) {
         return 2;
     }
     return QApplication::exec();
+}
+
+/// What nobody can see is as good as closed.
+void end_unseen(QWidget* gone) {
+    if (auto* const window = qobject_cast<dihaptic::gui::OperatorWindow*>(gone)) {
+        window->end_unseen();
+    } else {
+        gone->close();
+    }
 }
 
 }  // namespace
@@ -63,6 +73,8 @@ int main(int argc, char** argv) {
         files += QString::fromStdString(dihaptic::given_or_kept(given.toStdString()));
     const QString file = files.value(0);
 
+    dihaptic::gui::LostWindows lost;
+    QObject::connect(&lost, &dihaptic::gui::LostWindows::lost, end_unseen);
     dihaptic::gui::set_dark(QSettings().value("dark", false).toBool());
     if (QFileInfo(file).isDir()) return look_at(files);
     if (files.size() > 1) {

@@ -5,7 +5,9 @@
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QMenu>
 #include <QMessageBox>
+#include <cstdio>
 #include <utility>
 
 #include "session_player.h"
@@ -16,6 +18,8 @@ namespace dihaptic::gui {
 void OperatorWindow::connect_files() {
     connect(composer_, &Composer::edited, this, &OperatorWindow::reload);
     connect(composer_, &Composer::saved, this, &OperatorWindow::reload);
+    connect(composer_, &Composer::told, this, [this](const QString& text) { log(text, true); });
+    connect(composer_, &Composer::draft_taken, compose_dock_, &QWidget::show);
     connect(composer_, &Composer::modified, save_action_, &QAction::setEnabled);
     connect(composer_, &Composer::undo_available, undo_action_, &QAction::setEnabled);
     connect(composer_, &Composer::redo_available, redo_action_, &QAction::setEnabled);
@@ -33,6 +37,10 @@ void OperatorWindow::connect_files() {
     connect(&loader_, &Loader::refused, this, &OperatorWindow::refused);
     reload_.setSingleShot(true);
     connect(&watcher_, &QFileSystemWatcher::fileChanged, this, [this] { reload_.start(300); });
+    // one that was gone comes back
+    connect(&watcher_, &QFileSystemWatcher::directoryChanged, this, [this] {
+        if (!watcher_.files().contains(file_) && QFileInfo::exists(file_)) reload_.start(300);
+    });
     connect(&reload_, &QTimer::timeout, this, &OperatorWindow::reload);
 }
 
@@ -91,7 +99,16 @@ bool OperatorWindow::may_leave_text() {
     const auto answer = QMessageBox::question(
         this, tr("Save?"), tr("%1 has changes that were not saved.").arg(file_),
         QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, QMessageBox::Save);
-    return answer == QMessageBox::Discard || (answer == QMessageBox::Save && composer_->save());
+    if (answer == QMessageBox::Save) return composer_->save();
+    if (answer == QMessageBox::Discard) composer_->forget();
+    return answer == QMessageBox::Discard;
+}
+
+void OperatorWindow::leave_text() {
+    if (!composer_->changed()) return;
+    std::fprintf(stderr, composer_->leave_draft()
+                             ? "what was typed and not saved is offered when the file is opened\n"
+                             : "what was typed and not saved is lost\n");
 }
 
 void OperatorWindow::open(const QString& file) {
@@ -102,9 +119,10 @@ void OperatorWindow::open(const QString& file) {
     file_ = file;
     starts_.reset();
     recorded_.clear();
-    if (const QStringList watched = watcher_.files(); !watched.isEmpty())
+    if (const QStringList watched = watcher_.files() + watcher_.directories(); !watched.isEmpty())
         watcher_.removePaths(watched);
     watcher_.addPath(file);
+    watcher_.addPath(QFileInfo(file).absolutePath());
     QStringList rigs;
     for (const QFileInfo& rig :
          QDir(QFileInfo(file).dir().filePath("../rigs")).entryInfoList({"*.yaml"}))
@@ -117,10 +135,10 @@ void OperatorWindow::reload() {
     if (file_.isEmpty()) return;
     // when an editor replaces the file it is watched no longer
     if (!watcher_.files().contains(file_)) watcher_.addPath(file_);
+    composer_->open(file_);
     changed_ = runner_.running() || starts_;
     if (changed_) return;
-    composer_->open(file_);
-    loader_.load({request(composer_->source()), false, false, ""});
+    loader_.load({request(file_), false, false, "", composer_->unsaved()});
     update_state();
 }
 

@@ -274,6 +274,13 @@ void OperatorWindow::end(int signal) {
     close();
 }
 
+void OperatorWindow::end_unseen() {
+    if (std::exchange(lost_, true)) return;
+    std::fprintf(stderr, "another program has closed the window%s\n",
+                 runner_.running() ? ": the session ends" : "");
+    close();
+}
+
 void OperatorWindow::session_ended(const SessionEnd& end) {
     cut_ = runner_.stopped();
     calibrator_->end_check();
@@ -473,7 +480,11 @@ void OperatorWindow::closeEvent(QCloseEvent* event) {
         event->ignore();
         return;
     }
-    if (!ended_ && !may_leave_text()) return event->ignore();
+    if (ended_ || lost_) {
+        leave_text();  // there is nobody to ask
+    } else if (!may_leave_text()) {
+        return event->ignore();
+    }
     QSettings settings;
     settings.setValue("geometry", saveGeometry());
     settings.setValue("docks", saveState());
@@ -481,7 +492,7 @@ void OperatorWindow::closeEvent(QCloseEvent* event) {
     event->accept();
     // sessions that are looked at do not keep the program
     QMetaObject::invokeMethod(qApp, &QApplication::closeAllWindows, Qt::QueuedConnection);
-    if (ended_) QCoreApplication::exit(1);  // even if a dialog is open
+    if (ended_ || lost_) QCoreApplication::exit(ended_ ? 1 : 0);  // even if a dialog is open
 }
 
 }  // namespace dihaptic::gui

@@ -49,6 +49,9 @@ class OperatorWindow : public QMainWindow {
     /// `signal` asked the program to end, and has ended force already: the window closes once the
     /// session's files are written.
     void end(int signal);
+    /// Another program destroyed this window: the session ends, as when it is closed, and then the
+    /// program.
+    void end_unseen();
 
   protected:
     void closeEvent(QCloseEvent* event) override;
@@ -109,6 +112,7 @@ class OperatorWindow : public QMainWindow {
              std::unique_ptr<devices::DeviceGroup> devices);
     /// Of the rig that is chosen, or that the open file names; empty: none.
     QString rig_file() const;
+    rig::NamedBy rig_named_by() const;
     void calibrate();
     /// Writes the report of the last session.
     void report();
@@ -144,6 +148,8 @@ class OperatorWindow : public QMainWindow {
     session::Request request(const QString& file) const;
     /// Asks what becomes of changes of the text that were not saved; false: nothing is to be done.
     bool may_leave_text();
+    /// Keeps such changes as a draft.
+    void leave_text();
 
     QString out_;
     double sync_;
@@ -161,6 +167,7 @@ class OperatorWindow : public QMainWindow {
     bool changed_ = false;  ///< the file has changed while it could not be read again
     bool closing_ = false;
     bool ended_ = false;  ///< a signal asked the program to end
+    bool lost_ = false;   ///< another program destroyed the window
     bool cut_ = false;    ///< the last session was ended by `stop`
 
     Loader loader_;

@@ -10,6 +10,7 @@
 
 #include "body_drag.h"
 #include "mouse_hand.h"
+#include "outlets/head_tracker.h"
 #include "page_view.h"
 #include "rating_view.h"
 #include "servo/workspace_turn.h"

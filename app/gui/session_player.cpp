@@ -1,6 +1,7 @@
 #include "session_player.h"
 
 #include <QApplication>
+#include <QBuffer>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QFileDialog>
@@ -22,6 +23,7 @@
 #include <optional>
 
 #include "base/table.h"
+#include "edited_file.h"
 #include "film.h"
 #include "help_page.h"
 #include "layers_menu.h"
@@ -377,9 +379,15 @@ void SessionPlayer::save_picture() {
     const QString file =
         QFileDialog::getSaveFileName(this, tr("Save the picture"), usual, tr("Pictures (*.png)"));
     if (file.isEmpty()) return;
-    const bool saved = view_->grabFramebuffer().save(file);
-    statusBar()->showMessage(
-        (saved ? tr("picture: %1") : tr("could not be written: %1")).arg(file));
+    QByteArray picture;
+    QBuffer to(&picture);
+    try {
+        if (!view_->grabFramebuffer().save(&to, "PNG")) throw Error("there is no picture", "");
+        replace_file(file, picture);
+        statusBar()->showMessage(tr("picture: %1").arg(file));
+    } catch (const Error& e) {
+        statusBar()->showMessage(QString::fromStdString(e.problems().front().text()));
+    }
 }
 
 void SessionPlayer::save_video() {

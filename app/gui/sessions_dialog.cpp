@@ -3,10 +3,8 @@
 #include <QDialogButtonBox>
 #include <QDir>
 #include <QHeaderView>
-#include <QInputDialog>
 #include <QLabel>
 #include <QMessageBox>
-#include <QPlainTextEdit>
 #include <QPushButton>
 #include <QTreeWidget>
 #include <QVBoxLayout>
@@ -14,10 +12,13 @@
 #include <cmath>
 #include <functional>
 
+#include "base/output.h"
 #include "base/regular_file.h"
 #include "base/table.h"
 #include "base/text_file.h"
+#include "note_dialog.h"
 #include "recording/raw_log.h"
+#include "recording/seal.h"
 #include "recording/session.h"
 
 namespace dihaptic::gui {
@@ -78,6 +79,15 @@ QString time_of(const recording::SessionFolder& folder, const recording::Session
     }
 }
 
+/// What was changed of a session's tables that are listed here since it ended, and what to do.
+QString changes_of(const recording::SessionFolder& folder, const recording::SessionInfo& info) {
+    constexpr std::string_view kListed[] = {"trials.csv", "lifts.csv"};
+    QStringList out;
+    for (const Problem& problem : recording::broken_seals(folder, info, Severity::warning, kListed))
+        out += QString::fromStdString(problem.text());
+    return out.join('\n');
+}
+
 QString note_of(const QString& session) {
     const std::string file = (session + "/" + kNote).toStdString();
     try {
@@ -131,12 +141,14 @@ void SessionsDialog::fill_one() {
     const QFileInfo entry = waiting_.takeFirst();
     const QString path = entry.filePath();
     recording::SessionInfo info;
-    QString state = tr("cannot be read"), time;
+    QString state = tr("cannot be read"), time, changed;
     try {
         const auto session = recording::SessionFolder::open(path.toStdString());
         info = session.read_info();
         state = QString::fromLatin1(enum_name(info.state).data());
         time = time_of(session, info);
+        changed = changes_of(session, info);
+        if (!changed.isEmpty()) state += tr(", changed since");
     } catch (const Error&) {
         if (!QFileInfo::exists(path + "/raw.log")) return;  // no session
     }
@@ -146,6 +158,7 @@ void SessionsDialog::fill_one() {
                 QString::fromStdString(info.moved_by.name()), state, time, trials_in(path),
                 lifts_in(path), note_of(path), entry.fileName()});
     item->setToolTip(Column::note, item->text(Column::note));
+    item->setToolTip(Column::state, changed);
     item->setData(0, Qt::UserRole, path);
     for (const Column number : {Column::lasted, Column::trials, Column::lifts})
         item->setTextAlignment(number, Qt::AlignRight | Qt::AlignVCenter);
@@ -167,16 +180,14 @@ void SessionsDialog::write_note() {
     const QString session = item->data(0, Qt::UserRole).toString();
     const std::string file = (session + "/" + kNote).toStdString();
     try {
+        // before somebody writes it in vain, and before another's file is shown as a note
+        check_replaceable(file);
         // as it is now: somebody may have written it since the list was made
         const std::string before = is_there(file) ? read_text_file(file) : "";
-        QInputDialog ask(this);
-        ask.setWindowTitle(tr("Note"));
-        ask.setLabelText(tr("Note about %1").arg(item->text(Column::folder_name)));
-        ask.setOption(QInputDialog::UsePlainTextEditForTextInput);
-        ask.setTextValue(QString::fromStdString(before).trimmed());
-        for (auto* edit : ask.findChildren<QPlainTextEdit*>()) edit->setTabChangesFocus(true);
-        if (ask.exec() != QDialog::Accepted) return;
-        write_file(ask.textValue().trimmed().toStdString() + "\n", file);
+        const auto note = ask_for_note(item->text(Column::folder_name),
+                                       QString::fromStdString(before).trimmed(), this);
+        if (!note) return;
+        write_file(note->trimmed().toStdString() + "\n", file);
     } catch (const Error& e) {
         QMessageBox::warning(this, tr("Note"), QString::fromStdString(e.problems().front().text()));
     }

@@ -5,10 +5,10 @@
 #include <QCoreApplication>
 #include <QCryptographicHash>
 #include <QDir>
-#include <QFile>
 #include <QFileInfo>
 #include <QStandardPaths>
 
+#include "edited_file.h"
 #include "session/plan.h"
 
 namespace dihaptic::gui {
@@ -32,10 +32,9 @@ Shelf::~Shelf() {
 
 QString Shelf::picture_of(const QString& file) {
     QCryptographicHash hash(QCryptographicHash::Sha1);
-    QFile content(file);
     // an experiment's picture is its scene's too, which may change: the program's version tells
     // apart what it draws, and no more is needed of a small picture
-    if (content.open(QIODevice::ReadOnly)) hash.addData(content.readAll());
+    hash.addData(bytes_of(file).value_or(QByteArray()));
     hash.addData(QFileInfo(file).absoluteFilePath().toUtf8());
     hash.addData(QCoreApplication::applicationVersion().toUtf8());
     const QString folder =

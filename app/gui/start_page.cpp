@@ -9,6 +9,7 @@
 #include <QVBoxLayout>
 
 #include "base/installed.h"
+#include "edited_file.h"
 
 namespace dihaptic::gui {
 namespace {
@@ -30,11 +31,9 @@ QStringList files_in(const QString& folder) {
 
 /// What stands at the head of a file, up to its first empty comment or key.
 QString head_of(const QString& file) {
-    QFile in(file);
-    if (!in.open(QIODevice::ReadOnly)) return "";
     QStringList lines;
-    while (!in.atEnd()) {
-        const QString line = QString::fromUtf8(in.readLine()).trimmed();
+    for (const QByteArray& bytes : bytes_of(file).value_or(QByteArray()).split('\n')) {
+        const QString line = QString::fromUtf8(bytes).trimmed();
         if (!line.startsWith("# ")) break;
         lines += line.mid(2);
     }

@@ -1,11 +1,9 @@
 #include "word_finder.h"
 
-#include <QDir>
-#include <QFile>
-#include <QFileInfo>
 #include <QRegularExpression>
 #include <utility>
 
+#include "base/unsaved.h"
 #include "session/check.h"
 
 namespace dihaptic::gui {
@@ -97,15 +95,10 @@ class AroundFinder {
 };
 
 /// What the readers know where a text has kNoWord.
-std::vector<Choice> words_in(const QString& file, const QString& text) {
-    QFile out(file);
-    if (!out.open(QIODevice::WriteOnly)) return {};
-    out.write(text.toUtf8());
-    out.close();
+std::vector<Choice> words_in(const std::string& file, const QString& text) {
+    const Unsaved unsaved(file, text.toStdString());
     Diagnostics diagnostics;
-    // of half a text, on a full disk, there is nothing to tell
-    if (out.error() == QFileDevice::NoError) session::check_file(file.toStdString(), diagnostics);
-    QFile::remove(file);
+    session::check_file(file, diagnostics);
     for (const Problem& problem : diagnostics.problems()) {
         const auto names = [&](const char* quote) {
             return problem.what.find(quote + std::string(kNoWord) + quote) != std::string::npos;
@@ -143,16 +136,13 @@ WordFinder::~WordFinder() {
 }
 
 void WordFinder::find(const QString& file, const WordPlace& place) {
-    const QFileInfo info(file);
     const int number = ++asked_;
-    const QString beside =
-        info.dir().filePath(QString(".%1.words-%2.yaml").arg(info.completeBaseName()).arg(number));
-    pool_.start([this, number, beside, place] {
+    pool_.start([this, number, name = file.toStdString(), place] {
         WordPlace where = place;
-        std::vector<Choice> words = words_in(beside, place.asking);
+        std::vector<Choice> words = words_in(name, place.asking);
         for (const auto& [text, is_key] : place.otherwise) {
             if (!words.empty()) break;
-            words = words_in(beside, text);
+            words = words_in(name, text);
             where.is_key = is_key;
         }
         QMetaObject::invokeMethod(this, [this, number, where, words = std::move(words)] {

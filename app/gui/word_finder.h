@@ -36,8 +36,8 @@ class WordFinder : public QObject {
     using QObject::QObject;
     ~WordFinder() override;
 
-    /// Looks for words in a thread of its own; `file`: that the text is of, beside which it is
-    /// written for as long as that takes. Only what was asked last is answered.
+    /// Looks for words in a thread of its own; `file`: that the text is of. Only what was asked
+    /// last is answered.
     void find(const QString& file, const WordPlace& place);
     /// What was asked is not to be answered.
     void forget() { ++asked_; }

@@ -9,14 +9,8 @@ from window import SCENE, Window, patient
 
 
 class Compose(Window):
-    def type(self, text):
-        self.xdotool("type", "--delay", "30", "--", text)
-
     def text(self):
         return pathlib.Path(self.scene).read_text()
-
-    def drafts(self):
-        return glob.glob(self.folder.name + "/.*.draft.yaml")
 
     def test_shows_what_is_typed_and_leaves_the_file_until_it_is_saved(self):
         self.open()

@@ -57,12 +57,20 @@ class Window(unittest.TestCase):
         with os.fdopen(read) as pipe:
             number = pipe.readline().strip()
         self.environment = dict(os.environ, DISPLAY=":" + number, HOME=self.folder.name, XDG_RUNTIME_DIR=self.folder.name,
+                                XDG_STATE_HOME=self.folder.name + "/state",
                                 PATH=f"{self.folder.name}/bin:{os.environ['PATH']}")
         self.keep_browsers_away()
         self.scene = self.folder.name + "/block.yaml"
         pathlib.Path(self.scene).write_text(SCENE)
         self.out = self.folder.name + "/sessions"
         self.window = None
+
+    def allow(self, library):
+        """As a laboratory does whose experiments name its rig: from a file, no library is loaded that its user did not allow."""
+        list = pathlib.Path(self.folder.name, "config/dihaptic/libraries.yaml")
+        list.parent.mkdir(parents=True, exist_ok=True)
+        list.write_text(f"- {library}\n")
+        self.environment["XDG_CONFIG_HOME"] = self.folder.name + "/config"
 
     def keep_browsers_away(self):
         """A page that the window opens goes to a list. A browser would write into the test's home while it is deleted."""
@@ -91,6 +99,27 @@ class Window(unittest.TestCase):
         self.xdotool("windowmove", self.name, "0", "0", "windowsize", self.name, *self.size.split("x"),
                      "windowfocus", self.name, "mousemove", "450", "450")
         self.settle()
+
+    def type(self, text):
+        self.xdotool("type", "--delay", "30", "--", text)
+
+    def drafts(self):
+        """What is kept of texts that were not saved."""
+        return glob.glob(self.folder.name + "/state/dihaptic/drafts/*.draft")
+
+    def dialogs(self, title):
+        return self.xdotool("search", "--onlyvisible", "--name", title).split()
+
+    def answer(self, title, *keys):
+        """Waits for a dialog, and types. There is no window manager that would give it the keyboard, and take it back."""
+        dialog = self.wait(title, lambda: self.dialogs(title))[-1]
+        self.xdotool("windowfocus", dialog)
+        time.sleep(0.5)
+        self.screenshot("asks-" + title.strip("^$?").lower().replace(" ", "-"))
+        self.key(*keys)
+        self.wait("the dialog's end", lambda: not self.dialogs(title))
+        self.xdotool("windowfocus", self.name)
+        time.sleep(0.3)
 
     def xdotool(self, *words):
         return subprocess.run(["xdotool", *words], env=self.environment, capture_output=True, text=True,

@@ -1,0 +1,124 @@
+#include "draft.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <QCryptographicHash>
+#include <QFile>
+#include <QFileInfo>
+#include <cerrno>
+#include <cstring>
+
+#include "base/diagnostics.h"
+#include "base/output.h"
+#include "base/regular_file.h"
+#include "base/text_file.h"
+
+namespace dihaptic::gui {
+namespace {
+
+constexpr const char* kBelow = "dihaptic/drafts";
+
+QString state_folder() {
+    const QString given = qEnvironmentVariable("XDG_STATE_HOME");
+    // as the specification has it, a relative one counts for nothing
+    return given.startsWith('/') ? given : qEnvironmentVariable("HOME") + "/.local/state";
+}
+
+QByteArray lock_of(const QString& path) {
+    return QFile::encodeName(path + ".lock");
+}
+
+}  // namespace
+
+Draft::Draft(const QString& file)
+    : file_(file),
+      path_(state_folder() + "/" + kBelow + "/" +
+            QString::fromLatin1(
+                QCryptographicHash::hash(file.toUtf8(), QCryptographicHash::Sha256).toHex()) +
+            ".draft") {}
+
+Draft::~Draft() {
+    if (lock_ < 0) return;
+    ::unlink(lock_of(path_).constData());
+    ::close(lock_);
+}
+
+/// The first line says whose draft it is, to people too.
+QString Draft::head() const {
+    return QString("Dihaptic's draft of %1\n").arg(QString(file_).replace('\n', ' '));
+}
+
+bool Draft::take() {
+    if (lock_ >= 0) return true;
+    make_folders(state_folder().toStdString(), kBelow);
+    for (int tries = 0; tries < 100; ++tries) {
+        if (try_lock()) return true;
+        if (errno == EWOULDBLOCK) return false;
+        if (errno != ENOENT) break;
+    }
+    throw Error({lock_of(path_).toStdString(), 0}, "",
+                fmt::format("cannot be made: {}", std::strerror(errno)),
+                "Look at the folder's permissions.");
+}
+
+/// Sets errno; ENOENT: the window before removed it meanwhile.
+bool Draft::try_lock() {
+    const QByteArray name = lock_of(path_);
+    const int lock = ::open(name.constData(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
+    if (lock < 0) return false;
+    struct stat locked {
+    }, named{};
+    if (::flock(lock, LOCK_EX | LOCK_NB) != 0) {
+        const int why = errno;
+        ::close(lock);
+        errno = why;
+        return false;
+    }
+    if (::fstat(lock, &locked) == 0 && ::lstat(name.constData(), &named) == 0 &&
+        locked.st_ino == named.st_ino) {
+        lock_ = lock;
+        return true;
+    }
+    ::close(lock);
+    errno = ENOENT;
+    return false;
+}
+
+std::optional<Draft::Left> Draft::left() const {
+    const QFileInfo info(path_);
+    if (info.isSymLink() || !info.isFile()) return {};
+    try {
+        const QString all = QString::fromStdString(read_text_file(path_.toStdString()));
+        if (!all.startsWith(head())) return {};
+        return Left{all.mid(head().size()), info.lastModified()};
+    } catch (const Error&) {
+        return {};  // it was no window that left this
+    }
+}
+
+void Draft::write(const QString& text) const {
+    // nobody else is to read what is in work
+    Output out(path_.toStdString());
+    const QString part = QString::fromStdString(out.path());
+    QFile file(part);
+    const QByteArray content = (head() + text).toUtf8();
+    const bool written = file.open(QIODevice::WriteOnly | QIODevice::NewOnly) &&
+                         file.setPermissions(QFile::ReadOwner | QFile::WriteOwner) &&
+                         file.write(content) == content.size() && file.flush();
+    if (!written)
+        throw Error({path_.toStdString(), 0}, "",
+                    "cannot be written: " + file.errorString().toStdString(),
+                    "Check the folder's permissions and the disk's space.");
+    file.close();
+    out.keep();
+}
+
+void Draft::remove() const {
+    QFile::remove(path_);
+}
+
+}  // namespace dihaptic::gui

@@ -1,0 +1,24 @@
+// A window that another program destroys in the X server (xdotool windowclose, a window manager's
+// kill): Qt goes on as if it were there, though nobody can see it, answer it or close it.
+#pragma once
+
+#include <QAbstractNativeEventFilter>
+#include <QObject>
+#include <QWidget>
+
+namespace dihaptic::gui {
+
+class LostWindows : public QObject, public QAbstractNativeEventFilter {
+    Q_OBJECT
+
+  public:
+    /// From now on the program's windows are watched, as long as this lives.
+    LostWindows();
+    bool nativeEventFilter(const QByteArray& kind, void* message, qintptr* result) override;
+
+  Q_SIGNALS:
+    /// Queued behind the events that came before.
+    void lost(QWidget* window);
+};
+
+}  // namespace dihaptic::gui
