@@ -8,11 +8,14 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
+#include <string_view>
 
+#include "base/output.h"
 #include "base/regular_file.h"
+#include "base/shell_word.h"
 #include "base/text_file.h"
 #include "common/console.h"
-#include "shell_word.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -40,10 +43,25 @@ std::string task_line(const Asked& asked) {
                        asked.shards);
 }
 
-/// Whether the folder has a script for these shards, perhaps with lines that somebody added.
+constexpr std::string_view kShell = "#!/bin/sh\n";
+
+/// What a script does: all of its lines but those of comments, among which Slurm's #SBATCH are.
+std::string commands_of(const std::string& script) {
+    std::string out;
+    std::istringstream lines(script);
+    for (std::string line; std::getline(lines, line);) {
+        const bool first = out.empty() && line.starts_with("#!");
+        if (first || (!line.empty() && !line.starts_with('#'))) out += line + "\n";
+    }
+    return out;
+}
+
+/// Whether the folder has a script for these shards, perhaps with lines #SBATCH that somebody
+/// added. One that does anything else is nobody's to submit unread: the folder may be a stranger's.
 bool has_script(const std::string& folder, const Asked& asked) {
     const std::string script = slurm_script(folder);
-    return is_there(script) && read_text_file(script).find(task_line(asked)) != std::string::npos;
+    return is_there(script) &&
+           commands_of(read_text_file(script)) == std::string(kShell) + task_line(asked);
 }
 
 std::string by_sbatch(const std::string& folder, const Asked& asked,
@@ -69,11 +87,11 @@ std::string slurm_script(const std::string& folder) {
 
 void write_slurm_script(const std::string& folder, const Asked& asked) {
     const fs::path whole = fs::absolute(folder).lexically_normal();
-    fs::create_directories(whole / "slurm");  // Slurm makes no folder for its logs
+    make_folders(folder, "slurm");  // Slurm makes no folder for its logs
     if (has_script(folder, asked)) return;
     write_file(
         fmt::format(
-            "#!/bin/sh\n"
+            "{3}"
             "# A rehearsal in {0} shards, each a task of a Slurm array. All of them:\n"
             "#   sbatch slurm.sh\n"
             "# The third alone:\n"
@@ -86,7 +104,7 @@ void write_slurm_script(const std::string& folder, const Asked& asked) {
             "#SBATCH --cpus-per-task=1\n"
             "#SBATCH --output=\"{1}/slurm/%a.log\"\n"
             "{2}",
-            asked.shards, sbatch_name(whole.string()), task_line(asked)),
+            asked.shards, sbatch_name(whole.string()), task_line(asked), kShell),
         slurm_script(folder));
 }
 

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <sstream>
 
+#include "base/shell_word.h"
+
 namespace dihaptic::app {
 namespace {
 
@@ -38,7 +40,10 @@ bool shell_finds_program(const std::string& paths) {
 }
 
 std::string path_command() {
-    return fmt::format("export PATH=\"{}:$PATH\"", program_folder().string());
+    const std::string folder = program_folder().string();
+    const std::string word = shell_word(folder);
+    if (word != folder) return fmt::format("export PATH={}:\"$PATH\"", word);
+    return fmt::format("export PATH=\"{}:$PATH\"", folder);
 }
 
 }  // namespace dihaptic::app

@@ -10,7 +10,8 @@ namespace dihaptic {
 struct Image {
     int width = 0;
     int height = 0;
-    std::vector<uint8_t> rgb;  ///< sRGB, three bytes per pixel, rows from top to bottom
+    std::vector<uint8_t> rgb;   ///< sRGB, three bytes per pixel, rows from top to bottom
+    std::string checksum = {};  ///< of the file that it was read from (base/checksum.h)
 
     const uint8_t* at(int x, int y) const {
         return &rgb[3 *

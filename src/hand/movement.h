@@ -22,6 +22,7 @@ constexpr auto enum_names(RecordingAxes) {
 
 struct Movement {
     std::string file;
+    std::string checksum;  ///< of its text, as it was read (base/checksum.h)
     std::vector<std::string> fingers;
     /// Column names as in the file, for messages; those of positions by finger and world axis.
     std::string time_column;

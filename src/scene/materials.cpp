@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "base/checksum.h"
 #include "base/diagnostics.h"
 #include "base/regular_file.h"
 
@@ -58,11 +59,13 @@ std::string materials_beside(const std::string& file) {
     return fs::path(file).replace_extension(".mtl").string();
 }
 
-std::map<std::string, int32_t> read_materials(const std::string& file) {
-    std::map<std::string, int32_t> out;
+Materials read_materials(const std::string& file) {
+    Materials out;
     std::istringstream in;
     try {
-        in.str(read_bytes(file, kLargestMaterials));
+        const std::string bytes = read_bytes(file, kLargestMaterials);
+        out.checksum = checksum_of(bytes);
+        in.str(bytes);
     } catch (const Error&) {
         return out;
     }
@@ -72,7 +75,7 @@ std::map<std::string, int32_t> read_materials(const std::string& file) {
         if (line.starts_with("newmtl ")) material = trimmed(line.substr(7));
         std::array<double, 3> share{};
         std::istringstream words(line.starts_with("Kd ") ? line.substr(3) : "");
-        if (words >> share[0] >> share[1] >> share[2]) out[material] = rgb_of(share);
+        if (words >> share[0] >> share[1] >> share[2]) out.colours[material] = rgb_of(share);
     }
     return out;
 }

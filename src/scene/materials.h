@@ -16,8 +16,12 @@ std::string materials_of(const std::string& file, std::string_view text);
 /// The name that a copy of an MTL file has beside the copy of its mesh.
 std::string materials_beside(const std::string& file);
 
-/// Diffuse colours (Kd) by the names of materials, as in scene/colour.h; empty when the file cannot
-/// be read.
-std::map<std::string, int32_t> read_materials(const std::string& file);
+struct Materials {
+    std::map<std::string, int32_t> colours;  ///< diffuse (Kd), by name, as in scene/colour.h
+    std::string checksum;                    ///< of the file, as it was read (base/checksum.h)
+};
+
+/// Returns none, and no checksum, when the file cannot be read.
+Materials read_materials(const std::string& file);
 
 }  // namespace dihaptic::scene

@@ -10,6 +10,7 @@
 #include <optional>
 #include <sstream>
 
+#include "base/checksum.h"
 #include "base/companion.h"
 #include "base/regular_file.h"
 #include "scene/materials.h"
@@ -154,8 +155,10 @@ std::optional<MeshParts> mesh_of(const std::string& bytes, double unit) {
 /// none.
 void add_materials(MeshParts& read) {
     Mesh& mesh = read.mesh;
-    std::map<std::string, int32_t> materials;
-    if (!mesh.materials.empty()) materials = read_materials(mesh.materials);
+    const Materials read_ones =
+        mesh.materials.empty() ? Materials{} : read_materials(mesh.materials);
+    const auto& materials = read_ones.colours;
+    mesh.materials_checksum = read_ones.checksum;
     auto vertex = mesh.colours.begin();
     for (const MeshPart& part : read.parts) {
         const auto material = materials.find(part.material);
@@ -203,6 +206,7 @@ Mesh read_mesh(const std::string& file, double unit, const Place& asked_at,
         throw refused(missing, kRemedy);
     if (!read) throw refused("cannot be read as a mesh", kRemedy);
     Mesh& mesh = read->mesh;
+    mesh.checksum = checksum_of(bytes);
     for (const Vec3& v : mesh.vertices) {
         if (!v.allFinite()) throw refused("has a vertex that is no number", "Export it again.");
     }

@@ -21,6 +21,8 @@ struct Mesh {
     /// OBJ: the file that its colours are from or, if it has none, that it names for them; "":
     /// none.
     std::string materials;
+    std::string checksum;            ///< of the file, as it was read (base/checksum.h)
+    std::string materials_checksum;  ///< of the file of its colours; empty if it was not read
 };
 
 /// Reads a mesh from an OBJ, STL, PLY or OFF file whose coordinates are in units of `unit` metres,

@@ -31,8 +31,8 @@ size_t wrapped(int i, int count) {
 
 }  // namespace
 
-ReliefPicture::ReliefPicture(int width, int height, std::vector<float> grey)
-    : width_(width), height_(height), grey_(std::move(grey)) {
+ReliefPicture::ReliefPicture(int width, int height, std::vector<float> grey, std::string checksum)
+    : width_(width), height_(height), grey_(std::move(grey)), checksum_(std::move(checksum)) {
     constexpr int kTried = 4;
     for (int j = 0; j < kTried * height; ++j) {
         for (int i = 0; i < kTried * width; ++i) {
@@ -71,7 +71,7 @@ ReliefPicture read_relief(const std::string& file, const Place& place) {
     for (size_t i = 0; i + 2 < image.rgb.size(); i += 3)
         grey.push_back(static_cast<float>(image.rgb[i] + image.rgb[i + 1] + image.rgb[i + 2]) /
                        (3 * 255));
-    return {image.width, image.height, std::move(grey)};
+    return {image.width, image.height, std::move(grey), image.checksum};
 }
 
 }  // namespace dihaptic::scene

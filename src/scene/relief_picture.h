@@ -25,10 +25,12 @@ class ReliefPicture {
     };
 
     /// Rows from top to bottom. Needs width x height values, and both edges within the limits.
-    ReliefPicture(int width, int height, std::vector<float> grey);
+    ReliefPicture(int width, int height, std::vector<float> grey, std::string checksum = "");
 
     int width() const noexcept { return width_; }
     int height() const noexcept { return height_; }
+    /// Of the file that it was read from, as it was then (base/checksum.h).
+    const std::string& checksum() const noexcept { return checksum_; }
     /// At so many pixels to the right of the picture's middle, and above it.
     Value at(double x, double y) const noexcept;
     /// The most that it rises over a pixel in any direction, where it was tried: four times a
@@ -39,6 +41,7 @@ class ReliefPicture {
     int width_;
     int height_;
     std::vector<float> grey_;
+    std::string checksum_;
     double steepest_ = 0;
 };
 

@@ -45,6 +45,7 @@ struct Shape {
     double radius = 0;         ///< sphere, capsule, cylinder [m]
     double length = 0;         ///< cylinder: height; capsule: between the centres of its caps [m]
     std::string file;          ///< mesh: OBJ, STL, PLY or OFF, relative to the scene file
+    std::string checksum;      ///< mesh: of its file, as it was read (base/checksum.h)
     MeshUnit unit = MeshUnit::m;
     bool concave = false;     ///< mesh: felt as it is, not as its convex hull
     std::vector<Part> parts;  ///< compound: at least one; none may be a plane or a compound

@@ -6,117 +6,17 @@
 #include <functional>
 #include <map>
 
+#include "base/checksum.h"
 #include "base/field_table.h"
+#include "base/installed.h"
 #include "base/text_file.h"
 #include "scene/materials.h"
+#include "scene/relief_picture.h"
 
 namespace dihaptic::session {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Copies a file to the session's folder, and returns the name that it has there.
-std::string copied(const fs::path& file, const std::string& kind, size_t number,
-                   const recording::SessionFolder& folder) {
-    std::string name = fmt::format("{}-{}-{}", kind, number, file.filename().string());
-    fs::copy_file(file, folder.file(name));
-    return name;
-}
-
-/// Copies the materials whose colours a mesh has beside the copy of the mesh, which is of that
-/// name.
-void freeze_materials(const scene::Mesh* mesh, const std::string& copy,
-                      const recording::SessionFolder& folder, std::vector<std::string>& names) {
-    if (mesh == nullptr || mesh->colours.empty() || mesh->materials.empty()) return;
-    names.push_back(scene::materials_beside(copy));
-    fs::copy_file(mesh->materials, folder.file(names.back()));
-}
-
-/// Copies the scene's meshes to the session's folder, and makes the scene name the copies.
-std::vector<std::string> freeze_meshes(scene::Scene& scene, const std::string& from,
-                                       const recording::SessionFolder& folder) {
-    std::vector<std::string> names;
-    size_t count = 0;
-    const std::function<void(scene::Shape&)> freeze = [&](scene::Shape& shape) {
-        for (scene::Part& part : shape.parts) freeze(part.shape);
-        if (shape.kind != scene::ShapeKind::mesh) return;
-        shape.file = copied(fs::path(from) / shape.file, "mesh", ++count, folder);
-        names.push_back(shape.file);
-        freeze_materials(shape.coloured.get(), shape.file, folder, names);
-        if (!shape.concave) return;
-        // a replay uses these pieces, even if another version would cut the mesh differently
-        names.push_back(scene::pieces_file(shape.file));
-        scene::write_pieces(shape.pieces, folder.file(names.back()));
-    };
-    for (scene::Body& body : scene.bodies) freeze(body.shape);
-    for (scene::Finger& finger : scene.fingers) freeze(finger.shape);
-    return names;
-}
-
-/// Copies the pictures that textures are, and makes the scene name the copies.
-std::vector<std::string> freeze_textures(scene::Scene& scene, const std::string& from,
-                                         const recording::SessionFolder& folder) {
-    std::vector<std::string> names;
-    for (scene::Body& body : scene.bodies) {
-        if (!body.surface.texture || body.surface.texture->file.empty()) continue;
-        std::string& file = body.surface.texture->file;
-        file = copied(fs::path(from) / file, "texture", names.size() + 1, folder);
-        names.push_back(file);
-    }
-    return names;
-}
-
-/// Copies the pictures and meshes that bodies are drawn with, and makes the scene name the copies.
-/// A picture is copied once, whatever wears it.
-std::vector<std::string> freeze_looks(scene::Scene& scene, const std::string& from,
-                                      const recording::SessionFolder& folder) {
-    std::vector<std::string> names;
-    std::map<std::string, std::string> pictures;
-    size_t meshes = 0;
-    for (scene::Body& body : scene.bodies) {
-        if (body.picture) {
-            std::string& copy = pictures[body.picture->file];
-            if (copy.empty()) {
-                copy =
-                    copied(fs::path(from) / body.picture->file, "picture", pictures.size(), folder);
-                names.push_back(copy);
-            }
-            body.picture->file = copy;
-        }
-        if (body.seen) {
-            std::string& file = body.seen->file;
-            file = copied(fs::path(from) / file, "seen", ++meshes, folder);
-            names.push_back(file);
-            freeze_materials(body.seen->mesh.get(), file, folder, names);
-        }
-    }
-    return names;
-}
-
-/// Copies the pictures of the task's pages to the session's folder, and makes the task name the
-/// copies.
-std::vector<std::string> freeze_pictures(task::Task& task, const recording::SessionFolder& folder) {
-    std::vector<std::string> names;
-    for (task::Block& block : task.blocks) {
-        for (task::PageSpec& page : block.pages) {
-            if (page.picture.empty()) continue;
-            page.picture = copied(page.picture, "page", names.size() + 1, folder);
-            names.push_back(page.picture);
-        }
-    }
-    return names;
-}
-
-/// Copies the task's sound files to the session's folder, and makes the task name the copies.
-std::vector<std::string> freeze_sounds(task::Task& task, const recording::SessionFolder& folder) {
-    std::vector<std::string> names;
-    for (task::SoundSpec& sound : task.sounds) {
-        if (sound.file.empty()) continue;
-        sound.file = copied(sound.file, "sound", names.size() + 1, folder);
-        names.push_back(sound.file);
-    }
-    return names;
-}
 
 Table fault_table(const MovementReport& movement) {
     Table faults;
@@ -136,62 +36,188 @@ Table fault_table(const MovementReport& movement) {
     return faults;
 }
 
+/// Freezes one plan's inputs, in the order in which they are to be listed.
+class Freezer {
+  public:
+    Freezer(const Plan& plan, const recording::SessionFolder& folder)
+        : plan_(plan), folder_(folder), scene_(plan.scene) {}
+
+    std::vector<recording::InputFile> run() {
+        scene_.settings = {};  // settings.yaml has the resolved settings
+        scene_.hand = write_fields(plan_.hand);
+        freeze_meshes();
+        freeze_textures();
+        freeze_looks();
+        write_file(to_yaml(write_fields(scene_)), folder_.file("scene.yaml"));
+        freeze_rig();
+        write_file(to_yaml(write_fields(plan_.settings)), folder_.file("settings.yaml"));
+        write_csv(list_fields(plan_.settings, plan_.origins), folder_.file("settings.csv"));
+        for (const char* name : {"scene.yaml", "rig.yaml", "settings.yaml"}) list(name);
+        freeze_movement();
+        freeze_task();
+        if (!plan_.person.empty()) {
+            write_file(plan_.person, folder_.file("person.yaml"));
+            list("person.yaml");
+        }
+        if (!plan_.resumes.empty())
+            copy(plan_.resumes + "/trials.csv", "trials-before.csv", plan_.done_checksum);
+        return std::move(inputs_);
+    }
+
+  private:
+    void list(const std::string& name) { inputs_.push_back(folder_.input(name)); }
+
+    /// Copies a file that was read for the plan to the session's folder. Throws Error when it is
+    /// not the same any more: the session would not be run by what is in its folder. `read`: the
+    /// checksum of what was read.
+    void copy(const fs::path& file, const std::string& name, const std::string& read) const {
+        copy_file(file, name);
+        check_same(file, folder_.input(name).checksum, read);
+    }
+    void copy_file(const fs::path& file, const std::string& name) const {
+        std::error_code failed;
+        fs::copy_file(file, folder_.file(name), failed);
+        if (failed) {
+            throw Error({file.string(), 0}, "",
+                        "cannot be copied to the session's folder: " + failed.message(),
+                        "Check that it is still there, and the space on the disk of " +
+                            folder_.path() + ".");
+        }
+    }
+    static void check_same(const fs::path& file, const std::string& copied,
+                           const std::string& read) {
+        if (copied == read) return;
+        throw Error({file.string(), 0}, "", "was changed while it was read for this session",
+                    "Start again once nothing writes it any more.");
+    }
+
+    /// Copies and lists a file. Returns the name that it has in the session's folder.
+    std::string freeze(const fs::path& file, const std::string& kind, size_t number,
+                       const std::string& read) {
+        std::string name = fmt::format("{}-{}-{}", kind, number, file.filename().string());
+        copy(file, name, read);
+        list(name);
+        return name;
+    }
+
+    /// Freezes the materials whose colours a mesh has beside the copy of the mesh, which is of that
+    /// name.
+    void freeze_materials(const scene::Mesh* mesh, const std::string& name) {
+        if (mesh == nullptr || mesh->colours.empty() || mesh->materials.empty()) return;
+        const std::string beside = scene::materials_beside(name);
+        copy(mesh->materials, beside, mesh->materials_checksum);
+        list(beside);
+    }
+
+    /// Each of these makes the scene, or the task, name the copies.
+    void freeze_meshes() {
+        size_t count = 0;
+        const std::function<void(scene::Shape&)> freeze_one = [&](scene::Shape& shape) {
+            for (scene::Part& part : shape.parts) freeze_one(part.shape);
+            if (shape.kind != scene::ShapeKind::mesh) return;
+            shape.file = freeze(of_scene(shape.file), "mesh", ++count, shape.checksum);
+            freeze_materials(shape.coloured.get(), shape.file);
+            if (!shape.concave) return;
+            // a replay uses these pieces, even if another version would cut the mesh differently
+            const std::string pieces = scene::pieces_file(shape.file);
+            scene::write_pieces(shape.pieces, folder_.file(pieces));
+            list(pieces);
+        };
+        for (scene::Body& body : scene_.bodies) freeze_one(body.shape);
+        for (scene::Finger& finger : scene_.fingers) freeze_one(finger.shape);
+    }
+    void freeze_textures() {
+        size_t count = 0;
+        for (scene::Body& body : scene_.bodies) {
+            if (!body.surface.texture || body.surface.texture->file.empty()) continue;
+            scene::Texture& texture = *body.surface.texture;
+            texture.file =
+                freeze(of_scene(texture.file), "texture", ++count, texture.picture->checksum());
+        }
+    }
+    /// A picture is copied once, whatever wears it.
+    void freeze_looks() {
+        std::map<std::string, std::string> pictures;
+        size_t meshes = 0;
+        for (scene::Body& body : scene_.bodies) {
+            if (body.picture) {
+                std::string& name = pictures[body.picture->file];
+                if (name.empty())
+                    name = freeze(of_scene(body.picture->file), "picture", pictures.size(),
+                                  body.picture->image->checksum);
+                body.picture->file = name;
+            }
+            if (body.seen) {
+                scene::SeenMesh& seen = *body.seen;
+                seen.file = freeze(of_scene(seen.file), "seen", ++meshes, seen.mesh->checksum);
+                freeze_materials(seen.mesh.get(), seen.file);
+            }
+        }
+    }
+    fs::path of_scene(const std::string& file) const { return named_in(plan_.scene_folder, file); }
+
+    void freeze_rig() {
+        rig::Rig rig = plan_.rig;
+        if (rig.calibrated) {
+            rig.calibration = "calibration.yaml";
+            write_file(to_yaml(write_fields(*rig.calibrated)), folder_.file(rig.calibration));
+            list(rig.calibration);
+        }
+        for (rig::Display& display : rig.displays) {
+            if (!display.registered) continue;
+            display.registration = fmt::format("registration-{}.yaml", inputs_.size());
+            write_file(to_yaml(write_fields(*display.registered)),
+                       folder_.file(display.registration));
+            list(display.registration);
+        }
+        write_file(to_yaml(write_fields(rig)), folder_.file("rig.yaml"));
+    }
+
+    void freeze_movement() {
+        if (!plan_.movement) return;
+        const MovementReport& movement = *plan_.movement;
+        copy_file(movement.file, "movement.csv");
+        // read_text_file() leaves a byte order mark out
+        check_same(movement.file, checksum_of(read_text_file(folder_.file("movement.csv"))),
+                   movement.checksum);
+        list("movement.csv");
+        write_csv(fault_table(movement), folder_.file("movement-faults.csv"));
+    }
+
+    void freeze_task() {
+        if (!plan_.task) return;
+        task::Task task = plan_.task->task;
+        size_t pictures = 0;
+        for (task::Block& block : task.blocks) {
+            for (task::PageSpec& page : block.pages) {
+                if (page.picture.empty()) continue;
+                page.picture = freeze(page.picture, "page", ++pictures, page.checksum);
+            }
+        }
+        size_t sounds = 0;
+        for (task::SoundSpec& sound : task.sounds) {
+            if (sound.file.empty()) continue;
+            sound.file = freeze(sound.file, "sound", ++sounds, sound.checksum);
+        }
+        write_file(to_yaml(write_fields(task)), folder_.file("task.yaml"));
+        write_csv(task::frozen_list(*plan_.task, plan_.scene), folder_.file("trial-list.csv"));
+        list("task.yaml");
+        list("trial-list.csv");
+        if (!plan_.task->task.procedures.empty())
+            write_csv(task::procedure_table(*plan_.task), folder_.file("procedures.csv"));
+    }
+
+    const Plan& plan_;
+    const recording::SessionFolder& folder_;
+    scene::Scene scene_;
+    std::vector<recording::InputFile> inputs_;
+};
+
 }  // namespace
 
 std::vector<recording::InputFile> freeze_inputs(const Plan& plan,
                                                 const recording::SessionFolder& folder) {
-    scene::Scene scene = plan.scene;
-    scene.settings = {};  // settings.yaml has the resolved settings
-    scene.hand = write_fields(plan.hand);
-    std::vector<std::string> names = freeze_meshes(scene, plan.scene_folder, folder);
-    const std::vector<std::string> textures = freeze_textures(scene, plan.scene_folder, folder);
-    names.insert(names.end(), textures.begin(), textures.end());
-    const std::vector<std::string> looks = freeze_looks(scene, plan.scene_folder, folder);
-    names.insert(names.end(), looks.begin(), looks.end());
-    write_file(to_yaml(write_fields(scene)), folder.file("scene.yaml"));
-    rig::Rig rig = plan.rig;
-    if (rig.calibrated) {
-        rig.calibration = "calibration.yaml";
-        write_file(to_yaml(write_fields(*rig.calibrated)), folder.file(rig.calibration));
-        names.push_back(rig.calibration);
-    }
-    for (rig::Display& display : rig.displays) {
-        if (!display.registered) continue;
-        display.registration = fmt::format("registration-{}.yaml", names.size());
-        write_file(to_yaml(write_fields(*display.registered)), folder.file(display.registration));
-        names.push_back(display.registration);
-    }
-    write_file(to_yaml(write_fields(rig)), folder.file("rig.yaml"));
-    write_file(to_yaml(write_fields(plan.settings)), folder.file("settings.yaml"));
-    write_csv(list_fields(plan.settings, plan.origins), folder.file("settings.csv"));
-    for (const char* name : {"scene.yaml", "rig.yaml", "settings.yaml"}) names.emplace_back(name);
-    if (plan.movement) {
-        fs::copy_file(plan.movement->file, folder.file("movement.csv"));
-        names.emplace_back("movement.csv");
-        write_csv(fault_table(*plan.movement), folder.file("movement-faults.csv"));
-    }
-    if (plan.task) {
-        task::Task task = plan.task->task;
-        const std::vector<std::string> pictures = freeze_pictures(task, folder);
-        names.insert(names.end(), pictures.begin(), pictures.end());
-        const std::vector<std::string> sounds = freeze_sounds(task, folder);
-        names.insert(names.end(), sounds.begin(), sounds.end());
-        write_file(to_yaml(write_fields(task)), folder.file("task.yaml"));
-        write_csv(task::frozen_list(*plan.task, plan.scene), folder.file("trial-list.csv"));
-        names.insert(names.end(), {"task.yaml", "trial-list.csv"});
-        if (!plan.task->task.procedures.empty())
-            write_csv(task::procedure_table(*plan.task), folder.file("procedures.csv"));
-    }
-    if (!plan.person.empty()) {
-        write_file(plan.person, folder.file("person.yaml"));
-        names.emplace_back("person.yaml");
-    }
-    if (!plan.resumes.empty())
-        fs::copy_file(plan.resumes + "/trials.csv", folder.file("trials-before.csv"));
-    std::vector<recording::InputFile> inputs;
-    inputs.reserve(names.size());
-    for (const std::string& name : names) inputs.push_back(folder.input(name));
-    return inputs;
+    return Freezer(plan, folder).run();
 }
 
 }  // namespace dihaptic::session

@@ -10,7 +10,8 @@
 namespace dihaptic::session {
 
 /// Writes the plan's scene with its meshes and pictures, its rig, settings, movement, task and
-/// person to the session's folder. Returns the files written.
+/// person to the session's folder. Returns the files written. Throws Error when one of them cannot
+/// be, or when a file that the plan was made from was changed since it was read.
 std::vector<recording::InputFile> freeze_inputs(const Plan& plan,
                                                 const recording::SessionFolder& folder);
 

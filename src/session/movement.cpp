@@ -160,9 +160,9 @@ std::shared_ptr<const hand::Driver> place_movement(const task::MovementSpec& spe
     for (scene::Finger& finger : scene.fingers) finger.rotation.z() += yaw;
     const Vec3 block_centre = site->centre + R_WB * Vec3((faces.second - faces.first) / 2, 0, 0);
 
-    report = MovementReport{
-        file,  path.faults,          path.fingers, path.duration(), path.bridged_share(),
-        *site, block->shape.size.x()};
+    report = MovementReport{file,         movement.checksum,    path.faults,
+                            path.fingers, path.duration(),      path.bridged_share(),
+                            *site,        block->shape.size.x()};
     warn_of_faults(path, file, diagnostics);
     return std::make_shared<hand::RecordedDriver>(path, *site, Vec3(block->position - block_centre),
                                                   scene::finger_names(scene));

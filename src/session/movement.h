@@ -14,6 +14,7 @@ namespace dihaptic::session {
 /// What place_movement() found in a recorded movement.
 struct MovementReport {
     std::string file;
+    std::string checksum;  ///< of its text, as it was read (base/checksum.h)
     std::vector<hand::Fault> faults;
     std::vector<std::string> fingers;
     double duration = 0;  ///< [s]

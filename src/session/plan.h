@@ -57,6 +57,7 @@ struct Plan {
     bool resumable = true;            ///< its driver can be made anew from its files
     std::vector<task::Attempt> done;  ///< attempts made by an earlier part of the session
     std::string resumes;              ///< folder of that earlier part; empty if there is none
+    std::string done_checksum;        ///< of its trials.csv, as it was read (base/checksum.h)
     std::vector<Problem> warnings;
     uint64_t seed = 1;
 
@@ -95,8 +96,10 @@ bool trials_left(const std::string& session);
 /// the plan is checked against that: settings given as shares of what they render are resolved, and
 /// warnings added. `keeper`: the program that owns real devices (keeper::program()) and takes force
 /// away when this process dies; "": this process owns them. The plan's driver must outlive them.
-/// Throws Error.
-std::unique_ptr<devices::DeviceGroup> open_devices(Plan& plan, const std::string& keeper = "");
+/// `given_up`: whether to wait no longer for a keeper that does not answer; may be empty. Throws
+/// Error.
+std::unique_ptr<devices::DeviceGroup> open_devices(Plan& plan, const std::string& keeper = "",
+                                                   const std::function<bool()>& given_up = {});
 
 /// Makes a servo on the plan's open devices; null: opens them, for this process to own.
 std::unique_ptr<servo::Servo> make_servo(const Plan& plan,

@@ -10,9 +10,13 @@
 
 #include "base/field_writer.h"
 #include "base/plural.h"
+#include "base/shell_word.h"
+#include "base/text.h"
+#include "base/text_file.h"
 #include "session/decider.h"
 #include "session/frozen_inputs.h"
 #include "session/pacing.h"
+#include "session/resume.h"
 #include "session/session_director.h"
 #include "sound/player.h"
 #include "task/levels.h"
@@ -42,9 +46,32 @@ std::vector<recording::PhaseInfo> phases_of(const hand::Driver& driver) {
 std::vector<recording::DeviceRecord> records_of(const servo::Servo& servo,
                                                 const scene::Scene& scene) {
     std::vector<recording::DeviceRecord> out;
-    for (const scene::Finger& finger : scene.fingers)
+    for (const scene::Finger& finger : scene.fingers) {
         out.push_back({servo.devices().descriptions()[out.size()], finger.name});
+        // whatever bytes a device has for a name
+        out.back().model = mended(out.back().model, Lines::one);
+        out.back().serial = mended(out.back().serial, Lines::one);
+    }
     return out;
+}
+
+/// Throws Error when what the session is to be recorded with could not be read from there again.
+void check_words(const Plan& plan, const RunOptions& options) {
+    const std::string& id = options.participant.id;
+    check_text(id, "participant");
+    if (!id.empty() && std::string_view("=+-@").find(id.front()) != std::string_view::npos) {
+        throw Error({"participant", 0}, shortened(id),
+                    "begins with what a spreadsheet would take for a formula, once a table is "
+                    "opened in it",
+                    "Begin with a letter or a digit, e.g. S07.");
+    }
+    check_text(options.participant.age, "age");
+    check_text(options.participant.sex, "sex");
+    check_text(options.participant.handedness, "handedness");
+    check_text(options.out, "folder for sessions");
+    check_text(options.command, "command", Lines::several);
+    check_text(plan.file, "experiment file");
+    check_text(plan.title, "title", Lines::several);
 }
 
 recording::LogHead log_head(const scene::Scene& scene, const servo::Settings& settings,
@@ -127,6 +154,7 @@ class Run {
           progress_(progress),
           real_(options.clock == Clock::real),
           name_(fs::path(plan.file).stem().string()),
+          earlier_(claim_earlier(plan, options)),
           folder_(recording::SessionFolder::create(
               options.out,
               options.participant.id.empty() ? name_ : name_ + "_" + options.participant.id)),
@@ -136,6 +164,12 @@ class Run {
     RunResult run();
 
   private:
+    static std::optional<recording::SessionLock> claim_earlier(const Plan& plan,
+                                                               const RunOptions& options) {
+        if (plan.resumes.empty()) return std::nullopt;
+        return claim(plan.resumes, options.out);
+    }
+    void prepare();
     void describe();
     void describe_task();
     void open_record();
@@ -162,6 +196,7 @@ class Run {
     const Progress& progress_;
     const bool real_;
     const std::string name_;
+    std::optional<recording::SessionLock> earlier_;  // on the session that this one resumes
     const recording::SessionFolder folder_;
     Live* const live_;
 
@@ -180,9 +215,7 @@ class Run {
 
 RunResult Run::run() {
     result_.folder = folder_.path();
-    describe();
-    open_record();
-    begin();
+    prepare();
     open_sounds();
     let_others_watch();
     make_director();
@@ -193,7 +226,22 @@ RunResult Run::run() {
     close_record();
     note_how_it_ended();
     conclude();
+    result_.earlier = std::move(earlier_);
     return std::move(result_);
+}
+
+/// Makes the folder's first files, and opens what the session needs. If anything refuses, a device,
+/// the disk, or an input that was changed meanwhile, the folder is removed: nothing happened yet.
+void Run::prepare() {
+    try {
+        describe();
+        open_record();
+        begin();
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove_all(folder_.path(), ignored);
+        throw;
+    }
 }
 
 void Run::describe() {
@@ -257,23 +305,16 @@ void Run::open_record() {
     if (real_ || options_.sync > 0) folder_.sync();  // the inputs, before the session begins
 }
 
-/// Opens outlets and devices. If one of them, or options.check, refuses, the session is removed.
+/// Opens outlets and devices.
 void Run::begin() {
     if (plan_.seeing) plan_.seeing->restart();
-    try {
-        if (real_ && !plan_.rig.outlets.empty())
-            outward_.emplace(plan_, fs::path(folder_.path()).filename().string());
-        servo_->activate();
-        if (options_.check) {
-            for (const Problem& warning : options_.check(servo_->devices()))
-                info_.notes.push_back(warning.text());
-            folder_.write_info(info_);
-        }
-    } catch (...) {
-        std::error_code ignored;
-        fs::remove_all(folder_.path(), ignored);
-        throw;
-    }
+    if (real_ && !plan_.rig.outlets.empty())
+        outward_.emplace(plan_, fs::path(folder_.path()).filename().string());
+    servo_->activate();
+    if (!options_.check) return;
+    for (const Problem& warning : options_.check(servo_->devices()))
+        info_.notes.push_back(warning.text());
+    folder_.write_info(info_);
 }
 
 /// A session whose sounds cannot be played runs without them.
@@ -302,6 +343,7 @@ void Run::let_others_watch() {
     } catch (const Error& e) {
         onlookers_.reset();
         info_.notes.emplace_back(e.what());
+        if (options_.warn) options_.warn(info_.notes.back());
     }
 }
 
@@ -314,7 +356,8 @@ void Run::make_director() {
         live_->prepare(*servo_, plan_.scene);
         live_->set_folder(folder_.path());
     }
-    if (options_.decider != nullptr) options_.decider->begin(folder_.path(), !real_);
+    if (options_.decider != nullptr)
+        options_.decider->begin(folder_.path(), !real_, options_.waiting);
     director_.emplace(plan_, options_, stop_, info_.phases, *servo_,
                       outward_ ? &*outward_ : nullptr, onlookers_ ? &*onlookers_ : nullptr);
 }
@@ -412,7 +455,7 @@ std::string Run::stall_text(const servo::Timing::Stall& stall) const {
     return fmt::format(
         "{}. The call has not returned since, so the session ends here. Switch the "
         "devices off and on; dihaptic recover {} makes the session's files.",
-        servo::describe(stall), folder_.path());
+        servo::describe(stall), shell_word(folder_.path()));
 }
 
 std::string Run::fault_text() const {
@@ -428,7 +471,7 @@ std::string Run::fault_text() const {
     if (live_ != nullptr) return out;  // the window says how to go on
     if (plan_.task && plan_.resumable) {
         out += fmt::format(" dihaptic resume {} goes on with the trials that are left.",
-                           folder_.path());
+                           shell_word(folder_.path()));
     } else if (!plan_.task && !stopped) {
         out += " Then start the session again.";
     }
@@ -511,6 +554,7 @@ RunResult run_session(const Plan& plan, const RunOptions& options, const std::at
         throw Error(plan.rig.place, "devices", "are real, and keep real time",
                     "Run them on the real clock, or choose a rig of simulated devices.");
     }
+    check_words(plan, options);
     if (devices != nullptr) return Run(plan, options, stop, progress, std::move(devices)).run();
     Plan opened = plan;
     devices = open_devices(opened);

@@ -4,20 +4,24 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 
+#include "base/checksum.h"
 #include "base/installed.h"
+#include "base/regular_file.h"
 
 namespace dihaptic::task {
 namespace {
 
 constexpr double kTolerance = 1e-6;  // times are sums of ticks, which round [s]
 
-bool is_png(const std::string& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::array<char, 8> begin{};
-    in.read(begin.data(), begin.size());
-    return in && std::string_view(begin.data(), begin.size()) == "\x89PNG\r\n\x1a\n";
+constexpr int64_t kMostPicture = 200'000'000;  // [bytes]
+
+/// Notes the checksum of a page's picture. Throws Error when it cannot be read, or is no PNG file.
+void note_checksum(PageSpec& page) {
+    const std::string bytes = read_bytes(page.picture, kMostPicture);
+    if (!bytes.starts_with("\x89PNG\r\n\x1a\n"))
+        throw Error("is no PNG file", "Convert it, e.g. with an image editor.");
+    page.checksum = checksum_of(bytes);
 }
 
 }  // namespace
@@ -32,10 +36,13 @@ void find_pictures(Task& task, const std::string& folder, Diagnostics& diagnosti
                 diagnostics.error(page.place, "picture",
                                   fmt::format("there is no file {}", page.picture),
                                   "Name a PNG file, relative to this one.");
-            } else if (!is_png(page.picture)) {
-                diagnostics.error(page.place, "picture",
-                                  fmt::format("{} is no PNG file", page.picture),
-                                  "Convert it, e.g. with an image editor.");
+                continue;
+            }
+            try {
+                note_checksum(page);
+            } catch (const Error& e) {
+                const Problem& why = e.problems().front();
+                diagnostics.error(page.place, "picture", page.picture + " " + why.what, why.remedy);
             }
         }
     }

@@ -74,10 +74,11 @@ struct LookSpec {
 
 /// A page that is shown in place of the scene until a key is pressed, or for a time.
 struct PageSpec {
-    std::string text;     ///< Markdown
-    std::string picture;  ///< PNG file, relative to the experiment file
-    std::string key;      ///< one letter or digit; empty: any
-    double lasts = 0;     ///< longest time for which it is shown; 0: until the key [s]
+    std::string text;      ///< Markdown
+    std::string picture;   ///< PNG file, relative to the experiment file
+    std::string checksum;  ///< of the picture, once it was found (base/checksum.h)
+    std::string key;       ///< one letter or digit; empty: any
+    double lasts = 0;      ///< longest time for which it is shown; 0: until the key [s]
     Place place;
 
     template <class Visitor>

@@ -4,9 +4,10 @@
 
 #include <filesystem>
 
-#include "task/task.h"
-
+#include "base/checksum.h"
 #include "base/installed.h"
+#include "base/regular_file.h"
+#include "task/task.h"
 
 namespace dihaptic::task {
 
@@ -24,14 +25,30 @@ void check(const SoundSpec& sound, Diagnostics& diagnostics) {
                           "Make the ramp half of the duration at most.");
 }
 
+namespace {
+
+void note_checksum(SoundSpec& sound, Diagnostics& diagnostics) {
+    try {
+        sound.checksum = checksum_of(read_bytes(sound.file, SoundSpec::kLargest));
+    } catch (const Error& e) {
+        const Problem& why = e.problems().front();
+        diagnostics.error(sound.place, "file", sound.file + " " + why.what, why.remedy);
+    }
+}
+
+}  // namespace
+
 void find_sounds(Task& task, const std::string& folder, Diagnostics& diagnostics) {
     for (SoundSpec& sound : task.sounds) {
         if (sound.file.empty()) continue;
         sound.file = named_in(folder, sound.file);
         std::error_code unreadable;
-        if (!std::filesystem::is_regular_file(sound.file, unreadable))
+        if (std::filesystem::is_regular_file(sound.file, unreadable)) {
+            note_checksum(sound, diagnostics);
+        } else {
             diagnostics.error(sound.place, "file", fmt::format("there is no file {}", sound.file),
                               "Give a sound file, relative to this file.");
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -25,12 +26,14 @@ constexpr auto enum_names(Lasts) {
 
 /// One of a tone, noise or a file.
 struct SoundSpec {
-    static constexpr double kHighest = 20e3;  ///< [Hz]
+    static constexpr double kHighest = 20e3;            ///< [Hz]
+    static constexpr int64_t kLargest = 1'000'000'000;  ///< file [bytes]
 
     std::string name;
     std::optional<double> tone;  ///< frequency of a sine [Hz]
     Noise noise = Noise::no;
     std::string file;       ///< relative to the experiment file
+    std::string checksum;   ///< of the file, once it was found (base/checksum.h)
     double duration = 0.1;  ///< of a tone or noise that lasts once [s]
     double ramp = 0.005;    ///< in which a tone or noise swells and fades, raised cosines [s]
     double level = 0.5;     ///< amplitude over the largest that can be played

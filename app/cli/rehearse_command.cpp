@@ -1,0 +1,94 @@
+#include "rehearse_command.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <filesystem>
+#include <vector>
+
+#include "base/shell_word.h"
+
+namespace dihaptic::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string whole(const std::string& file) {
+    std::string out = fs::absolute(file).lexically_normal().string();
+    while (out.size() > 1 && out.ends_with('/')) out.pop_back();
+    return out;
+}
+
+/// A number from 1 to `most`; nullopt if the word is none.
+std::optional<int> number(const std::string& word, int most) {
+    int out = 0;
+    const char* const end = word.data() + word.size();
+    const auto [read, failed] = std::from_chars(word.data(), end, out);
+    if (failed != std::errc() || read != end || out < 1 || out > most) return std::nullopt;
+    return out;
+}
+
+/// Takes an option, and the word that belongs to it, from the front of `words`; nullopt if there is
+/// no such option, or its word cannot be.
+std::optional<size_t> take(const std::vector<std::string>& words, size_t at,
+                           RehearseCommand& command) {
+    const std::string& option = words[at];
+    if (option == "--real-objects" || option == "--keep-recordings") {
+        (option == "--real-objects" ? command.real_objects : command.keep_recordings) = true;
+        return at + 1;
+    }
+    if (at + 1 == words.size()) return std::nullopt;
+    const std::string& value = words[at + 1];
+    if (option == "--population") {
+        if (!value.starts_with('/')) return std::nullopt;
+        command.population = value;
+    } else if (option == "--jobs") {
+        const auto jobs = number(value, 1024);
+        if (!jobs) return std::nullopt;
+        command.jobs = *jobs;
+    } else if (option != "--people" && option != "--seed" && option != "--out") {
+        return std::nullopt;  // these three are known otherwise
+    }
+    return at + 2;
+}
+
+std::optional<RehearseCommand> parse(const std::string& text) {
+    const auto words = shell_words(text);
+    if (!words || words->size() < 3 || (*words)[1] != "rehearse" || !(*words)[2].starts_with('/'))
+        return std::nullopt;
+    RehearseCommand out;
+    out.file = (*words)[2];
+    for (size_t at = 3; at < words->size();) {
+        const auto next = take(*words, at, out);
+        if (!next) return std::nullopt;
+        at = *next;
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string RehearseCommand::text() const {
+    const auto word = [](const std::string& path) { return shell_word(whole(path)); };
+    std::string text =
+        fmt::format("{} rehearse {} --people {} --seed {} --out {}",
+                    word(fs::read_symlink("/proc/self/exe")), word(file), people, seed, word(out));
+    if (!population.empty()) text += " --population " + word(population);
+    if (real_objects) text += " --real-objects";
+    if (keep_recordings) text += " --keep-recordings";
+    if (jobs != 1) text += fmt::format(" --jobs {}", jobs);
+    return text;
+}
+
+std::optional<std::string> command_of(const std::string& folder,
+                                      const session::Rehearsal& rehearsal) {
+    if (rehearsal.asked.command == kByPython) return kByPython;
+    auto command = parse(rehearsal.asked.command);
+    if (!command) return std::nullopt;
+    command->people = rehearsal.asked.people;
+    command->seed = shell_word(rehearsal.seed);
+    command->out = folder;
+    return command->text();
+}
+
+}  // namespace dihaptic::cli
