@@ -9,10 +9,14 @@
 #include "analysis/report/session_page.h"
 #include "base/plural.h"
 #include "base/regular_file.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "command.h"
 #include "recording/moved_by.h"
+#include "rehearse_command.h"
 #include "session/rehearsal.h"
+#include "session/rehearsed.h"
+#include "session/unfinished_folder.h"
 #include "shards.h"
 
 namespace dihaptic::cli {
@@ -52,35 +56,79 @@ void check_same(const CollectOptions& options, const std::string& first_folder,
                       : "Collect sessions of one experiment and one version only.");
 }
 
-/// What the latest command asked for, and the folder that it was asked in.
+/// The rehearsal by the latest command, which asked for the most people, and its folder.
 struct Wanted {
     std::string folder;
-    Asked asked;
+    Rehearsal rehearsal;
 };
 
 struct Found {
     std::map<Key, std::string> people;      ///< session of each
     std::map<Key, std::string> unfinished;  ///< folder of each session that has not ended
     std::map<std::string, Wanted> wanted;   ///< by seed
+    std::vector<std::string> others;        ///< folders of sessions that are no rehearsed person's
+    std::vector<Problem> problems;          ///< of people's folders
+    std::map<std::string, std::string> identities;  ///< folder of each session's identity
+    std::vector<std::string> unsealed;              ///< folders of sessions without seals
 };
 
-/// Who has a complete session in a folder, and who an unfinished one.
-std::pair<std::vector<std::string>, std::vector<std::string>> sessions_in(
-    const std::string& folder) {
-    std::vector<std::string> complete;
-    std::vector<std::string> unfinished;
+/// What is in a folder of a rehearsal.
+struct Content {
+    std::vector<std::string> people;      ///< their identifiers
+    std::vector<std::string> unfinished;  ///< identifiers of those whose sessions have not ended
+    std::vector<std::string> others;      ///< names of folders with sessions that are nobody's
+};
+
+/// Whether a folder has the name of a person, "sim-003".
+bool is_persons(const std::string& name) {
+    const std::string first = person_id(1);
+    const std::string_view stem = std::string_view(first).substr(0, first.find('-') + 1);
+    return name.size() > stem.size() && name.starts_with(stem) &&
+           name.find_first_not_of("0123456789", stem.size()) == std::string::npos;
+}
+
+Content content_of(const std::string& folder) {
+    Content out;
     for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
-        if (is_there((entry.path() / "person.yaml").string())) complete.push_back(name);
-        if (name.starts_with(kUnfinished))
-            unfinished.push_back(name.substr(std::string_view(kUnfinished).size()));
+        std::error_code unreadable;
+        if (!fs::is_directory(entry.path(), unreadable)) continue;
+        if (name.starts_with(kUnfinished)) {
+            out.unfinished.push_back(name.substr(std::string_view(kUnfinished).size()));
+        } else if (is_persons(name) || is_there((entry.path() / "person.yaml").string())) {
+            out.people.push_back(name);
+        } else if (is_there((entry.path() / "session.yaml").string())) {
+            out.others.push_back(name);
+        }
     }
-    return {complete, unfinished};
+    for (auto* names : {&out.people, &out.unfinished, &out.others}) std::ranges::sort(*names);
+    return out;
+}
+
+/// Adds a person, unless the person's folder is not what the rehearsal made.
+void add_person(Found& found, const std::string& folder, const std::string& id,
+                const Rehearsal& rehearsal) {
+    const std::string session = folder + "/" + id;
+    const auto [there, is_new] = found.people.emplace(Key{rehearsal.seed, id}, session);
+    if (!is_new) {
+        throw Error({session, 0}, "", "is there twice: " + there->second,
+                    "Name folders of different shards, or of different seeds.");
+    }
+    const session::Rehearsed looked = session::look_at(folder, id, rehearsal);
+    found.problems.insert(found.problems.end(), looked.problems.begin(), looked.problems.end());
+    if (looked.identity.empty()) return;
+    if (!looked.sealed) found.unsealed.push_back(session);
+    const auto [first, is_first] = found.identities.emplace(looked.identity, session);
+    if (is_first) return;
+    found.problems.push_back({Severity::error,
+                              {session, 0},
+                              "",
+                              "has the same session as " + first->second,
+                              "Remove the one that is a copy."});
 }
 
 Found find_people(const CollectOptions& options) {
     Found found;
-    auto& out = found.people;
     std::optional<Rehearsal> first;
     std::string first_folder;
     for (const std::string& folder : options.folders) {
@@ -89,32 +137,48 @@ Found find_people(const CollectOptions& options) {
             throw Error({folder, 0}, "", "is no folder",
                         "Name the folders that dihaptic rehearse made.");
         }
-        const auto [ids, unfinished] = sessions_in(folder);
-        if (ids.empty() && !is_there(folder + "/rehearsal.yaml")) continue;
+        const Content content = content_of(folder);
+        if (content.people.empty() && !is_there(folder + "/rehearsal.yaml")) continue;
         const Rehearsal rehearsal = session::read_rehearsal(folder);
-        for (const std::string& id : unfinished)
+        for (const std::string& id : content.unfinished)
             found.unfinished[{rehearsal.seed, id}] = folder + "/" + kUnfinished + id;
+        for (const std::string& name : content.others) found.others.push_back(folder + "/" + name);
         Wanted& wanted = found.wanted[rehearsal.seed];
-        if (wanted.asked.people < rehearsal.asked.people) wanted = {folder, rehearsal.asked};
+        if (wanted.rehearsal.asked.people < rehearsal.asked.people) wanted = {folder, rehearsal};
         if (!first) {
             first = rehearsal;
             first_folder = folder;
         }
         check_same(options, first_folder, *first, folder, rehearsal);
-        for (const std::string& id : ids) {
-            const std::string session = folder + "/" + id;
-            const auto [there, is_new] = out.emplace(Key{rehearsal.seed, id}, session);
-            if (!is_new) {
-                throw Error({session, 0}, "", "is there twice: " + there->second,
-                            "Name folders of different shards, or of different seeds.");
-            }
-        }
+        for (const std::string& id : content.people) add_person(found, folder, id, rehearsal);
     }
     if (found.wanted.empty()) {
         throw Error({options.folders.front(), 0}, "", "is no folder of a rehearsal",
                     "Rehearse first: dihaptic rehearse --help.");
     }
     return found;
+}
+
+/// Throws Error with all that is wrong with people's folders: a table that lacked one of them, or
+/// had somebody twice, would look like any other. Tells of what cannot be known of older ones.
+void check_whole(Found& found) {
+    if (!found.unsealed.empty() && found.unsealed.size() < found.identities.size()) {
+        for (const std::string& session : found.unsealed) {
+            found.problems.push_back({Severity::error,
+                                      {session + "/session.yaml", 0},
+                                      "seal",
+                                      "is missing, and others of this rehearsal have theirs",
+                                      "Put the folder back as it was, or remove it: the "
+                                      "rehearsal's command then does this person again."});
+        }
+    }
+    if (!found.problems.empty()) throw Error(found.problems);
+    if (found.unsealed.empty()) return;
+    fmt::print(
+        "note: {} no seal, being of a version that made none: what was changed in {} tables since "
+        "does not show\n",
+        found.unsealed.size() == 1 ? found.unsealed[0] + " has" : "these sessions have",
+        found.unsealed.size() == 1 ? "its" : "their");
 }
 
 /// Who is missing of a seed's people, by shard.
@@ -128,11 +192,28 @@ std::map<int, std::vector<std::string>> missing_of(const Found& found, const std
     return out;
 }
 
+/// Says what to type so that these shards of a rehearsal are done.
+void print_command(const Wanted& wanted, const std::vector<int>& shards) {
+    const auto command = command_of(wanted.folder, wanted.rehearsal);
+    if (!command) {
+        fmt::print(
+            "to have these done: type the command again by which they were rehearsed; the one in "
+            "{}/rehearsal.yaml is none that dihaptic wrote\n",
+            mended(wanted.folder, Lines::one));
+        return;
+    }
+    Asked asked = wanted.rehearsal.asked;
+    asked.command = *command;
+    fmt::print("to have these done, once nothing works on them any more: {}\n",
+               command_for(wanted.folder, asked, shards));
+}
+
 /// Names who is left out, and what to type so that those are done who were asked for.
 void print_left_out(const Found& found) {
     auto others = found.unfinished;
     for (const auto& [seed, wanted] : found.wanted) {
-        const auto missing = missing_of(found, seed, wanted.asked);
+        const Asked& asked = wanted.rehearsal.asked;
+        const auto missing = missing_of(found, seed, asked);
         if (missing.empty()) continue;
         std::vector<int> shards;
         for (const auto& [shard, people] : missing) {
@@ -142,19 +223,20 @@ void print_left_out(const Found& found) {
                 names += (names.empty() ? "" : ", ") + id + (begun ? " (not ended)" : "");
             }
             fmt::print("missing: {}{}\n",
-                       wanted.asked.shards == 1
-                           ? ""
-                           : fmt::format("shard {}/{}: ", shard, wanted.asked.shards),
+                       asked.shards == 1 ? "" : fmt::format("shard {}/{}: ", shard, asked.shards),
                        names);
             shards.push_back(shard);
         }
-        fmt::print("to have these done, once nothing works on them any more: {}\n",
-                   command_for(wanted.folder, wanted.asked, shards));
+        print_command(wanted, shards);
         exit_code = kFailed;
+    }
+    for (const std::string& folder : found.others) {
+        fmt::print("left out: {}: it is no rehearsed person's, and has no person.yaml\n",
+                   mended(folder, Lines::one));
     }
     for (const auto& [key, folder] : others) {
         fmt::print("left out: {}: its session has not ended; the command that began it goes on\n",
-                   folder);
+                   mended(folder, Lines::one));
     }
 }
 
@@ -260,7 +342,8 @@ class Collection {
 };
 
 void collect(const CollectOptions& options) {
-    const Found found = find_people(options);
+    Found found = find_people(options);
+    check_whole(found);
     const auto& people = found.people;
     print_left_out(found);
     if (people.empty()) {

@@ -26,6 +26,7 @@ void add_export(CLI::App& app) {
             exported = analysis::export_bids(session, options->data_set,
                                              [&](double share) { line.show(share); });
         }
+        print(exported.changed);
         for (const std::string& what : exported.log) fmt::print("raw.log: {}\n", what);
         fmt::print("written: {}\n", exported.folder);
     });

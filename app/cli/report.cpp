@@ -27,6 +27,7 @@ void add_report(CLI::App& app) {
             result = analysis::write_report(*path, command_line(),
                                             [&](double share) { line.show(share); });
         }
+        print(result.changed);
         for (const std::string& why : result.left_out) fmt::print("left out: {}\n", why);
         for (const std::string& what : result.log) fmt::print("raw.log: {}\n", what);
         std::string tables;

@@ -19,6 +19,7 @@
 #include "plans.h"
 #include "recording/raw_log.h"
 #include "recording/schema.h"
+#include "recording/seal.h"
 #include "servo/frame.h"
 #include "session/check.h"
 
@@ -125,6 +126,22 @@ Node to_node(const py::handle& value) {
     return Node::of(py::str(value));
 }
 
+/// What a session's seals tell of one of its tables; nothing of a session whose session.yaml cannot
+/// be read, which its other readers refuse.
+std::vector<std::string> broken_seals(const std::string& session, const std::string& table) {
+    std::vector<std::string> out;
+    try {
+        const auto folder = recording::SessionFolder::open_tables(session);
+        const std::string_view names[] = {table};
+        for (const Problem& problem :
+             recording::broken_seals(folder, folder.read_info(), Severity::warning, names))
+            out.push_back(problem.text());
+    } catch (const Error&) {
+        return {};
+    }
+    return out;
+}
+
 py::dict log_head(const std::string& file) {
     const recording::LogHead head = recording::RawLogReader(file).head();
     py::dict out;
@@ -208,6 +225,7 @@ void add_vocabulary(py::module_& m) {
     m.def("on_real_devices", &on_real_devices);
     m.def("lines_of", &lines_of);
     m.def("log_head", &log_head);
+    m.def("broken_seals", &broken_seals);
     m.def("log_values", &log_values);
     m.def("colours", &colours);
     m.def("program", [] { return in_or_above_program({"dihaptic", "bin/dihaptic"}); });

@@ -8,6 +8,7 @@ import shutil
 import tarfile
 import tempfile
 import unittest
+import warnings
 
 import h5py
 import matplotlib
@@ -109,6 +110,17 @@ class Sessions(unittest.TestCase):
             (pathlib.Path(folder) / "session.yaml").write_text("state: running\n")
             with self.assertRaisesRegex(dh.Error, "dihaptic recover"):
                 dh.load(folder)["grip_force"]
+
+    def test_a_table_that_was_edited_says_so(self):
+        with tempfile.TemporaryDirectory() as folder:
+            edited = pathlib.Path(shutil.copytree(self.lift.folder, f"{folder}/session"))
+            with warnings.catch_warnings():
+                warnings.simplefilter("error")
+                self.assertGreater(len(dh.load(edited).phases), 1)
+            lines = (edited / "phases.csv").read_text().splitlines(keepends=True)
+            (edited / "phases.csv").write_text("".join(lines[:-1]))
+            with self.assertWarnsRegex(UserWarning, "phases.csv: warning: has .* when the session ended. .*recover"):
+                self.assertEqual(len(dh.load(edited).phases), len(lines) - 2)
 
     def test_one_that_is_damaged_says_so(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -9,9 +9,12 @@
 #include "analysis/bids/data_set.h"
 #include "analysis/bids/events.h"
 #include "analysis/bids/motion.h"
+#include "base/output.h"
 #include "base/regular_file.h"
+#include "base/shell_word.h"
 #include "base/text_file.h"
 #include "recording/raw_log.h"
+#include "recording/seal.h"
 
 namespace dihaptic::analysis {
 namespace {
@@ -19,31 +22,6 @@ namespace {
 namespace fs = std::filesystem;
 using bids::label;
 using bids::TrackingSystem;
-
-/// A folder for unfinished files. What a killed export left is removed by the next export.
-class Staging {
-  public:
-    explicit Staging(const std::string& folder) : path_(part_name(folder + "/.export")) {
-        remove_dead_parts(folder + "/.export");
-        std::error_code failed;
-        fs::create_directories(path_, failed);
-        if (failed) {
-            throw Error({folder, 0}, "", "cannot be made: " + failed.message(),
-                        "Name another folder.");
-        }
-    }
-    ~Staging() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    Staging(const Staging&) = delete;
-    Staging& operator=(const Staging&) = delete;
-
-    const std::string& path() const { return path_; }
-
-  private:
-    std::string path_;
-};
 
 class Exporter {
   public:
@@ -56,7 +34,7 @@ class Exporter {
           folder_((fs::path(data_set) / data_set_.subject() / "motion").string()) {
         if (info_.state == recording::SessionState::running) {
             throw Error({session.file("session.yaml"), 0}, "", "the session has not ended",
-                        "If it was killed, run: dihaptic recover " + session.path());
+                        "If it was killed, run: dihaptic recover " + shell_word(session.path()));
         }
         if (!is_there(session.raw_log()) && is_there(session.file("trials.csv"))) {
             throw Error({session.path(), 0}, "", "has no recording any more, only tables",
@@ -74,7 +52,10 @@ class Exporter {
         }
         systems_ = bids::tracking_systems(session_, info_, log.head());
         data_set_.check();  // before the long work
-        const Staging staging(folder_);
+        make_folders(folder_of_set_, data_set_.subject() + "/motion");
+        remove_dead_parts(folder_ + "/.export");
+        const Output staging(folder_ + "/.export");
+        fs::create_directory(staging.path());
         making_ = staging.path();
         write_motion(log, progress);
         for (const TrackingSystem& system : systems_) {
@@ -90,7 +71,10 @@ class Exporter {
         check_task();
         data_set_.add(recordings());
         give_names(events);
-        Exported out{folder_, {}};
+        constexpr std::string_view kRead[] = {"events.csv", "trials.csv", "lifts.csv",
+                                              "trials-before.csv"};
+        Exported out{
+            folder_, recording::broken_seals(session_, info_, Severity::warning, kRead), {}};
         if (log.health().damaged(info_.ticks))
             out.log = recording::describe(log.health(), info_.ticks, info_.planned());
         return out;
@@ -181,6 +165,7 @@ class Exporter {
     /// complete.
     void give_names(bool events) const {
         const auto name = [](const std::string& from, const std::string& to) {
+            check_replaceable(to);
             std::error_code failed;
             fs::rename(from, to, failed);
             if (!failed) return;

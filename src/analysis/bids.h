@@ -14,6 +14,7 @@ namespace dihaptic::analysis {
 
 struct Exported {
     std::string folder;            ///< folder of the exported files
+    std::vector<Problem> changed;  ///< what was changed in its tables since it ended: warnings
     std::vector<std::string> log;  ///< what is wrong with raw.log, in sentences
 };
 

@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <optional>
 
 #include "base/field_table.h"
 #include "base/regular_file.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "recording/raw_log.h"
+#include "recording/seal.h"
 #include "servo/settings.h"
 
 namespace dihaptic::analysis {
@@ -53,6 +57,64 @@ void mend_settings(const recording::SessionFolder& folder, Diagnostics& diagnost
     write_csv(table, folder.file("settings.csv"));
 }
 
+/// A file of the session that cannot be read for its characters, as a text that can; nullopt if
+/// that is not what is wrong with it.
+std::optional<std::string> mended_text(const std::string& file) {
+    try {
+        if (file.ends_with(".yaml")) {
+            read_yaml(file);
+        } else {
+            read_text_file(file, kMostTable);
+        }
+        return std::nullopt;
+    } catch (const Error&) {
+    }
+    try {
+        const std::string text = mended(read_bytes(file, kMostTable));
+        if (!file.ends_with(".yaml")) return text;
+        const char* const end = text.ends_with("...\n") ? "...\n" : "";  // of session.yaml
+        return to_yaml(parse_yaml(text, file, Words::mended)) + end;
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
+/// Replaces the control characters and broken bytes that versions before 0.3 let into a session's
+/// files. Returns the files that it mended, as they were before.
+std::vector<recording::InputFile> mend_texts(const recording::SessionFolder& folder,
+                                             Diagnostics& diagnostics) {
+    std::vector<recording::InputFile> out;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+        const std::string kind = entry.path().extension().string();
+        if (!entry.is_regular_file() || (kind != ".yaml" && kind != ".csv")) continue;
+        const std::string name = entry.path().filename().string();
+        const std::string file = folder.file(name);
+        if (const auto text = mended_text(file)) {
+            out.push_back(folder.input(name));
+            write_file(read_bytes(file, kMostTable), file + ".before");
+            write_file(*text, file);
+            diagnostics.warning({file, 0}, "",
+                                "had control characters, or bytes that are not UTF-8 text. U+FFFD "
+                                "is in their place now; " +
+                                    name + ".before is the file as it was",
+                                "Put in by hand what they stood for, if you know it.");
+        }
+    }
+    return out;
+}
+
+/// Gives inputs that were mended their new checksums, if they were what was recorded before.
+void renew(std::vector<recording::InputFile>& inputs,
+           const std::vector<recording::InputFile>& before,
+           const recording::SessionFolder& folder) {
+    for (recording::InputFile& input : inputs) {
+        for (const recording::InputFile& was : before) {
+            if (was.file == input.file && was.checksum == input.checksum)
+                input = folder.input(was.file);
+        }
+    }
+}
+
 }  // namespace
 
 Recovery recover_session(const recording::SessionFolder& folder,
@@ -61,11 +123,14 @@ Recovery recover_session(const recording::SessionFolder& folder,
     const recording::RawLogReader log(folder.raw_log());
     Recovery out;
     Diagnostics diagnostics;
+    const std::vector<recording::InputFile> before = mend_texts(folder, diagnostics);
     out.info = folder.read_info(log.head(), diagnostics);
+    renew(out.info.inputs, before, folder);
     out.had_ended = out.info.state != recording::SessionState::running;
     const bool mended = !diagnostics.problems().empty();
     if (!out.had_ended || mended) out.info.state = recording::SessionState::recovered;
-    diagnostics.add(folder.changed(log.head().inputs, Severity::warning));
+    diagnostics.add(folder.changed(out.info.inputs, Severity::warning));
+    diagnostics.add(recording::broken_for_good(folder, out.info, Severity::warning));
     mend_settings(folder, diagnostics);
     out.warnings = diagnostics.problems();
     for (const Problem& warning : out.warnings) add_note(out.info, warning.text());

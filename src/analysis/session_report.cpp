@@ -23,6 +23,7 @@
 #include "recording/hearings.h"
 #include "recording/log_scene.h"
 #include "recording/nwb.h"
+#include "recording/seal.h"
 #include "recording/showings.h"
 #include "scene/scene.h"
 
@@ -452,9 +453,9 @@ const PhaseFigures* SessionFigures::phase(const std::string& name) const {
 namespace {
 
 /// Writes all tables except NWB's.
-SessionFigures write_tables(const recording::SessionFolder& folder,
-                            const recording::SessionInfo& info, const Reading& reading,
-                            const recording::NwbContent& content, const Table& events) {
+SessionFigures write_tables(const recording::SessionFolder& folder, recording::SessionInfo info,
+                            const Reading& reading, const recording::NwbContent& content,
+                            const Table& events) {
     SessionFigures out = reading.figures;
     if (reading.trials) out.trials = with_earlier(content.trials, folder);
     write_csv(out.trials.value_or(content.trials), folder.file("trials.csv"));
@@ -465,6 +466,7 @@ SessionFigures write_tables(const recording::SessionFolder& folder,
         write_csv(by(figure_table<Lift>(reading.lifts)), folder.file("lifts.csv"));
     write_csv(events, folder.file("events.csv"));
     if (!reading.fault.rows.empty()) write_csv(reading.fault, folder.file("fault.csv"));
+    recording::seal(folder, info);
     folder.sync();  // all files are on the disk before the state says so
     folder.write_info(info);
     return out;

@@ -13,6 +13,8 @@
 #include <random>
 
 #include "base/disk.h"
+#include "base/output.h"
+#include "base/shell_word.h"
 #include "recording/codes.h"
 #include "recording/frame_row.h"
 #include "recording/hdf5.h"
@@ -369,13 +371,12 @@ void write_file(const std::string& name, RawLogReader& log, const NwbContent& co
     hdf5::close(std::move(file));
 }
 
-/// A file in the making, which goes unless it got its name.
-struct Part {
+/// Gives the space of a file back that failed: HDF5 may still hold it open when it goes.
+struct Emptied {
     std::string name;
-    ~Part() {
+    ~Emptied() {
         std::error_code gone;
-        std::filesystem::resize_file(name, 0, gone);  // HDF5 may still hold it open
-        std::filesystem::remove(name, gone);
+        std::filesystem::resize_file(name, 0, gone);
     }
 };
 
@@ -384,24 +385,25 @@ struct Part {
 void write_nwb(const SessionFolder& folder, const NwbContent& content,
                const std::function<void(double)>& progress) {
     RawLogReader log(folder.raw_log());
-    const Part part{folder.nwb() + ".part"};
+    remove_dead_parts(folder.nwb());
+    Output output(folder.nwb());
+    const Emptied emptied{output.path()};
     const auto failed = [&](const std::string& why) {
         return Error({folder.nwb(), 0}, "", "cannot be written: " + why,
-                     "raw.log has all of it: free some space, then run 'dihaptic recover " +
-                         folder.path() + "'.");
+                     "raw.log has all of it: free some space, then run: dihaptic recover " +
+                         shell_word(folder.path()));
     };
     try {
-        write_file(part.name, log, content, progress);
+        write_file(output.path(), log, content, progress);
     } catch (const hdf5::WriteFailure& e) {
         throw failed(e.what());
     }
     try {
-        sync_to_disk(part.name);  // until then a file system may keep to itself that it is full
+        sync_to_disk(output.path());  // until then a file system may keep to itself that it is full
     } catch (const Error& e) {
         throw failed(e.problems().front().what);
     }
-    if (std::rename(part.name.c_str(), folder.nwb().c_str()) != 0)
-        throw failed(std::strerror(errno));
+    output.keep();
     if (progress) progress(1);
 }
 

@@ -10,6 +10,7 @@
 // files are there then.
 #pragma once
 
+#include <climits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -38,6 +39,20 @@ struct Participant {
     }
 };
 
+/// A table, as it was when the session ended.
+struct TableSeal {
+    std::string file;      ///< name in the session's folder
+    int rows = 0;          ///< without its header
+    std::string checksum;  ///< CRC-32, in hexadecimal
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("file", file, Field::text().required());
+        v("rows", rows, Field::number().within(0, INT_MAX));
+        v("checksum", checksum, Field::text().required());
+    }
+};
+
 struct SessionInfo : Setup {
     SessionState state = SessionState::running;
     int ticks = 0;             ///< number of ticks, once the session has ended; 0: not known
@@ -49,6 +64,8 @@ struct SessionInfo : Setup {
     std::string resumes;             ///< folder of the session that this one resumes
     std::vector<std::string> notes;  ///< warnings given at the start, and what recovering found
     std::string finished;            ///< how the session ended, in words
+    std::vector<TableSeal> tables;   ///< once the session has ended (recording/seal.h)
+    std::string seal;                ///< checksum of this file's own, once it has ended
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -63,6 +80,8 @@ struct SessionInfo : Setup {
         Setup::visit(v);
         v("notes", notes);
         v("finished", finished);
+        v("tables", tables);
+        v("seal", seal);
     }
 };
 

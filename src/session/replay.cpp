@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "recording/log_scene.h"
+#include "recording/seal.h"
 
 namespace dihaptic::session {
 namespace {
@@ -128,6 +129,8 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
     const recording::SessionInfo info = folder.read_info(head, diagnostics);
     ReplayResult result;
     const Inputs inputs = read_inputs(folder, head, diagnostics);
+    // of the tables it uses none
+    diagnostics.add(recording::broken_own_seal(folder, info, Severity::warning));
     result.warnings = diagnostics.problems();
     result.version = recording::describe_version(log.health());
     result.program = info.program;

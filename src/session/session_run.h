@@ -28,6 +28,8 @@ struct RunOptions {
     std::function<void(const std::string& message)> stuck;
     /// Called from the session's thread, before the first tick, with what the session goes without.
     std::function<void(const std::string& message)> warn;
+    /// Called from another thread, with what the session waits for, and called again.
+    std::function<void(const std::string& message)> waiting;
     /// Called on active devices, before the first tick and without force; returns warnings. An
     /// exception from it ends the session, and its folder is removed.
     std::function<std::vector<Problem>(devices::DeviceGroup& devices)> check;
@@ -49,7 +51,8 @@ struct RunOptions {
 struct RunResult {
     std::string folder;
     recording::SessionInfo info;  ///< as it will be once the session's other files are written
-    std::optional<recording::SessionLock> lock;  ///< keeps others from recovering it until then
+    std::optional<recording::SessionLock> lock;     ///< keeps others from recovering it until then
+    std::optional<recording::SessionLock> earlier;  ///< the same, of the session that it resumes
     bool interrupted = false;
     double simulated = 0;  ///< session time reached [s]
     double elapsed = 0;    ///< wall time of the ticks [s]

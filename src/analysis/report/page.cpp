@@ -66,6 +66,12 @@ void Page::text(const std::string& text) {
     body_ += fmt::format("<p>{}</p>\n", escaped_markup(text));
 }
 
+void Page::problems(const std::string& heading, const std::vector<Problem>& problems) {
+    if (problems.empty()) return;
+    this->heading(heading);
+    for (const Problem& problem : problems) text(problem.text());
+}
+
 void Page::table(const Table& table, const std::string& caption) {
     body_ += to_html(table) + fmt::format("<p class=\"caption\">{}</p>\n", escaped_markup(caption));
 }

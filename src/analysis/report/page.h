@@ -3,8 +3,10 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "analysis/report/chart.h"
+#include "base/diagnostics.h"
 #include "base/table.h"
 
 namespace dihaptic::analysis {
@@ -17,6 +19,8 @@ class Page {
 
     void heading(const std::string& text);
     void text(const std::string& text);
+    /// Adds a heading and a line for each problem; nothing without problems.
+    void problems(const std::string& heading, const std::vector<Problem>& problems);
     /// Adds a table with `caption` below it. Numbers have four significant digits; NaN is a dash.
     void table(const Table& table, const std::string& caption);
     /// Adds a table that is folded until the reader opens it.

@@ -364,6 +364,10 @@ PopulationPage population_page(const std::vector<SessionData>& sessions, const s
              who_moved(all),
              fmt::format("{}. Made by {} with: {}", origin_of(all, folder),
                          recording::program_version(), command))};
+    std::vector<Problem> changed;
+    for (const SessionData& session : sessions)
+        changed.insert(changed.end(), session.changed.begin(), session.changed.end());
+    out.page.problems("Changed since the sessions ended", changed);
     for (const auto& [group, list] : groups)
         add_group(out, group.first, group.second, list, folder);
     for (Table* table : tables_of(out)) {

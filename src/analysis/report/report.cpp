@@ -37,6 +37,7 @@ ReportResult report_session(const std::string& path, const std::string& command,
     write(result, of(session, made.blocks), session.folder.file("adaptation-blocks.csv"));
     write(result, of(session, made.generalisation), session.folder.file("generalisation.csv"));
     write(result, of(session, made.thresholds), session.folder.file("thresholds.csv"));
+    result.changed = session.changed;
     result.log = made.log;
     result.page = session.folder.file("report.html");
     write_file(made.page.html(), result.page);
@@ -88,6 +89,9 @@ ReportResult report_folder(const std::string& folder, const std::string& command
     const PopulationPage made = population_page(sessions, folder, command);
     const auto file = [&](const char* name) { return (fs::path(folder) / name).string(); };
     result.sessions = static_cast<int>(sessions.size());
+    for (const SessionData& session : sessions) {
+        result.changed.insert(result.changed.end(), session.changed.begin(), session.changed.end());
+    }
     write(result, made.people, file("population-people.csv"));
     write(result, made.adaptation, file("population-adaptation.csv"));
     write(result, made.lifts, file("population-lifts.csv"));

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/diagnostics.h"
+
 namespace dihaptic::analysis {
 
 struct ReportResult {
@@ -13,6 +15,7 @@ struct ReportResult {
     std::vector<std::string> tables;  ///< tables written beside the page
     int sessions = 0;
     std::vector<std::string> left_out;  ///< sessions left out, each with the reason
+    std::vector<Problem> changed;       ///< what was changed in sessions since they ended
     std::vector<std::string> log;       ///< what is wrong with a session's raw.log, in sentences
 };
 

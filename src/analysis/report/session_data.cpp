@@ -7,18 +7,33 @@
 #include <map>
 
 #include "base/regular_file.h"
+#include "base/shell_word.h"
+#include "recording/seal.h"
 #include "task/trials.h"
 
 namespace dihaptic::analysis {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+std::vector<Problem> changed_of(const recording::SessionFolder& folder,
+                                const recording::SessionInfo& info) {
+    constexpr std::string_view kRead[] = {"trials.csv", "lifts.csv", "procedures.csv"};
+    std::vector<Problem> out = recording::broken_seals(folder, info, Severity::warning, kRead);
+    const std::vector<Problem> inputs = folder.changed(info.inputs, Severity::warning);
+    out.insert(out.end(), inputs.begin(), inputs.end());
+    return out;
+}
+
+}  // namespace
+
 SessionData SessionData::read(const std::string& path) {
     recording::SessionFolder folder = recording::SessionFolder::open_tables(path);
     recording::SessionInfo info = folder.read_info();
     if (info.state == recording::SessionState::running) {
         throw Error({folder.file("session.yaml"), 0}, "", "the session has not ended",
-                    "If it was killed, run: dihaptic recover " + folder.path());
+                    "If it was killed, run: dihaptic recover " + shell_word(folder.path()));
     }
     SessionData data{folder,
                      info,
@@ -28,6 +43,7 @@ SessionData SessionData::read(const std::string& path) {
                      {},
                      {},
                      {},
+                     changed_of(folder, info),
                      {}};
     for (const auto& [name, what] : unmeasured_perturbations(data.task)) {
         for (size_t i = 0; i < data.trials.rows(); ++i) {

@@ -438,6 +438,7 @@ SessionPage session_page(const SessionData& session, const std::string& command,
                          fmt::format("{}. Made by {} with: {}", origin_of(session),
                                      recording::program_version(), command))};
     out.page.table(facts(session), "");
+    out.page.problems("Changed since the session ended", session.changed);
     out.page.heading("Trials");
     out.page.table(outcomes(session),
                    "Attempts at trials by how they ended. " + origin_of(session));
