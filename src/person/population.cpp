@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kFarthest = 2.5;  // largest |z|: nobody is further from the median
+constexpr size_t kMostGroups = 1000;  // the traits of each are checked
+constexpr double kFarthest = 2.5;     // largest |z|: nobody is further from the median
 
 /// Traits that are zero in people who make neither noise nor mistakes.
 constexpr std::array kNoise{"visual_noise",    "reaction_noise", "tempo_noise",  "direction_noise",
@@ -192,6 +193,13 @@ void check(const Population& population, const std::string& file, Diagnostics& d
     }
     if (diagnostics.has_errors()) return;
     check_bounds(population, "", diagnostics);
+    if (population.groups.size() > kMostGroups) {
+        diagnostics.error({file, 0}, "groups",
+                          fmt::format("there are {}, where {} are the most",
+                                      population.groups.size(), kMostGroups),
+                          "Leave some out, or make files of them.");
+        return;
+    }
     for (const Group& group : population.groups) check_group(population, group, diagnostics);
     check_correlations(population, file, diagnostics);
 }

@@ -46,6 +46,23 @@ inline int look_up(const std::vector<std::string>& names, const std::string& nam
     return -1;
 }
 
+/// The same in a list of things that have names.
+template <class Thing>
+requires requires(const Thing& thing) {
+    thing.name;
+}
+int look_up(const std::vector<Thing>& things, const std::string& name, const Place& place,
+            const std::string& key, const std::string& what, Diagnostics& diagnostics) {
+    const auto found = std::find_if(things.begin(), things.end(),
+                                    [&](const Thing& thing) { return thing.name == name; });
+    if (found != things.end()) return static_cast<int>(found - things.begin());
+    if (diagnostics.problems().size() > kMostExplained) {
+        diagnostics.error(place, key, fmt::format("'{}' is {}", name, what), "");
+        return -1;
+    }
+    return look_up(names_of(things), name, place, key, what, diagnostics);
+}
+
 /// Unit vector along what is given, or z with an error.
 inline Vec3 axis_of(const std::optional<Vec3>& given, const Place& place, const char* key,
                     Diagnostics& diagnostics) {

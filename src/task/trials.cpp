@@ -10,6 +10,7 @@
 #include <limits>
 #include <numeric>
 #include <optional>
+#include <unordered_map>
 
 #include "base/text_file.h"
 #include "task/factors.h"
@@ -61,10 +62,33 @@ int index_of(const std::vector<std::string>& names, const std::string& name) {
     return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
+template <class Thing>
+int index_of(const std::vector<Thing>& things, const std::string& name) {
+    const auto found = std::find_if(things.begin(), things.end(),
+                                    [&](const Thing& thing) { return thing.name == name; });
+    return found == things.end() ? -1 : static_cast<int>(found - things.begin());
+}
+
+/// Finds things by their names, for lists of trials that name thousands.
+class Index {
+  public:
+    template <class Thing>
+    explicit Index(const std::vector<Thing>& things) {
+        for (size_t i = 0; i < things.size(); ++i)
+            by_name_.emplace(things[i].name, static_cast<int>(i));
+    }
+    int operator()(const std::string& name) const {
+        const auto found = by_name_.find(name);
+        return found == by_name_.end() ? -1 : found->second;
+    }
+
+  private:
+    std::unordered_map<std::string, int> by_name_;
+};
+
 std::vector<int> perturbations_of(const Task& task, const std::vector<std::string>& names) {
     std::vector<int> out;
-    for (const std::string& name : names)
-        out.push_back(index_of(names_of(task.perturbations), name));
+    for (const std::string& name : names) out.push_back(index_of(task.perturbations, name));
     return out;
 }
 
@@ -88,7 +112,7 @@ std::vector<Trial> procedure_trials(const Task& task, const Block& block, Trial 
                                     Random& random) {
     std::vector<int> turns;
     for (const std::string& name : block.procedures) {
-        const int i = index_of(names_of(task.procedures), name);
+        const int i = index_of(task.procedures, name);
         turns.insert(turns.end(),
                      static_cast<size_t>(task.procedures[static_cast<size_t>(i)].trials), i);
     }
@@ -108,8 +132,8 @@ std::vector<Trial> procedure_trials(const Task& task, const Block& block, Trial 
 /// without a name if the task has none.
 std::vector<int> conditions_of(const Task& task, const Block& block) {
     std::vector<int> out;
-    for (const std::string& name : block.conditions)
-        out.push_back(index_of(names_of(task.conditions), name));
+    const Index conditions(task.conditions);
+    for (const std::string& name : block.conditions) out.push_back(conditions(name));
     if (out.empty()) {
         out.resize(std::max<size_t>(1, task.conditions.size()));
         std::iota(out.begin(), out.end(), 0);
@@ -203,12 +227,13 @@ std::string perturbations_cell(const Task& task, const std::vector<int>& perturb
 /// The perturbations that such a cell names; -1 for a name that is unknown. A name may have an
 /// " + " of its own.
 std::vector<int> read_perturbations(const Task& task, const std::string& cell) {
-    const int one = index_of(names_of(task.perturbations), cell);
+    const int one = index_of(task.perturbations, cell);
     return one >= 0 ? std::vector<int>{one} : perturbations_of(task, names_in(cell));
 }
 
-std::string name_at(const std::vector<std::string>& names, int i) {
-    return i >= 0 && i < static_cast<int>(names.size()) ? names[static_cast<size_t>(i)] : "";
+template <class Thing>
+std::string name_at(const std::vector<Thing>& things, int i) {
+    return i >= 0 && i < static_cast<int>(things.size()) ? things[static_cast<size_t>(i)].name : "";
 }
 
 void draw_for(std::vector<Trial>& trials, const Task& task, int number, uint64_t seed) {
@@ -342,12 +367,12 @@ Table trial_list(const Task& task, const std::vector<Trial>& trials) {
     const std::vector<Factor> factors = factors_of(task);
     for (size_t i = 0; i < trials.size(); ++i) {
         const Trial& t = trials[i];
-        table.rows.push_back(
-            {static_cast<double>(i + 1), static_cast<double>(t.number),
-             task.blocks[static_cast<size_t>(t.block)].name, static_cast<double>(t.in_block),
-             std::string(enum_name(t.kind)), name_at(names_of(task.rounds), t.round),
-             name_at(names_of(task.conditions), t.condition), perturbations_cell(task, t.perturb),
-             t.share, name_at(names_of(task.procedures), t.procedure)});
+        table.rows.push_back({static_cast<double>(i + 1), static_cast<double>(t.number),
+                              task.blocks[static_cast<size_t>(t.block)].name,
+                              static_cast<double>(t.in_block), std::string(enum_name(t.kind)),
+                              name_at(task.rounds, t.round), name_at(task.conditions, t.condition),
+                              perturbations_cell(task, t.perturb), t.share,
+                              name_at(task.procedures, t.procedure)});
         add_own_cells(task, factors, t, table.rows.back());
     }
     return table;
@@ -360,6 +385,8 @@ std::vector<Trial> read_trial_list(const Task& task, const std::string& file) {
         throw Error({file, 0}, "", "has no trial",
                     "Put back the list that the session was recorded with.");
     }
+    const Index blocks(task.blocks), rounds(task.rounds), conditions(task.conditions),
+        procedures(task.procedures);
     for (size_t i = 1; i < rows.size(); ++i) {
         const auto& row = rows[i];
         const auto bad = [&](const char* column) {
@@ -369,16 +396,16 @@ std::vector<Trial> read_trial_list(const Task& task, const std::string& file) {
         if (row.size() < 10) throw bad("trial_num");
         Trial t;
         t.number = std::atoi(row[1].c_str());
-        t.block = index_of(names_of(task.blocks), row[2]);
+        t.block = blocks(row[2]);
         t.in_block = std::atoi(row[3].c_str());
         const auto kinds = enum_names(TrialKind{});
         const auto kind = std::find(kinds.begin(), kinds.end(), row[4]);
-        t.round = task.rounds.empty() ? 0 : index_of(names_of(task.rounds), row[5]);
-        t.condition = task.conditions.empty() ? 0 : index_of(names_of(task.conditions), row[6]);
+        t.round = task.rounds.empty() ? 0 : rounds(row[5]);
+        t.condition = task.conditions.empty() ? 0 : conditions(row[6]);
         t.perturb = read_perturbations(task, row[7]);
         t.share = row[8].empty() ? std::numeric_limits<double>::quiet_NaN()
                                  : std::strtod(row[8].c_str(), nullptr);
-        t.procedure = index_of(names_of(task.procedures), row[9]);
+        t.procedure = procedures(row[9]);
         if (t.block < 0) throw bad("block");
         if (kind == kinds.end()) throw bad("kind");
         if (t.round < 0) throw bad("round");
