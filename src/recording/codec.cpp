@@ -1,6 +1,7 @@
 #include "recording/codec.h"
 
 #include <cstring>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -26,6 +27,7 @@ class Writer {
     }
     template <class T>
     void each(const char*, const std::vector<T>& list, const char*) {
+        fit(list.size());
         put(static_cast<uint16_t>(list.size()));
         for (const T& item : list) T::visit(item, *this);
     }
@@ -33,6 +35,7 @@ class Writer {
     void changed(const char*, const std::vector<T>& list, const std::vector<uint16_t>& which,
                  const char*) {
         const bool all = bodies_ == Bodies::all;
+        fit(list.size());
         const auto count = static_cast<uint16_t>(all ? list.size() : which.size());
         put(count);
         for (uint16_t n = 0; n < count; ++n) {
@@ -44,6 +47,9 @@ class Writer {
     size_t size() const { return fits_ ? used_ : 0; }
 
   private:
+    /// The log counts in 16 bits: a frame with more is dropped, and told, rather than written
+    /// wrong.
+    void fit(size_t count) { fits_ = fits_ && count <= std::numeric_limits<uint16_t>::max(); }
     template <class T>
     void put(const T& value) {
         static_assert(kIsField<T>);
