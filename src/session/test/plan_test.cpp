@@ -347,7 +347,7 @@ INSTANTIATE_TEST_SUITE_P(
             [](Files& f) {
                 f.experiment += "movement: {file: m.csv, axes: world, block: block}\n";
             },
-            "m.csv: error: cannot be read"},
+            "experiment.yaml:3: error: file: "},
         Bad{"an unknown finger's line",
             [](Files& f) { f.experiment += "hand:\n  fingers:\n    - {name: pinky}\n"; },
             "experiment.yaml:5: error: name: the hand's finger"},
