@@ -33,11 +33,15 @@ struct Node::Entry {
     Node value;
 };
 
-/// Reads a YAML file.
-/// Throws Error when the file cannot be read, is not YAML, or gives a key twice.
+/// Whether control characters, which YAML has escapes for, are an error or are replaced: before
+/// version 0.3 they got into sessions, whose files then could not be read.
+enum class Words { checked, mended };
+
+/// Reads a YAML file. Throws Error when the file cannot be read, is not YAML, gives a key twice, or
+/// has words with control characters.
 Node read_yaml(const std::string& file);
 /// As read_yaml(), from text; messages call it `file`.
-Node parse_yaml(const std::string& text, const std::string& file);
+Node parse_yaml(const std::string& text, const std::string& file, Words words = Words::checked);
 
 std::string to_yaml(const Node& node);
 
