@@ -106,7 +106,13 @@ class Monkey(Window):
         pathlib.Path(self.scene).write_text(pathlib.Path(self.folder.name, "good").read_text())
         pathlib.Path(self.experiment).write_text("scene: block.yaml\nrig: rig.yaml\n")
         self.open(self.next_files())
-        self.key("ctrl+e")
+        self.key("ctrl+e", "F5")
+        time.sleep(1)
+        for dialog in self.dialogs("^(Before the session|Who does)"):
+            self.xdotool("windowfocus", dialog)
+            time.sleep(0.3)
+            self.key("Return")
+        self.xdotool("windowfocus", self.name)
 
     def next_files(self):
         self.opened_so_far = getattr(self, "opened_so_far", -1) + 1
@@ -140,7 +146,6 @@ class Monkey(Window):
         foreign = pathlib.Path(self.folder.name, ".block.draft.yaml")
         foreign.write_text("theirs")
         self.open_next()
-        self.start()
         last, each, done, acts = time.monotonic() + TIME, max(7, TIME / 12), [], 0
         change = time.monotonic() + each
         while time.monotonic() < last:
