@@ -2,7 +2,6 @@
 
 #include <sys/stat.h>
 
-#include <QDir>
 #include <QFile>
 #include <QFileInfo>
 
@@ -19,7 +18,7 @@ namespace {
 QString path_of(const QString& name) {
     const QFileInfo info(name);
     if (info.exists() || info.isSymLink()) return info.canonicalFilePath();
-    return info.absoluteDir().canonicalPath() + "/" + info.fileName();
+    return QFileInfo(info.absolutePath()).canonicalFilePath() + "/" + info.fileName();
 }
 
 }  // namespace
