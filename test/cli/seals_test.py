@@ -219,7 +219,7 @@ class Seals(unittest.TestCase):
     def expect_report_tells(self, session, name):
         result = dihaptic("report", str(session))
         said = result.stderr
-        self.assertRegex(said, name + r": (warning|error): .*the session ended|" + name + r": error: is empty")
+        self.assertRegex(said, name + r": (warning|error): .*the session ended")
         if result.returncode == 0:
             self.assertIn("Changed since the session ended", (session / "report.html").read_text())
 
@@ -297,8 +297,8 @@ class Seals(unittest.TestCase):
             self.assertIn(result.returncode, (1, 2), said)
             self.assertNotIn("PWNED", said)
             self.assertNotIn("\x1b", said)
-            self.assertNotIn("/a.yaml", said)
             if result.returncode == 1:
+                self.assertNotIn("/a.yaml", said)
                 self.assertIn("is none that dihaptic wrote", said)
 
     def test_what_is_to_be_typed_names_this_program_and_this_folder(self):

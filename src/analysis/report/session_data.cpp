@@ -26,6 +26,17 @@ std::vector<Problem> changed_of(const recording::SessionFolder& folder,
     return out;
 }
 
+/// Throws Error when the table cannot be read, with what is known of how it was.
+CsvFile trials_of(const recording::SessionFolder& folder, const std::vector<Problem>& changed) {
+    try {
+        return CsvFile(folder.file("trials.csv"));
+    } catch (const Error& e) {
+        std::vector<Problem> problems = e.problems();
+        problems.insert(problems.end(), changed.begin(), changed.end());
+        throw Error(problems);
+    }
+}
+
 }  // namespace
 
 SessionData SessionData::read(const std::string& path) {
@@ -35,15 +46,16 @@ SessionData SessionData::read(const std::string& path) {
         throw Error({folder.file("session.yaml"), 0}, "", "the session has not ended",
                     "If it was killed, run: dihaptic recover " + shell_word(folder.path()));
     }
+    const std::vector<Problem> changed = changed_of(folder, info);
     SessionData data{folder,
                      info,
                      read_frozen_task(folder.file("task.yaml")),
-                     CsvFile(folder.file("trials.csv")),
+                     trials_of(folder, changed),
                      std::nullopt,
                      {},
                      {},
                      {},
-                     changed_of(folder, info),
+                     changed,
                      {}};
     for (const auto& [name, what] : unmeasured_perturbations(data.task)) {
         for (size_t i = 0; i < data.trials.rows(); ++i) {
