@@ -91,7 +91,7 @@ void new_study(const std::string& path) {
     for (const StudyFile& file : study_files()) names.emplace_back(file.name);
     fmt::print("{}: {}\n", folder.string(), fmt::join(names, ", "));
     fmt::print("next: cd {}, where README.md says what to type, from top to bottom\n",
-               shell_word(folder.string()));
+               shell_file(folder.string()));
     const char* const paths = std::getenv("PATH");
     if (!app::shell_finds_program(paths == nullptr ? "" : paths))
         fmt::print("so that your shell finds dihaptic there: {}\n", app::path_command());

@@ -123,7 +123,7 @@ std::string why_failed(const RehearseOptions& options, const std::string& id) {
     const std::string messages = session::messages_of(options.out, id);
     if (!messages.empty() || stop_requested) return messages;
     return fmt::format("It left no message: look whether the disk is full (df -h {}).",
-                       shell_word(options.out));
+                       shell_file(options.out));
 }
 
 std::string usual_folder(const session::Request& request) {
@@ -265,7 +265,7 @@ void print_next(const RehearseOptions& options, const Shard& shard) {
         const bool all = shard.of == 1;
         fmt::print("complete: {}{}\nnext{}: dihaptic collect {}\n", options.out,
                    all ? "" : fmt::format(", shard {}/{}", shard.number, shard.of),
-                   all ? "" : ", when the other shards are", shell_word(options.out));
+                   all ? "" : ", when the other shards are", shell_file(options.out));
     } else {
         fmt::print("some are missing in {}: the same command goes on with those\n", options.out);
     }
@@ -298,7 +298,7 @@ void rehearse_by_slurm(RehearseOptions& options) {
         "watch it: squeue --job {}; messages of the shards: {}/slurm\n"
         "next, when it has ended: dihaptic collect {}\n",
         *job, counted(static_cast<int64_t>(shards.size()), "shard"), slurm_script(options.out),
-        *job, options.out, shell_word(options.out));
+        *job, options.out, shell_file(options.out));
 }
 
 void rehearse(RehearseOptions& options) {

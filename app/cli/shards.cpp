@@ -68,7 +68,7 @@ std::string by_sbatch(const std::string& folder, const Asked& asked,
                       const std::vector<int>& shards) {
     const bool all = static_cast<int>(shards.size()) == asked.shards;
     return fmt::format("sbatch {}{}", all ? "" : fmt::format("--array={} ", fmt::join(shards, ",")),
-                       shell_word(slurm_script(folder)));
+                       shell_file(slurm_script(folder)));
 }
 
 std::string by_hand(const Asked& asked, const std::vector<int>& shards) {

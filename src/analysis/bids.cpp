@@ -34,7 +34,7 @@ class Exporter {
           folder_((fs::path(data_set) / data_set_.subject() / "motion").string()) {
         if (info_.state == recording::SessionState::running) {
             throw Error({session.file("session.yaml"), 0}, "", "the session has not ended",
-                        "If it was killed, run: dihaptic recover " + shell_word(session.path()));
+                        "If it was killed, run: dihaptic recover " + shell_file(session.path()));
         }
         if (!is_there(session.raw_log()) && is_there(session.file("trials.csv"))) {
             throw Error({session.path(), 0}, "", "has no recording any more, only tables",

@@ -43,6 +43,10 @@ std::string shell_word(const std::string& word) {
     return out + "'";
 }
 
+std::string shell_file(const std::string& name) {
+    return shell_word(name.starts_with('-') ? "./" + name : name);
+}
+
 std::optional<std::vector<std::string>> shell_words(std::string_view command) {
     std::vector<std::string> out;
     for (size_t at = 0; at < command.size();) {

@@ -109,8 +109,11 @@ constexpr StatusRow kStatusTable[] = {
      "newton"},
     {kSolverMissed, "the contact solver missed its tolerance, and the best answer was used",
      "nothing with sequential_impulse, which ends near the answer, or in a heap that no finger "
-     "touches (solver_held_residual); otherwise look at what the objects do in these ticks, and "
-     "report the session's folder as a bug"},
+     "touches (solver_held_residual); where solver_route is out_of_work, the step had more "
+     "contacts "
+     "than a tick has time for: use fewer objects, or such as do not begin within each other; "
+     "otherwise look at what the objects do in these ticks, and report the session's folder as a "
+     "bug"},
     {kForceOff, "force was off, after a fault", "look at the first fault"},
     {kBadReading,
      "a device gave a position or a velocity that is not a number",

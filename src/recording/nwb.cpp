@@ -391,7 +391,7 @@ void write_nwb(const SessionFolder& folder, const NwbContent& content,
     const auto failed = [&](const std::string& why) {
         return Error({folder.nwb(), 0}, "", "cannot be written: " + why,
                      "raw.log has all of it: free some space, then run: dihaptic recover " +
-                         shell_word(folder.path()));
+                         shell_file(folder.path()));
     };
     try {
         write_file(output.path(), log, content, progress);

@@ -57,7 +57,7 @@ std::string seal_of(const SessionInfo& info) {
 
 std::string remedy_for(const SessionFolder& folder, bool can_be_made) {
     if (can_be_made && is_there(folder.raw_log()))
-        return "Make it anew from raw.log: dihaptic recover " + shell_word(folder.path());
+        return "Make it anew from raw.log: dihaptic recover " + shell_file(folder.path());
     return "Put it back as it was: a backup has it. Without one, the session has to be done again.";
 }
 
@@ -130,7 +130,7 @@ std::vector<Problem> broken_own_seal(const SessionFolder& folder, const SessionI
              "seal",
              "does not fit: the session's identity, participant, seed, program, state, ticks, "
              "inputs or list of tables was changed since it ended",
-             is_there(folder.raw_log()) ? again + shell_word(folder.path())
+             is_there(folder.raw_log()) ? again + shell_file(folder.path())
                                         : remedy_for(folder, false)}};
 }
 

@@ -133,7 +133,7 @@ void check_not_resumed(const std::string& session, const std::string& out) {
         throw Error({session, 0}, "", fmt::format("was resumed already, as {}", next),
                     fmt::format("Go on with that one: dihaptic resume {}. If it is not to count, "
                                 "move its folder elsewhere.",
-                                shell_word(next)));
+                                shell_file(next)));
     }
 }
 

@@ -455,7 +455,7 @@ std::string Run::stall_text(const servo::Timing::Stall& stall) const {
     return fmt::format(
         "{}. The call has not returned since, so the session ends here. Switch the "
         "devices off and on; dihaptic recover {} makes the session's files.",
-        servo::describe(stall), shell_word(folder_.path()));
+        servo::describe(stall), shell_file(folder_.path()));
 }
 
 std::string Run::fault_text() const {
@@ -471,7 +471,7 @@ std::string Run::fault_text() const {
     if (live_ != nullptr) return out;  // the window says how to go on
     if (plan_.task && plan_.resumable) {
         out += fmt::format(" dihaptic resume {} goes on with the trials that are left.",
-                           shell_word(folder_.path()));
+                           shell_file(folder_.path()));
     } else if (!plan_.task && !stopped) {
         out += " Then start the session again.";
     }

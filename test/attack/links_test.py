@@ -144,7 +144,8 @@ class Links(unittest.TestCase):
                 after = everything(place)
                 used = [path for path in {*before, *after} if before.get(path) != after.get(path)]
                 names = sorted({str(pathlib.Path(path).relative_to(place)) for path in used} | set(more))
-            # a session's folder gets another name each time
+            # what the user names may be the user's link; a session's folder gets another name each time
+            names = [trap for trap in names if trap not in arguments or "." in trap]
             names = [trap for trap in names if not re.match(r"(s|\.)/\d{4}-|\d{4}-", trap) or trap in more]
             out += [(name, kind, trap) for trap, kind in itertools.product(names, TRAPS)]
         return out

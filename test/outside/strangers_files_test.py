@@ -38,7 +38,7 @@ class StrangersFiles(unittest.TestCase):
 
     def test_a_participant_that_a_spreadsheet_would_take_for_a_formula_is_refused(self):
         for word in ('=HYPERLINK("http://x.invalid";"S1")', "@SUM(A1)1", "+1", "=1"):
-            result = dihaptic("run", "experiments/first-trials.yaml", "--simulate", f"--participant={word}",
+            result = dihaptic("run", "experiments/lift-block.yaml", f"--participant={word}",
                               "--out", str(self.folder / "out"))
             self.assertEqual(result.returncode, 2, word)
             self.assertIn("what a spreadsheet would take for a formula", result.stderr)

@@ -44,7 +44,7 @@ SessionData SessionData::read(const std::string& path) {
     recording::SessionInfo info = folder.read_info();
     if (info.state == recording::SessionState::running) {
         throw Error({folder.file("session.yaml"), 0}, "", "the session has not ended",
-                    "If it was killed, run: dihaptic recover " + shell_word(folder.path()));
+                    "If it was killed, run: dihaptic recover " + shell_file(folder.path()));
     }
     const std::vector<Problem> changed = changed_of(folder, info);
     SessionData data{folder,

@@ -31,6 +31,8 @@ TEST(ShellWord, IsTheWordToAShellWhateverIsInIt) {
     }
     EXPECT_EQ(shell_word(""), "''");
     EXPECT_EQ(shell_word("rehearsals/a_1"), "rehearsals/a_1");
+    EXPECT_EQ(shell_file("rehearsals/a_1"), "rehearsals/a_1");
+    EXPECT_EQ(shell_file("-r f"), "'./-r f'");
 }
 
 TEST(ShellWord, CommandsAreTakenApartAgain) {
