@@ -128,7 +128,8 @@ class Libraries(unittest.TestCase):
         self.experiment = self.folder / "experiment.yaml"
         scene = pathlib.Path("scenes/block-on-table.yaml").absolute()
         self.experiment.write_text(f"scene: {scene}\nrig: rig.yaml\n" + self.TRIALS)
-        self.env = {**os.environ, "XDG_CONFIG_HOME": str(self.folder / "config")}
+        self.env = {**os.environ, "XDG_CONFIG_HOME": str(self.folder / "config"),
+                    "DIHAPTIC_FAKE_LSL": str(self.folder / "told")}
 
     def allow(self):
         mine = self.folder / "config/dihaptic/libraries.yaml"
@@ -145,12 +146,14 @@ class Libraries(unittest.TestCase):
 
     def test_that_an_experiments_rig_names_is_not_loaded_until_the_user_allows_it(self):
         self.refused(self.run_it(), "rig.yaml")
-        self.assertEqual(list((self.folder / "out").iterdir()), [])
+        self.assertFalse((self.folder / "out").exists())
+        self.assertFalse((self.folder / "told").exists())
         checked = dihaptic("check", str(self.experiment), env=self.env)
         self.assertEqual(checked.returncode, 0, checked.stderr)
         self.assertIn("is not loaded", checked.stdout + checked.stderr)
         self.allow()
         self.assertEqual(self.run_it().returncode, 0)
+        self.assertTrue((self.folder / "told").exists())
 
     def test_that_a_sessions_frozen_rig_names_is_not_loaded_either(self):
         process = subprocess.Popen([PROGRAM, "run", str(self.experiment), "--rig", str(self.rig), "--clock", "real", "--out",
