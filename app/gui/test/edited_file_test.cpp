@@ -113,7 +113,8 @@ TEST(PlainText, TakesNoControlCharacters) {
     EXPECT_EQ(clean_text(QString::fromUtf8("a\x1b[D\x7f\tb\r\nc\rd\xe2\x80\xa8"
                                            "e\xc2\x85")),
               "a[D\tb\nc\nd\ne");
-    EXPECT_EQ(clean_text(QString(QChar(0xd800)) + QChar(0) + "x"), "x");
+    EXPECT_EQ(clean_text(QString("a") + QChar(0) + "x"), "ax");
+    EXPECT_EQ(clean_text(QString(QChar(0xd800)) + "x"), "?x") << "half a character is none";
     EXPECT_EQ(clean_text(QString::fromUtf8("Gr\xc3\xbc\xc3\x9f")),
               QString::fromUtf8("Gr\xc3\xbc\xc3\x9f"));
 }
