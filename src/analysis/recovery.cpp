@@ -126,6 +126,10 @@ Recovery recover_session(const recording::SessionFolder& folder,
     const std::vector<recording::InputFile> before = mend_texts(folder, diagnostics);
     out.info = folder.read_info(log.head(), diagnostics);
     renew(out.info.inputs, before, folder);
+    // raw.log knows it better than a session.yaml that was changed
+    if (!recording::broken_own_seal(folder, out.info, Severity::warning).empty() &&
+        !log.head().seed.empty())
+        out.info.seed = log.head().seed;
     out.had_ended = out.info.state != recording::SessionState::running;
     const bool mended = !diagnostics.problems().empty();
     if (!out.had_ended || mended) out.info.state = recording::SessionState::recovered;
