@@ -39,9 +39,9 @@ struct CompanionTask {
     std::stop_token stop = {};  ///< ends the companion
 };
 
-/// Is told what companions are waited for: after a second, and again whenever that time has doubled.
-/// `what`: CompanionTask::what; `most`: when it is killed [s]. Null, as at first: nobody is told. It
-/// is called by the thread that waits.
+/// Is told what companions are waited for: after a second, and again whenever that time has
+/// doubled. `what`: CompanionTask::what; `most`: when it is killed [s]. Null, as at first: nobody
+/// is told. It is called by the thread that waits.
 using CompanionWait = void (*)(const std::string& what, int seconds, int most);
 void tell_companion_waits(CompanionWait tell) noexcept;
 

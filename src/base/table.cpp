@@ -94,56 +94,82 @@ namespace {
 constexpr size_t kMostColumns = 10'000;
 constexpr size_t kMostCells = 20'000'000;  // in memory each takes more than its text
 
-/// Refuses a table that would take all memory: commas alone are a cell each.
-void check_table_size(const std::string& file, size_t line, size_t columns, size_t cells) {
-    if (columns <= kMostColumns && cells <= kMostCells) return;
-    throw Error({file, static_cast<int>(line)}, "",
-                columns > kMostColumns
-                    ? fmt::format("this line has more than {} cells", kMostColumns)
-                    : fmt::format("from here on the table has more than {} cells", kMostCells),
-                "Check that it is the right file, or make it smaller.");
-}
+class CsvParser {
+  public:
+    CsvParser(const std::string& text, const std::string& file) : text_(text), file_(file) {}
+
+    std::vector<std::vector<std::string>> run() {
+        for (; at_ < text_.size(); ++at_) {
+            if (quoted_) {
+                take_quoted();
+            } else {
+                take(text_[at_]);
+            }
+        }
+        if (!cell_.empty() || !row_.empty()) {
+            row_.push_back(std::move(cell_));
+            rows_.push_back(std::move(row_));
+        }
+        return std::move(rows_);
+    }
+
+  private:
+    void take_quoted() {
+        const char c = text_[at_];
+        if (c == '"' && at_ + 1 < text_.size() && text_[at_ + 1] == '"') {
+            cell_ += text_[++at_];
+        } else if (c == '"') {
+            quoted_ = false;
+        } else {
+            if (c == '\n') ++line_;
+            cell_ += c;
+        }
+    }
+    void take(char c) {
+        if (c == '"') {
+            quoted_ = true;
+        } else if (c == ',' || c == '\n') {
+            end_cell(c == '\n');
+        } else if (c != '\r') {
+            cell_ += c;
+        }
+    }
+    void end_cell(bool and_line) {
+        row_.push_back(std::move(cell_));
+        cell_.clear();
+        cells_ += and_line ? 3 : 1;  // a line without cells takes as much as three
+        check_size();
+        if (!and_line) return;
+        ++line_;
+        rows_.push_back(std::move(row_));
+        row_.clear();
+    }
+    /// Refuses a table that would take all memory: commas alone are a cell each.
+    void check_size() const {
+        if (row_.size() <= kMostColumns && cells_ <= kMostCells) return;
+        throw Error({file_, line_}, "",
+                    row_.size() > kMostColumns
+                        ? fmt::format("this line has more than {} cells", kMostColumns)
+                        : fmt::format("from here on the table has more than {} cells", kMostCells),
+                    "Check that it is the right file, or make it smaller.");
+    }
+
+    const std::string& text_;
+    const std::string& file_;
+    size_t at_ = 0;
+    bool quoted_ = false;
+    std::string cell_;
+    std::vector<std::string> row_;
+    std::vector<std::vector<std::string>> rows_;
+    int line_ = 1;
+    size_t cells_ = 0;
+};
 
 }  // namespace
 
 std::vector<std::vector<std::string>> read_csv(const std::string& file) {
     const std::string text = read_text_file(file, kMostTable);
-    size_t line = 1, cells = 0;
-    std::vector<std::vector<std::string>> rows;
-    std::string cell;
-    std::vector<std::string> row;
-    bool quoted = false;
-    for (size_t i = 0; i < text.size(); ++i) {
-        const char c = text[i];
-        if (quoted) {
-            if (c == '"' && i + 1 < text.size() && text[i + 1] == '"') {
-                cell += text[++i];
-            } else if (c == '"') {
-                quoted = false;
-            } else {
-                if (c == '\n') ++line;
-                cell += c;
-            }
-        } else if (c == '"') {
-            quoted = true;
-        } else if (c == ',' || c == '\n') {
-            row.push_back(std::move(cell));
-            cell.clear();
-            cells += c == '\n' ? 3 : 1;  // a line without cells takes as much as three
-            check_table_size(file, line, row.size(), cells);
-            if (c == '\n') {
-                ++line;
-                rows.push_back(std::move(row));
-                row.clear();
-            }
-        } else if (c != '\r') {
-            cell += c;
-        }
-    }
-    if (!cell.empty() || !row.empty()) {
-        row.push_back(std::move(cell));
-        rows.push_back(std::move(row));
-    }
+    auto rows = CsvParser(text, file).run();
     if (rows.empty()) {
         throw Error({file, 0}, "", "is empty, without the line that names its columns",
                     "Put a backup of it in its place; dihaptic recover makes a session's tables "

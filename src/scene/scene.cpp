@@ -13,6 +13,7 @@
 
 #include "base/choices.h"
 #include "base/installed.h"
+#include "base/text.h"
 #include "scene/colour.h"
 #include "scene/finger_set.h"
 #include "scene/mesh.h"
@@ -245,6 +246,12 @@ void check_columns(const Scene& scene, Diagnostics& diagnostics) {
     });
 }
 
+/// Names become parts of paths, in the session's folder and in its NWB file.
+bool may_be_name(const std::string& name) {
+    return !name.starts_with('.') && name.find_first_of("/\\") == std::string::npos &&
+           !find_fault(name, Lines::one);
+}
+
 void check_names(const Scene& scene, Diagnostics& diagnostics) {
     // thumb and index of a file that names no fingers stand nowhere in it
     const bool in_file = !scene.fingers.empty() && !scene.fingers.front().place.file.empty();
@@ -253,11 +260,7 @@ void check_names(const Scene& scene, Diagnostics& diagnostics) {
         if (!in_file) names.insert(finger.name);
     }
     const auto check = [&](const std::string& name, const Place& place) {
-        // names become parts of paths, in the session's folder and in its NWB file
-        const bool bad = name.starts_with('.') || name.find_first_of("/\\") != std::string::npos ||
-                         std::any_of(name.begin(), name.end(),
-                                     [](unsigned char c) { return c < 0x20 || c == 0x7f; });
-        if (bad) {
+        if (!may_be_name(name)) {
             diagnostics.error(place, "name", fmt::format("'{}' cannot be a name", name),
                               "Use letters, digits, blanks, '-' and '_'.");
         }
