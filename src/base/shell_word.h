@@ -14,8 +14,8 @@ namespace dihaptic {
 /// if it has control characters.
 std::string shell_word(const std::string& word);
 
-/// As shell_word(), of a file's name: with ./ before one that begins with a dash, which every program
-/// would take for an option.
+/// As shell_word(), of a file's name: with ./ before one that begins with a dash, which every
+/// program would take for an option.
 std::string shell_file(const std::string& name);
 
 /// The words of a command that was put together of shell_word()s; nullopt if a shell would do more
