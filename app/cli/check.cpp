@@ -36,7 +36,7 @@ void add_check(CLI::App& app) {
                 fmt::print("{}: {} with {} warning{}\n", file, checked.what, warnings,
                            warnings == 1 ? "" : "s");
             } else {
-                fmt::print("{}: {}, in order\n", file, checked.what);
+                fmt::print("{}: valid {}\n", file, checked.what);
             }
             for (const std::string& limit : checked.limits) fmt::print("  {}\n", limit);
         }

@@ -204,7 +204,7 @@ void print_command(const Wanted& wanted, const std::vector<int>& shards) {
     }
     Asked asked = wanted.rehearsal.asked;
     asked.command = *command;
-    fmt::print("to have these done, once nothing works on them any more: {}\n",
+    fmt::print("to have these done, once no other process is working on them: {}\n",
                command_for(wanted.folder, asked, shards));
 }
 
@@ -343,9 +343,10 @@ class Collection {
 
 void collect(const CollectOptions& options) {
     Found found = find_people(options);
+    print_left_out(found);
+    std::fflush(stdout);
     check_whole(found);
     const auto& people = found.people;
-    print_left_out(found);
     if (people.empty()) {
         fmt::print("no session is complete: there is nothing to collect yet\n");
         exit_code = kFailed;

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include "base/companion.h"
 #include "cli/doctor/sections.h"
 #include "command.h"
 
@@ -49,6 +50,7 @@ void add_doctor(CLI::App& app) {
         "else 1.\n"
         "\nExample:\n  dihaptic doctor");
     command->callback([section] {
+        tell_companion_waits(nullptr);  // it says itself what hangs
         if (section->empty()) {
             report();
         } else {

@@ -10,6 +10,7 @@ struct PictureOptions : ViewOptions {
 };
 
 void make_picture(const PictureOptions& options) {
+    check_no_input(options);
     const Showing showing = open_showing(options.file);
     Drawer drawer(showing, options);
     // a scene is shown as it starts, a session as it ended

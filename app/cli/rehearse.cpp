@@ -139,7 +139,7 @@ struct Roster {
 Roster roster_of(const RehearseOptions& options, const Shard& shard) {
     Roster roster;
     for (int person = shard.number; person <= options.people; person += shard.of) {
-        if (fs::exists(options.out + "/" + person_id(person))) {
+        if (session::has_session(options.out + "/" + person_id(person))) {
             ++roster.there;
         } else {
             roster.waiting.push_back(person_id(person));

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <filesystem>
 
+#include "base/text_file.h"
 #include "recording/log_scene.h"
 #include "recording/session.h"
 #include "servo/displayed.h"
@@ -109,6 +110,17 @@ Showing open_showing(const std::string& file) {
     return fs::is_directory(file, unreadable) || fs::path(file).filename() == "raw.log"
                ? open_session(file)
                : open_plan(file);
+}
+
+void check_no_input(const ViewOptions& options) {
+    check_output(options.out, options.file, "what is shown");
+    const fs::path out(options.out);
+    const std::string kind = out.extension().string();
+    std::error_code none;
+    if (kind == ".png" || kind == ".mp4" || !fs::exists(out, none)) return;
+    const fs::path folder = out.parent_path().empty() ? "." : out.parent_path();
+    if (!fs::equivalent(folder, options.file, none)) return;
+    throw Error({options.out, 0}, "", "is a file of the session", "Name another file.");
 }
 
 void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& options) {

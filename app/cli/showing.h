@@ -39,6 +39,9 @@ struct ViewOptions {
     std::vector<std::string> show;
     std::string out;
 };
+/// Throws Error when the output is what is shown, or another file of that session, or cannot be
+/// written.
+void check_no_input(const ViewOptions& options);
 void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& options);
 
 /// Draws frames as the options say.

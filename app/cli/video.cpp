@@ -10,6 +10,7 @@ namespace {
 constexpr int kRate = 60;  // pictures per second
 
 void make_video(const ViewOptions& options) {
+    check_no_input(options);
     const Showing showing = open_showing(options.file);
     Drawer drawer(showing, options);
     view::Movie movie(options.out, drawer.width(), drawer.height(), kRate);

@@ -1,5 +1,8 @@
 #include "loader.h"
 
+#include <atomic>
+
+#include "base/companion.h"
 #include "base/unsaved.h"
 #include "person/population.h"
 
@@ -55,9 +58,24 @@ Opened open(const Wanted& wanted, std::unique_ptr<devices::DeviceGroup>& devices
     return out;
 }
 
+/// The loader that is told of companions which are waited for: the program has one window.
+std::atomic<Loader*> told{nullptr};
+
+void tell_of_wait(const std::string& what, int seconds, int most) {
+    if (Loader* const loader = told)
+        Q_EMIT loader->waits(QString::fromStdString(what), seconds, most);
+}
+
 }  // namespace
 
+Loader::Loader(QObject* parent) : QObject(parent) {
+    told = this;
+    tell_companion_waits(tell_of_wait);
+}
+
 Loader::~Loader() {
+    tell_companion_waits(nullptr);
+    told = nullptr;
     cancel();
     if (thread_.joinable()) thread_.join();
 }

@@ -41,7 +41,7 @@ class Loader : public QObject {
     Q_OBJECT
 
   public:
-    using QObject::QObject;
+    explicit Loader(QObject* parent = nullptr);
     ~Loader() override;
 
     /// Drops the result of a call before that is not done yet.
@@ -56,6 +56,9 @@ class Loader : public QObject {
   Q_SIGNALS:
     void opened(const dihaptic::gui::Opened& opened);
     void refused(const QStringList& problems);
+    /// After a second, and again whenever that time has doubled: what it is that takes so long, and
+    /// when that is given up [s].
+    void waits(const QString& what, int seconds, int most);
 
   private:
     void run(const Wanted& wanted);

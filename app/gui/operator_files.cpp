@@ -35,6 +35,12 @@ void OperatorWindow::connect_files() {
     connect(calibrator_, &Calibrator::stored, this, &OperatorWindow::reload);
     connect(&loader_, &Loader::opened, this, &OperatorWindow::opened);
     connect(&loader_, &Loader::refused, this, &OperatorWindow::refused);
+    // emitted by the loader's thread, so that it comes here later: the loading may be over
+    connect(&loader_, &Loader::waits, this, [this](const QString& what, int seconds, int most) {
+        if (loader_.loading())
+            session_->set_progress(most > 0 ? static_cast<double>(seconds) / most : 0,
+                                   tr("%1: %2 s of %3 s at most").arg(what).arg(seconds).arg(most));
+    });
     reload_.setSingleShot(true);
     connect(&watcher_, &QFileSystemWatcher::fileChanged, this, [this] { reload_.start(300); });
     // one that was gone comes back

@@ -194,7 +194,7 @@ class File(Part):
         written = self._written(path)
         for name in written:
             if name.is_symlink():
-                raise error("is a link, and nothing is written through one", "Name another file.", str(name))
+                raise error("is a link, and nothing is written through one", "Name another file.", file=str(name))
         with tempfile.TemporaryDirectory(prefix=f".{path.name}.", dir=path.parent) as making:
             for name, text in written.items():
                 Path(making, name.name).write_text(text, encoding="utf-8")

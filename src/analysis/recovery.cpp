@@ -79,6 +79,25 @@ std::optional<std::string> mended_text(const std::string& file) {
     }
 }
 
+/// Copies a file that is made anew to the first free name of its own with .before, .before-2 and so
+/// on behind it, which it returns.
+std::string keep_before(const std::string& file) {
+    std::string name = file + ".before";
+    for (int n = 2; is_there(name); ++n) name = fmt::format("{}.before-{}", file, n);
+    write_file(read_bytes(file, kMostTable), name);
+    return std::filesystem::path(name).filename().string();
+}
+
+/// Whether session.yaml can be read as it is.
+bool is_readable(const recording::SessionFolder& folder) {
+    try {
+        folder.read_info();
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
 /// Replaces the control characters and broken bytes that versions before 0.3 let into a session's
 /// files. Returns the files that it mended, as they were before.
 std::vector<recording::InputFile> mend_texts(const recording::SessionFolder& folder,
@@ -91,13 +110,15 @@ std::vector<recording::InputFile> mend_texts(const recording::SessionFolder& fol
         const std::string file = folder.file(name);
         if (const auto text = mended_text(file)) {
             out.push_back(folder.input(name));
-            write_file(read_bytes(file, kMostTable), file + ".before");
+            const std::string before = keep_before(file);
             write_file(*text, file);
             diagnostics.warning({file, 0}, "",
                                 "had control characters, or bytes that are not UTF-8 text. U+FFFD "
                                 "is in their place now; " +
-                                    name + ".before is the file as it was",
-                                "Put in by hand what they stood for, if you know it.");
+                                    before + " is the file as it was",
+                                "If you know what they stood for, put it in and recover the "
+                                "session again, which makes its "
+                                "tables anew.");
         }
     }
     return out;
@@ -124,6 +145,11 @@ Recovery recover_session(const recording::SessionFolder& folder,
     Recovery out;
     Diagnostics diagnostics;
     const std::vector<recording::InputFile> before = mend_texts(folder, diagnostics);
+    if (const std::string file = folder.file("session.yaml");
+        is_there(file) && !is_readable(folder)) {
+        diagnostics.warning({file, 0}, "",
+                            "cannot be read; " + keep_before(file) + " is the file as it was", "");
+    }
     out.info = folder.read_info(log.head(), diagnostics);
     renew(out.info.inputs, before, folder);
     // raw.log knows it better than a session.yaml that was changed

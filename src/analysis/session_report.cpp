@@ -129,10 +129,10 @@ std::vector<std::string> objects_of_trials(const recording::SessionFolder& folde
 
 /// Working data and results of one pass over the frames.
 struct SessionReader::Pass {
-    Pass(const recording::SessionFolder& folder, const recording::SessionInfo& info,
+    Pass(const recording::SessionFolder& folder, const recording::SessionInfo& of,
          const recording::LogHead& head)
-        : info(info),
-          names(names_of(info)),
+        : info(of),
+          names(names_of(of)),
           fingers(head.fingers),
           object(object_of(info.object, head)),
           tick(head.tick),

@@ -1,10 +1,10 @@
 #include "base/allowed_libraries.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 
 #include "base/node.h"
+#include "base/user_folder.h"
 
 namespace dihaptic {
 namespace {
@@ -20,7 +20,8 @@ fs::path file_itself(const std::string& path) {
 
 bool is_entry(const Node& item, const fs::path& file) {
     if (item.kind != Node::Kind::scalar || !fs::path(item.scalar).is_absolute()) {
-        throw Error(item.place, "", "is not the path of a library, from / on",
+        throw Error(item.place, "",
+                    "must be an absolute path, which begins with / (~ is not replaced)",
                     "Write a line for each, e.g. '- /opt/OpenHaptics/lib/libHD.so'.");
     }
     return file_itself(item.scalar) == file;
@@ -29,12 +30,8 @@ bool is_entry(const Node& item, const fs::path& file) {
 }  // namespace
 
 std::string allowed_libraries_file() {
-    const char* const name = "dihaptic/libraries.yaml";
-    if (const char* config = std::getenv("XDG_CONFIG_HOME"); config != nullptr && *config == '/')
-        return (fs::path(config) / name).string();
-    const char* home = std::getenv("HOME");
-    if (home == nullptr || *home != '/') return "";
-    return (fs::path(home) / ".config" / name).string();
+    const std::string config = user_config();
+    return config.empty() ? "" : config + "/dihaptic/libraries.yaml";
 }
 
 bool is_system_library(const std::string& name) {

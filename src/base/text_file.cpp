@@ -30,21 +30,27 @@ size_t character(std::string_view text, size_t i) {
     return utf8_length(text.substr(i));
 }
 
+/// Says what is wrong with what a rest of a text begins with.
+[[noreturn]] void refuse(std::string_view rest, const Place& place) {
+    const auto fault = find_fault(rest.substr(0, 1));
+    if (!fault || static_cast<unsigned char>(rest.front()) >= 0x80)
+        throw Error(place, "", "this line is not UTF-8 text", "Save the file as UTF-8.");
+    throw Error(place, "", "this line " + fault->what,
+                "Leave it out. If the file is one of a session's, dihaptic recover mends it.");
+}
+
 void check_encoding(const std::string& text, const std::string& file) {
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
         throw Error({file, 0}, "", "is UTF-16 text", "Save it as UTF-8.");
     }
+    if (text.find('\0') != std::string::npos) {
+        throw Error({file, 0}, "", "is not a text file",
+                    "Export it as text (CSV for a movement, YAML for the others).");
+    }
     int line = 1;
     for (size_t i = 0; i < text.size();) {
         const size_t length = character(text, i);
-        if (length == 0) {
-            const bool binary = static_cast<unsigned char>(text[i]) < 0x80;
-            if (binary) {
-                throw Error({file, 0}, "", "is not a text file",
-                            "Export it as text (CSV for a movement, YAML for the others).");
-            }
-            throw Error({file, line}, "", "this line is not UTF-8 text", "Save the file as UTF-8.");
-        }
+        if (length == 0) refuse(std::string_view(text).substr(i), {file, line});
         if (text[i] == '\n') ++line;
         i += length;
     }
@@ -61,6 +67,7 @@ std::string read_text_file(const std::string& file, int64_t most) {
 
 void check_output(const std::string& file, const std::string& input, const std::string& what) {
     namespace fs = std::filesystem;
+    if (file.empty()) throw Error("the output has no name", "Name a file.");
     std::error_code ignored;
     if (fs::equivalent(file, input, ignored)) {
         throw Error({file, 0}, "", fmt::format("is {} itself", what), "Name another file.");

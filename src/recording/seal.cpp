@@ -58,7 +58,9 @@ std::string seal_of(const SessionInfo& info) {
 std::string remedy_for(const SessionFolder& folder, bool can_be_made) {
     if (can_be_made && is_there(folder.raw_log()))
         return "Make it anew from raw.log: dihaptic recover " + shell_file(folder.path());
-    return "Put it back as it was: a backup has it. Without one, the session has to be done again.";
+    return "Restore it from a backup. If there is none, the session has to be done again, which "
+           "the "
+           "rehearsal's command does once the folder of a simulated person is removed.";
 }
 
 /// What is wrong with a table; "" if nothing is.
@@ -75,7 +77,7 @@ std::string fault_of(const SessionFolder& folder, std::string_view name, const T
         if (now.checksum == sealed->checksum) return "";
         if (now.rows != sealed->rows)
             return fmt::format("has {}; {}", counted(now.rows, "row"), then);
-        return fmt::format("was changed since the session ended, though it has {} as then",
+        return fmt::format("has been changed since the session ended (it still has {})",
                            counted(now.rows, "row"));
     } catch (const Error& e) {
         return e.problems().front().what + "; " + then;

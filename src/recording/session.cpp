@@ -57,8 +57,8 @@ Node first_lines(std::string text) {
     return {};
 }
 
-/// What can be read of a damaged session.yaml: its keys up to the one in which the damage is, and
-/// of that one the first lines. All is read once but that one.
+/// What can be read of a damaged session.yaml: all of its keys but the damaged ones, and of those
+/// the first lines.
 Node readable_part(const std::string& text) {
     Node out = Node::mapping();
     const auto take = [&](const Node& part) {
@@ -67,6 +67,8 @@ Node readable_part(const std::string& text) {
     const auto begins_key = [&](size_t at) {
         return std::isalpha(static_cast<unsigned char>(text[at])) != 0;
     };
+    constexpr int kMostDamaged = 100;
+    int damaged = 0;
     for (size_t from = 0, to = 0; from < text.size(); from = to) {
         do {
             to = std::min(text.find('\n', to), text.size() - 1) + 1;
@@ -77,7 +79,7 @@ Node readable_part(const std::string& text) {
             take(parse_yaml(key, ""));
         } catch (const Error&) {
             take(first_lines(key));
-            break;
+            if (++damaged > kMostDamaged) break;
         }
     }
     return out;
@@ -197,7 +199,7 @@ SessionInfo SessionFolder::read_info(const Setup& setup, Diagnostics& diagnostic
     lose("its beginning", info.started.empty());
     lose("command", info.command.empty());
     lose("participant", info.participant.id.empty());
-    lose("notes", true);
+    lose("notes", info.notes.empty());
     if (info.started.empty()) info.started = "1970-01-01T00:00:00+00:00";
     diagnostics.warning({file("session.yaml"), 0}, "",
                         why + ". It is made anew from raw.log" +

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <set>
 
 #include "base/allowed_libraries.h"
 
@@ -22,11 +23,17 @@ Problem refusal(const Place& place, const std::string& path) {
     const std::string list = allowed_libraries_file();
     std::string remedy = "If you trust it, ";
     if (!list.empty()) remedy += fmt::format("add the line '- {}' to {}; or ", whole(path), list);
+    if (std::error_code unreadable; !fs::exists(path, unreadable)) {
+        return {Severity::error, place, "library", fmt::format("'{}' does not exist", path),
+                "Correct the path, or install the maker's software."};
+    }
     return {Severity::error, place, "library",
             fmt::format("'{}' is not loaded: its code could do anything, and it is named by a file "
                         "that you did not name yourself",
                         path),
-            remedy + "name the rig yourself: --rig, or Rig in the window."};
+            remedy +
+                "name the rig yourself, which a session that is resumed cannot: --rig, or Rig in "
+                "the window."};
 }
 
 void look_at(const Place& place, const std::string& path, std::vector<Problem>& out) {
@@ -45,11 +52,30 @@ void look_at(const Node& options, std::vector<Problem>& out) {
 
 }  // namespace
 
+void find_libraries(Rig& rig, const std::string& rig_file) {
+    const auto find = [&](std::string& path) {
+        if (!path.empty() && !is_system_library(path) && !fs::path(path).is_absolute())
+            path =
+                fs::absolute(fs::path(rig_file).parent_path() / path).lexically_normal().string();
+    };
+    const auto find_in = [&](Node& options) {
+        for (Node::Entry& option : options.entries) {
+            if (option.key == "library") find(option.value.scalar);
+        }
+    };
+    for (Device& device : rig.devices) find_in(device.options);
+    for (outlets::OutletConfig& outlet : rig.outlets) find_in(outlet.options);
+    if (rig.head) find(rig.head->library);
+}
+
 std::vector<Problem> strange_libraries(const Rig& rig) {
     std::vector<Problem> out;
     for (const Device& device : rig.devices) look_at(device.options, out);
     for (const outlets::OutletConfig& outlet : rig.outlets) look_at(outlet.options, out);
     if (rig.head) look_at(rig.head->place, rig.head->library, out);
+    // two devices of a maker have one library
+    std::set<std::string> told;
+    std::erase_if(out, [&](const Problem& one) { return !told.insert(one.what).second; });
     return out;
 }
 

@@ -7,6 +7,10 @@
 
 namespace dihaptic::rig {
 
+/// Makes paths of libraries whole: one in a file is from the file's own folder, wherever the
+/// program was started.
+void find_libraries(Rig& rig, const std::string& rig_file);
+
 /// The libraries that the rig names by a path and that its reader's own list does not have: a
 /// problem for each, as it is told when one would be loaded.
 std::vector<Problem> strange_libraries(const Rig& rig);

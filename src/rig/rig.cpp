@@ -217,6 +217,7 @@ Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics, Nam
         diagnostics.add(e.problems());
         return rig;
     }
+    find_libraries(rig, file);
     place_world(rig);
     if (!diagnostics.has_errors()) check(rig, diagnostics);
     return rig;

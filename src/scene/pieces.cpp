@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -11,6 +12,7 @@
 #include "base/companion.h"
 #include "base/regular_file.h"
 #include "base/text_file.h"
+#include "base/user_folder.h"
 
 namespace dihaptic::scene {
 namespace {
@@ -182,19 +184,39 @@ void write_pieces(const Pieces& pieces, const std::string& file) {
     write_file(body + fmt::format("end {:016x}\n", fingerprint(body)), file);
 }
 
+namespace {
+
+/// Where the pieces of a mesh are kept: with the user, since the mesh's folder may be somebody
+/// else's; "" if the user has no home.
+std::string kept_file(uint64_t print) {
+    const std::string cache = user_cache();
+    return cache.empty() ? "" : fmt::format("{}/dihaptic/pieces/{:016x}.pieces", cache, print);
+}
+
+void keep(const Pieces& pieces, const std::string& file) {
+    if (file.empty()) throw Error("you have no home folder", "Set HOME.");
+    std::error_code failed;
+    std::filesystem::create_directories(std::filesystem::path(file).parent_path(), failed);
+    write_pieces(pieces, file);
+}
+
+}  // namespace
+
 Pieces convex_pieces(const Mesh& mesh, const std::string& file, const Place& asked_at,
                      Diagnostics& diagnostics, const std::stop_token& stop) {
     const uint64_t print = fingerprint(mesh);
-    const std::string kept = pieces_file(file);
-    if (std::optional<Pieces> pieces = read_pieces(kept, print)) return *std::move(pieces);
+    const std::string kept = kept_file(print);
+    for (const std::string& there : {pieces_file(file), kept}) {
+        if (std::optional<Pieces> pieces = read_pieces(there, print)) return *std::move(pieces);
+    }
     Pieces pieces{decompose(mesh, file, asked_at, stop), print};
     try {
-        write_pieces(pieces, kept);
+        keep(pieces, kept);
     } catch (const Error& e) {
         diagnostics.warning(asked_at, "file",
                             fmt::format("the convex pieces of {} cannot be kept: {} {}", file, kept,
                                         e.problems().front().what),
-                            "They are cut anew in each run, unless its folder can be written to.");
+                            "They are cut anew in each run, unless that folder can be written to.");
     }
     return pieces;
 }

@@ -13,6 +13,7 @@
 #include "base/regular_file.h"
 #include "base/shell_word.h"
 #include "base/table.h"
+#include "base/text_file.h"
 #include "recording/raw_log.h"
 
 namespace dihaptic::session {
@@ -21,6 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 using recording::Mover;
 using recording::SessionState;
+
+/// In the folder of a session that was resumed: the path of the one that goes on with it.
+constexpr const char* kResumedAs = "resumed-as";
 
 /// Puts the simulated person of that session back, with the same traits; what it had learned is
 /// lost.
@@ -125,19 +129,31 @@ std::string successor(const std::string& name, const std::string& parent) {
     return "";
 }
 
+[[noreturn]] void refuse_again(const std::string& session, const std::string& next) {
+    throw Error({session, 0}, "", fmt::format("was resumed already, as {}", next),
+                fmt::format("Go on with that one: dihaptic resume {}. If it is not to count, move "
+                            "its folder elsewhere.",
+                            shell_file(next)));
+}
+
 void check_not_resumed(const std::string& session, const std::string& out) {
     const fs::path folder = fs::canonical(session);
+    if (const std::string note = folder / kResumedAs; is_there(note)) {
+        std::string next = read_text_file(note, 10'000);
+        if (next.ends_with('\n')) next.pop_back();
+        if (is_there(next + "/session.yaml")) refuse_again(session, next);
+    }
     for (const std::string& parent : {folder.parent_path().string(), out}) {
         const std::string next = successor(folder.filename().string(), parent);
-        if (next.empty()) continue;
-        throw Error({session, 0}, "", fmt::format("was resumed already, as {}", next),
-                    fmt::format("Go on with that one: dihaptic resume {}. If it is not to count, "
-                                "move its folder elsewhere.",
-                                shell_file(next)));
+        if (!next.empty()) refuse_again(session, next);
     }
 }
 
 }  // namespace
+
+void note_successor(const std::string& session, const std::string& next) {
+    write_file(fs::absolute(next).lexically_normal().string() + "\n", session + "/" + kResumedAs);
+}
 
 recording::SessionLock claim(const std::string& session, const std::string& out) {
     const auto folder = recording::SessionFolder::open(session);

@@ -27,9 +27,11 @@ struct Rest {
 Rest rest_of(const std::string& session, Seat seat, const std::function<void(double)>& progress);
 
 /// Keeps others from resuming that session, which nobody does twice: the trials that are left are
-/// done once. Throws Error when another program resumes it now, or when a session beside it or in
-/// the folder `out` has resumed it already.
+/// done once. Throws Error when another program resumes it now, or when a session has resumed it
+/// already: one that it has a note of, or that is beside it or in the folder `out`.
 recording::SessionLock claim(const std::string& session, const std::string& out);
+/// Notes in a session's folder which one goes on with it. Throws Error when it cannot.
+void note_successor(const std::string& session, const std::string& next);
 
 /// A session whose trials are not all done.
 struct Unfinished {

@@ -269,6 +269,13 @@ void Run::describe() {
                                           100 * plan_.movement->bridged_share));
     }
     info_.inputs = freeze_inputs(plan_, folder_);
+    if (!plan_.resumes.empty()) {
+        try {
+            note_successor(plan_.resumes, folder_.path());
+        } catch (const Error& e) {
+            info_.notes.emplace_back(e.what());  // of an archive that nobody may write to
+        }
+    }
     info_.identity = identity_of(info_, plan_, real_);
     folder_.write_info(info_);
 }

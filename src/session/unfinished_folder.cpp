@@ -8,12 +8,13 @@
 
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 #include <utility>
 #include <vector>
 
 #include "base/diagnostics.h"
-#include "base/output.h"
+#include "base/regular_file.h"
 #include "base/text.h"
 #include "base/text_file.h"
 
@@ -44,20 +45,29 @@ bool is_own_file(int descriptor) {
     throw Error({what, 0}, "", why, "Look at it, and move it away; nothing in it was changed.");
 }
 
-/// Whether sessions of this person have such names: DATE_TIME_EXPERIMENT_PERSON, with _2 and so on.
+/// Whether a folder is a session of this person that a rehearsal began: it has such a name
+/// (DATE_TIME_EXPERIMENT_PERSON, with _2 and so on), and session.yaml or nothing at all in it.
 bool is_session(const fs::directory_entry& entry, const std::string& id) {
     const std::string name = entry.path().filename().string();
+    std::tm when{};
+    const char* const rest = strptime(name.c_str(), "%Y-%m-%d_%H%M%S", &when);
     const size_t at = name.rfind("_" + id);
-    if (at == std::string::npos || !fs::is_directory(entry.symlink_status())) return false;
-    const std::string rest = name.substr(at + 1 + id.size());
-    return rest.empty() ||
-           (rest.front() == '_' && rest.find_first_not_of("0123456789", 1) == std::string::npos);
+    if (rest == nullptr || *rest != '_' || at == std::string::npos ||
+        !fs::is_directory(entry.symlink_status()))
+        return false;
+    const std::string last = name.substr(at + 1 + id.size());
+    const bool whole =
+        last.empty() ||
+        (last.front() == '_' && last.find_first_not_of("0123456789", 1) == std::string::npos);
+    return whole && (fs::is_empty(entry.path()) ||
+                     fs::is_regular_file(fs::symlink_status(entry.path() / "session.yaml")) ||
+                     fs::is_regular_file(fs::symlink_status(entry.path() / "scene.yaml")));
 }
 
 }  // namespace
 
 UnfinishedFolder::UnfinishedFolder(const std::string& rehearsal, const std::string& id)
-    : done_(rehearsal + "/" + id), path_(folder_of(rehearsal, id)) {
+    : id_(id), done_(rehearsal + "/" + id), path_(folder_of(rehearsal, id)) {
     std::error_code ignored;
     fs::create_directory(path_, ignored);
     folder_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
@@ -74,7 +84,8 @@ UnfinishedFolder::~UnfinishedFolder() {
 }
 
 UnfinishedFolder::UnfinishedFolder(UnfinishedFolder&& other) noexcept
-    : done_(std::move(other.done_)),
+    : id_(std::move(other.id_)),
+      done_(std::move(other.done_)),
       path_(std::move(other.path_)),
       folder_(std::exchange(other.folder_, -1)),
       messages_(std::exchange(other.messages_, -1)) {}
@@ -110,13 +121,20 @@ std::optional<UnfinishedFolder> UnfinishedFolder::take(const std::string& rehear
 void UnfinishedFolder::remove_sessions() const {
     std::vector<fs::path> sessions;
     for (const auto& entry : fs::directory_iterator(held(folder_))) {
-        if (entry.path().filename() != kMessages) sessions.push_back(entry.path());
+        if (is_session(entry, id_)) sessions.push_back(entry.path());
     }
     for (const fs::path& session : sessions) fs::remove_all(session);  // follows no link
 }
 
 bool UnfinishedFolder::is_done() const {
-    return fs::exists(fs::symlink_status(done_));
+    return has_session(done_);
+}
+
+bool has_session(const std::string& folder) {
+    const fs::file_status there = fs::symlink_status(folder);
+    if (!fs::exists(there)) return false;
+    if (fs::is_directory(there) && is_there(folder + "/person.yaml")) return true;
+    refuse(folder, "is in the way: it is no session of a rehearsed person");
 }
 
 void UnfinishedFolder::finish(const std::string& session) const {
@@ -129,8 +147,11 @@ void UnfinishedFolder::finish(const std::string& session) const {
 
 void UnfinishedFolder::remove() const {
     remove_sessions();
+    for (const auto& entry : fs::directory_iterator(held(folder_))) {
+        if (entry.path().filename() != kMessages) return;  // what somebody put there stays
+    }
     ::unlinkat(folder_, kMessages, 0);
-    ::rmdir(path_.c_str());  // what somebody put there meanwhile stays
+    ::rmdir(path_.c_str());
 }
 
 std::string messages_of(const std::string& rehearsal, const std::string& id) {

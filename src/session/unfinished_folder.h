@@ -27,7 +27,7 @@ class UnfinishedFolder {
     /// The file, now empty, to which the process may write what it has to tell [descriptor].
     int messages() const { return messages_; }
     /// Whether the person's session is complete: it may be another program's, and have come just
-    /// now.
+    /// now. Throws Error as has_session().
     bool is_done() const;
     /// Gives a session that is complete its name. Throws Error when it cannot.
     void finish(const std::string& session) const;
@@ -39,11 +39,16 @@ class UnfinishedFolder {
     bool lock();
     void remove_sessions() const;
 
+    std::string id_;
     std::string done_;
     std::string path_;
     int folder_ = -1;    // held open: a link that takes its name later leads nowhere
     int messages_ = -1;  // locked as long as a process has it
 };
+
+/// Whether a rehearsed person's folder is there. Throws Error when anything else has its name,
+/// which would keep the person from being done for good.
+bool has_session(const std::string& folder);
 
 /// What the process of a person wrote to messages(); "" if there is nothing that can be read.
 std::string messages_of(const std::string& rehearsal, const std::string& id);

@@ -187,5 +187,60 @@ class Links(unittest.TestCase):
             return result.returncode == 0
 
 
+class Kept(unittest.TestCase):
+    """What is in an output folder and is not the program's own."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        write_experiment(self.folder / "short.yaml")
+
+    def rehearse(self, people=1):
+        return dihaptic("rehearse", str(self.folder / "short.yaml"), "--people", str(people), "--out", str(self.folder / "r"))
+
+    def test_folders_that_only_look_like_sessions_are_kept_and_named(self):
+        for name in ("my-thesis_sim-001", "2026-01-01_101010_short_sim-001", "notes"):
+            with self.subTest(name):
+                mine = self.folder / "r/unfinished-sim-001" / name
+                mine.mkdir(parents=True)
+                (mine / "thesis.txt").write_text("precious")
+                result = self.rehearse()
+                self.assertEqual(result.returncode, 1, result.stderr)
+                self.assertIn(name, result.stderr)
+                self.assertEqual((mine / "thesis.txt").read_text(), "precious")
+                shutil.rmtree(self.folder / "r")
+
+    def test_what_has_a_person_s_name_and_is_no_session_is_named(self):
+        for make in (lambda path: os.mkfifo(path), lambda path: path.mkdir(), lambda path: path.write_text("")):
+            (self.folder / "r").mkdir()
+            make(self.folder / "r/sim-001")
+            result = self.rehearse()
+            self.assertNotEqual(result.returncode, 0)
+            self.assertIn("r/sim-001: error: is in the way", result.stderr)
+            shutil.rmtree(self.folder / "r")
+
+    def test_recover_keeps_what_it_makes_anew(self):
+        result = dihaptic("run", str(self.folder / "short.yaml"), "--simulate", "--participant", "S7", "--out", str(self.folder / "s"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        (session,) = (self.folder / "s").iterdir()
+        info = (session / "session.yaml").read_text()
+        (session / "session.yaml.before").write_text("precious")
+        damaged = info.replace("\n", "\n\ttab: 1\n", 1)
+        (session / "session.yaml").write_text(damaged)
+        result = dihaptic("recover", str(session))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual((session / "session.yaml.before").read_text(), "precious")
+        self.assertEqual((session / "session.yaml.before-2").read_text(), damaged)
+        self.assertIn("id: sim-S7", (session / "session.yaml").read_text())
+
+    def test_no_output_replaces_what_it_shows(self):
+        scene = shutil.copy("scenes/block-on-table.yaml", self.folder)
+        text = pathlib.Path(scene).read_text()
+        result = dihaptic("picture", scene, "-o", scene)
+        self.assertEqual(result.returncode, 2)
+        self.assertEqual(pathlib.Path(scene).read_text(), text)
+
+
 if __name__ == "__main__":
     unittest.main()

@@ -29,7 +29,7 @@ class Commands(unittest.TestCase):
             self.assertIn("no device is held by the scene's finger 'thumb'", result.stderr)
             result = dihaptic("tune", "scenes/block-on-table.yaml", "--map", folder + "/none/map.svg")
             self.assertEqual(result.returncode, 2, result.stderr)
-            self.assertIn("map.svg: error: cannot be written. Name another file by --map", result.stderr)
+            self.assertIn("map.svg: error: cannot be written: No such file or directory. Name a file in a folder that is there", result.stderr)
 
     def test_workspace_measures_and_draws(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -127,7 +127,7 @@ class Slurm(unittest.TestCase):
         self.assertEqual(result.returncode, 1)
         self.assertEqual(re.findall("missing: .*", result.stdout), ["missing: shard 3/8: sim-011 (not ended), sim-019"])
         self.assertIn("22 sessions, ", result.stdout)
-        (again,) = re.findall("once nothing works on them any more: (.*)", result.stdout)
+        (again,) = re.findall("once no other process is working on them: (.*)", result.stdout)
         self.assertEqual(again, f"sbatch --array=3 '{out}/slurm.sh'")
         before = times_of(out)
         subprocess.run(again, shell=True, env=self.environment, check=True, stdout=subprocess.DEVNULL)

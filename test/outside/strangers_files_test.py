@@ -84,6 +84,23 @@ class StrangersFiles(unittest.TestCase):
                     dh.load(session).t
                 self.assertIn("in another file", str(told.exception))
 
+    def test_a_folder_with_a_library_of_that_name_is_not_searched_for_libraries(self):
+        linked = subprocess.run(["ldd", PROGRAM], capture_output=True, text=True, check=True).stdout
+        for line in linked.splitlines():
+            if "=>" in line:
+                (self.folder / line.split()[0]).write_text("no library")
+        result = subprocess.run([PROGRAM, "check", os.path.abspath("scenes/block-on-table.yaml")], cwd=self.folder,
+                                capture_output=True, text=True, timeout=patient(60))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for name in os.listdir(os.path.dirname(PROGRAM)):
+            file = os.path.join(os.path.dirname(PROGRAM), name)
+            if os.path.isfile(file) and os.access(file, os.X_OK):
+                with open(file, "rb") as program:
+                    if program.read(4) != b"\x7fELF":
+                        continue
+                head = subprocess.run(["readelf", "-d", file], capture_output=True, text=True).stdout
+                self.assertNotRegex(head, r"R(UN)?PATH", name)
+
     def make_virtual(self, file):
         layout = h5py.VirtualLayout(shape=(1,), dtype="f8")
         layout[:] = h5py.VirtualSource(str(self.folder / "other.h5"), "data", shape=(1,))

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "analysis/report/population_page.h"
@@ -63,9 +64,15 @@ ReportResult report_folder(const std::string& folder, const std::string& command
         if (!session.info.resumes.empty())
             earlier.insert(fs::path(session.info.resumes).filename().string());
     }
+    std::map<std::string, std::string> folders;  // by the session's identity
     std::erase_if(sessions, [&](const SessionData& session) {
         const std::string name = fs::path(session.folder.path()).filename().string();
-        if (earlier.contains(name)) {
+        const std::string& identity = session.info.identity;
+        const auto [first, is_new] = folders.emplace(identity, session.folder.path());
+        if (!is_new && !identity.empty()) {
+            result.left_out.push_back(session.folder.path() + ": it is the same session as " +
+                                      first->second);
+        } else if (earlier.contains(name)) {
             result.left_out.push_back(session.folder.path() + ": another session goes on with it");
         } else if (session.is_cut_short()) {
             result.left_out.push_back(session.folder.path() +

@@ -22,8 +22,8 @@ struct SessionData {
     std::vector<AdaptationCurve> curves;
     std::vector<ThresholdTrack> tracks;
     std::vector<Generalisation> generalisation;
-    std::vector<Problem> changed;  ///< of its files, since it ended: warnings
-    Unmeasured unmeasured;         ///< perturbations in the trials whose learning has no measure
+    std::vector<Problem> changed = {};  ///< of its files, since it ended: warnings
+    Unmeasured unmeasured = {};  ///< perturbations in the trials whose learning has no measure
 
     /// The perturbations in `unmeasured`, e.g. "sideways is a mass that differs by direction";
     /// empty if all are measured.

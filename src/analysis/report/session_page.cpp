@@ -50,7 +50,11 @@ Table facts(const SessionData& session) {
     for (const std::string& note : info.notes) row("note", note);
     const std::string written = session.folder.file("note.txt");
     try {
-        if (is_there(written)) row("note by hand", read_text_file(written));
+        if (std::filesystem::is_symlink(std::filesystem::symlink_status(written))) {
+            row("note by hand", "not shown: note.txt is a link to another file");
+        } else if (is_there(written)) {
+            row("note by hand", read_text_file(written));
+        }
     } catch (const Error& e) {
         row("note by hand", e.what());
     }

@@ -210,7 +210,7 @@ TEST(Problem, EndsItsSentencesOnceAndShowsNoControlCharacters) {
     EXPECT_EQ((Problem{Severity::error, {"f", 2}, "k", "is wrong", "Did you mean x?"}).text(),
               "f:2: error: k: is wrong. Did you mean x?");
     EXPECT_EQ((Problem{Severity::warning, {}, "", "is \x1b[31m red.", ""}).text(),
-              "warning: is ?[31m red.");
+              "warning: is \xef\xbf\xbd[31m red.");
 }
 
 std::string refusal_of(const std::string& file) {
@@ -239,6 +239,9 @@ TEST(TextFile, SaysWhatIsWrongWithWhatIsNoText) {
     EXPECT_NE(
         refusal_of(folder.write("binary", std::string("PK\3\4\0\0", 6))).find("is not a text file"),
         std::string::npos);
+    EXPECT_NE(refusal_of(folder.write("escape", "a\nb\x1b[31m\n"))
+                  .find("escape:2: error: this line has a control character (ESC"),
+              std::string::npos);
     EXPECT_NE(refusal_of(folder.write("latin", "a\nGr\xfc\xdf\x65\n"))
                   .find("latin:2: error: this line is not UTF-8 text"),
               std::string::npos);

@@ -145,7 +145,7 @@ TEST(Population, IsNotBasedOnItselfByAWayAround) {
         read_population(a);
         FAIL();
     } catch (const Error& e) {
-        EXPECT_NE(std::string(e.what()).find("b.yaml: error: based_on: leads back"),
+        EXPECT_NE(std::string(e.what()).find("b.yaml:2: error: based_on: leads back"),
                   std::string::npos)
             << e.what();
     }

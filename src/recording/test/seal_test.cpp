@@ -60,7 +60,7 @@ TEST(Seal, TellsWhatHappenedToATable) {
         << session.told();
     session.write("trials.csv", "a,b\n1,2\n3,4\n");
     EXPECT_NE(
-        session.told().find("was changed since the session ended, though it has 2 rows as then"),
+        session.told().find("has been changed since the session ended (it still has 2 rows)"),
         std::string::npos)
         << session.told();
     session.write("trials.csv", "");

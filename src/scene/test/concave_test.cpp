@@ -32,7 +32,11 @@ struct Files {
     testing::TemporaryFolder folder;
     Diagnostics diagnostics;
 
-    explicit Files(const std::string& mesh) { folder.write("l.obj", mesh); }
+    explicit Files(const std::string& mesh) {
+        folder.write("l.obj", mesh);
+        setenv("XDG_CACHE_HOME", folder.file("cache").c_str(), 1);
+    }
+    ~Files() { unsetenv("XDG_CACHE_HOME"); }
     Shape read(const std::string& text, const std::stop_token& stop = {}) {
         diagnostics = Diagnostics();
         const Scene scene = read_scene(folder.write("scene.yaml", text), diagnostics, stop);
@@ -43,7 +47,15 @@ struct Files {
         for (const Problem& problem : diagnostics.problems()) out += problem.text() + "\n";
         return out;
     }
-    std::string kept() const { return folder.file("l.obj.pieces"); }
+    /// The file of pieces that was written last; "" if there is none.
+    std::string kept() const {
+        std::error_code none;
+        fs::path out;
+        for (const auto& entry : fs::directory_iterator(folder.file("cache/dihaptic/pieces"), none))
+            if (out.empty() || entry.last_write_time() > fs::last_write_time(out))
+                out = entry.path();
+        return out.string();
+    }
 };
 
 /// Calculated by hand from the two boxes and the parallel axis theorem, in cm.
@@ -100,8 +112,10 @@ TEST(Concave, TheShippedMeshesAreFilledByTheirPieces) {
 TEST(Concave, PiecesAreKeptAndReadAgain) {
     Files files(kL);
     const Shape first = files.read(kBody);
-    const std::string kept = testing::read_file(files.kept());
+    const std::string file = files.kept();
+    const std::string kept = testing::read_file(file);
     ASSERT_FALSE(kept.empty());
+    EXPECT_FALSE(fs::exists(files.folder.file("l.obj.pieces")));  // that folder is not ours
     const auto written = fs::last_write_time(files.kept());
     const Shape second = files.read(kBody);
     EXPECT_EQ(fs::last_write_time(files.kept()), written);
@@ -113,7 +127,15 @@ TEST(Concave, PiecesAreKeptAndReadAgain) {
     files.read(std::string(kBody).replace(std::string(kBody).find("cm,"), 2, "mm"));
     EXPECT_NE(testing::read_file(files.kept()), kept);
     files.read(kBody);
-    EXPECT_EQ(testing::read_file(files.kept()), kept);
+    EXPECT_EQ(testing::read_file(file), kept);
+}
+
+TEST(Concave, PiecesBesideTheMeshAreTaken) {
+    Files files(kL);
+    files.read(kBody);
+    fs::rename(files.kept(), files.folder.file("l.obj.pieces"));
+    files.read(kBody);
+    EXPECT_EQ(files.kept(), "");
 }
 
 /// A prism over a star; the more teeth it has, the longer it takes to cut.
@@ -158,26 +180,28 @@ TEST(Concave, ACutThatTakesLongCanBeCancelled) {
 TEST(Concave, DamagedPiecesAreCutAnew) {
     Files files(kL);
     files.read(kBody);
-    const std::string kept = testing::read_file(files.kept());
+    const std::string file = files.kept();
+    const std::string kept = testing::read_file(file);
     std::string changed = kept;
     changed[kept.find("0.01", kept.find("piece "))] = '7';
     for (const std::string& damage :
          {std::string(), std::string("nonsense"), kept.substr(0, kept.size() / 2), changed}) {
-        std::ofstream(files.kept(), std::ios::binary) << damage;
+        std::ofstream(file, std::ios::binary) << damage;
         EXPECT_NEAR(volume(files.read(kBody).pieces.hulls), 3e-6, 1e-12);
         EXPECT_EQ(files.said(), "");
-        EXPECT_EQ(testing::read_file(files.kept()), kept);
+        EXPECT_EQ(testing::read_file(file), kept);
     }
 }
 
 TEST(Concave, WorksWherePiecesCannotBeKeptAndSaysSo) {
     Files files(kL);
-    fs::create_directories(files.kept() + "/occupied");
+    fs::create_directories(files.folder.file("cache"));
+    std::ofstream(files.folder.file("cache/dihaptic")) << "a file, where a folder has to be";
     EXPECT_NEAR(volume(files.read(kBody).pieces.hulls), 3e-6, 1e-12);
     EXPECT_FALSE(files.diagnostics.has_errors());
     EXPECT_NE(files.said().find("cannot be kept"), std::string::npos) << files.said();
     EXPECT_NE(files.said().find("cut anew in each run"), std::string::npos);
-    EXPECT_TRUE(fs::is_directory(files.kept()));
+    EXPECT_TRUE(fs::is_regular_file(files.folder.file("cache/dihaptic")));
 }
 
 TEST(Concave, AMeshWithAHoleIsRefused) {

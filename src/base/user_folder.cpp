@@ -1,0 +1,25 @@
+#include "base/user_folder.h"
+
+#include <cstdlib>
+
+namespace dihaptic {
+namespace {
+
+/// A relative path counts for nothing, as the specification has it.
+std::string folder(const char* variable, const char* below_home) {
+    if (const char* given = std::getenv(variable); given != nullptr && *given == '/') return given;
+    const char* home = std::getenv("HOME");
+    return home == nullptr || *home != '/' ? "" : std::string(home) + below_home;
+}
+
+}  // namespace
+
+std::string user_config() {
+    return folder("XDG_CONFIG_HOME", "/.config");
+}
+
+std::string user_cache() {
+    return folder("XDG_CACHE_HOME", "/.cache");
+}
+
+}  // namespace dihaptic

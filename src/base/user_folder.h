@@ -1,0 +1,14 @@
+// Folders of the user's own, where programs keep what belongs to no project (XDG Base Directory
+// Specification 0.8).
+#pragma once
+
+#include <string>
+
+namespace dihaptic {
+
+/// Folder for settings, ~/.config as a rule; "" if the user has no home.
+std::string user_config();
+/// Folder for what can be made anew, ~/.cache as a rule; "" if the user has no home.
+std::string user_cache();
+
+}  // namespace dihaptic
