@@ -58,9 +58,8 @@ std::string seal_of(const SessionInfo& info) {
 std::string remedy_for(const SessionFolder& folder, bool can_be_made) {
     if (can_be_made && is_there(folder.raw_log()))
         return "Make it anew from raw.log: dihaptic recover " + shell_file(folder.path());
-    return "Restore it from a backup. If there is none, the session has to be done again, which "
-           "the "
-           "rehearsal's command does once the folder of a simulated person is removed.";
+    return "Restore it from a backup. If there is none, the session has to be done again; of a "
+           "simulated person, remove the folder and type the rehearsal's command.";
 }
 
 /// What is wrong with a table; "" if nothing is.

@@ -125,7 +125,7 @@ class Slurm(InShards):
         result = collect(self.out)
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("missing: shard 4/8: sim-004, sim-012\n", result.stdout)
-        self.assertIn(f"any more: sbatch '{self.out}/slurm.sh'\n", result.stdout)
+        self.assertIn(f"working on them: sbatch '{self.out}/slurm.sh'\n", result.stdout)
         self.assertIn("nothing to collect yet", result.stdout)
 
     def test_what_sbatch_refuses_is_told(self):

@@ -203,7 +203,7 @@ groups:
         self.assertIn(f"rehearse {self.experiment} --people 3 --seed 7 --out {out}", lines[1])
         self.assertIn("left out: " + out + "/unfinished-sim-009", lines[2])
         self.assertIn("1 session, ", lines[3])
-        subprocess.run(lines[1].partition("any more: ")[2], shell=True, cwd="/", check=True, capture_output=True)
+        subprocess.run(lines[1].partition("working on them: ")[2], shell=True, cwd="/", check=True, capture_output=True)
         self.assertEqual(self.tables(out), before)
         # what was asked for last is what counts
         self.assertEqual(self.rehearse(out, "--people", "1", "--seed", "7").returncode, 0)

@@ -236,7 +236,7 @@ class Seals(unittest.TestCase):
         for one in PEOPLE:
             (study / one / "trials.csv").unlink()
         said = self.expect_refused(study, out, *PEOPLE)
-        self.assertRegex(said, r"sim-003/trials.csv: error: is gone: it had \d+ rows when the session ended\. Put it back")
+        self.assertRegex(said, r"sim-003/trials.csv: error: is gone: it had \d+ rows when the session ended\. Restore it")
 
     def test_sessions_without_seals_are_collected_and_told_of(self):
         study, out = self.copy()
@@ -309,7 +309,7 @@ class Seals(unittest.TestCase):
         rewritten(moved / "rehearsal.yaml", lambda text: re.sub(r"command: .*? rehearse ", "command: /bin/evil rehearse ", text, count=1))
         result = self.collect(moved, out)
         self.assertEqual(result.returncode, 1, result.stderr)
-        (typed,) = re.findall("any more: (.*)", result.stdout)
+        (typed,) = re.findall("working on them: (.*)", result.stdout)
         words = shlex.split(typed)
         self.assertEqual(os.path.basename(words[0]), "dihaptic")
         self.assertEqual(words[1:], ["rehearse", str(self.experiment), "--people", "3", "--seed", "1", "--out", str(moved),

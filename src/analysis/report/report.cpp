@@ -45,6 +45,17 @@ ReportResult report_session(const std::string& path, const std::string& command,
     return result;
 }
 
+Error none_ended(const std::string& folder, const std::vector<std::string>& left_out) {
+    std::vector<Problem> problems{{Severity::error,
+                                   {folder, 0},
+                                   "",
+                                   "has no sessions that have ended",
+                                   "Name a session's folder, or one with sessions in it."}};
+    for (const std::string& why : left_out)
+        problems.push_back({Severity::warning, {folder, 0}, "", why, ""});
+    return Error(problems);
+}
+
 ReportResult report_folder(const std::string& folder, const std::string& command,
                            const std::function<void(double)>& progress) {
     ReportResult result;
@@ -83,16 +94,7 @@ ReportResult report_folder(const std::string& folder, const std::string& command
         }
         return true;
     });
-    if (sessions.empty()) {
-        std::vector<Problem> problems{{Severity::error,
-                                       {folder, 0},
-                                       "",
-                                       "has no sessions that have ended",
-                                       "Name a session's folder, or one with sessions in it."}};
-        for (const std::string& why : result.left_out)
-            problems.push_back({Severity::warning, {folder, 0}, "", why, ""});
-        throw Error(problems);
-    }
+    if (sessions.empty()) throw none_ended(folder, result.left_out);
     const PopulationPage made = population_page(sessions, folder, command);
     const auto file = [&](const char* name) { return (fs::path(folder) / name).string(); };
     result.sessions = static_cast<int>(sessions.size());

@@ -59,9 +59,8 @@ TEST(Seal, TellsWhatHappenedToATable) {
         std::string::npos)
         << session.told();
     session.write("trials.csv", "a,b\n1,2\n3,4\n");
-    EXPECT_NE(
-        session.told().find("has been changed since the session ended (it still has 2 rows)"),
-        std::string::npos)
+    EXPECT_NE(session.told().find("has been changed since the session ended (it still has 2 rows)"),
+              std::string::npos)
         << session.told();
     session.write("trials.csv", "");
     EXPECT_NE(session.told().find("has 0 rows"), std::string::npos) << session.told();
@@ -134,7 +133,7 @@ TEST(Seal, IsRenewedOnlyForWhatIsMadeAnew) {
     seal(session.folder, session.info);
     const std::string told = session.told(session.info);
     EXPECT_EQ(told.find("trials.csv"), std::string::npos) << told;
-    EXPECT_NE(told.find("procedures.csv: warning: was changed"), std::string::npos) << told;
+    EXPECT_NE(told.find("procedures.csv: warning: has been changed"), std::string::npos) << told;
 }
 
 }  // namespace

@@ -21,13 +21,18 @@ class Libraries : public ::testing::Test {
                                             "  - finger: index\n"
                                             "    backend: openhaptics\n"
                                             "    options:\n"
-                                            "      library: ./evil.so\n"
+                                            "      library: ./own/evil.so\n"
                                             "outlets:\n"
                                             "  - kind: lsl\n"
-                                            "    options: { library: /tmp/evil.so }\n"
-                                            "head: { stream: Head, library: ../evil.so }\n");
+                                            "    options: { library: own/other.so }\n"
+                                            "head: { stream: Head, library: own/third.so }\n");
     Diagnostics diagnostics_;
-    Libraries() { setenv("XDG_CONFIG_HOME", folder_.path().c_str(), 1); }
+    Libraries() {
+        setenv("XDG_CONFIG_HOME", folder_.path().c_str(), 1);
+        std::filesystem::create_directory(folder_.file("own"));
+        for (const char* name : {"own/evil.so", "own/other.so", "own/third.so"})
+            folder_.write(name, "no library");
+    }
     ~Libraries() override { unsetenv("XDG_CONFIG_HOME"); }
 
     Rig read(NamedBy named_by) { return read_rig(file_, diagnostics_, named_by); }
@@ -40,11 +45,12 @@ TEST_F(Libraries, ThatAFileNamesAreNotLoaded) {
     EXPECT_EQ(strange[0].place.line, 5);
     EXPECT_EQ(strange[1].place.line, 8);
     const std::string text = strange[1].text();
-    EXPECT_NE(text.find("rig.yaml:8: error: library: '/tmp/evil.so' is not loaded"),
+    EXPECT_NE(text.find("rig.yaml:8: error: library: '" + folder_.file("own/other.so") +
+                        "' is not loaded"),
               std::string::npos)
         << text;
-    EXPECT_NE(text.find("add the line '- /tmp/evil.so' to " + folder_.path() +
-                        "/dihaptic/libraries.yaml"),
+    EXPECT_NE(text.find("add the line '- " + folder_.file("own/other.so") + "' to " +
+                        folder_.path() + "/dihaptic/libraries.yaml"),
               std::string::npos)
         << text;
     EXPECT_NE(text.find("--rig"), std::string::npos) << text;
@@ -64,7 +70,9 @@ TEST_F(Libraries, ThatTheOperatorsRigNamesAreLoaded) {
         make_devices(rig, {"index"}, {});
         FAIL();
     } catch (const Error& e) {
-        EXPECT_NE(std::string(e.what()).find("tried ./evil.so"), std::string::npos) << e.what();
+        EXPECT_NE(std::string(e.what()).find("tried " + folder_.file("own/evil.so")),
+                  std::string::npos)
+            << e.what();
     }
 }
 

@@ -345,6 +345,17 @@ class LiveOutlet : public ::testing::TestWithParam<std::string> {
                            fmt::format("devices: [{{ finger: index, backend: simulated }}]\n"
                                        "outlets: [{{ kind: {}, options: {} }}]\n",
                                        GetParam(), fallible->options()));
+        allow_library(fallible->options());
+    }
+    void TearDown() override { unsetenv("XDG_CONFIG_HOME"); }
+    /// The user's own list has the fake library, if the outlet is one of a library.
+    void allow_library(const std::string& options) {
+        const Node node = parse_yaml(options, "options");
+        const Node* const library = node.find("library");
+        if (library == nullptr) return;
+        std::filesystem::create_directories(files.folder.file("config/dihaptic"));
+        files.folder.write("config/dihaptic/libraries.yaml", "- " + library->scalar + "\n");
+        setenv("XDG_CONFIG_HOME", files.folder.file("config").c_str(), 1);
     }
     Files files;
     std::unique_ptr<outlets::Fallible> fallible = outlets::make_fallible(GetParam());
