@@ -1,8 +1,8 @@
 #include "base/installed.h"
+#include "base/user_folder.h"
 
 #include <dlfcn.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <vector>
 
@@ -25,11 +25,8 @@ fs::path file_of_this() {
 
 /// Where a user keeps files of all studies; "" if the user has no home.
 fs::path own_folder() {
-    if (const char* data = std::getenv("XDG_DATA_HOME"); data != nullptr && *data == '/')
-        return fs::path(data) / "dihaptic";
-    const char* home = std::getenv("HOME");
-    if (home == nullptr || *home != '/') return {};
-    return fs::path(home) / ".local/share/dihaptic";
+    const std::string data = user_data();
+    return data.empty() ? fs::path() : fs::path(data) / "dihaptic";
 }
 
 }  // namespace

@@ -18,6 +18,10 @@ std::string user_config() {
     return folder("XDG_CONFIG_HOME", "/.config");
 }
 
+std::string user_data() {
+    return folder("XDG_DATA_HOME", "/.local/share");
+}
+
 std::string user_cache() {
     return folder("XDG_CACHE_HOME", "/.cache");
 }

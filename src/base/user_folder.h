@@ -8,6 +8,8 @@ namespace dihaptic {
 
 /// Folder for settings, ~/.config as a rule; "" if the user has no home.
 std::string user_config();
+/// Folder for files of all studies, ~/.local/share as a rule; "" if the user has no home.
+std::string user_data();
 /// Folder for what can be made anew, ~/.cache as a rule; "" if the user has no home.
 std::string user_cache();
 

@@ -20,13 +20,13 @@ std::string whole(const std::string& path) {
 }
 
 Problem refusal(const Place& place, const std::string& path) {
-    const std::string list = allowed_libraries_file();
-    std::string remedy = "If you trust it, ";
-    if (!list.empty()) remedy += fmt::format("add the line '- {}' to {}; or ", whole(path), list);
     if (std::error_code unreadable; !fs::exists(path, unreadable)) {
         return {Severity::error, place, "library", fmt::format("'{}' does not exist", path),
                 "Correct the path, or install the maker's software."};
     }
+    const std::string list = allowed_libraries_file();
+    std::string remedy = "If you trust it, ";
+    if (!list.empty()) remedy += fmt::format("add the line '- {}' to {}; or ", whole(path), list);
     return {Severity::error, place, "library",
             fmt::format("'{}' is not loaded: its code could do anything, and it is named by a file "
                         "that you did not name yourself",

@@ -46,7 +46,8 @@ bool is_own_file(int descriptor) {
 }
 
 /// Whether a folder is a session of this person that a rehearsal began: it has such a name
-/// (DATE_TIME_EXPERIMENT_PERSON, with _2 and so on), and session.yaml or nothing at all in it.
+/// (DATE_TIME_EXPERIMENT_PERSON, with _2 and so on), and session.yaml, scene.yaml or
+/// nothing at all in it.
 bool is_session(const fs::directory_entry& entry, const std::string& id) {
     const std::string name = entry.path().filename().string();
     std::tm when{};
