@@ -104,7 +104,10 @@ class Monkey(Window):
         if self.window is not None and self.window.poll() is None:
             self.close()
         pathlib.Path(self.scene).write_text(pathlib.Path(self.folder.name, "good").read_text())
+        # the monkey may have saved what it typed
         pathlib.Path(self.experiment).write_text("scene: block.yaml\nrig: rig.yaml\n")
+        pathlib.Path(self.trials).write_text(
+            pathlib.Path("experiments/first-trials.yaml").read_text().replace("../", os.getcwd() + "/"))
         self.open(self.next_files())
         self.key("ctrl+e", "F5")
         time.sleep(1)
@@ -141,8 +144,6 @@ class Monkey(Window):
     def test_breaks_nothing(self):
         pathlib.Path(self.folder.name, "good").write_text(pathlib.Path(self.scene).read_text())
         self.trials = self.folder.name + "/trials.yaml"
-        pathlib.Path(self.trials).write_text(
-            pathlib.Path("experiments/first-trials.yaml").read_text().replace("../", os.getcwd() + "/"))
         foreign = pathlib.Path(self.folder.name, ".block.draft.yaml")
         foreign.write_text("theirs")
         self.open_next()
