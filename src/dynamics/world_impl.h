@@ -52,8 +52,16 @@ struct World::Impl {
         Vec3 torque = Vec3::Zero();
         btVector3 v_last{0, 0, 0};  // before the step's loads
         btVector3 w_last{0, 0, 0};
+        btVector3 w_start{0, 0, 0};   // after them
+        btVector3 w_free{0, 0, 0};    // the mean over the step without what contacts and joints add
+        Vec3 L_W = Vec3::Zero();      // angular momentum about its centre of mass, after the step
         btVector3 v_before{0, 0, 0};  // before contacts acted
         btVector3 w_before{0, 0, 0};
+        /// Whether its angular velocity changes while its angular momentum stays. A proxy has the
+        /// same inertia about all axes, and what turns about one is held there.
+        bool turns_freely() const {
+            return !is_proxy && turns == Vec3::Ones() && !is_driven && !drive_to;
+        }
     };
 
     scene::Scene scene;
@@ -156,7 +164,17 @@ struct World::Impl {
     /// Solves the island's problem, again while its joints' rows follow from another guess of the
     /// velocities at the end of the step.
     contact::SolveStats solve_guessing(const contact::SolveSettings& how, double h);
-    void integrate_positions(double h, std::vector<BodyState>& states);
+    /// Angular momentum about the centre of mass, in W, at this angular velocity.
+    static Vec3 momentum(const Item& item, const Vec3& w_W);
+    /// Mean angular velocity of a step that begins with w_start and is free (free_turn.h).
+    static Vec3 mean_velocity(const Item& item, const Vec3& w_start, double h);
+    /// Finds anew how the island's bodies turn if contacts and joints change their velocities by
+    /// island_change at the beginning of the step. Returns by how much this is another guess
+    /// [rad/s].
+    double guess_turns(double h);
+    void integrate_positions(double h);
+    /// Gives bodies the angular velocities that their momentum has where the step led.
+    void turn_on(std::vector<BodyState>& states);
     void read_state(size_t i, BodyState& state) const;
     void let_sleep(double h, std::vector<BodyState>& states);
 };

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "dynamics/free_turn.h"
 #include "dynamics/world_impl.h"
 
 namespace dihaptic::dynamics {
@@ -35,10 +36,13 @@ ContactLaw law_of(const scene::PairSurface& surface, int sharing) {
 
 /// Beyond an eighth of a turn in a step, where a body gets no longer follows from how fast it
 /// turns: it is slowed down to this.
-void limit_turn(btRigidBody& body, double h) {
+Vec3 limited(const Vec3& w, double h) {
     const double most = std::numbers::pi / (4 * h);
-    const btVector3& w = body.getAngularVelocity();
-    if (w.length2() > most * most) body.setAngularVelocity(w * (most / w.length()));
+    return w.squaredNorm() > most * most ? Vec3(w * (most / w.norm())) : w;
+}
+
+void limit_turn(btRigidBody& body, double h) {
+    body.setAngularVelocity(to_bullet(limited(from_bullet(body.getAngularVelocity()), h)));
 }
 
 }  // namespace
@@ -67,9 +71,10 @@ StepStatus World::step(double h) noexcept {
     for (btPersistentManifold* manifold : w.collision->manifolds()) even_out(*manifold);
     w.take_points(h);
     stats_ = w.solve_with_entered(h, states_);
-    w.integrate_positions(h, states_);
+    w.integrate_positions(h);
     w.joints.end_step();
     w.joints.read();
+    w.turn_on(states_);
     w.note_stepped();
     if (stats_.refused || !w.all_sound()) return diverge();
 
@@ -112,6 +117,7 @@ void World::Impl::wake(size_t i, std::vector<BodyState>& states) {
     items[i].w_before = items[i].body->getAngularVelocity();
     items[i].v_last = items[i].v_before;
     items[i].w_last = items[i].w_before;
+    items[i].w_start = items[i].w_free = items[i].w_before;
     inverse_mass[i] = inverse_mass_of(items[i]);
 }
 
@@ -164,6 +170,18 @@ contact::Mat6 World::Impl::inverse_mass_of(const Item& item) const {
     return out;
 }
 
+Vec3 World::Impl::momentum(const Item& item, const Vec3& w_W) {
+    const Quat R_WM = from_bullet(item.body->getWorldTransform()).R;
+    const Vec3 inertia = from_bullet(item.body->getLocalInertia());
+    return R_WM * Vec3(inertia.cwiseProduct(R_WM.conjugate() * w_W));
+}
+
+Vec3 World::Impl::mean_velocity(const Item& item, const Vec3& w_start, double h) {
+    const Quat R_WM = from_bullet(item.body->getWorldTransform()).R;
+    const Vec3 inertia = from_bullet(item.body->getLocalInertia());
+    return dynamics::mean_velocity(R_WM, inertia, w_start, h);
+}
+
 void World::Impl::drive(Item& item, double h) {
     item.force.setZero();
     item.torque.setZero();
@@ -174,7 +192,6 @@ void World::Impl::drive(Item& item, double h) {
         const Pose to = *item.drive_to * item.X_BM;
         v = (to.p - X_WM.p) / h;
         w = rotation_vector(to.R * X_WM.R.conjugate()) / h;
-        item.drive_to.reset();
     }
     item.body->setLinearVelocity(to_bullet(v));
     item.body->setAngularVelocity(to_bullet(w));
@@ -198,16 +215,14 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
         if (!item.is_proxy) load.head<3>() += item.properties.weight * item.mass * gravity;
         const contact::Vec6 change = h * (inverse_mass[i] * load);
         body.setLinearVelocity(body.getLinearVelocity() + to_bullet(Vec3(change.head<3>())));
-        // a proxy has the same inertia about all axes, and what turns about one is held there
-        const bool gyroscopic = !item.is_proxy && item.turns.sum() > 1;
-        const btVector3 turn =
-            gyroscopic ? body.computeGyroscopicImpulseImplicit_Body(h) * to_bullet(item.turns)
-                       : btVector3(0, 0, 0);
-        body.setAngularVelocity(body.getAngularVelocity() + to_bullet(Vec3(change.tail<3>())) +
-                                turn);
+        body.setAngularVelocity(body.getAngularVelocity() + to_bullet(Vec3(change.tail<3>())));
         limit_turn(body, h);
         item.force.setZero();
         item.torque.setZero();
+        item.w_start = body.getAngularVelocity();
+        if (item.turns_freely())
+            body.setAngularVelocity(to_bullet(mean_velocity(item, from_bullet(item.w_start), h)));
+        item.w_free = body.getAngularVelocity();
         // contacts are searched ahead by these velocities
         body.setInterpolationLinearVelocity(body.getLinearVelocity());
         body.setInterpolationAngularVelocity(body.getAngularVelocity());
@@ -260,6 +275,7 @@ contact::SolveStats World::Impl::solve_with_entered(double h, std::vector<BodySt
         for (const size_t i : awake) {
             items[i].body->setLinearVelocity(items[i].v_before);
             items[i].body->setAngularVelocity(items[i].w_before);
+            items[i].w_free = items[i].w_before;
         }
         find_islands();
         const contact::SolveStats before = stats;
@@ -480,6 +496,9 @@ contact::SolveStats World::Impl::solve_island(double h, bool held) {
 
 contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& how, double h) {
     constexpr int kMostGuesses = 8;
+    /// Guesses of how bodies turn freely come closer by half of what they turn in a step. More than
+    /// these do not help where a stiff spring turns a body back within it.
+    constexpr int kMostTurnGuesses = 3;
     constexpr double kSame = 1e-9;  // [m/s], [rad/s]
     /// Guesses that are still this far apart lead nowhere: the step is too long for how fast what
     /// is joined turns [m/s], [rad/s].
@@ -495,32 +514,67 @@ contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& ho
                       stats);
         iterations = stats.iterations += iterations;
         work_before = stats.work += work_before;
-        if (island_joints.empty()) return stats;
         const bool is_last = guess > kMostGuesses || stats.route == contact::Route::out_of_work;
         stats.missed = stats.missed || is_last;  // its joints are off a little then
         if (is_last || stats.refused) return stats;
         island_change.clear();
         for (size_t i = 0; i < island_bodies.size(); ++i)
             island_change.push_back(solvers.velocity_change(static_cast<int>(i)));
-        const double off = problem.guess(joints, island_joints, h, island_change);
+        const double off = std::max(guess > kMostTurnGuesses ? 0 : guess_turns(h),
+                                    problem.guess(joints, island_joints, h, island_change));
         if (off <= kSame || (guess == kMostGuesses && off < kLost)) return stats;
         if (guess == kMostGuesses) problem.hold(joints, island_joints, h);
     }
 }
 
-void World::Impl::integrate_positions(double h, std::vector<BodyState>& states) {
+double World::Impl::guess_turns(double h) {
+    constexpr double kSame = 1e-6;  // [rad/s]
+    double most = 0;
+    for (size_t i = 0; i < island_bodies.size(); ++i) {
+        btRigidBody& body = *btRigidBody::upcast(island_bodies[i]);
+        Item& item = items[static_cast<size_t>(body.getUserIndex())];
+        if (!item.turns_freely()) continue;
+        const Vec3 change = island_change[i].tail<3>();
+        const Vec3 w_begins = limited(from_bullet(item.w_start) + change, h);
+        const Vec3 w_free = mean_velocity(item, w_begins, h) - change;
+        const double off = (w_free - from_bullet(item.w_free)).norm();
+        if (off <= kSame) continue;
+        most = std::max(most, off);
+        item.w_free = to_bullet(w_free);
+        body.setAngularVelocity(item.w_free);
+        problem.set_free_turn(i, w_free);
+    }
+    return most;
+}
+
+void World::Impl::integrate_positions(double h) {
     for (const size_t i : awake) {
         btRigidBody& body = *items[i].body;
+        Item& item = items[i];
+        if (item.turns_freely()) {
+            // contacts and joints act at the beginning of the step
+            const btVector3 change = body.getAngularVelocity() - item.w_free;
+            item.L_W = momentum(item, limited(from_bullet(item.w_start + change), h));
+        }
         btTransform next;
         btTransformUtil::integrateTransform(body.getWorldTransform(), body.getLinearVelocity(),
                                             body.getAngularVelocity(), h, next);
         body.setWorldTransform(next);
         body.updateInertiaTensor();
-        if (!items[i].is_point) read_state(i, states[i]);
     }
     for (const size_t i : awake) {
         if (!items[i].is_point) continue;
         items[i].body->getWorldTransform().getOrigin() += point_contacts.bend(*items[i].body, h);
+    }
+}
+
+void World::Impl::turn_on(std::vector<BodyState>& states) {
+    for (const size_t i : awake) {
+        Item& item = items[i];
+        if (item.turns_freely())
+            item.body->setAngularVelocity(item.body->getInvInertiaTensorWorld() *
+                                          to_bullet(item.L_W));
+        item.drive_to.reset();
         read_state(i, states[i]);
     }
 }

@@ -37,6 +37,9 @@ class ManifoldProblem {
     /// Asks for the joints' equations of velocities alone (Joints::hold).
     void hold(Joints& joints, std::span<const size_t> which, double h) noexcept;
 
+    /// Angular velocity of a body of the problem before impulses act.
+    void set_free_turn(size_t body, const Vec3& w_W) noexcept { problem_.bodies[body].w_W = w_W; }
+
     const contact::ContactProblem& problem() const noexcept { return problem_; }
     std::span<contact::Impulse> impulses() noexcept { return impulses_; }
     std::span<Vec3> joint_impulses() noexcept { return joint_impulses_; }

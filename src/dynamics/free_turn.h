@@ -1,0 +1,19 @@
+// How a body turns while nothing touches it: Euler's equations over one step, solved exactly.
+#pragma once
+
+#include "base/geometry.h"
+
+namespace dihaptic::dynamics {
+
+/// The constant angular velocity, in W, that turns a body in a step of h as far as it turns freely,
+/// when it begins with w_W [rad/s]: R' = exp(h w) R is where its angular momentum takes it.
+///
+/// `inertia` are the principal moments [kg*m^2], about the axes of R_WM. In these axes
+///
+///     I w' = (I w) x w,    q' = q w / 2
+///
+/// are quadratic, so that the terms of their Taylor series follow from one another (Cauchy's
+/// products; Jorba and Zou 2005). They are added until the next ones change nothing.
+Vec3 mean_velocity(const Quat& R_WM, const Vec3& inertia, const Vec3& w_W, double h) noexcept;
+
+}  // namespace dihaptic::dynamics
