@@ -4,44 +4,21 @@
 #include <cmath>
 #include <limits>
 
+#include "dynamics/patch.h"
+
 namespace dihaptic::dynamics {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// An edge axis must separate better than the best face by this much: faces give whole patches, and
-/// near ties would make the contact flip between one point and four.
-constexpr double kFacePreference = 1e-5;  // [m]
-
-/// A polygon of fixed capacity: a face clipped by another.
-struct Polygon {
-    std::array<Vec3, 2 * Polyhedron::kMostFaceVertices> points;
-    size_t count = 0;
-
-    void add(const Vec3& p) {
-        if (count < points.size()) points[count++] = p;
-    }
-};
-
-/// The part of `in` with n . x <= offset (Sutherland and Hodgman 1974).
-void clip(const Polygon& in, const Vec3& n, double offset, Polygon& out) {
-    out.count = 0;
-    for (size_t i = 0; i < in.count; ++i) {
-        const Vec3& p = in.points[i];
-        const Vec3& q = in.points[(i + 1) % in.count];
-        const double dp = n.dot(p) - offset;
-        const double dq = n.dot(q) - offset;
-        if (dp <= 0) out.add(p);
-        if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) out.add(p + dp / (dp - dq) * (q - p));
-    }
-}
 
 /// The best separating face of `a` for `b`, whose vertices are given in a's frame.
 struct FaceQuery {
     double separation = -kInfinity;
     int face = -1;
+    int flush = -1;  ///< a face that `b` stands flush with
 };
 
-FaceQuery query_faces(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB, double margin) {
+/// `way` is how b moves against a in the coming step, in a's frame.
+FaceQuery query_faces(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB, double margin,
+                      const Vec3& way) {
     FaceQuery best;
     const Mat3 R_BA = X_AB.R.conjugate().toRotationMatrix();
     for (size_t f = 0; f < a.faces.size(); ++f) {
@@ -51,7 +28,11 @@ FaceQuery query_faces(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB
         double lowest = kInfinity;
         for (const Vec3& v : b.vertices) lowest = std::min(lowest, n.dot(v));
         const double separation = lowest - offset;
-        if (separation > best.separation) best = {separation, static_cast<int>(f)};
+        if (is_flush(separation, a.faces[f].normal, way)) best.flush = static_cast<int>(f);
+        if (separation > best.separation) {
+            best.separation = separation;
+            best.face = static_cast<int>(f);
+        }
         if (separation > margin) break;  // apart: the other faces no longer matter
     }
     return best;
@@ -116,11 +97,85 @@ const Polyhedron::Edge& support_edge(const Polyhedron& p, int direction, const V
     return *best;
 }
 
-/// Keeps four points that span the patch: the deepest, the one furthest from it, and those that
-/// make the largest triangles with these two, one on each side.
-void reduce(const Polygon& points,
-            const std::array<double, 2 * Polyhedron::kMostFaceVertices>& gaps, const Vec3& n,
-            std::array<size_t, 4>& kept, int& count) {
+/// Clips the face of `other` that is turned to the reference face. The patch's points are pairs (on
+/// reference, on other); its normal points away from the reference.
+void face_contact(const Polyhedron& ref, const Pose& X_WR, int face, const Polyhedron& other,
+                  const Pose& X_WO, double margin, ContactPatch& patch) {
+    const Polyhedron::Face& reference = ref.faces[static_cast<size_t>(face)];
+    const Pose X_RO = X_WR.inverse() * X_WO;
+    const Vec3 n_O = X_RO.R.conjugate() * reference.normal;
+    size_t incident = 0;
+    double most_opposed = kInfinity;
+    for (size_t f = 0; f < other.faces.size(); ++f) {
+        const double d = other.faces[f].normal.dot(n_O);
+        if (d < most_opposed) {
+            most_opposed = d;
+            incident = f;
+        }
+    }
+    std::array<Polygon, 2> polygons;  // used alternately, as they are too large to copy
+    size_t current = 0;
+    for (const int v : other.faces[incident].vertices)
+        polygons[current].add(X_RO * other.vertices[static_cast<size_t>(v)]);
+    for (const Polyhedron::Side& side : reference.sides) {
+        clip(polygons[current], side.normal, side.offset, polygons[1 - current]);
+        current = 1 - current;
+    }
+    const Polygon& polygon = polygons[current];
+    Polygon near;
+    Gaps gaps;
+    for (size_t i = 0; i < polygon.count; ++i) {
+        const double gap = reference.normal.dot(polygon.points[i]) - reference.offset;
+        if (gap > margin) continue;
+        gaps[near.count] = gap;
+        near.add(polygon.points[i]);
+    }
+    std::array<size_t, 4> kept{};
+    reduce(near, gaps, reference.normal, kept, patch.count);
+    patch.n_W = X_WR.R * reference.normal;
+    for (int i = 0; i < patch.count; ++i) {
+        const size_t k = kept[static_cast<size_t>(i)];
+        const Vec3 on_other = X_WR * near.points[k];
+        patch.points[static_cast<size_t>(i)] = {on_other - gaps[k] * patch.n_W, on_other, gaps[k]};
+    }
+}
+
+void edge_contact(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b, const Pose& X_AB,
+                  const EdgeQuery& query, ContactPatch& patch) {
+    const Polyhedron::Edge& ea = support_edge(a, query.direction_a, query.axis);
+    const Polyhedron::Edge& eb =
+        support_edge(b, query.direction_b, X_AB.R.conjugate() * Vec3(-query.axis));
+    const Vec3 pa = a.vertices[static_cast<size_t>(ea.from)];
+    const Vec3 da = a.vertices[static_cast<size_t>(ea.to)] - pa;
+    const Vec3 pb = X_AB * b.vertices[static_cast<size_t>(eb.from)];
+    const Vec3 db = X_AB * b.vertices[static_cast<size_t>(eb.to)] - pb;
+    // closest points of the two lines, clamped to the edges
+    const Vec3 r = pa - pb;
+    const double aa = da.squaredNorm(), bb = db.squaredNorm(), ab = da.dot(db);
+    const double det = aa * bb - ab * ab;
+    const double s = std::clamp((ab * db.dot(r) - bb * da.dot(r)) / det, 0.0, 1.0);
+    const double t = std::clamp((aa * db.dot(r) - ab * da.dot(r)) / det, 0.0, 1.0);
+    patch.n_W = X_WA.R * query.axis;
+    patch.count = 1;
+    patch.points[0] = {X_WA * Vec3(pa + s * da), X_WA * Vec3(pb + t * db), query.separation};
+}
+
+}  // namespace
+
+void clip(const Polygon& in, const Vec3& n, double offset, Polygon& out) {
+    out.count = 0;
+    for (size_t i = 0; i < in.count; ++i) {
+        const Vec3& p = in.points[i];
+        const Vec3& q = in.points[(i + 1) % in.count];
+        const double dp = n.dot(p) - offset;
+        const double dq = n.dot(q) - offset;
+        if (dp <= 0) out.add(p);
+        if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) out.add(p + dp / (dp - dq) * (q - p));
+    }
+}
+
+void reduce(const Polygon& points, const Gaps& gaps, const Vec3& n, std::array<size_t, 4>& kept,
+            int& count) {
     if (points.count <= 4) {
         count = static_cast<int>(points.count);
         for (size_t i = 0; i < points.count; ++i) kept[i] = i;
@@ -159,71 +214,6 @@ void reduce(const Polygon& points,
     if (left != deepest) kept[static_cast<size_t>(count++)] = left;
     if (right != deepest) kept[static_cast<size_t>(count++)] = right;
 }
-
-/// Clips the face of `other` that is turned to the reference face. The patch's points are pairs (on
-/// reference, on other); its normal points away from the reference.
-void face_contact(const Polyhedron& ref, const Pose& X_WR, int face, const Polyhedron& other,
-                  const Pose& X_WO, double margin, ContactPatch& patch) {
-    const Polyhedron::Face& reference = ref.faces[static_cast<size_t>(face)];
-    const Pose X_RO = X_WR.inverse() * X_WO;
-    const Vec3 n_O = X_RO.R.conjugate() * reference.normal;
-    size_t incident = 0;
-    double most_opposed = kInfinity;
-    for (size_t f = 0; f < other.faces.size(); ++f) {
-        const double d = other.faces[f].normal.dot(n_O);
-        if (d < most_opposed) {
-            most_opposed = d;
-            incident = f;
-        }
-    }
-    std::array<Polygon, 2> polygons;  // used alternately, as they are too large to copy
-    size_t current = 0;
-    for (const int v : other.faces[incident].vertices)
-        polygons[current].add(X_RO * other.vertices[static_cast<size_t>(v)]);
-    for (const Polyhedron::Side& side : reference.sides) {
-        clip(polygons[current], side.normal, side.offset, polygons[1 - current]);
-        current = 1 - current;
-    }
-    const Polygon& polygon = polygons[current];
-    Polygon near;
-    std::array<double, 2 * Polyhedron::kMostFaceVertices> gaps;
-    for (size_t i = 0; i < polygon.count; ++i) {
-        const double gap = reference.normal.dot(polygon.points[i]) - reference.offset;
-        if (gap > margin) continue;
-        gaps[near.count] = gap;
-        near.add(polygon.points[i]);
-    }
-    std::array<size_t, 4> kept{};
-    reduce(near, gaps, reference.normal, kept, patch.count);
-    patch.n_W = X_WR.R * reference.normal;
-    for (int i = 0; i < patch.count; ++i) {
-        const size_t k = kept[static_cast<size_t>(i)];
-        const Vec3 on_other = X_WR * near.points[k];
-        patch.points[static_cast<size_t>(i)] = {on_other - gaps[k] * patch.n_W, on_other, gaps[k]};
-    }
-}
-
-void edge_contact(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b, const Pose& X_AB,
-                  const EdgeQuery& query, ContactPatch& patch) {
-    const Polyhedron::Edge& ea = support_edge(a, query.direction_a, query.axis);
-    const Polyhedron::Edge& eb =
-        support_edge(b, query.direction_b, X_AB.R.conjugate() * Vec3(-query.axis));
-    const Vec3 pa = a.vertices[static_cast<size_t>(ea.from)];
-    const Vec3 da = a.vertices[static_cast<size_t>(ea.to)] - pa;
-    const Vec3 pb = X_AB * b.vertices[static_cast<size_t>(eb.from)];
-    const Vec3 db = X_AB * b.vertices[static_cast<size_t>(eb.to)] - pb;
-    // closest points of the two lines, clamped to the edges
-    const Vec3 r = pa - pb;
-    const double aa = da.squaredNorm(), bb = db.squaredNorm(), ab = da.dot(db);
-    const double det = aa * bb - ab * ab;
-    const double s = std::clamp((ab * db.dot(r) - bb * da.dot(r)) / det, 0.0, 1.0);
-    const double t = std::clamp((aa * db.dot(r) - ab * da.dot(r)) / det, 0.0, 1.0);
-    patch.n_W = X_WA.R * query.axis;
-    patch.count = 1;
-    patch.points[0] = {X_WA * Vec3(pa + s * da), X_WA * Vec3(pb + t * db), query.separation};
-}
-
-}  // namespace
 
 Polyhedron Polyhedron::of(const scene::Hull& hull) {
     Polyhedron out;
@@ -287,27 +277,38 @@ bool is_covered(const Polyhedron& polyhedron, const Pose& X_WP, const Vec3& outw
 }  // namespace
 
 ContactPatch collide(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b, const Pose& X_WB,
-                     double margin) noexcept {
+                     double margin, const Vec3& way_W) noexcept {
     ContactPatch patch;
     const Pose X_AB = X_WA.inverse() * X_WB;
-    const FaceQuery on_a = query_faces(a, b, X_AB, margin);
+    const Vec3 way_A = X_WA.R.conjugate() * way_W;
+    const Vec3 way_B = X_WB.R.conjugate() * -way_W;
+    const FaceQuery on_a = query_faces(a, b, X_AB, margin, way_A);
     if (on_a.separation > margin) return patch;
-    const FaceQuery on_b = query_faces(b, a, X_AB.inverse(), margin);
+    const FaceQuery on_b = query_faces(b, a, X_AB.inverse(), margin, way_B);
     if (on_b.separation > margin) return patch;
     const EdgeQuery edges = query_edges(a, b, X_AB, margin);
     if (edges.separation > margin) return patch;
 
-    if (edges.separation > std::max(on_a.separation, on_b.separation) + kFacePreference) {
+    const bool by_edge =
+        edges.separation > std::max(on_a.separation, on_b.separation) + kFacePreference;
+    const bool by_a = on_a.separation + kFacePreference >= on_b.separation;
+    const auto of_a = [&](int face) { return a.faces[static_cast<size_t>(face)].normal; };
+    const auto of_b = [&](int face) {
+        return Vec3(X_AB.R * -b.faces[static_cast<size_t>(face)].normal);
+    };
+    const Vec3 axis = by_edge ? edges.axis : by_a ? of_a(on_a.face) : of_b(on_b.face);
+    if (on_a.flush >= 0 && (by_edge || is_across(axis, of_a(on_a.flush)))) {
+        face_contact(a, X_WA, on_a.flush, b, X_WB, margin, patch);
+    } else if (on_b.flush >= 0 && (by_edge || is_across(axis, of_b(on_b.flush)))) {
+        face_contact(b, X_WB, on_b.flush, a, X_WA, margin, patch);
+        flip(patch);
+    } else if (by_edge) {
         edge_contact(a, X_WA, b, X_AB, edges, patch);
-    } else if (on_a.separation + kFacePreference >= on_b.separation) {
+    } else if (by_a) {
         face_contact(a, X_WA, on_a.face, b, X_WB, margin, patch);
     } else {
         face_contact(b, X_WB, on_b.face, a, X_WA, margin, patch);
-        patch.n_W = -patch.n_W;
-        for (int i = 0; i < patch.count; ++i) {
-            ContactPoint& point = patch.points[static_cast<size_t>(i)];
-            std::swap(point.p_WA, point.p_WB);
-        }
+        flip(patch);
     }
     if (is_covered(a, X_WA, patch.n_W) || is_covered(b, X_WB, -patch.n_W)) patch.count = 0;
     return patch;
@@ -320,7 +321,7 @@ ContactPatch collide_half_space(const Pose& X_WA, const Polyhedron& b, const Pos
     const double offset = patch.n_W.dot(X_WA.p);
     // the vertices within the margin make up the patch, whatever faces they belong to
     Polygon near;
-    std::array<double, 2 * Polyhedron::kMostFaceVertices> gaps;
+    Gaps gaps;
     for (const Vec3& vertex : b.vertices) {
         const Vec3 p = X_WB * vertex;
         const double gap = patch.n_W.dot(p) - offset;

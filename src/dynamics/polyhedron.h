@@ -63,9 +63,10 @@ struct ContactPatch {
     int count = 0;
 };
 
-/// Contacts with gaps up to `margin` [m]. Allocates nothing.
+/// Contacts with gaps up to `margin` [m]. `way_W` is how B moves against A in the coming step [m].
+/// Allocates nothing.
 ContactPatch collide(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b, const Pose& X_WB,
-                     double margin) noexcept;
+                     double margin, const Vec3& way_W = Vec3::Zero()) noexcept;
 
 /// Contacts between the half-space below the plane z = 0 of frame A and a polyhedron, as above.
 ContactPatch collide_half_space(const Pose& X_WA, const Polyhedron& b, const Pose& X_WB,

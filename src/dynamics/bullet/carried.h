@@ -42,10 +42,6 @@ struct Carried {
     Impact now;   ///< of this one, however often it is solved
     bool in_use = false;
 
-    void forget_impulses() {
-        normal = moment = 0;
-        friction_W.setZero();
-    }
     void begin_step() {
         last = now;
         now = {};

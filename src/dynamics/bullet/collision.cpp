@@ -2,8 +2,6 @@
 
 #include "dynamics/bullet/carried.h"
 
-#include <BulletCollision/CollisionDispatch/btSphereSphereCollisionAlgorithm.h>
-
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
@@ -28,11 +26,11 @@ constexpr double kMostStrides = 64;
 
 /// What a stride of two shapes counts as [visits]: the axes that may part polyhedra, times
 /// vertices.
-int64_t stride_visits(const btCollisionShape& a, const btCollisionShape& b) {
+int64_t stride_visits(const CollisionPart& a, const CollisionPart& b) {
     constexpr int64_t kFewest = 100;  // of two boxes, and of round shapes
     constexpr int64_t kProductsPerVisit = 20;
-    const auto* p = static_cast<const Polyhedron*>(a.getUserPointer());
-    const auto* q = static_cast<const Polyhedron*>(b.getUserPointer());
+    const Polyhedron* p = a.polyhedron.get();
+    const Polyhedron* q = b.polyhedron.get();
     if (p == nullptr || q == nullptr) return kFewest;
     const size_t axes =
         p->faces.size() + q->faces.size() + p->directions.size() * q->directions.size();
@@ -98,21 +96,6 @@ bool look_back(const btPersistentManifold& manifold, btManifoldPoint& point,
     return entered && share * point.m_distance1 + h * apart < -kEntered;
 }
 
-/// What a pair's only contact carries, or null.
-Carried* only_carried(const btManifoldArray& manifolds) {
-    if (manifolds.size() != 1 || manifolds[0]->getNumContacts() != 1) return nullptr;
-    return static_cast<Carried*>(manifolds[0]->getContactPoint(0).m_userPersistentData);
-}
-
-/// Bullet finds two spheres' contact anew in each step: it carries on how they met, but no impulse.
-void hand_on(Carried& of_last, const btManifoldArray& manifolds) {
-    if (manifolds.size() != 1 || manifolds[0]->getNumContacts() != 1) return;
-    void*& carries = manifolds[0]->getContactPoint(0).m_userPersistentData;
-    if (carries != nullptr) return;
-    of_last.forget_impulses();
-    carries = &of_last;
-}
-
 /// Whether bodies that touch are soft there.
 bool is_soft(const btPersistentManifold& manifold) {
     if (manifold.getNumContacts() == 0) return false;
@@ -141,13 +124,11 @@ double approach(const btCollisionObjectWrapper& a, const btCollisionObjectWrappe
 Collision::Collision(int max_parts, int max_pairs)
     : configuration_(pools(max_pairs)),
       dispatcher_(&configuration_, max_pairs),
-      polyhedra_(dispatcher_, step_),
+      algorithms_(dispatcher_, step_),
       broadphase_(btVector3(-kWorldHalfExtent, -kWorldHalfExtent, -kWorldHalfExtent),
                   btVector3(kWorldHalfExtent, kWorldHalfExtent, kWorldHalfExtent),
                   static_cast<unsigned>(max_parts + 2), &pairs_, true),
       max_pairs_(max_pairs) {
-    dispatcher_.registerCollisionCreateFunc(SPHERE_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE,
-                                            &two_spheres_);
     // contacts are found at the distance set here, whatever the size of the shapes
     dispatcher_.setDispatcherFlags(
         dispatcher_.getDispatcherFlags() &
@@ -197,14 +178,6 @@ void Collision::add(CollisionPart& part, bool can_move) {
         can_move ? kMovable | kImmovable : kMovable, &dispatcher_);
     several_parts_ = several_parts_ || (!parts_.empty() && parts_.back()->body == part.body);
     parts_.push_back(&part);
-}
-
-btCollisionAlgorithm* Collision::TwoSpheres::CreateCollisionAlgorithm(
-    btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
-    const btCollisionObjectWrapper* b) {
-    void* memory =
-        info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(btSphereSphereCollisionAlgorithm));
-    return new (memory) btSphereSphereCollisionAlgorithm(info.m_manifold, info, a, b);
 }
 
 void Collision::update_bounds(CollisionPart& part, double h) {
@@ -322,12 +295,8 @@ bool Collision::look_at(btBroadphasePair& pair, const btDispatcherInfo& info) {
     }
     btManifoldResult result(&a_wrap, &b_wrap);
     result.m_closestPointDistanceThreshold = margin;
-    pair.m_algorithm->getAllContactManifolds(scratch_);
-    Carried* const of_last = only_carried(scratch_);
-    scratch_.resizeNoInitialize(0);
     pair.m_algorithm->processCollision(&a_wrap, &b_wrap, info, &result);
     pair.m_algorithm->getAllContactManifolds(scratch_);
-    if (of_last != nullptr) hand_on(*of_last, scratch_);
     bool woke = false;
     for (int m = 0; m < scratch_.size(); ++m) {
         if (scratch_[m]->getNumContacts() == 0) continue;
@@ -391,7 +360,7 @@ bool Collision::enters(btBroadphasePair& pair, double h, double recovery, btPers
     const bool swapped = scratch_.size() > 0 && scratch_[0]->getBody0() != &a;
     out.setBodies(swapped ? &b : &a, swapped ? &a : &b);
     const auto strides = static_cast<int>(std::clamp(std::ceil(way / kStride), 1.0, kMostStrides));
-    const int64_t visits = stride_visits(*part_a.shape, *part_b.shape);
+    const int64_t visits = stride_visits(part_a, part_b);
     bool found = false;
     for (int stride = 1; stride <= strides && !found && affords(work, visits); ++stride) {
         const double t = h * stride / strides;

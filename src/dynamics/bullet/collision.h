@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "contact/work.h"
-#include "dynamics/bullet/polyhedron_algorithm.h"
+#include "dynamics/bullet/contact_algorithm.h"
 #include "dynamics/bullet/shape.h"
 
 namespace dihaptic::dynamics {
@@ -129,14 +129,8 @@ class Collision {
         }
         btScalar margin = 0;  ///< of the pair that is looked at [m]
     } dispatcher_;
-    /// Bullet's own gives two spheres a manifold of their own, whatever manifold is asked for.
-    struct TwoSpheres : btCollisionAlgorithmCreateFunc {
-        btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
-                                                       const btCollisionObjectWrapper* a,
-                                                       const btCollisionObjectWrapper* b) override;
-    } two_spheres_;
     double step_ = 1e-3;
-    PolyhedronAlgorithms polyhedra_;
+    ContactAlgorithms algorithms_;
     Pairs pairs_;
     bt32BitAxisSweep3 broadphase_;
     int max_pairs_;

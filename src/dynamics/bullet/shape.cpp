@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "dynamics/bullet/polyhedron_algorithm.h"
+#include "dynamics/bullet/contact_algorithm.h"
 
 namespace dihaptic::dynamics {
 namespace {
@@ -62,9 +62,19 @@ std::unique_ptr<Polyhedron> polyhedron(const scene::Shape& shape) {
     return small ? std::move(out) : nullptr;
 }
 
-}  // namespace
-
-namespace {
+std::optional<Round> round(const scene::Shape& shape) {
+    using scene::ShapeKind;
+    switch (shape.kind) {
+        case ShapeKind::sphere:
+            return Round{shape.radius};
+        case ShapeKind::capsule:
+            return Round{shape.radius, shape.length / 2};
+        case ShapeKind::cylinder:
+            return Round{shape.radius, shape.length / 2, true};
+        default:
+            return std::nullopt;
+    }
+}
 
 /// Outward normals of the faces of part `of` that the other parts cover.
 std::vector<Vec3> covered_faces(const std::vector<scene::ConvexPart>& parts, size_t of,
@@ -120,7 +130,8 @@ std::vector<std::unique_ptr<CollisionPart>> collision_parts(const scene::Shape& 
         part->polyhedron = polyhedron(convex.shape);
         if (part->polyhedron)
             part->polyhedron->covered = covered_faces(parts, i, *part->polyhedron);
-        part->shape->setUserPointer(part->polyhedron.get());
+        part->round = round(convex.shape);
+        part->shape->setUserPointer(part.get());
         part->X_MS = to_bullet(X_MS);
         part->moved = !X_MS.p.isZero(0) || !X_MS.R.vec().isZero(0);
         out.push_back(std::move(part));

@@ -4,8 +4,9 @@
 #include <btBulletCollisionCommon.h>
 
 #include <memory>
+#include <optional>
 
-#include "dynamics/polyhedron.h"
+#include "dynamics/round.h"
 #include "scene/scene.h"
 
 namespace dihaptic::dynamics {
@@ -40,8 +41,9 @@ inline Vec3 factors(scene::Axes axes) {
 /// mass along the principal axes of inertia; S is the part's own frame.
 struct CollisionPart {
     btCollisionObject* body = nullptr;
-    std::unique_ptr<btCollisionShape> shape;  // its user pointer is the polyhedron, if there is one
+    std::unique_ptr<btCollisionShape> shape;  // its user pointer is this part
     std::unique_ptr<Polyhedron> polyhedron;   // null if round, flat, or of too many edges
+    std::optional<Round> round;
     btTransform X_MS;
     bool moved = false;                   // X_MS is not the identity
     bool hidden = false;                  // the part meets nothing

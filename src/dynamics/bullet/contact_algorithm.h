@@ -1,6 +1,6 @@
-// Connects dynamics/polyhedron.h to Bullet: the collision algorithm for pairs of boxes and hulls,
-// and for either against a plane. Contacts keep the impulses of the nearest point of the last step,
-// for warm starts.
+// Connects dynamics/polyhedron.h and dynamics/round.h to Bullet: the collision algorithm for all
+// pairs of shapes but hulls of too many edges. Contacts keep the impulses of the nearest point of
+// the last step, for warm starts.
 #pragma once
 
 #include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
@@ -17,13 +17,12 @@ namespace dihaptic::dynamics {
 /// grows with the square.
 constexpr size_t kMostEdges = 64;
 
-/// Registers the algorithm. Shapes that are polyhedra have a user pointer: a `const Polyhedron*` in
-/// the shape's frame.
-class PolyhedronAlgorithms {
+/// Registers the algorithm. The user pointer of shapes is their CollisionPart.
+class ContactAlgorithms {
   public:
     /// `step` is read at each use: duration of the coming step [s].
-    PolyhedronAlgorithms(btCollisionDispatcher& dispatcher, const double& step);
-    ~PolyhedronAlgorithms();
+    ContactAlgorithms(btCollisionDispatcher& dispatcher, const double& step);
+    ~ContactAlgorithms();
 
   private:
     struct Create;

@@ -1,4 +1,4 @@
-#include "dynamics/bullet/polyhedron_algorithm.h"
+#include "dynamics/bullet/contact_algorithm.h"
 
 #include <BulletCollision/BroadphaseCollision/btBroadphaseProxy.h>
 #include <BulletCollision/CollisionDispatch/btCollisionObjectWrapper.h>
@@ -8,6 +8,7 @@
 
 #include "dynamics/bullet/collision.h"
 #include "dynamics/bullet/shape.h"
+#include "dynamics/patch.h"
 
 namespace dihaptic::dynamics {
 namespace {
@@ -15,12 +16,16 @@ namespace {
 /// Contacts are found this far ahead of touch, and further for bodies that could approach by more
 /// in the step.
 constexpr double kMargin = 5e-4;      // [m]
-constexpr double kMostMargin = 5e-2;  // [m]
+constexpr double kMostMargin = 0.25;  // [m]
 /// A contact within this distance of an old one on the body continues it.
 constexpr double kSamePoint = 5e-3;  // [m]
 
-const Polyhedron* polyhedron_of(const btCollisionObjectWrapper& part) {
-    return static_cast<const Polyhedron*>(part.getCollisionShape()->getUserPointer());
+const CollisionPart& part_of(const btCollisionObjectWrapper& part) {
+    return *static_cast<const CollisionPart*>(part.getCollisionShape()->getUserPointer());
+}
+
+bool is_plane(const btCollisionObjectWrapper& part) {
+    return part.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
 }
 
 class Algorithm final : public btActivatingCollisionAlgorithm {
@@ -45,15 +50,10 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
         const Pose X_WA = from_bullet(a_wrap->getWorldTransform());
         const Pose X_WB = from_bullet(b_wrap->getWorldTransform());
         const double margin = std::min(kMostMargin, kMargin + approach(*a_wrap, *b_wrap, step_));
-        ContactPatch patch;
-        if (polyhedron_of(*a_wrap) == nullptr) {
-            patch = collide_half_space(X_WA, *polyhedron_of(*b_wrap), X_WB, margin);
-        } else if (polyhedron_of(*b_wrap) == nullptr) {
-            patch = collide_half_space(X_WB, *polyhedron_of(*a_wrap), X_WA, margin);
-            flip(patch);
-        } else {
-            patch = collide(*polyhedron_of(*a_wrap), X_WA, *polyhedron_of(*b_wrap), X_WB, margin);
-        }
+        const btVector3 way =
+            step_ * (b_wrap->getCollisionObject()->getInterpolationLinearVelocity() -
+                     a.getInterpolationLinearVelocity());
+        ContactPatch patch = meet(*a_wrap, X_WA, *b_wrap, X_WB, margin, from_bullet(way));
         result->setPersistentManifold(manifold_);
         store(patch, X_WA, X_WB, manifold_->getBody0() == &a);
     }
@@ -67,9 +67,26 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
     }
 
   private:
-    static void flip(ContactPatch& patch) {
-        patch.n_W = -patch.n_W;
-        for (ContactPoint& point : patch.points) std::swap(point.p_WA, point.p_WB);
+    static ContactPatch flipped(ContactPatch patch) {
+        flip(patch);
+        return patch;
+    }
+
+    /// `way_W` is how b moves against a in the step.
+    static ContactPatch meet(const btCollisionObjectWrapper& a_wrap, const Pose& X_WA,
+                             const btCollisionObjectWrapper& b_wrap, const Pose& X_WB,
+                             double margin, const Vec3& way_W) {
+        const CollisionPart& a = part_of(a_wrap);
+        const CollisionPart& b = part_of(b_wrap);
+        if (is_plane(b_wrap)) return flipped(meet(b_wrap, X_WB, a_wrap, X_WA, margin, -way_W));
+        if (is_plane(a_wrap)) {
+            return b.polyhedron ? collide_half_space(X_WA, *b.polyhedron, X_WB, margin)
+                                : collide_half_space(X_WA, *b.round, X_WB, margin);
+        }
+        if (a.round && b.round) return collide(*a.round, X_WA, *b.round, X_WB, margin);
+        if (a.round) return flipped(meet(b_wrap, X_WB, a_wrap, X_WA, margin, -way_W));
+        return b.round ? collide(*a.polyhedron, X_WA, *b.round, X_WB, margin, way_W)
+                       : collide(*a.polyhedron, X_WA, *b.polyhedron, X_WB, margin, way_W);
     }
 
     /// Replaces the manifold's points. Bullet's normal points from its body 1 to its body 0.
@@ -96,7 +113,9 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
             for (int j = 0; j < old_count; ++j) {
                 const double d =
                     (old[static_cast<size_t>(j)].m_localPointA - out.m_localPointA).length2();
-                if (!taken[static_cast<size_t>(j)] && d < distance) {
+                // a single point is the same one wherever a round body rolled
+                const bool only = old_count == 1 && patch.count == 1;
+                if (!taken[static_cast<size_t>(j)] && (d < distance || only)) {
                     distance = d;
                     nearest = j;
                 }
@@ -118,18 +137,17 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
 
 }  // namespace
 
-struct PolyhedronAlgorithms::Create final : btCollisionAlgorithmCreateFunc {
+struct ContactAlgorithms::Create final : btCollisionAlgorithmCreateFunc {
     Create(const double& h, btCollisionAlgorithmCreateFunc* bullets)
         : step(h), otherwise(bullets) {}
 
     btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
                                                    const btCollisionObjectWrapper* a,
                                                    const btCollisionObjectWrapper* b) override {
-        const auto flat = [](const btCollisionObjectWrapper* w) {
-            return w->getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE ||
-                   polyhedron_of(*w) != nullptr;
+        const auto known = [](const btCollisionObjectWrapper* w) {
+            return is_plane(*w) || part_of(*w).polyhedron || part_of(*w).round;
         };
-        if (!flat(a) || !flat(b)) return otherwise->CreateCollisionAlgorithm(info, a, b);
+        if (!known(a) || !known(b)) return otherwise->CreateCollisionAlgorithm(info, a, b);
         void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(Algorithm));
         return new (memory) Algorithm(info, a, b, step);
     }
@@ -138,9 +156,10 @@ struct PolyhedronAlgorithms::Create final : btCollisionAlgorithmCreateFunc {
     btCollisionAlgorithmCreateFunc* otherwise;
 };
 
-PolyhedronAlgorithms::PolyhedronAlgorithms(btCollisionDispatcher& dispatcher, const double& step) {
-    constexpr std::array kTypes{BOX_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE,
-                                STATIC_PLANE_PROXYTYPE};
+ContactAlgorithms::ContactAlgorithms(btCollisionDispatcher& dispatcher, const double& step) {
+    constexpr std::array kTypes{BOX_SHAPE_PROXYTYPE,     CONVEX_HULL_SHAPE_PROXYTYPE,
+                                STATIC_PLANE_PROXYTYPE,  SPHERE_SHAPE_PROXYTYPE,
+                                CAPSULE_SHAPE_PROXYTYPE, CYLINDER_SHAPE_PROXYTYPE};
     for (const int a : kTypes) {
         for (const int b : kTypes) {
             if (a == STATIC_PLANE_PROXYTYPE && b == STATIC_PLANE_PROXYTYPE) continue;
@@ -152,6 +171,6 @@ PolyhedronAlgorithms::PolyhedronAlgorithms(btCollisionDispatcher& dispatcher, co
     }
 }
 
-PolyhedronAlgorithms::~PolyhedronAlgorithms() = default;
+ContactAlgorithms::~ContactAlgorithms() = default;
 
 }  // namespace dihaptic::dynamics

@@ -1,0 +1,61 @@
+// Parts of polyhedron.cpp and round.cpp: polygons that are clipped to contact patches.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "dynamics/polyhedron.h"
+
+namespace dihaptic::dynamics {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// An edge axis must separate better than the best face by this much: faces give whole patches, and
+/// near ties would make the contact flip between one point and four.
+constexpr double kFacePreference = 1e-5;  // [m]
+
+/// A polygon of fixed capacity: a face that is clipped by another. Two points are a line, one is a
+/// point.
+struct Polygon {
+    std::array<Vec3, 2 * Polyhedron::kMostFaceVertices> points;
+    size_t count = 0;
+
+    void add(const Vec3& p) {
+        if (count < points.size()) points[count++] = p;
+    }
+};
+
+/// Gaps of a polygon's points [m].
+using Gaps = std::array<double, 2 * Polyhedron::kMostFaceVertices>;
+
+/// The part of `in` with n . x <= offset (Sutherland and Hodgman 1974).
+void clip(const Polygon& in, const Vec3& n, double offset, Polygon& out);
+
+/// Has the patch's normal point from B to A.
+inline void flip(ContactPatch& patch) {
+    patch.n_W = -patch.n_W;
+    for (ContactPoint& point : patch.points) std::swap(point.p_WA, point.p_WB);
+}
+
+/// Whether a shape that is apart by `separation` along the normal n of a face, and moves by `way`
+/// in the coming step, stands flush with that face and stays so. Where it then touches an edge, the
+/// face's plane is as near as that edge, and what slides along the plane must not run into the
+/// edge: seams between bodies that stand side by side are not felt.
+inline bool is_flush(double separation, const Vec3& n, const Vec3& way) {
+    constexpr double kFlush = 3e-5;  // [m]: what falls in a step, and a little more
+    return std::abs(separation) < kFlush && separation + n.dot(way) > -kFlush;
+}
+
+/// Whether the best axis parts shapes in another direction than the face that they are flush with.
+inline bool is_across(const Vec3& axis, const Vec3& n_flush) {
+    return axis.dot(n_flush) < 0.9;
+}
+
+/// Keeps four points that span the patch: the deepest, the one furthest from it, and those that
+/// make the largest triangles with these two, one on each side.
+void reduce(const Polygon& points, const Gaps& gaps, const Vec3& n, std::array<size_t, 4>& kept,
+            int& count);
+
+}  // namespace dihaptic::dynamics

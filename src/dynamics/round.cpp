@@ -1,0 +1,521 @@
+#include "dynamics/round.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "dynamics/patch.h"
+
+namespace dihaptic::dynamics {
+namespace {
+
+/// A cap is met as a polygon with this many corners, the first of which is the lowest point of its
+/// rim.
+constexpr int kRim = 16;
+/// A cap is met with all of its rim where the axis is within some 25 degrees of the normal, and
+/// with the rim's lowest point otherwise.
+constexpr double kCap = 0.9;
+/// Lines closer to parallel than this touch along their length.
+constexpr double kParallel = 0.02;
+/// Closest points nearer than this tell no direction [m].
+constexpr double kTogether = 1e-9;
+
+/// A round shape in the world.
+struct Placed {
+    const Round& shape;
+    Vec3 centre;
+    Vec3 axis;
+    Vec3 across;  ///< at a right angle to the axis
+
+    Placed(const Round& round, const Pose& X_W)
+        : shape(round), centre(X_W.p), axis(X_W.R * Vec3::UnitZ()), across(X_W.R * Vec3::UnitX()) {}
+
+    Vec3 end(double sign) const { return centre + sign * shape.half * axis; }
+    /// How far it extends from its centre along the unit vector u.
+    double extent(const Vec3& u) const {
+        const double along = axis.dot(u);
+        const double side = shape.is_cylinder ? std::sqrt(std::max(0.0, 1 - along * along)) : 1;
+        return shape.half * std::abs(along) + shape.radius * side;
+    }
+    /// The direction across the axis that is nearest to d.
+    Vec3 radial(const Vec3& d) const {
+        constexpr double kUpright = 1e-7;  // [rad]: nanometres between the sides of a cap
+        const Vec3 out = d - d.dot(axis) * axis;
+        return out.norm() > kUpright ? Vec3(out.normalized()) : across;
+    }
+};
+
+/// The closest points of two lines p + s d and q + t e, with s and t from 0 to 1 (Ericson 2005).
+std::pair<Vec3, Vec3> closest(const Vec3& p, const Vec3& d, const Vec3& q, const Vec3& e) {
+    const Vec3 r = p - q;
+    const double dd = d.squaredNorm(), ee = e.squaredNorm(), de = d.dot(e);
+    const double det = dd * ee - de * de;
+    const auto share = [](double a, double b) { return b > 0 ? std::clamp(a / b, 0.0, 1.0) : 0.0; };
+    double s = det > 1e-12 * dd * ee ? share(de * e.dot(r) - ee * d.dot(r), det) : 0.5;
+    const double t = share(e.dot(r) + s * de, ee);
+    s = share(t * de - d.dot(r), dd);
+    return {p + s * d, q + t * e};
+}
+
+/// A cylinder without its rim: its points are this far from those of the cylinder. Between touching
+/// shapes the direction of closest points is undefined; between a core and a shape it is not.
+struct Core {
+    double radius = 0;
+    double half = 0;
+
+    /// That of a shape which has a round surface, or is to get one of the given radius.
+    static Core of(const Round& shape, double rounding) {
+        if (!shape.is_cylinder) return {0, shape.half};
+        return {shape.radius - rounding, shape.half - rounding};
+    }
+    Vec3 nearest(const Placed& at, const Vec3& p) const {
+        const Vec3 r = p - at.centre;
+        const double z = std::clamp(r.dot(at.axis), -half, half);
+        Vec3 off = r - r.dot(at.axis) * at.axis;
+        if (off.norm() > radius) off *= radius / off.norm();
+        return at.centre + z * at.axis + off;
+    }
+};
+
+double rounding_of(const Round& shape) {
+    constexpr double kShare = 0.2;
+    return shape.is_cylinder ? kShare * std::min(shape.radius, shape.half) : 0;
+}
+
+/// The closest points of two convex sets, by projection onto one and the other in turn (Cheney and
+/// Goldstein 1959), from a point of the first.
+template <class NearestOfA, class NearestOfB>
+std::pair<Vec3, Vec3> closest_by_turns(Vec3 p, int times, const NearestOfA& of_a,
+                                       const NearestOfB& of_b) {
+    Vec3 q = of_b(p);
+    for (int i = 0; i < times; ++i) {
+        const Vec3 next = of_a(q);
+        const bool stays = (next - p).squaredNorm() < kTogether * kTogether;
+        p = next;
+        q = of_b(p);
+        if (stays) break;
+    }
+    return {p, q};
+}
+
+/// The polygon about a cylinder's cap that looks along d.
+void cap(const Placed& at, const Vec3& d, Polygon& out) {
+    const double sign = at.axis.dot(d) < 0 ? -1 : 1;
+    const double radius = at.shape.radius / std::cos(std::numbers::pi / kRim);
+    const Vec3 second = sign * at.axis.cross(at.across);
+    out.count = 0;
+    for (int i = 0; i < kRim; ++i) {
+        const double angle = 2 * std::numbers::pi * i / kRim;
+        out.add(at.end(sign) + radius * (std::cos(angle) * at.across + std::sin(angle) * second));
+    }
+}
+
+/// What a shape has furthest along d. With `whole`, a cap that looks along d is there with its rim.
+void feature(const Placed& at, const Vec3& d, bool whole, Polygon& out) {
+    const Round& shape = at.shape;
+    out.count = 0;
+    if (!shape.is_cylinder) {
+        out.add(at.end(1) + shape.radius * d);
+        if (shape.half > 0) out.add(at.end(-1) + shape.radius * d);
+        return;
+    }
+    const double along = at.axis.dot(d);
+    const double sign = along < 0 ? -1 : 1;
+    const Vec3 first = at.radial(d);
+    const Vec3 lowest = shape.radius * first;
+    if (std::abs(along) < kCap) {
+        out.add(at.end(1) + lowest);
+        out.add(at.end(-1) + lowest);
+        return;
+    }
+    const Vec3 second = sign * at.axis.cross(first);
+    for (int i = 0; i < (whole ? kRim : 1); ++i) {
+        const double angle = 2 * std::numbers::pi * i / kRim;
+        out.add(at.end(sign) + shape.radius * (std::cos(angle) * first + std::sin(angle) * second));
+    }
+}
+
+/// The part of a line from p to q with n . x <= offset.
+void clip_line(const Vec3& n, double offset, Polygon& line) {
+    Vec3& p = line.points[0];
+    Vec3& q = line.points[1];
+    const double dp = n.dot(p) - offset;
+    const double dq = n.dot(q) - offset;
+    if (dp > 0 && dq > 0) {
+        line.count = 0;
+    } else if (dp > 0) {
+        p += dp / (dp - dq) * (q - p);
+    } else if (dq > 0) {
+        q += dq / (dq - dp) * (p - q);
+    }
+}
+
+/// Puts those of the points on B within the margin into the patch, whose normal is known; `offset`
+/// is that of A's face.
+void keep_near(const Polygon& points, double offset, double margin, ContactPatch& patch) {
+    Polygon near;
+    Gaps gaps;
+    for (size_t i = 0; i < points.count; ++i) {
+        const double gap = patch.n_W.dot(points.points[i]) - offset;
+        if (gap > margin) continue;
+        gaps[near.count] = gap;
+        near.add(points.points[i]);
+    }
+    std::array<size_t, 4> kept{};
+    reduce(near, gaps, patch.n_W, kept, patch.count);
+    for (int i = 0; i < patch.count; ++i) {
+        const size_t k = kept[static_cast<size_t>(i)];
+        patch.points[static_cast<size_t>(i)] = {near.points[k] - gaps[k] * patch.n_W,
+                                                near.points[k], gaps[k]};
+    }
+}
+
+/// A's face, with corners counter-clockwise about the patch's normal, meets a feature of B. A point
+/// beyond the face's sides belongs to it only if `lenient`.
+void face_contact(const Polygon& face, const Polygon& of_b, double margin, bool lenient,
+                  ContactPatch& patch) {
+    std::array<Polygon, 2> polygons;  // used alternately
+    size_t current = 0;
+    polygons[0] = of_b;
+    for (size_t i = 0; i < face.count; ++i) {
+        const Vec3& p = face.points[i];
+        const Vec3 outward = (face.points[(i + 1) % face.count] - p).cross(patch.n_W);
+        const double size = outward.norm();
+        if (!(size > 0)) continue;
+        const Vec3 n = outward / size;
+        const double offset = n.dot(p);
+        Polygon& polygon = polygons[current];
+        if (polygon.count > 2) {
+            clip(polygon, n, offset, polygons[1 - current]);
+            current = 1 - current;
+        } else if (polygon.count == 2) {
+            clip_line(n, offset, polygon);
+        } else if (polygon.count == 1 && !lenient && n.dot(polygon.points[0]) > offset) {
+            polygon.count = 0;
+        }
+    }
+    keep_near(polygons[current], patch.n_W.dot(face.points[0]), margin, patch);
+}
+
+/// Leaves of a line that is not level along u the end that is furthest along u.
+void keep_furthest(const Vec3& u, Polygon& line) {
+    constexpr double kLevel = 1e-3;
+    if (line.count != 2) return;
+    const Vec3 d = line.points[1] - line.points[0];
+    if (std::abs(u.dot(d)) <= kLevel * d.norm()) return;
+    if (u.dot(d) > 0) line.points[0] = line.points[1];
+    line.count = 1;
+}
+
+/// Points and lines of both meet along the patch's normal, apart by `gap` where they are closest.
+void line_contact(Polygon& of_a, Polygon& of_b, double gap, double margin, ContactPatch& patch) {
+    patch.count = 0;
+    const Vec3& n = patch.n_W;
+    const auto add = [&](const Vec3& on_a, double apart) {
+        if (apart > margin) return;
+        patch.points[static_cast<size_t>(patch.count++)] = {on_a, on_a + apart * n, apart};
+    };
+    keep_furthest(n, of_a);
+    keep_furthest(-n, of_b);
+    const Vec3& p = of_a.points[0];
+    const Vec3& q = of_b.points[0];
+    if (of_a.count == 1) return add(p, gap);
+    if (of_b.count == 1) return add(q - gap * n, gap);
+    const Vec3 d = of_a.points[1] - p;
+    const Vec3 e = of_b.points[1] - q;
+    // where they lie along each other
+    const double s_q = d.dot(q - p) / d.squaredNorm();
+    const double s_e = d.dot(e) / d.squaredNorm();
+    const double low = std::max(0.0, std::min(s_q, s_q + s_e));
+    const double high = std::min(1.0, std::max(s_q, s_q + s_e));
+    if (low >= high || d.cross(e).norm() > kParallel * d.norm() * e.norm())
+        return add(closest(p, d, q, e).first, gap);
+    for (const double s : {low, high}) add(p + s * d, n.dot(q + (s - s_q) / s_e * e - p - s * d));
+}
+
+/// The best axis so far, from A to B.
+struct Best {
+    enum Kind { face, cap_of_a, cap_of_b, line };
+    double separation = -kInfinity;
+    Vec3 axis = Vec3::Zero();
+    Kind kind = line;
+    int at = -1;                          // the face
+    double preference = kFacePreference;  // of faces
+
+    double line_separation = -kInfinity;  // of the best line
+    Vec3 line_axis = Vec3::Zero();
+
+    void take(double sep, const Vec3& u, Kind k, int index = -1) {
+        if (k == line && sep > line_separation) {
+            line_separation = sep;
+            line_axis = u;
+        }
+        // a face is kept unless another axis separates better by a little
+        const bool was_face = kind != line && k == line;
+        if (sep <= separation + (was_face ? preference : 0)) return;
+        separation = sep;
+        axis = u;
+        kind = k;
+        at = index;
+    }
+};
+
+/// Whether the best line is nearer to how far apart shapes are than what the best face meets: where
+/// these overlap at an edge, what is furthest beyond the face may lie beyond its sides.
+bool is_line(const Best& best, const ContactPatch& patch) {
+    if (best.kind == Best::line) return true;
+    if (best.line_axis.isZero(0)) return false;
+    double least = kInfinity;
+    for (int i = 0; i < patch.count; ++i)
+        least = std::min(least, patch.points[static_cast<size_t>(i)].gap);
+    return least - best.separation > best.separation - best.line_separation;
+}
+
+/// Two round shapes along a direction, either way.
+void try_axis(const Placed& a, const Placed& b, Vec3 u, Best::Kind kind, Best& best) {
+    const double size = u.norm();
+    if (!(size > kTogether)) return;
+    u /= size;
+    const Vec3 between = b.centre - a.centre;
+    if (u.dot(between) < 0) u = -u;
+    best.take(u.dot(between) - a.extent(u) - b.extent(u), u, kind);
+}
+
+/// Climbs from the best line's axis to the best one near it, by strides in all directions that get
+/// shorter: how far convex shapes are apart has one peak, which may be a ridge.
+template <class Separation>
+void climb(const Separation& along, Best& best) {
+    constexpr int kWays = 7;
+    constexpr int kMostTries = 60;
+    constexpr double kLongest = 0.2, kShortest = 1e-6;
+    Vec3 u = best.line_axis;
+    double most = best.line_separation;
+    double turned = 0;
+    double stride = kLongest;
+    for (int n = 0; n < kMostTries && stride > kShortest; ++n) {
+        const Vec3 e = u.unitOrthogonal();
+        const Vec3 f = u.cross(e);
+        Vec3 better = u;
+        for (int i = 0; i < kWays; ++i) {
+            const double angle = turned + 2 * std::numbers::pi * i / kWays;
+            const Vec3 v = (u + stride * (std::cos(angle) * e + std::sin(angle) * f)).normalized();
+            const double there = along(v);
+            if (!(there > most)) continue;
+            most = there;
+            better = v;
+        }
+        if (better == u) {
+            stride /= 2;
+            turned += 1;  // so that no ridge lies between the same ways
+        }
+        u = better;
+    }
+    best.take(most, u, Best::line);
+}
+
+/// Vertices and edges of a polyhedron, in the world.
+struct Corners {
+    const Polyhedron& shape;
+    const Pose& X_W;
+    Vec3 vertex(int i) const { return X_W * shape.vertices[static_cast<size_t>(i)]; }
+
+    /// Furthest place along u.
+    double furthest(const Vec3& u) const {
+        const Vec3 d = X_W.R.conjugate() * u;
+        double out = -kInfinity;
+        for (const Vec3& v : shape.vertices) out = std::max(out, d.dot(v));
+        return out + u.dot(X_W.p);
+    }
+    /// The vertex or the edge that is furthest along u.
+    void feature(const Vec3& u, Polygon& out) const {
+        constexpr double kLevel = 1e-5;  // [m]
+        const double most = furthest(u);
+        out.count = 0;
+        for (const Vec3& v : shape.vertices) {
+            const Vec3 p = X_W * v;
+            if (u.dot(p) < most - kLevel) continue;
+            if (out.count < 2) {
+                out.add(p);
+            } else if ((p - out.points[0]).norm() > (out.points[1] - out.points[0]).norm()) {
+                out.points[1] = p;
+            }
+        }
+    }
+    void face(int i, Polygon& out) const {
+        out.count = 0;
+        for (const int v : shape.faces[static_cast<size_t>(i)].vertices) out.add(vertex(v));
+    }
+    /// The face that looks most along u.
+    int towards(const Vec3& u) const {
+        const Vec3 d = X_W.R.conjugate() * u;
+        size_t best = 0;
+        for (size_t f = 1; f < shape.faces.size(); ++f)
+            if (shape.faces[f].normal.dot(d) > shape.faces[best].normal.dot(d)) best = f;
+        return static_cast<int>(best);
+    }
+    /// Whether another part of the body covers the face that looks along u.
+    bool is_covered(const Vec3& u) const {
+        constexpr double kAlike = 1 - 1e-6;
+        return std::any_of(shape.covered.begin(), shape.covered.end(),
+                           [&](const Vec3& normal) { return (X_W.R * normal).dot(u) > kAlike; });
+    }
+};
+
+/// Tries the direction between the edges of `a` and the axis or the rim of `b`.
+void try_edges(const Corners& a, const Placed& b, Best& best) {
+    const double rounding = rounding_of(b.shape);
+    const Core core = Core::of(b.shape, rounding);
+    const auto of_core = [&](const Vec3& p) { return core.nearest(b, p); };
+    const Vec3 axis = b.end(1) - b.end(-1);
+    double least = kInfinity;
+    Vec3 on_a, on_b;
+    const auto look = [&](const Vec3& p, const Vec3& d, int times) {
+        std::pair<Vec3, Vec3> found = closest(p, d, b.end(-1), axis);
+        if (core.radius > 0) {
+            const auto of_edge = [&](const Vec3& q) {
+                return Vec3(p + std::clamp(d.dot(q - p) / d.squaredNorm(), 0.0, 1.0) * d);
+            };
+            found = closest_by_turns(found.first, times, of_edge, of_core);
+        }
+        const double apart = (found.second - found.first).norm();
+        if (apart >= least) return;
+        least = apart;
+        std::tie(on_a, on_b) = found;
+    };
+    const Polyhedron::Edge* nearest = nullptr;
+    for (const Polyhedron::Edge& e : a.shape.edges) {
+        const double before = least;
+        look(a.vertex(e.from), a.vertex(e.to) - a.vertex(e.from), 4);
+        if (least < before) nearest = &e;
+    }
+    if (nearest == nullptr) return;
+    if (core.radius > 0)
+        look(a.vertex(nearest->from), a.vertex(nearest->to) - a.vertex(nearest->from), 60);
+    if (!(least > kTogether)) return;
+    const auto along = [&](const Vec3& u) { return u.dot(b.centre) - b.extent(u) - a.furthest(u); };
+    const Vec3 u = (on_b - on_a) / least;
+    best.take(along(u), u, Best::line);
+    if (core.radius > 0) climb(along, best);
+}
+
+}  // namespace
+
+ContactPatch collide_half_space(const Pose& X_WA, const Round& b, const Pose& X_WB,
+                                double margin) noexcept {
+    ContactPatch patch;
+    patch.n_W = X_WA.R * Vec3::UnitZ();
+    Polygon of_b;
+    feature(Placed(b, X_WB), -patch.n_W, true, of_b);
+    keep_near(of_b, patch.n_W.dot(X_WA.p), margin, patch);
+    return patch;
+}
+
+ContactPatch collide(const Round& shape_a, const Pose& X_WA, const Round& shape_b, const Pose& X_WB,
+                     double margin) noexcept {
+    ContactPatch patch;
+    const Placed a(shape_a, X_WA);
+    const Placed b(shape_b, X_WB);
+    Best best;
+    if (shape_a.is_cylinder) try_axis(a, b, a.axis, Best::cap_of_a, best);
+    if (shape_b.is_cylinder) try_axis(a, b, b.axis, Best::cap_of_b, best);
+    if (best.separation > margin) return patch;
+    const auto [on_a, on_b] =
+        closest(a.end(-1), a.end(1) - a.end(-1), b.end(-1), b.end(1) - b.end(-1));
+    try_axis(a, b, on_b - on_a, Best::line, best);
+    if (shape_a.is_cylinder || shape_b.is_cylinder) {
+        try_axis(a, b, a.axis.cross(b.axis), Best::line, best);
+        const bool sharp = !(shape_a.is_cylinder && shape_b.is_cylinder);
+        const Core core_a = Core::of(shape_a, sharp ? 0 : rounding_of(shape_a));
+        const Core core_b = Core::of(shape_b, sharp ? 0 : rounding_of(shape_b));
+        const auto [p, q] = closest_by_turns(
+            on_a, 60, [&](const Vec3& x) { return core_a.nearest(a, x); },
+            [&](const Vec3& x) { return core_b.nearest(b, x); });
+        try_axis(a, b, q - p, Best::line, best);
+        const auto along = [&](const Vec3& u) {
+            return u.dot(b.centre - a.centre) - a.extent(u) - b.extent(u);
+        };
+        if (!best.line_axis.isZero(0)) climb(along, best);
+    }
+    if (best.separation > margin) return patch;
+    if (best.axis.isZero(0))
+        best.take(-a.extent(a.across) - b.extent(a.across), a.across, Best::line);
+    patch.n_W = best.axis;
+    Polygon of_a;
+    Polygon of_b;
+    if (best.kind == Best::cap_of_b) {
+        patch.n_W = -best.axis;
+        cap(b, patch.n_W, of_b);
+        feature(a, best.axis, true, of_a);
+        face_contact(of_b, of_a, margin, true, patch);
+        flip(patch);
+    } else if (best.kind == Best::cap_of_a) {
+        cap(a, best.axis, of_a);
+        feature(b, -best.axis, true, of_b);
+        face_contact(of_a, of_b, margin, true, patch);
+    }
+    if (is_line(best, patch)) {
+        patch.n_W = best.line_axis;
+        feature(a, patch.n_W, false, of_a);
+        feature(b, -patch.n_W, false, of_b);
+        line_contact(of_a, of_b, best.line_separation, margin, patch);
+    }
+    return patch;
+}
+
+ContactPatch collide(const Polyhedron& shape_a, const Pose& X_WA, const Round& shape_b,
+                     const Pose& X_WB, double margin, const Vec3& way_W) noexcept {
+    ContactPatch patch;
+    const Corners a{shape_a, X_WA};
+    const Placed b(shape_b, X_WB);
+    Best best;
+    if (!shape_b.is_cylinder && shape_b.half == 0) best.preference = 0;  // it touches at one point
+    int flush = -1;
+    for (size_t f = 0; f < shape_a.faces.size(); ++f) {
+        const Vec3 n = X_WA.R * shape_a.faces[f].normal;
+        const double separation = n.dot(b.centre - X_WA.p) - b.extent(n) - shape_a.faces[f].offset;
+        if (separation > margin) return patch;
+        best.take(separation, n, Best::face, static_cast<int>(f));
+        if (is_flush(separation, n, way_W)) flush = static_cast<int>(f);
+    }
+    if (shape_b.is_cylinder) {
+        for (const double sign : {1.0, -1.0}) {
+            const Vec3 u = sign * b.axis;
+            best.take(u.dot(b.centre) - shape_b.half - a.furthest(u), u, Best::cap_of_b);
+        }
+    }
+    try_edges(a, b, best);
+    if (best.separation > margin) return patch;
+    const Vec3 n_flush =
+        flush < 0 ? best.axis : Vec3(X_WA.R * shape_a.faces[static_cast<size_t>(flush)].normal);
+    const bool beside = flush >= 0 && (best.kind == Best::line || best.at == flush ||
+                                       is_across(best.axis, n_flush));
+    if (beside) {
+        best.kind = Best::face;
+        best.at = flush;
+        best.axis = n_flush;
+    }
+    if (a.is_covered(best.axis)) return patch;
+    patch.n_W = best.axis;
+    Polygon of_a;
+    Polygon of_b;
+    if (best.kind == Best::face) {
+        a.face(best.at, of_a);
+        feature(b, -best.axis, true, of_b);
+        face_contact(of_a, of_b, margin, !beside, patch);
+    } else if (best.kind == Best::cap_of_b) {
+        patch.n_W = -best.axis;
+        cap(b, patch.n_W, of_b);
+        a.face(a.towards(best.axis), of_a);
+        face_contact(of_b, of_a, margin, true, patch);
+        flip(patch);
+    }
+    if (!beside && is_line(best, patch)) {
+        patch.n_W = best.line_axis;
+        a.feature(patch.n_W, of_a);
+        feature(b, -patch.n_W, false, of_b);
+        line_contact(of_a, of_b, best.line_separation, margin, patch);
+    }
+    return patch;
+}
+
+}  // namespace dihaptic::dynamics
