@@ -163,6 +163,7 @@ class Crowd {
             }
             if (!running_.empty()) wait();
         }
+        for (const std::string& id : busy_) look_again(id);
         if (done_ < people_.size()) exit_code = kFailed;
         return std::move(failed_);
     }
@@ -173,6 +174,18 @@ class Crowd {
             if (const auto place = session::UnfinishedFolder::take(options_.out, id)) {
                 running_[start(options_, id, *place)] = id;
                 return;
+            }
+            busy_.push_back(id);
+        } catch (const Error& e) {
+            fail(id, "failed", e.what());
+        }
+    }
+    /// Another program may have done this person by now.
+    void look_again(const std::string& id) {
+        try {
+            if (session::has_session(options_.out + "/" + id)) {
+                ++done_;
+                return show();
             }
             fail(id, "failed",
                  "Another dihaptic is doing this session now: wait until that has ended.");
@@ -214,6 +227,7 @@ class Crowd {
     const std::vector<std::string>& people_;
     ProgressLine line_;
     std::map<pid_t, std::string> running_;
+    std::vector<std::string> busy_;  ///< those whom another program was doing at their turn
     std::vector<std::string> failed_;
     size_t next_ = 0;
     size_t done_ = 0;

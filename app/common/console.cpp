@@ -152,7 +152,7 @@ int run_program(CLI::App& app, int argc, char** argv) {
         return code == 0 ? kOk : kBadInput;
     } catch (const Error& e) {
         fmt::print(stderr, "{}\n", e.what());
-        return kBadInput;
+        return stop_requested ? kFailed : kBadInput;  // what was waited for was given up
     } catch (const std::filesystem::filesystem_error& e) {
         fmt::print(stderr, "{}: error: {}. Check what is there, and its permissions.\n",
                    e.path1().string(), e.code().message());

@@ -16,7 +16,8 @@ namespace dihaptic::cli {
 /// Set by Ctrl-C, by SIGTERM, and when the terminal is closed: the running command ends in order.
 extern std::atomic<bool> stop_requested;
 
-/// What the program returns: success, a result is bad, the input was bad.
+/// What the program returns: success; a result is bad, or the command was interrupted; the input
+/// was bad.
 enum ExitCode { kOk = 0, kFailed = 1, kBadInput = 2 };
 
 /// What the program will return; set by the command that ran.

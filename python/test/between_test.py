@@ -18,6 +18,7 @@ import numpy as np
 import dihaptic as dh
 from dihaptic.between import listening
 from dihaptic.program import program
+from stranger import stranger
 
 THRESHOLD = 1.3
 TRIALS = 25
@@ -239,18 +240,11 @@ class Deciding(unittest.TestCase):
         path = f"{self.folder.name}/there/between"
         pathlib.Path(path).parent.mkdir()
         os.chown(pathlib.Path(path).parent, 65534, -1)
-        stranger = (
-            "import socket, sys; s = socket.socket(socket.AF_UNIX); s.bind(sys.argv[1]); s.listen();"
-            "print('there', flush=True); s.accept()[0].send(b'{\"messages\": []}\\n'); sys.stdin.read()"
+        answers = (
+            "s = socket.socket(socket.AF_UNIX); s.bind(sys.argv[1]); s.listen();"
+            "print('there', flush=True); s.accept()[0].send(b'{\"messages\": []}\\n')"
         )
-        process = subprocess.Popen(
-            ["/usr/bin/python3", "-c", stranger, path],
-            user=65534, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-        )  # fmt: skip
-        self.addCleanup(process.wait)
-        self.addCleanup(process.stdin.close)
-        self.addCleanup(process.stdout.close)
-        self.assertEqual(process.stdout.readline(), b"there\n")
+        stranger(self, answers, path)
         done = subprocess.run([program(), "run", self.file(), "--between", path], capture_output=True, text=True)
         self.assertEqual(done.returncode, 2, done.stdout)
         self.assertRegex(done.stderr, r"is another user's: python3.* \(process \d+ of user nobody")

@@ -15,6 +15,7 @@ import numpy as np
 
 import dihaptic as dh
 from dihaptic.program import program
+from stranger import stranger
 
 TASK = """scene: SCENE
 hand: { centre_mm: [0, 0, 60], aperture_mm: 85 }
@@ -198,20 +199,13 @@ class Live(unittest.TestCase):
 
     @unittest.skipUnless(os.geteuid() == 0, "wants to be another user")
     def test_is_not_taken_from_another_users_program(self):
-        stranger = (
-            "import socket, sys; s = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET);"
-            "s.bind('\\0' + sys.argv[1]); s.listen(); print('there', flush=True);"
-            "s.accept()[0].send(b'{\"session\": \"x\", \"states\": [], \"outcomes\": []}'); sys.stdin.read()"
-        )
         name = f"dihaptic/session/{os.getpid():032x}"
-        process = subprocess.Popen(
-            ["/usr/bin/python3", "-c", stranger, name],
-            user=65534, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-        )  # fmt: skip
-        self.addCleanup(process.wait)
-        self.addCleanup(process.stdin.close)
-        self.addCleanup(process.stdout.close)
-        self.assertEqual(process.stdout.readline(), b"there\n")
+        answers = (
+            "s = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET);"
+            "s.bind('\\0' + sys.argv[1]); s.listen(); print('there', flush=True);"
+            "s.accept()[0].send(b'{\"session\": \"x\", \"states\": [], \"outcomes\": []}')"
+        )
+        stranger(self, answers, name)
         self.out.mkdir()
         (self.out / "onlookers").write_text(name)
         with self.assertRaisesRegex(dh.Error, "is answered for by another user's program"):

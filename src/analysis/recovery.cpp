@@ -57,21 +57,29 @@ void mend_settings(const recording::SessionFolder& folder, Diagnostics& diagnost
     write_csv(table, folder.file("settings.csv"));
 }
 
+/// Whether a YAML text has any, or an escape, which may stand for one: a large file is parsed only
+/// then.
+bool may_have_control_characters(const std::string& text) {
+    return find_fault(text) || text.find('\\') != std::string::npos;
+}
+
 /// A file of the session that cannot be read for its characters, as a text that can; nullopt if
 /// that is not what is wrong with it.
 std::optional<std::string> mended_text(const std::string& file) {
+    const bool yaml = file.ends_with(".yaml");
+    const int64_t most = yaml ? kMostYaml : kMostTable;
     try {
-        if (file.ends_with(".yaml")) {
+        if (!yaml) {
+            read_text_file(file, most);
+        } else if (may_have_control_characters(read_bytes(file, most))) {
             read_yaml(file);
-        } else {
-            read_text_file(file, kMostTable);
         }
         return std::nullopt;
     } catch (const Error&) {
     }
     try {
-        const std::string text = mended(read_bytes(file, kMostTable));
-        if (!file.ends_with(".yaml")) return text;
+        const std::string text = mended(read_bytes(file, most));
+        if (!yaml) return text;
         const char* const end = text.ends_with("...\n") ? "...\n" : "";  // of session.yaml
         return to_yaml(parse_yaml(text, file, Words::mended)) + end;
     } catch (const Error&) {
@@ -88,14 +96,17 @@ std::string keep_before(const std::string& file) {
     return std::filesystem::path(name).filename().string();
 }
 
-/// Whether session.yaml can be read as it is.
-bool is_readable(const recording::SessionFolder& folder) {
-    try {
-        folder.read_info();
-        return true;
-    } catch (const Error&) {
-        return false;
+/// What session.yaml says, or can be known without it; the file is kept if it cannot be read.
+recording::SessionInfo read_or_mend_info(const recording::SessionFolder& folder,
+                                         const recording::Setup& setup, Diagnostics& diagnostics) {
+    Diagnostics unreadable;
+    recording::SessionInfo info = folder.read_info(setup, unreadable);
+    for (Problem problem : unreadable.problems()) {
+        if (is_there(problem.place.file))
+            problem.remedy += " " + keep_before(problem.place.file) + " is the file as it was.";
+        diagnostics.add({problem});
     }
+    return info;
 }
 
 /// Replaces the control characters and broken bytes that versions before 0.3 let into a session's
@@ -145,12 +156,7 @@ Recovery recover_session(const recording::SessionFolder& folder,
     Recovery out;
     Diagnostics diagnostics;
     const std::vector<recording::InputFile> before = mend_texts(folder, diagnostics);
-    if (const std::string file = folder.file("session.yaml");
-        is_there(file) && !is_readable(folder)) {
-        diagnostics.warning({file, 0}, "",
-                            "cannot be read; " + keep_before(file) + " is the file as it was", "");
-    }
-    out.info = folder.read_info(log.head(), diagnostics);
+    out.info = read_or_mend_info(folder, log.head(), diagnostics);
     renew(out.info.inputs, before, folder);
     // raw.log knows it better than a session.yaml that was changed
     if (!recording::broken_own_seal(folder, out.info, Severity::warning).empty() &&

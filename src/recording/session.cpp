@@ -57,16 +57,22 @@ Node first_lines(std::string text) {
     return {};
 }
 
+struct ReadablePart {
+    Node node = Node::mapping();
+    bool given_up = false;  ///< too many keys were damaged: the rest was not looked at
+};
+
 /// What can be read of a damaged session.yaml: all of its keys but the damaged ones, and of those
 /// the first lines.
-Node readable_part(const std::string& text) {
-    Node out = Node::mapping();
+ReadablePart readable_part(const std::string& text) {
+    ReadablePart out;
     const auto take = [&](const Node& part) {
-        out.entries.insert(out.entries.end(), part.entries.begin(), part.entries.end());
+        out.node.entries.insert(out.node.entries.end(), part.entries.begin(), part.entries.end());
     };
     const auto begins_key = [&](size_t at) {
         return std::isalpha(static_cast<unsigned char>(text[at])) != 0;
     };
+    constexpr size_t kLongest = 1'000'000;  // bytes of a key; the program writes none so long
     constexpr int kMostDamaged = 100;
     int damaged = 0;
     for (size_t from = 0, to = 0; from < text.size(); from = to) {
@@ -75,11 +81,13 @@ Node readable_part(const std::string& text) {
         } while (to < text.size() && !begins_key(to));
         const std::string key = text.substr(from, to - from);
         try {
+            if (key.size() > kLongest) throw Error("is too long", "");
             if (!key.ends_with('\n')) throw Error("is cut off", "");
             take(parse_yaml(key, ""));
         } catch (const Error&) {
             take(first_lines(key));
-            if (++damaged > kMostDamaged) break;
+            out.given_up = ++damaged > kMostDamaged;
+            if (out.given_up) break;
         }
     }
     return out;
@@ -187,7 +195,8 @@ SessionInfo SessionFolder::read_info(const Setup& setup, Diagnostics& diagnostic
     }
     SessionInfo info;
     Diagnostics ignored;  // the file is known to be damaged
-    read_fields(info, readable_part(text_of(file("session.yaml"))), ignored);
+    const ReadablePart part = readable_part(text_of(file("session.yaml")));
+    read_fields(info, part.node, ignored);
     static_cast<Setup&>(info) = setup;
     const bool when = !info.started.empty();
     if (!when) info.started = start_by_name(path_);
@@ -204,6 +213,9 @@ SessionInfo SessionFolder::read_info(const Setup& setup, Diagnostics& diagnostic
     diagnostics.warning({file("session.yaml"), 0}, "",
                         why + ". It is made anew from raw.log" +
                             (when ? "" : " and the folder's name") +
+                            (part.given_up ? "; it had so many damaged keys that what follows "
+                                             "them was not read"
+                                           : "") +
                             "; not known any more: " + lost,
                         "Add by hand what you know.");
     return info;

@@ -432,6 +432,7 @@ Plan make_rest(const std::string& session, Seat seat, recording::SessionInfo& in
         throw Error({session, 0}, "", "is complete: every trial is done",
                     "Run the experiment again for another session.");
     }
+    rig::check_libraries(plan.rig);
     seat_mover(plan, mover_of(info, plan, folder, seat));
     check_by_description(plan, diagnostics);
     return plan;

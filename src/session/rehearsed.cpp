@@ -89,7 +89,8 @@ class Look {
             if (input.file == "person.yaml" || input.file == "trial-list.csv") continue;
             const Node* const wanted = rehearsal_.inputs.find(input.file);
             if (wanted == nullptr) {
-                refuse(input.file, "", "is no input of this rehearsal");
+                refuse(input.file, "",
+                       "is no input of this rehearsal: rehearsal.yaml does not name it");
             } else if (!is_same(input, *wanted)) {
                 refuse(input.file, "", "is not that of this rehearsal, which rehearsal.yaml has");
             }

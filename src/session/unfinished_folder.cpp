@@ -134,7 +134,8 @@ bool UnfinishedFolder::is_done() const {
 bool has_session(const std::string& folder) {
     const fs::file_status there = fs::symlink_status(folder);
     if (!fs::exists(there)) return false;
-    if (fs::is_directory(there) && is_there(folder + "/person.yaml")) return true;
+    if (fs::is_directory(there) && fs::is_regular_file(fs::symlink_status(folder + "/person.yaml")))
+        return true;
     refuse(folder, "is in the way: it is no session of a rehearsed person");
 }
 

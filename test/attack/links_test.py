@@ -81,6 +81,16 @@ class Made:
         self.do("run", self.experiment, "--simulate", "--participant", "S01", "--out", self.folder / "out")
         (self.session,) = (self.folder / "out").iterdir()
         self.do("rehearse", self.experiment, "--people", "2", "--out", self.folder / "two")
+        self.unfinished = shutil.copytree(self.session, self.folder / "unfinished")
+        self.cut()
+
+    def cut(self):
+        """Makes a session of which the second half is lost, as a kill leaves it."""
+        for name in ("session.nwb", "trials.csv", "phases.csv", "episodes.csv", "lifts.csv", "events.csv"):
+            (self.unfinished / name).unlink(missing_ok=True)
+        os.truncate(self.unfinished / "raw.log", (self.unfinished / "raw.log").stat().st_size // 2)
+        info = (self.unfinished / "session.yaml").read_text()
+        (self.unfinished / "session.yaml").write_text(info.replace("state: complete", "state: running"))
 
     def do(self, *arguments):
         result = dihaptic(*map(str, arguments))
@@ -94,6 +104,7 @@ def names_in(folder):
 def commands(made):
     """Of each command: its name, what prepares its folder, its arguments in there, and names that it uses for a while."""
     session = lambda place: shutil.copytree(made.session, place / "session")
+    killed = lambda place: shutil.copytree(made.unfinished, place / "session")
     interrupted = lambda place: (session(place), (place / "session/session.yaml").unlink())
 
     def missing(place):
@@ -118,6 +129,7 @@ def commands(made):
         ("report of a rehearsal", missing, ["report", "r"], []),
         ("export", session, ["export", "session", "--bids", "data"], []),
         ("resume", session, ["resume", "session"], []),
+        ("resume the rest", killed, ["resume", "session"], ["session/resumed-as"]),
         ("replay", session, ["replay", "session"], []),
         ("picture", session, ["picture", "session", "-o", "p.png"], []),
         ("workspace", lambda place: None, ["workspace", os.path.abspath("rigs/premium-arms.yaml"), "-o", "w.svg"], []),
@@ -220,6 +232,15 @@ class Kept(unittest.TestCase):
             self.assertIn("r/sim-001: error: is in the way", result.stderr)
             shutil.rmtree(self.folder / "r")
 
+    def test_a_person_that_is_a_link_is_no_session(self):
+        self.assertEqual(self.rehearse().returncode, 0)
+        person = self.folder / "r/sim-001/person.yaml"
+        person.rename(self.folder / "theirs.yaml")
+        person.symlink_to(self.folder / "theirs.yaml")
+        result = self.rehearse()
+        self.assertEqual(result.returncode, 2, result.stdout)
+        self.assertIn("r/sim-001: error: is in the way", result.stderr)
+
     def test_recover_keeps_what_it_makes_anew(self):
         result = dihaptic("run", str(self.folder / "short.yaml"), "--simulate", "--participant", "S7", "--out", str(self.folder / "s"))
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -232,6 +253,8 @@ class Kept(unittest.TestCase):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual((session / "session.yaml.before").read_text(), "precious")
         self.assertEqual((session / "session.yaml.before-2").read_text(), damaged)
+        self.assertEqual(result.stderr.count("session.yaml: warning: "), 1, result.stderr)
+        self.assertIn("session.yaml.before-2 is the file as it was", result.stderr)
         self.assertIn("id: sim-S7", (session / "session.yaml").read_text())
 
     def test_no_output_replaces_what_it_shows(self):

@@ -238,6 +238,17 @@ class AtOnce(InShards):
         self.assertEqual(collect(self.out).returncode, 0)
         self.assertEqual(tables(self.out), self.unsharded_tables(self.experiment, 2))
 
+    def test_two_that_share_the_people_say_that_all_are_done(self):
+        """The one that ends last has all people, whoever did them."""
+        write_experiment(self.experiment, 20)
+        command = [PROGRAM, "rehearse", self.experiment, "--people", "4", "--out", self.out]
+        both = [subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(2)]
+        ended = [(*program.communicate(timeout=patient(120)), program.returncode) for program in both]
+        self.assertIn(0, [code for _, _, code in ended], ended)
+        for stdout, stderr, code in ended:
+            self.assertIn("complete: " if code == 0 else "Another dihaptic is doing this session now", stdout + stderr)
+        self.assertEqual(collect(self.out).returncode, 0)
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

@@ -6,6 +6,7 @@ import fcntl
 import os
 import pathlib
 import pty
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -80,6 +81,22 @@ class RealDevices(unittest.TestCase):
             self.assertEqual(result.returncode, 2, result.stdout)
             self.assertRegex(result.stderr, r"omega-pair.yaml:\d+: error: library: Force Dimension's SDK cannot be loaded")
             self.assertEqual(os.listdir(out), [])
+
+    def test_ctrl_c_while_the_keeper_is_silent_is_an_interruption(self):
+        folder = pathlib.Path(self.folder.name)
+        program = shutil.copy(PROGRAM, folder)
+        keeper = folder / "dihaptic-keeper"
+        keeper.write_text(f"#!/bin/sh\ntouch {folder}/began\nexec sleep 60\n")
+        keeper.chmod(0o755)
+        process = subprocess.Popen([program, "run", "scenes/block-on-table.yaml", "--rig", "rigs/phantom-pair-openhaptics.yaml",
+                                    "--out", str(folder / "out")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        deadline = time.monotonic() + patient(20)
+        while not (folder / "began").exists() and time.monotonic() < deadline:
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        _, stderr = process.communicate(timeout=patient(20))
+        self.assertIn("interrupted while the program that keeps the devices did not answer", stderr)
+        self.assertEqual(process.returncode, 1)
 
     def test_calibrate_ends_in_the_middle_of_a_line(self):
         self.put(self.HD, "libfake_hd.so")

@@ -97,5 +97,13 @@ TEST_F(Libraries, ThatTheUserAllowsAndThoseOfTheSystemAreLoadedForAll) {
     EXPECT_THROW(check_libraries(read_rig(rig, diagnostics_)), Error);
 }
 
+TEST_F(Libraries, MistakesInTheUsersListAreToldOnce) {
+    std::filesystem::create_directory(folder_.path() + "/dihaptic");
+    folder_.write("dihaptic/libraries.yaml", "- mine.so\n");
+    const std::vector<Problem> told = strange_libraries(read(NamedBy::a_file));
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_NE(told[0].text().find("libraries.yaml:1: "), std::string::npos) << told[0].text();
+}
+
 }  // namespace
 }  // namespace dihaptic::rig::libraries_test
