@@ -181,7 +181,7 @@ class File(Part):
         """Writes the file, and beside it the scene and the rig that it has as objects.
 
         Nothing but comments is lost. The paths of other files that it names are kept true if it goes
-        to another folder. Raises OSError when it cannot be written.
+        to another folder. Raises OSError when it cannot be written, and Error when load() could not read it again.
 
         >>> import dihaptic as dh
         >>> scene = dh.Scene.load("scenes/block-on-table.yaml")
@@ -192,7 +192,8 @@ class File(Part):
         path = Path(file)
         # all is there before any file is touched, and each takes the place of an older one whole
         written = self._written(path)
-        for name in written:
+        for name, text in written.items():
+            _native.check_yaml(text, str(name))
             if name.is_symlink():
                 raise error("is a link, and nothing is written through one", "Name another file.", file=str(name))
         with tempfile.TemporaryDirectory(prefix=f".{path.name}.", dir=path.parent) as making:

@@ -221,6 +221,8 @@ void add_vocabulary(py::module_& m) {
     m.def("unit_of", &unit_of);
     m.def("read_yaml", [](const std::string& file) { return to_python(read_yaml(file)); });
     m.def("write_yaml", [](const py::handle& value) { return to_yaml(to_node(value)); });
+    m.def("check_yaml",
+          [](const std::string& text, const std::string& file) { parse_yaml(text, file); });
     m.def("check_file", &check_file);
     m.def("on_real_devices", &on_real_devices);
     m.def("lines_of", &lines_of);

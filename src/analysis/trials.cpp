@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <set>
 
 #include "base/figure.h"
 #include "base/regular_file.h"
+#include "base/text_file.h"
 #include "base/unmeasured.h"
 #include "servo/displayed.h"
 #include "task/measures.h"
@@ -36,10 +38,24 @@ void append(std::vector<T>& list, const More& more) {
     list.insert(list.end(), more.begin(), more.end());
 }
 
+/// A number if it is written as one: a block may be called 007, or nan.
 Table::Cell cell(const std::string& text) {
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    return !text.empty() && *end == '\0' ? Table::Cell(value) : Table::Cell(text);
+    const Table::Cell number = std::strtod(text.c_str(), nullptr);
+    return !text.empty() && to_csv(number) == text ? number : Table::Cell(text);
+}
+
+/// Throws Error when the list gives the table columns that cannot be told apart, or that
+/// session.nwb could not have.
+void check_columns(const Table& table, const std::string& list) {
+    std::set<std::string> names;
+    for (const Table::Column& column : table.columns) {
+        const bool usable = !column.name.empty() && column.name != "." &&
+                            column.name.find('/') == std::string::npos;
+        if (usable && names.insert(column.name).second) continue;
+        throw Error({list, 1}, shortened(column.name),
+                    usable ? "is the name of two columns" : "is no name of a column",
+                    "Put back the list that the session was recorded with.");
+    }
 }
 
 /// Columns of the task's variables, levels of procedures and answers.
@@ -96,7 +112,7 @@ bool has_trials(const recording::SessionFolder& folder) {
 
 TrialFinder::TrialFinder(const recording::SessionFolder& folder,
                          const std::vector<std::string>& fingers)
-    : list_(read_csv(folder.file(kList))) {
+    : file_(folder.file(kList)), list_(read_csv(file_)) {
     for (const task::ReachPlan& plan : task::read_reaches(folder.file(kList))) {
         if (plan.finger.empty()) {
             throw Error({folder.file(kList), static_cast<int>(reaches_.size()) + 2},
@@ -184,6 +200,7 @@ Table TrialFinder::table(const recording::SessionInfo& info) const {
         table.columns.push_back({list_[0][k], listed_as(list_[0][k])});
     append(table.columns, columns_of_numbers(info));
     append(table.columns, list_figures(TrialMeasures{}).columns);
+    check_columns(table, file_);
     for (const Row& r : rows_) {
         std::vector<Table::Cell> row =
             list_figures(TrialHead{r.start, r.end, info.title, info.participant.id}).cells;

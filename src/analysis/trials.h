@@ -135,7 +135,8 @@ class TrialFinder {
     void measure_angle(Row& row, const Reach& reach, const servo::Frame& frame) const;
     void measure_extent(Row& row, const Reach& reach, const servo::Frame& frame) const;
 
-    std::vector<std::vector<std::string>> list_;  // trial-list.csv, with its header
+    std::string file_;                            // trial-list.csv
+    std::vector<std::vector<std::string>> list_;  // its lines, with its header
     std::vector<Reach> reaches_;                  // by trial; empty if none is measured
     std::vector<Row> rows_;
 };

@@ -1,5 +1,6 @@
 #include "servo/real_time.h"
 
+#include <alloca.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,7 +11,7 @@
 #include <sys/resource.h>
 #include <unistd.h>
 
-#include <array>
+#include <algorithm>
 #include <cerrno>
 #include <thread>
 #include <vector>
@@ -45,10 +46,23 @@ int ask_awake(int& file) {
     return write(file, &most_us, sizeof most_us) == sizeof most_us ? 0 : errno;
 }
 
+/// Room on this thread's stack [bytes]: `ulimit -s` may have made it small.
+size_t room_on_stack() {
+    pthread_attr_t thread;
+    if (pthread_getattr_np(pthread_self(), &thread) != 0) return 0;
+    void* lowest = nullptr;
+    size_t size = 0;
+    pthread_attr_getstack(&thread, &lowest, &size);
+    pthread_attr_destroy(&thread);
+    const char here = 0;
+    return static_cast<size_t>(&here - static_cast<char*>(lowest));
+}
+
 /// Touches the stack in advance: a page first touched in a tick costs that tick a page fault.
 void touch_stack() {
-    std::array<volatile char, 262144> stack;
-    for (size_t i = 0; i < stack.size(); i += 1024) stack[i] = 0;
+    const size_t size = std::min<size_t>(262144, room_on_stack() / 2);
+    auto* const stack = static_cast<volatile char*>(alloca(size));
+    for (size_t i = 0; i < size; i += 1024) stack[i] = 0;
 }
 
 }  // namespace

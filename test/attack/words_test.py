@@ -6,10 +6,14 @@ begins.
 Usage: attack/words_test.py PROGRAM, from the project's folder. DIHAPTIC_ATTACKS=all tries far more of them.
 """
 import csv
+import itertools
+import json
 import os
 import pathlib
 import pty
 import random
+import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -17,6 +21,9 @@ import unittest
 
 sys.path.append("test/cli")
 from program import PROGRAM, dihaptic, patient
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(PROGRAM)), "python"))
+import dihaptic as dihaptic_package
 
 ALL = os.environ.get("DIHAPTIC_ATTACKS") == "all"
 ESCAPES = ["\\e", "\\x01", "\\0", "\\x7f", "\\a", "\\b", "\\r", "\\x85", "\\x9b", "\\uFEFF", "\\uFFFE"]
@@ -105,6 +112,252 @@ class Words(unittest.TestCase):
                 for command in ("report", "replay", "recover"):
                     result = dihaptic(command, str(session))
                     self.assertEqual(result.returncode, 0, command + ": " + result.stderr)
+
+
+WORDS = ["null", "~", "yes", "-", "---", "...", "1e3", "0x1F", "007", ".nan", "=1+1", "@a", "# a", "a: b", "- a", "!a", "&a", "*a", "|", ">",
+         "'", '"', ",", "a,b", 'a"b', "\\n", "a\nb", "a\tb", "a\r", "%", "[a]", "{a}", "{{a}}", "\u2029", "\ufeffa", "\x1b[D", "\x00"]
+
+
+def any_text(chosen, n):
+    """A text that is one of a kind, but for the words that mean something to a format."""
+    if chosen.random() < 0.15:
+        return chosen.choice(WORDS)
+    letters = "aZ09 _-.,;:'\"#%&*!|>?@`[]{}\\/~<=$äßéñ€中文🙂\u00a0\u200b\u2028\u0301"
+    return "".join(chosen.choice(letters) for _ in range(chosen.randrange(1, 12))) + str(n)
+
+
+#: Files in which each <name> is a text of that field.
+FILES = {
+    "scene.yaml": """title: <scene title>
+object: <body>
+bodies:
+  - name: <body>
+    shape: box
+    size_mm: [40, 40, 40]
+    mass_g: 100
+    position_mm: [0, 0, 20]
+    group: <group>
+  - name: <floor>
+    shape: plane
+    fixed: yes
+joints:
+  - name: <joint>
+    kind: slider
+    position_mm: [0, 0, 0]
+    axis: [0, 0, 1]
+    between:
+      - <body>
+fingers:
+  - name: <finger>
+    shape: sphere
+    radius_mm: 6
+    mass_g: 1
+cameras:
+  - name: <camera>
+    position_mm: [0, -300, 200]
+    look_at_mm: [0, 0, 0]
+""",
+    "rig.yaml": """title: <rig title>
+devices:
+  - finger: <finger>
+    backend: simulated
+    options:
+      serial: <serial>
+jig:
+  - name: <point>
+    position_mm: [-30, -30, 40]
+  - { name: b, position_mm: [30, -30, 40] }
+  - { name: c, position_mm: [30, 30, 40] }
+""",
+    "population.yaml": """title: <population>
+about: <about>
+based_on: adults.yaml
+""",
+    "e.yaml": """title: <title>
+scene: scene.yaml
+rig: rig.yaml
+hand:
+  centre_mm: [0, 0, 150]
+study:
+  institution: <institution>
+  lab: <lab>
+  experimenters:
+    - <experimenter>
+  keywords:
+    - <keyword>
+task:
+  draws:
+    - name: cue
+      choice:
+        - <choice>
+        - other
+  regions:
+    - name: <region>
+      position_mm: [0, 0, 150]
+      radius_mm: 20
+  perturbations:
+    - name: <perturbation>
+      loads:
+        - kind: constant
+          force_N: [0, 0, -0.1]
+          on: <body>
+  sounds:
+    - name: <sound>
+      tone_Hz: 400
+      duration_ms: 10
+  states:
+    - name: <state>
+      message: <message>
+      lines:
+        - <line>
+      sounds:
+        - <sound>
+      show:
+        - <region>
+      exits:
+        - when: time
+          after_s: 0.02
+          to: <second state>
+    - name: <second state>
+      exits:
+        - when: time
+          after_s: 0.02
+          outcome: <outcome>
+          feedback: <feedback>
+  feedback_s: 0.01
+  conditions:
+    - name: <condition>
+  blocks:
+    - name: <block>
+      perturb: <perturbation>
+      repeats: 1
+      pages:
+        - for_s: 0.01
+          text: <page>
+""",
+}
+#: What each field gets if its text was refused.
+PLAIN = re.compile("<([a-z ]+)>")
+
+
+class Fields(unittest.TestCase):
+    """Random texts in each field that a session's files are made of: each comes out as it was, or none is written."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.out = self.folder / "out"
+        shutil.copy("populations/adults.yaml", self.folder)
+
+    def write(self, texts):
+        """Writes the files with these texts; returns the fields of each line."""
+        fields = {}
+        for name, form in FILES.items():
+            for number, line in enumerate(form.splitlines(), 1):
+                fields[name, number] = PLAIN.findall(line)
+            text = PLAIN.sub(lambda field: json.dumps(texts[field[1]], ensure_ascii=False), form)
+            # JSON leaves these as they are, which YAML does not take in a line
+            (self.folder / name).write_text(text.replace("\u2028", "\\u2028").replace("\u2029", "\\u2029").replace("\x7f", "\\x7f"))
+        return fields
+
+    def run_it(self, texts):
+        result = run("run", str(self.folder / "e.yaml"), "--simulate", "--population", str(self.folder / "population.yaml"),
+                     "--participant=" + texts["participant"], "--age=" + texts["age"], "--out", str(self.out))
+        return result.returncode, result.stderr.decode(errors="replace")
+
+    def refused_fields(self, told, fields):
+        """The fields that errors are about, by file and line or by the option's name."""
+        out = set()
+        for name, line in re.findall(r"/([a-z]+\.yaml):(\d+): error: ", told):
+            # of a list, the line of its key
+            out.update(fields[name, int(line)] or fields.get((name, int(line) + 1), ()))
+        for option in ("participant", "age"):
+            if re.search(rf"^({option}: error: |command line, word \d+: error: --{option}=)", told, re.MULTILINE):
+                out.add(option)
+        return out
+
+    def test_come_out_as_they_were_or_are_refused(self):
+        chosen = random.Random(int(os.environ.get("DIHAPTIC_SEED", 3)))
+        names = sorted({field for form in FILES.values() for field in PLAIN.findall(form)} | {"participant", "age"})
+        tried, refused, sessions = 0, 0, 0
+        while tried < (20_000 if ALL else 300):
+            texts = {name: any_text(chosen, n) for n, name in enumerate(names)}
+            for option in ("participant", "age"):
+                texts[option] = texts[option].replace("\0", "\x01")  # no command line has such a letter
+            tried += len(texts)
+            while True:
+                fields = self.write(texts)
+                code, told = self.run_it(texts)
+                if code != 2:
+                    break
+                self.assertFalse(self.out.exists(), told)
+                wrong = self.refused_fields(told, fields)
+                wrong = {field for field in wrong if texts[field] != field.replace(" ", "_")}
+                self.assertTrue(wrong, f"{told}\n{texts}")
+                refused += len(wrong)
+                texts.update({field: field.replace(" ", "_") for field in wrong})
+            self.assertEqual(code, 0, f"{told}\n{texts}")
+            self.assert_is_there(texts)
+            sessions += 1
+        print(f"{tried} texts in {len(names)} fields and {sessions} sessions, {refused} refused")
+
+    def assert_is_there(self, texts):
+        (session,) = self.out.iterdir()
+        yaml = {name: set(scalars(dihaptic_package._native.read_yaml(str(session / name)))) for name in
+                ("session.yaml", "scene.yaml", "rig.yaml", "task.yaml", "person.yaml")}
+        with open(session / "trials.csv", newline="", encoding="utf-8") as file:
+            cells = set(itertools.chain(*csv.reader(file)))
+        where = {"scene.yaml": ["scene title", "body", "floor", "group", "joint", "finger", "camera"],
+                 "rig.yaml": ["rig title", "finger", "serial", "point"],
+                 "session.yaml": ["title", "institution", "lab", "experimenter", "keyword", "participant", "age", "body", "finger"],
+                 "task.yaml": ["choice", "region", "perturbation", "sound", "state", "message", "line", "second state", "outcome",
+                               "feedback", "condition", "block", "page"]}
+        for name, fields in where.items():
+            for field in fields:
+                text = "sim-" + texts[field] if field == "participant" and not texts[field].startswith("sim-") else texts[field]
+                self.assertIn(text, yaml[name], f"{field} in {name}")
+        for field in ("outcome", "condition", "block"):
+            self.assertIn(texts[field], cells, field)
+        commands = ("report", "replay", "recover") if random.random() < 0.1 else ()
+        for command in commands:
+            result = dihaptic(command, str(session))
+            self.assertEqual(result.returncode, 0, f"{command}: {result.stderr}\n{texts}")
+        shutil.rmtree(self.out)
+
+
+class Python(unittest.TestCase):
+    def test_what_an_object_saves_it_loads_or_the_file_stays(self):
+        chosen = random.Random(4)
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "scene.yaml")
+            refused = 0
+            for n in range(2_000 if ALL else 100):
+                text = any_text(chosen, n)
+                before = file.read_bytes() if file.exists() else None
+                scene = dihaptic_package.Scene(title=text, bodies=[{"name": text, "shape": "plane", "fixed": True}])
+                try:
+                    scene.save(file)
+                except dihaptic_package.Error:
+                    refused += 1
+                    self.assertEqual(file.read_bytes() if file.exists() else None, before)
+                else:
+                    read = dihaptic_package.Scene.load(file)
+                    for word in (read.title, read.bodies[0].name):  # a file does not tell 007 from "007"
+                        self.assertTrue(word == text or float(text) == word, (word, text))
+            self.assertGreater(refused, 0)
+
+
+def scalars(value):
+    """All texts and numbers in what was read of a YAML file."""
+    if isinstance(value, dict):
+        for item in value.values():
+            yield from scalars(item)
+    elif isinstance(value, list):
+        for item in value:
+            yield from scalars(item)
+    else:
+        yield str(value)
 
 
 class OlderSessions(unittest.TestCase):

@@ -9,6 +9,7 @@ import pathlib
 import pty
 import random
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -120,6 +121,13 @@ class Interruptions(unittest.TestCase):
 
     def frames_of(self, text):
         return int(text.split(" frames")[0].split()[-1])
+
+    def test_a_small_stack_is_enough(self):
+        """The servo touches its stack in advance, up to what ulimit -s leaves of it."""
+        with tempfile.TemporaryDirectory() as out:
+            small = lambda: resource.setrlimit(resource.RLIMIT_STACK, (256 * 1024, 256 * 1024))
+            result = dihaptic("run", "scenes/block-on-table.yaml", "--clock", "real", "--out", out, preexec_fn=small)
+            self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_ctrl_c_ends_in_order(self):
         with tempfile.TemporaryDirectory() as out:
