@@ -75,7 +75,8 @@ void warn_of_shares(const Plan& plan, Diagnostics& diagnostics) {
 
 Checked check_file(const std::string& file, Diagnostics& diagnostics, const std::string& rig) {
     try {
-        switch (task::kind_of(file)) {
+        const task::FileKind kind = task::kind_of(file);
+        switch (kind) {
             case task::FileKind::rig:
                 rig::read_rig(file, diagnostics);
                 return {"rig", {}};
@@ -92,7 +93,7 @@ Checked check_file(const std::string& file, Diagnostics& diagnostics, const std:
                     diagnostics.add(endless_states(*plan.task));
                     diagnostics.add(person::simulated_limits(*plan.task));
                 }
-                return {task::kind_of(file) == task::FileKind::scene ? "scene" : "experiment",
+                return {kind == task::FileKind::scene ? "scene" : "experiment",
                         describe_safety(plan)};
             }
             case task::FileKind::movement:
