@@ -267,6 +267,30 @@ Polyhedron Polyhedron::box(const Vec3& size) {
 
 namespace {
 
+/// The face that the contact is of; -1 of both: it is of two edges.
+struct Choice {
+    int face_of_a = -1;
+    int face_of_b = -1;
+};
+
+/// The best axis' face, or the one that the shapes stand flush with.
+Choice choose(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB, const FaceQuery& on_a,
+              const FaceQuery& on_b, const EdgeQuery& edges) {
+    const auto of_a = [&](int face) { return a.faces[static_cast<size_t>(face)].normal; };
+    const auto of_b = [&](int face) {
+        return Vec3(X_AB.R * -b.faces[static_cast<size_t>(face)].normal);
+    };
+    const bool by_edge =
+        edges.separation > std::max(on_a.separation, on_b.separation) + kFacePreference;
+    const bool by_a = on_a.separation + kFacePreference >= on_b.separation;
+    const Vec3 axis = by_edge ? edges.axis : by_a ? of_a(on_a.face) : of_b(on_b.face);
+    const auto counts = [&](const Vec3& n_flush) { return by_edge || is_across(axis, n_flush); };
+    if (on_a.flush >= 0 && counts(of_a(on_a.flush))) return {on_a.flush, -1};
+    if (on_b.flush >= 0 && counts(of_b(on_b.flush))) return {-1, on_b.flush};
+    if (by_edge) return {};
+    return by_a ? Choice{on_a.face, -1} : Choice{-1, on_b.face};
+}
+
 bool is_covered(const Polyhedron& polyhedron, const Pose& X_WP, const Vec3& outward_W) {
     constexpr double kAlike = 1 - 1e-6;
     return std::any_of(
@@ -289,26 +313,14 @@ ContactPatch collide(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b,
     const EdgeQuery edges = query_edges(a, b, X_AB, margin);
     if (edges.separation > margin) return patch;
 
-    const bool by_edge =
-        edges.separation > std::max(on_a.separation, on_b.separation) + kFacePreference;
-    const bool by_a = on_a.separation + kFacePreference >= on_b.separation;
-    const auto of_a = [&](int face) { return a.faces[static_cast<size_t>(face)].normal; };
-    const auto of_b = [&](int face) {
-        return Vec3(X_AB.R * -b.faces[static_cast<size_t>(face)].normal);
-    };
-    const Vec3 axis = by_edge ? edges.axis : by_a ? of_a(on_a.face) : of_b(on_b.face);
-    if (on_a.flush >= 0 && (by_edge || is_across(axis, of_a(on_a.flush)))) {
-        face_contact(a, X_WA, on_a.flush, b, X_WB, margin, patch);
-    } else if (on_b.flush >= 0 && (by_edge || is_across(axis, of_b(on_b.flush)))) {
-        face_contact(b, X_WB, on_b.flush, a, X_WA, margin, patch);
+    const Choice choice = choose(a, b, X_AB, on_a, on_b, edges);
+    if (choice.face_of_a >= 0) {
+        face_contact(a, X_WA, choice.face_of_a, b, X_WB, margin, patch);
+    } else if (choice.face_of_b >= 0) {
+        face_contact(b, X_WB, choice.face_of_b, a, X_WA, margin, patch);
         flip(patch);
-    } else if (by_edge) {
-        edge_contact(a, X_WA, b, X_AB, edges, patch);
-    } else if (by_a) {
-        face_contact(a, X_WA, on_a.face, b, X_WB, margin, patch);
     } else {
-        face_contact(b, X_WB, on_b.face, a, X_WA, margin, patch);
-        flip(patch);
+        edge_contact(a, X_WA, b, X_AB, edges, patch);
     }
     if (is_covered(a, X_WA, patch.n_W) || is_covered(b, X_WB, -patch.n_W)) patch.count = 0;
     return patch;

@@ -17,6 +17,8 @@ constexpr int kRim = 16;
 constexpr double kCap = 0.9;
 /// Lines closer to parallel than this touch along their length.
 constexpr double kParallel = 0.02;
+/// Projections in search of closest points end after as many turns.
+constexpr int kMostTurns = 60;
 /// Closest points nearer than this tell no direction [m].
 constexpr double kTogether = 1e-9;
 
@@ -98,15 +100,15 @@ std::pair<Vec3, Vec3> closest_by_turns(Vec3 p, int times, const NearestOfA& of_a
     return {p, q};
 }
 
-/// The polygon about a cylinder's cap that looks along d.
+/// The polygon in a cylinder's cap that looks along d.
 void cap(const Placed& at, const Vec3& d, Polygon& out) {
     const double sign = at.axis.dot(d) < 0 ? -1 : 1;
-    const double radius = at.shape.radius / std::cos(std::numbers::pi / kRim);
     const Vec3 second = sign * at.axis.cross(at.across);
     out.count = 0;
     for (int i = 0; i < kRim; ++i) {
         const double angle = 2 * std::numbers::pi * i / kRim;
-        out.add(at.end(sign) + radius * (std::cos(angle) * at.across + std::sin(angle) * second));
+        out.add(at.end(sign) +
+                at.shape.radius * (std::cos(angle) * at.across + std::sin(angle) * second));
     }
 }
 
@@ -170,10 +172,8 @@ void keep_near(const Polygon& points, double offset, double margin, ContactPatch
     }
 }
 
-/// A's face, with corners counter-clockwise about the patch's normal, meets a feature of B. A point
-/// beyond the face's sides belongs to it only if `lenient`.
-void face_contact(const Polygon& face, const Polygon& of_b, double margin, bool lenient,
-                  ContactPatch& patch) {
+/// A's face, with corners counter-clockwise about the patch's normal, meets a feature of B.
+void face_contact(const Polygon& face, const Polygon& of_b, double margin, ContactPatch& patch) {
     std::array<Polygon, 2> polygons;  // used alternately
     size_t current = 0;
     polygons[0] = of_b;
@@ -190,7 +190,7 @@ void face_contact(const Polygon& face, const Polygon& of_b, double margin, bool 
             current = 1 - current;
         } else if (polygon.count == 2) {
             clip_line(n, offset, polygon);
-        } else if (polygon.count == 1 && !lenient && n.dot(polygon.points[0]) > offset) {
+        } else if (polygon.count == 1 && n.dot(polygon.points[0]) > offset) {
             polygon.count = 0;
         }
     }
@@ -239,8 +239,7 @@ struct Best {
     double separation = -kInfinity;
     Vec3 axis = Vec3::Zero();
     Kind kind = line;
-    int at = -1;                          // the face
-    double preference = kFacePreference;  // of faces
+    int at = -1;  // the face
 
     double line_separation = -kInfinity;  // of the best line
     Vec3 line_axis = Vec3::Zero();
@@ -252,7 +251,7 @@ struct Best {
         }
         // a face is kept unless another axis separates better by a little
         const bool was_face = kind != line && k == line;
-        if (sep <= separation + (was_face ? preference : 0)) return;
+        if (sep <= separation + (was_face ? kFacePreference : 0)) return;
         separation = sep;
         axis = u;
         kind = k;
@@ -260,15 +259,27 @@ struct Best {
     }
 };
 
-/// Whether the best line is nearer to how far apart shapes are than what the best face meets: where
-/// these overlap at an edge, what is furthest beyond the face may lie beyond its sides.
-bool is_line(const Best& best, const ContactPatch& patch) {
-    if (best.kind == Best::line) return true;
-    if (best.line_axis.isZero(0)) return false;
+/// Whether a face meets something where shapes are closest along its normal, or by how much not:
+/// what is furthest beyond the face may lie beyond its sides [m].
+double missed(const ContactPatch& patch, double separation) {
     double least = kInfinity;
     for (int i = 0; i < patch.count; ++i)
         least = std::min(least, patch.points[static_cast<size_t>(i)].gap);
-    return least - best.separation > best.separation - best.line_separation;
+    return least - separation;
+}
+
+/// Whether a face's contact is the shapes' own: of shapes that are apart, or touch, no other axis
+/// then parts them better.
+bool settles(const ContactPatch& patch, double separation) {
+    constexpr double kTouching = -1e-6;  // [m]
+    return separation > kTouching && missed(patch, separation) < 1e-9;
+}
+
+/// Whether the best line is nearer to how far apart shapes are than what the best face meets.
+bool is_line(const Best& best, const ContactPatch& patch) {
+    if (best.kind == Best::line) return true;
+    if (best.line_axis.isZero(0)) return false;
+    return missed(patch, best.separation) > best.separation - best.line_separation;
 }
 
 /// Two round shapes along a direction, either way.
@@ -390,12 +401,87 @@ void try_edges(const Corners& a, const Placed& b, Best& best) {
     }
     if (nearest == nullptr) return;
     if (core.radius > 0)
-        look(a.vertex(nearest->from), a.vertex(nearest->to) - a.vertex(nearest->from), 60);
+        look(a.vertex(nearest->from), a.vertex(nearest->to) - a.vertex(nearest->from), kMostTurns);
     if (!(least > kTogether)) return;
     const auto along = [&](const Vec3& u) { return u.dot(b.centre) - b.extent(u) - a.furthest(u); };
     const Vec3 u = (on_b - on_a) / least;
     best.take(along(u), u, Best::line);
     if (core.radius > 0) climb(along, best);
+}
+
+/// What a cap meets, if the best axis is a cap's.
+void cap_contact(const Placed& a, const Placed& b, const Best& best, double margin,
+                 ContactPatch& patch) {
+    const bool of_b = best.kind == Best::cap_of_b;
+    Polygon face;
+    Polygon met;
+    patch.n_W = of_b ? Vec3(-best.axis) : best.axis;
+    cap(of_b ? b : a, patch.n_W, face);
+    feature(of_b ? a : b, -patch.n_W, true, met);
+    face_contact(face, met, margin, patch);
+    if (of_b) flip(patch);
+}
+
+/// Tries the directions between two round shapes that are no cap's.
+void try_lines(const Placed& a, const Placed& b, Best& best) {
+    const auto [on_a, on_b] =
+        closest(a.end(-1), a.end(1) - a.end(-1), b.end(-1), b.end(1) - b.end(-1));
+    try_axis(a, b, on_b - on_a, Best::line, best);
+    if (a.shape.is_cylinder || b.shape.is_cylinder) {
+        try_axis(a, b, a.axis.cross(b.axis), Best::line, best);
+        const bool sharp = !(a.shape.is_cylinder && b.shape.is_cylinder);
+        const Core core_a = Core::of(a.shape, sharp ? 0 : rounding_of(a.shape));
+        const Core core_b = Core::of(b.shape, sharp ? 0 : rounding_of(b.shape));
+        const auto [p, q] = closest_by_turns(
+            on_a, kMostTurns, [&](const Vec3& x) { return core_a.nearest(a, x); },
+            [&](const Vec3& x) { return core_b.nearest(b, x); });
+        try_axis(a, b, q - p, Best::line, best);
+        const auto along = [&](const Vec3& u) {
+            return u.dot(b.centre - a.centre) - a.extent(u) - b.extent(u);
+        };
+        if (!best.line_axis.isZero(0)) climb(along, best);
+    }
+    if (best.axis.isZero(0))  // one inside the other
+        best.take(-a.extent(a.across) - b.extent(a.across), a.across, Best::line);
+}
+
+/// The best of the faces of `a` and of the caps of `b`, and in `flush` the face that `b` stands
+/// flush with, or -1.
+Best best_face(const Corners& a, const Placed& b, double margin, const Vec3& way_W, int& flush) {
+    Best best;
+    flush = -1;
+    for (size_t f = 0; f < a.shape.faces.size(); ++f) {
+        const Vec3 n = a.X_W.R * a.shape.faces[f].normal;
+        const double separation = n.dot(b.centre - a.X_W.p) - b.extent(n) - a.shape.faces[f].offset;
+        best.take(separation, n, Best::face, static_cast<int>(f));
+        if (separation > margin) return best;
+        if (is_flush(separation, n, way_W)) flush = static_cast<int>(f);
+    }
+    if (!b.shape.is_cylinder) return best;
+    for (const double sign : {1.0, -1.0}) {
+        const Vec3 u = sign * b.axis;
+        best.take(u.dot(b.centre) - b.shape.half - a.furthest(u), u, Best::cap_of_b);
+    }
+    return best;
+}
+
+/// What the best face or cap meets.
+void face_contact(const Corners& a, const Placed& b, const Best& best, double margin,
+                  ContactPatch& patch) {
+    Polygon of_a;
+    Polygon of_b;
+    if (best.kind == Best::face) {
+        patch.n_W = best.axis;
+        a.face(best.at, of_a);
+        feature(b, -best.axis, true, of_b);
+        face_contact(of_a, of_b, margin, patch);
+    } else {
+        patch.n_W = -best.axis;
+        cap(b, patch.n_W, of_b);
+        a.face(a.towards(best.axis), of_a);
+        face_contact(of_b, of_a, margin, patch);
+        flip(patch);
+    }
 }
 
 }  // namespace
@@ -419,46 +505,17 @@ ContactPatch collide(const Round& shape_a, const Pose& X_WA, const Round& shape_
     if (shape_a.is_cylinder) try_axis(a, b, a.axis, Best::cap_of_a, best);
     if (shape_b.is_cylinder) try_axis(a, b, b.axis, Best::cap_of_b, best);
     if (best.separation > margin) return patch;
-    const auto [on_a, on_b] =
-        closest(a.end(-1), a.end(1) - a.end(-1), b.end(-1), b.end(1) - b.end(-1));
-    try_axis(a, b, on_b - on_a, Best::line, best);
-    if (shape_a.is_cylinder || shape_b.is_cylinder) {
-        try_axis(a, b, a.axis.cross(b.axis), Best::line, best);
-        const bool sharp = !(shape_a.is_cylinder && shape_b.is_cylinder);
-        const Core core_a = Core::of(shape_a, sharp ? 0 : rounding_of(shape_a));
-        const Core core_b = Core::of(shape_b, sharp ? 0 : rounding_of(shape_b));
-        const auto [p, q] = closest_by_turns(
-            on_a, 60, [&](const Vec3& x) { return core_a.nearest(a, x); },
-            [&](const Vec3& x) { return core_b.nearest(b, x); });
-        try_axis(a, b, q - p, Best::line, best);
-        const auto along = [&](const Vec3& u) {
-            return u.dot(b.centre - a.centre) - a.extent(u) - b.extent(u);
-        };
-        if (!best.line_axis.isZero(0)) climb(along, best);
-    }
-    if (best.separation > margin) return patch;
-    if (best.axis.isZero(0))
-        best.take(-a.extent(a.across) - b.extent(a.across), a.across, Best::line);
-    patch.n_W = best.axis;
+    if (best.kind != Best::line) cap_contact(a, b, best, margin, patch);
+    if (settles(patch, best.separation)) return patch;
+    try_lines(a, b, best);
+    if (best.separation > margin) return {};
+    if (!is_line(best, patch)) return patch;
     Polygon of_a;
     Polygon of_b;
-    if (best.kind == Best::cap_of_b) {
-        patch.n_W = -best.axis;
-        cap(b, patch.n_W, of_b);
-        feature(a, best.axis, true, of_a);
-        face_contact(of_b, of_a, margin, true, patch);
-        flip(patch);
-    } else if (best.kind == Best::cap_of_a) {
-        cap(a, best.axis, of_a);
-        feature(b, -best.axis, true, of_b);
-        face_contact(of_a, of_b, margin, true, patch);
-    }
-    if (is_line(best, patch)) {
-        patch.n_W = best.line_axis;
-        feature(a, patch.n_W, false, of_a);
-        feature(b, -patch.n_W, false, of_b);
-        line_contact(of_a, of_b, best.line_separation, margin, patch);
-    }
+    patch.n_W = best.line_axis;
+    feature(a, patch.n_W, false, of_a);
+    feature(b, -patch.n_W, false, of_b);
+    line_contact(of_a, of_b, best.line_separation, margin, patch);
     return patch;
 }
 
@@ -467,54 +524,33 @@ ContactPatch collide(const Polyhedron& shape_a, const Pose& X_WA, const Round& s
     ContactPatch patch;
     const Corners a{shape_a, X_WA};
     const Placed b(shape_b, X_WB);
-    Best best;
-    if (!shape_b.is_cylinder && shape_b.half == 0) best.preference = 0;  // it touches at one point
     int flush = -1;
-    for (size_t f = 0; f < shape_a.faces.size(); ++f) {
-        const Vec3 n = X_WA.R * shape_a.faces[f].normal;
-        const double separation = n.dot(b.centre - X_WA.p) - b.extent(n) - shape_a.faces[f].offset;
-        if (separation > margin) return patch;
-        best.take(separation, n, Best::face, static_cast<int>(f));
-        if (is_flush(separation, n, way_W)) flush = static_cast<int>(f);
-    }
-    if (shape_b.is_cylinder) {
-        for (const double sign : {1.0, -1.0}) {
-            const Vec3 u = sign * b.axis;
-            best.take(u.dot(b.centre) - shape_b.half - a.furthest(u), u, Best::cap_of_b);
-        }
-    }
-    try_edges(a, b, best);
+    Best best = best_face(a, b, margin, way_W, flush);
     if (best.separation > margin) return patch;
     const Vec3 n_flush =
         flush < 0 ? best.axis : Vec3(X_WA.R * shape_a.faces[static_cast<size_t>(flush)].normal);
-    const bool beside = flush >= 0 && (best.kind == Best::line || best.at == flush ||
-                                       is_across(best.axis, n_flush));
-    if (beside) {
+    if (flush >= 0 && (best.at == flush || is_across(best.axis, n_flush))) {
         best.kind = Best::face;
         best.at = flush;
         best.axis = n_flush;
+        if (!a.is_covered(n_flush)) face_contact(a, b, best, margin, patch);
+        return patch;
     }
-    if (a.is_covered(best.axis)) return patch;
-    patch.n_W = best.axis;
-    Polygon of_a;
-    Polygon of_b;
-    if (best.kind == Best::face) {
-        a.face(best.at, of_a);
-        feature(b, -best.axis, true, of_b);
-        face_contact(of_a, of_b, margin, !beside, patch);
-    } else if (best.kind == Best::cap_of_b) {
-        patch.n_W = -best.axis;
-        cap(b, patch.n_W, of_b);
-        a.face(a.towards(best.axis), of_a);
-        face_contact(of_b, of_a, margin, true, patch);
-        flip(patch);
+    face_contact(a, b, best, margin, patch);
+    if (!settles(patch, best.separation)) {
+        try_edges(a, b, best);
+        if (best.separation > margin) return {};
+        if (flush >= 0 && best.kind == Best::line) return {};
+        if (is_line(best, patch)) {
+            Polygon of_a;
+            Polygon of_b;
+            patch.n_W = best.line_axis;
+            a.feature(patch.n_W, of_a);
+            feature(b, -patch.n_W, false, of_b);
+            line_contact(of_a, of_b, best.line_separation, margin, patch);
+        }
     }
-    if (!beside && is_line(best, patch)) {
-        patch.n_W = best.line_axis;
-        a.feature(patch.n_W, of_a);
-        feature(b, -patch.n_W, false, of_b);
-        line_contact(of_a, of_b, best.line_separation, margin, patch);
-    }
+    if (a.is_covered(patch.n_W)) return {};
     return patch;
 }
 
