@@ -28,7 +28,8 @@ constexpr std::array<HandOver, kSolvers> kHandOver{{
 constexpr std::array<Route, 4> hand_over(Solver asked, bool exact, bool bounded) {
     for (const HandOver& row : kHandOver) {
         if (row.asked != asked || !exact) continue;
-        if (bounded) return {row.answer[0], Route::sequential_impulse};
+        if (bounded)
+            return {row.answer[0], Route::staggered_projections, Route::sequential_impulse};
         return row.answer;
     }
     return {Route::sequential_impulse};

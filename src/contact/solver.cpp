@@ -14,6 +14,7 @@ namespace dihaptic::contact {
 namespace {
 
 constexpr int kMostStaggeredIterations = 200;
+constexpr size_t kFewPairs = 10;
 constexpr int kLastSweeps = 2000;
 constexpr int kConeSweeps = 200;  // until an answer that left the cone is let be
 /// Bounds as a fallback: pairs of projections times contacts squared, and sweeps times contacts.
@@ -126,7 +127,7 @@ class Solve {
             case Route::coarse_polygon:
                 return by_coarse_polygon();
             case Route::staggered_projections:
-                return by_staggered_projections(first);
+                return by_staggered_projections(first, settings.work < kUnbounded);
             case Route::sweeps:
                 return by_sweeps();
             case Route::sequential_impulse:
@@ -145,10 +146,13 @@ class Solve {
         return answer;
     }
 
-    /// Pairs are bounded by contacts squared where another solver was asked.
-    Outcome by_staggered_projections(bool asked) {
-        const size_t pairs =
-            asked ? kMostStaggeredIterations : kMostStaggeredWork / (contacts_ * contacts_);
+    /// Pairs are bounded by contacts squared where another solver was asked, and few where work is
+    /// bounded.
+    Outcome by_staggered_projections(bool asked, bool bounded) {
+        const size_t affordable = kMostStaggeredWork / (contacts_ * contacts_);
+        const size_t pairs = asked     ? kMostStaggeredIterations
+                             : bounded ? std::min(kFewPairs, affordable)
+                                       : affordable;
         return staggered_projections(system_, r_, kTolerance,
                                      std::min(static_cast<int>(pairs), kMostStaggeredIterations),
                                      memory_.staggered);

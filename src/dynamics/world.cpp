@@ -149,6 +149,7 @@ void World::Impl::reserve_bodies(size_t count) {
     stepped.reserve(count);
     can_move.reserve(count);
     inverse_mass.resize(count);
+    by_loads.assign(count, contact::Vec6::Zero());
     bodies_of_islands.reserve(count);
     holds_finger.resize(count);
     island_bodies.reserve(count);

@@ -57,6 +57,9 @@ struct World::Impl {
         Vec3 L_W = Vec3::Zero();      // angular momentum about its centre of mass, after the step
         btVector3 v_before{0, 0, 0};  // before contacts acted
         btVector3 w_before{0, 0, 0};
+        bool bounces = false;         // in this step
+        btVector3 v_leaves{0, 0, 0};  // if so: velocities after it
+        btVector3 w_leaves{0, 0, 0};
         /// Whether its angular velocity changes while its angular momentum stays. A proxy has the
         /// same inertia about all axes, and what turns about one is held there.
         bool turns_freely() const {
@@ -72,6 +75,7 @@ struct World::Impl {
     std::vector<size_t> placed;   // fixed bodies that were put elsewhere since the last step
     std::vector<size_t> stepped;  // what took part in the last step, and was placed before it
     std::vector<contact::Mat6> inverse_mass;  // of each body that is awake
+    std::vector<contact::Vec6> by_loads;      // how the step's loads changed its velocities
     std::vector<OfIsland<btCollisionObject*>> bodies_of_islands;
     std::vector<OfIsland<btPersistentManifold*>> contacts_of_islands;
     std::vector<char> holds_finger;                 // by the body that represents an island
@@ -161,6 +165,9 @@ struct World::Impl {
     contact::SolveStats solve(double h);
     contact::SolveStats solve_with_entered(double h, std::vector<BodyState>& states);
     contact::SolveStats solve_island(double h, bool held);
+    /// Solves the island again for the velocities after the step, where something bounces.
+    void let_bounce(const contact::SolveSettings& how, double h, contact::SolveStats& stats);
+    contact::Solver solver_of_island() const;
     /// Solves the island's problem, again while its joints' rows follow from another guess of the
     /// velocities at the end of the step.
     contact::SolveStats solve_guessing(const contact::SolveSettings& how, double h);

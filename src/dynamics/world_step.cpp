@@ -119,6 +119,7 @@ void World::Impl::wake(size_t i, std::vector<BodyState>& states) {
     items[i].w_last = items[i].w_before;
     items[i].w_start = items[i].w_free = items[i].w_before;
     inverse_mass[i] = inverse_mass_of(items[i]);
+    by_loads[i].setZero();
 }
 
 void World::Impl::place_fixed(size_t i, std::vector<BodyState>& states) {
@@ -206,6 +207,7 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
         inverse_mass[i] = inverse_mass_of(item);
         item.v_last = body.getLinearVelocity();
         item.w_last = body.getAngularVelocity();
+        by_loads[i].setZero();
         if (item.is_driven || item.drive_to) {
             drive(item, h);
             continue;
@@ -213,7 +215,7 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
         contact::Vec6 load;
         load << item.force, item.torque;
         if (!item.is_proxy) load.head<3>() += item.properties.weight * item.mass * gravity;
-        const contact::Vec6 change = h * (inverse_mass[i] * load);
+        const contact::Vec6& change = by_loads[i] = h * (inverse_mass[i] * load);
         body.setLinearVelocity(body.getLinearVelocity() + to_bullet(Vec3(change.head<3>())));
         body.setAngularVelocity(body.getAngularVelocity() + to_bullet(Vec3(change.tail<3>())));
         limit_turn(body, h);
@@ -300,7 +302,6 @@ void World::Impl::prepare_contacts(std::span<btPersistentManifold* const> manifo
         for (int i = 0; i < count; ++i) {
             btManifoldPoint& point = manifold->getContactPoint(i);
             point.m_combinedFriction = friction_of(a, b);
-            carried(point).begin_step();
             carried(point).law = law_of(surface, count);
             // a finger does not bounce: what is held would drum on it
             if (items[a].is_proxy || items[b].is_proxy) carried(point).law.restitution = 0;
@@ -478,7 +479,7 @@ contact::SolveStats World::Impl::solve_island(double h, bool held) {
                                      {settings.iterations, settings.tolerance},
                                      has_fingers && !held ? kMostWork : contact::kUnbounded,
                                      &work};
-    const contact::SolveStats stats = solve_guessing(how, h);
+    contact::SolveStats stats = solve_guessing(how, h);
     problem.store(island_contacts);
     island_change.clear();
     for (size_t i = 0; i < island_bodies.size(); ++i)
@@ -486,12 +487,38 @@ contact::SolveStats World::Impl::solve_island(double h, bool held) {
     problem.store(joints, island_joints, island_change, h);
     for (size_t i = 0; i < island_bodies.size(); ++i) {
         btRigidBody& body = *btRigidBody::upcast(island_bodies[i]);
+        items[static_cast<size_t>(body.getUserIndex())].bounces = false;
         const contact::Vec6& change = island_change[i];
         body.setLinearVelocity(body.getLinearVelocity() + to_bullet(Vec3(change.head<3>())));
         body.setAngularVelocity(body.getAngularVelocity() + to_bullet(Vec3(change.tail<3>())));
         limit_turn(body, h);
     }
+    if (problem.bounce(island_contacts, by_loads)) let_bounce(how, h, stats);
     return stats;
+}
+
+void World::Impl::let_bounce(const contact::SolveSettings& how, double h,
+                             contact::SolveStats& stats) {
+    contact::SolveStats after;
+    solvers.solve(solver_of_island(), how, problem.problem(), problem.impulses(),
+                  problem.joint_impulses(), after);
+    problem.store(island_contacts);
+    stats.join(after);
+    for (size_t i = 0; i < island_bodies.size(); ++i) {
+        btRigidBody& body = *btRigidBody::upcast(island_bodies[i]);
+        Item& item = items[static_cast<size_t>(body.getUserIndex())];
+        const contact::Vec6 change = solvers.velocity_change(static_cast<int>(i));
+        item.bounces = true;
+        item.v_leaves = item.v_before + to_bullet(Vec3(change.head<3>()));
+        const btVector3 w = item.w_free + to_bullet(Vec3(change.tail<3>()));
+        item.w_leaves = to_bullet(limited(from_bullet(w), h));
+    }
+}
+
+contact::Solver World::Impl::solver_of_island() const {
+    // sweeps leave errors in chains of joints, which then gain energy from step to step
+    const bool sweeps = settings.solver == Solver::sequential_impulse;
+    return sweeps && !island_joints.empty() ? Solver::newton : settings.solver;
 }
 
 contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& how, double h) {
@@ -503,9 +530,7 @@ contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& ho
     /// Guesses that are still this far apart lead nowhere: the step is too long for how fast what
     /// is joined turns [m/s], [rad/s].
     constexpr double kLost = 1e-2;
-    // sweeps leave errors in chains of joints, which then gain energy from step to step
-    const bool sweeps = settings.solver == Solver::sequential_impulse;
-    const Solver solver = sweeps && !island_joints.empty() ? Solver::newton : settings.solver;
+    const Solver solver = solver_of_island();
     int iterations = 0;
     int64_t work_before = 0;
     for (int guess = 1;; ++guess) {
@@ -553,7 +578,8 @@ void World::Impl::integrate_positions(double h) {
         Item& item = items[i];
         if (item.turns_freely()) {
             // contacts and joints act at the beginning of the step
-            const btVector3 change = body.getAngularVelocity() - item.w_free;
+            const btVector3& w_after = item.bounces ? item.w_leaves : body.getAngularVelocity();
+            const btVector3 change = w_after - item.w_free;
             item.L_W = momentum(item, limited(from_bullet(item.w_start + change), h));
         }
         btTransform next;
@@ -561,6 +587,10 @@ void World::Impl::integrate_positions(double h) {
                                             body.getAngularVelocity(), h, next);
         body.setWorldTransform(next);
         body.updateInertiaTensor();
+        if (!item.bounces) continue;
+        body.setLinearVelocity(item.v_leaves);
+        body.setAngularVelocity(item.w_leaves);
+        item.bounces = false;
     }
     for (const size_t i : awake) {
         if (!items[i].is_point) continue;

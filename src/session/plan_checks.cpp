@@ -13,6 +13,7 @@
 #include "analysis/trials.h"
 #include "model/grasp.h"
 #include "session/load_checks.h"
+#include "session/mass_checks.h"
 #include "task/levels.h"
 #include "task/trial_numbers.h"
 
@@ -500,6 +501,7 @@ void check_devices(Plan& plan, Diagnostics& diagnostics) {
 void check_plan(Plan& plan, Diagnostics& diagnostics) {
     check_dead_man(plan, diagnostics);
     check_solver(plan, diagnostics);
+    check_masses(plan, diagnostics);
     diagnostics.throw_if_errors();
     check_devices(plan, diagnostics);
     check_proxy(plan, diagnostics);

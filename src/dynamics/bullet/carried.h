@@ -12,15 +12,6 @@
 
 namespace dihaptic::dynamics {
 
-/// How bodies that bounce met in a step: the contact let them close the gap, and will throw them
-/// apart in the next one.
-struct Impact {
-    double speed =
-        0;  ///< of approach, without the contact, in the middle of the step; 0: none [m/s]
-    double when = 0;  ///< share of the step after which they touched
-    double left = 0;  ///< normal velocity at the end of the step [m/s]
-};
-
 /// What the surfaces do at a contact, but for friction, which Bullet's own point has.
 struct ContactLaw {
     double restitution = 0;
@@ -38,14 +29,7 @@ struct Carried {
     Vec3 friction_W = Vec3::Zero();  ///< [N*s]
     double moment = 0;               ///< about the normal [N*m*s]
     ContactLaw law;
-    Impact last;  ///< of the last step
-    Impact now;   ///< of this one, however often it is solved
     bool in_use = false;
-
-    void begin_step() {
-        last = now;
-        now = {};
-    }
 };
 
 /// What a point carries; CarriedPool has given it to the point.

@@ -10,6 +10,9 @@ namespace {
 
 using contact::kFixed;
 
+/// What has not touched in a step may be met at any speed after it [m/s].
+constexpr double kFarApart = 1e6;
+
 /// Columns: the normal and two tangents, which depend on the normal only.
 Mat3 contact_frame(const Vec3& normal) {
     btVector3 first;
@@ -57,16 +60,15 @@ void soften(contact::ProblemContact& contact, const contact::ContactProblem& pro
     contact.bias = h * k * gap * contact.compliance;
 }
 
-/// Velocity along the normal at which bodies leave that met in the last step: Newton's law e u for
-/// the speed u at which they touched. Both are in the middle of their steps, so loads that change
-/// the normal velocity by `loads` in a step change it by half of that from there to the touch and
-/// from the touch to here. Zero for an impact so slow that they would be back in the next step.
-double rebound(const Impact& impact, double restitution, double free) {
-    const double loads = free - impact.left;
-    const double met = impact.speed - loads * (impact.when - 0.5);
-    const double leaves = restitution * met;
+/// Velocity along the normal with which bodies leave, by Newton's law e u for the speed u at which
+/// they touch, at the share `when` of the step. `free` is the normal velocity without the contact,
+/// in the middle of the step; loads changed it by `loads`, and will in the next step. Velocities
+/// are those of the middle of steps, so it is half of that from there to the touch and from the
+/// touch to there. Zero for an impact so slow that they would be back in the next step.
+double rebound(double free, double when, double loads, double restitution) {
+    const double leaves = restitution * (-free - loads * (when - 0.5));
     const double speed = leaves + std::clamp(loads, -leaves, leaves) / 2;
-    return speed > std::abs(loads) ? speed : 0;
+    return speed > std::abs(loads) ? speed - loads : 0;
 }
 
 }  // namespace
@@ -79,7 +81,7 @@ void ManifoldProblem::reserve(std::vector<double> torsion_radii, int contacts,
     problem_.bodies.reserve(torsion_radii_.size());
     problem_.contacts.reserve(static_cast<size_t>(contacts));
     impulses_.reserve(static_cast<size_t>(contacts));
-    free_.reserve(static_cast<size_t>(contacts));
+    leaves_.reserve(static_cast<size_t>(contacts));
     index_.assign(torsion_radii_.size(), kFixed);
 }
 
@@ -89,7 +91,6 @@ void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
                             bool warm_start) noexcept {
     problem_.clear();
     joint_impulses_.clear();
-    free_.clear();
     for (btCollisionObject* object : bodies) {
         const btRigidBody& body = *btRigidBody::upcast(object);
         const auto at = static_cast<size_t>(body.getUserIndex());
@@ -125,10 +126,8 @@ void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
             out.bias = (gap > 0 ? 1 : recovery) * gap / h;
             out.friction = point.m_combinedFriction;
             out.torsion_radius = torsion;
-            free_.push_back(0);
             out.compliance = carried(point).law.compliance;
             if (carried(point).law.stiffness > 0) soften(out, problem_, carried(point).law, gap, h);
-            if (carried(point).law.restitution > 0) let_bounce(out, carried(point));
         }
     }
     impulses_.resize(problem_.contacts.size());
@@ -167,18 +166,39 @@ void ManifoldProblem::read_impulses(std::span<btPersistentManifold*> manifolds) 
     }
 }
 
-void ManifoldProblem::let_bounce(contact::ProblemContact& contact,
-                                 const Carried& carried) noexcept {
-    const Impact& last = carried.last;
-    const double free = contact::normal_velocity(problem_, contact);
-    if (last.speed > 0) {
-        const double speed = rebound(last, carried.law.restitution, free);
-        if (speed > 0) {
-            contact.bias = -speed;
-            return;  // it leaves, and meets nothing
+bool ManifoldProblem::bounce(std::span<btPersistentManifold*> manifolds,
+                             std::span<const contact::Vec6> by_loads) noexcept {
+    leaves_.clear();
+    bool bounces = false;
+    for (const btPersistentManifold* manifold : manifolds) {
+        const auto a = static_cast<size_t>(manifold->getBody1()->getUserIndex());
+        const auto b = static_cast<size_t>(manifold->getBody0()->getUserIndex());
+        for (int i = 0; i < manifold->getNumContacts(); ++i) {
+            const contact::ProblemContact& contact = problem_.contacts[leaves_.size()];
+            const double restitution = carried(manifold->getContactPoint(i)).law.restitution;
+            const bool touched = impulses_[leaves_.size()][0] > 0;
+            const double free = contact::normal_velocity(problem_, contact);
+            const auto along = [&](size_t body, const Vec3& arm) {
+                const contact::Vec6& change = by_loads[body];
+                return contact.R_WC.col(0).dot(change.head<3>() + change.tail<3>().cross(arm));
+            };
+            const double loads = along(b, contact.p_BC_W) - along(a, contact.p_AC_W);
+            double leaves = -contact.bias;
+            if (restitution > 0 && !touched) {
+                leaves = -kFarApart;
+            } else if (restitution > 0) {
+                const double when = std::clamp(contact.bias / -free, 0.0, 1.0);
+                const double speed = free < 0 ? rebound(free, when, loads, restitution) : 0;
+                bounces = bounces || speed > 0;
+                // what did not meet before others pushed it meets by the same law
+                leaves = free < 0 ? speed : -restitution * free;
+            }
+            leaves_.push_back(leaves);
         }
     }
-    free_.back() = free;
+    if (!bounces) return false;
+    for (size_t j = 0; j < leaves_.size(); ++j) problem_.contacts[j].bias = -leaves_[j];
+    return true;
 }
 
 void ManifoldProblem::store(Joints& joints, std::span<const size_t> which,
@@ -195,10 +215,6 @@ void ManifoldProblem::store(std::span<btPersistentManifold*> manifolds) const no
             now.normal = impulses_[j][0];
             now.friction_W = impulses_[j][1] * R.col(1) + impulses_[j][2] * R.col(2);
             now.moment = impulses_[j][3];
-            now.now = {};
-            if (free_[j] >= 0 || impulses_[j][0] <= 0) continue;
-            const double bias = problem_.contacts[j].bias;
-            now.now = {-free_[j], std::clamp(bias / -free_[j], 0.0, 1.0), -bias};
         }
     }
 }

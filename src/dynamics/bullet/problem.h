@@ -28,6 +28,13 @@ class ManifoldProblem {
                std::span<btPersistentManifold*> manifolds, double h, double recovery,
                bool warm_start) noexcept;
 
+    /// Once the problem is solved: has what touched in the step, and bounces, leave with the speed
+    /// of Newton's law, and every other contact hold as before. The answer of the problem then has
+    /// the velocities after the step. `by_loads` is how the step's loads changed the velocities of
+    /// all bodies, by user index. False if nothing bounces.
+    bool bounce(std::span<btPersistentManifold*> manifolds,
+                std::span<const contact::Vec6> by_loads) noexcept;
+
     /// Adds rows of joints between bodies of the problem, as build() was told to start.
     void add_joints(Joints& joints, std::span<const size_t> which, double h,
                     bool warm_start) noexcept;
@@ -52,14 +59,11 @@ class ManifoldProblem {
 
   private:
     void read_impulses(std::span<btPersistentManifold*> manifolds) noexcept;
-    /// Has bodies leave that met in the last step, and notes how they meet in this one.
-    void let_bounce(contact::ProblemContact& contact, const Carried& carried) noexcept;
-
     contact::ContactProblem problem_;
     std::vector<contact::Impulse> impulses_;
     std::vector<Vec3> joint_impulses_;
-    std::vector<double> free_;  // of contacts that may bounce: normal velocity without them [m/s]
-    std::vector<int> index_;    // index in the problem, by a body's user index
+    std::vector<double> leaves_;  // normal velocities after the step, where something bounces [m/s]
+    std::vector<int> index_;      // index in the problem, by a body's user index
     std::vector<double> torsion_radii_;
 };
 

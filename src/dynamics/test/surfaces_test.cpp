@@ -253,6 +253,43 @@ TEST(BouncingSurfaces, ExchangeTheVelocitiesOfEqualBalls) {
     EXPECT_NEAR(world.state({1}).v_WB.x(), 0, 1e-6);
 }
 
+TEST_P(OfEach, KeepTheEnergyOfARowOfBallsWhateverItsGaps) {
+    for (const double gap : {0.0, 1e-4, 5e-4, 1e-3, 5e-3}) {
+        scene::Scene scene;
+        scene.gravity.setZero();
+        for (int i = 0; i < 5; ++i) {
+            scene.bodies.push_back(ball(0, 1));
+            scene.bodies.back().name = "ball" + std::to_string(i);
+            const double radius = scene.bodies.back().shape.radius;
+            scene.bodies.back().position = {(2 * radius + gap) * i - (i == 0 ? 0.02 : 0), 0, 0};
+        }
+        Settings settings = awake();
+        settings.solver = GetParam();
+        World world(scene, settings);
+        world.activate();
+        const double speed = 0.6;
+        world.set_velocity({0}, {speed, 0, 0});
+        double momentum = 0, energy = 0;
+        for (int i = 0; i < 400; ++i) {
+            world.step(kStep);
+            momentum = energy = 0;
+            for (int k = 0; k < 5; ++k) {
+                const double v = world.state({k}).v_WB.x();
+                momentum += v / speed;
+                energy += v * v / (speed * speed);
+            }
+            if (i > 50) {
+                EXPECT_NEAR(energy, 1, 0.01) << gap << " " << i;
+            }
+            EXPECT_NEAR(momentum, 1, 1e-3) << gap << " " << i;
+        }
+        // one after another they pass on all that they have
+        if (gap >= 5e-4) {
+            EXPECT_NEAR(world.state({4}).v_WB.x(), speed, 0.01 * speed) << gap;
+        }
+    }
+}
+
 /// Where a block on a table is after some time, pushed by a force along x [N], and how fast.
 struct Slid {
     double x = 0;
