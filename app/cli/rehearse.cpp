@@ -8,6 +8,7 @@
 #include <map>
 
 #include "base/field_writer.h"
+#include "base/number.h"
 #include "base/plural.h"
 #include "base/regular_file.h"
 #include "base/shell_word.h"
@@ -47,10 +48,12 @@ struct Shard {
 };
 
 Shard parse_shard(const std::string& text) {
-    Shard shard;
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%d/%d%c", &shard.number, &shard.of, &rest) != 2 ||
-        shard.number < 1 || shard.number > shard.of) {
+    const size_t slash = std::min(text.find('/'), text.size());
+    const Shard shard{
+        whole_number<int>(std::string_view(text).substr(0, slash)).value_or(0),
+        whole_number<int>(std::string_view(text).substr(std::min(slash + 1, text.size())))
+            .value_or(0)};
+    if (shard.number < 1 || shard.number > shard.of) {
         throw Error({"--shard", 0}, text, "is no part of a whole",
                     "Write e.g. --shard 3/20: the third of twenty parts.");
     }
@@ -237,7 +240,7 @@ class Crowd {
 std::string command_again(const RehearseOptions& options) {
     return RehearseCommand{options.request.file,
                            options.people,
-                           std::to_string(options.request.seed),
+                           number_text(options.request.seed),
                            options.out,
                            options.population_file,
                            options.real_objects,

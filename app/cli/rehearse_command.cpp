@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <filesystem>
 #include <vector>
 
+#include "base/number.h"
 #include "base/shell_word.h"
 
 namespace dihaptic::cli {
@@ -21,11 +21,8 @@ std::string whole(const std::string& file) {
 
 /// A number from 1 to `most`; nullopt if the word is none.
 std::optional<int> number(const std::string& word, int most) {
-    int out = 0;
-    const char* const end = word.data() + word.size();
-    const auto [read, failed] = std::from_chars(word.data(), end, out);
-    if (failed != std::errc() || read != end || out < 1 || out > most) return std::nullopt;
-    return out;
+    const auto out = whole_number<int>(word);
+    return out && *out >= 1 && *out <= most ? out : std::nullopt;
 }
 
 /// Takes an option, and the word that belongs to it, from the front of `words`; nullopt if there is

@@ -3,8 +3,13 @@
 #include <QKeyEvent>
 #include <QLibraryInfo>
 #include <QLocale>
+#include <clocale>
 
 namespace dihaptic::gui {
+
+Application::Application(int& argc, char** argv) : QApplication(argc, argv) {
+    std::setlocale(LC_NUMERIC, "C");
+}
 
 bool Application::notify(QObject* receiver, QEvent* event) {
     // ShortcutOverride comes first: it asks the widget with the keyboard focus whether to keep a

@@ -11,7 +11,9 @@ class Application : public QApplication {
     Q_OBJECT
 
   public:
-    using QApplication::QApplication;
+    /// Qt puts the system's language in force; that of numbers is taken back, as libraries read
+    /// them by it: 0.5 as 0.
+    Application(int& argc, char** argv);
     bool notify(QObject* receiver, QEvent* event) override;
     /// From now on texts are in the system's language, if the folder has dihaptic_LANGUAGE.qm:
     /// those of the window and those that Qt has of its own.

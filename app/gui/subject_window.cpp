@@ -14,6 +14,7 @@ char task_key(const QKeyEvent& event) {
     if (event.isAutoRepeat() || text.size() != 1 || text[0].unicode() > 127) return 0;
     // numbers are typed with these
     if (QStringLiteral(".-\r\b").contains(text[0])) return text[0].toLatin1();
+    if (text[0] == ',') return '.';  // of keyboards whose number block has it
     return text[0].isLetterOrNumber() ? text[0].toLatin1() : '\0';
 }
 

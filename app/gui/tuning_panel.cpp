@@ -1,8 +1,9 @@
 #include "tuning_panel.h"
 
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <cmath>
+
+#include "number_box.h"
 
 namespace dihaptic::gui {
 
@@ -26,7 +27,7 @@ void TuningPanel::add(QFormLayout* form, E servo::Knobs::*knob, const servo::Kno
 }
 
 void TuningPanel::add(QFormLayout* form, double servo::Knobs::*knob, const servo::Knob& is) {
-    auto* box = new QDoubleSpinBox;
+    auto* box = new NumberBox;
     const bool may_be_unset = is.unset != nullptr;
     // below the least value, and shown in words
     box->setRange(may_be_unset ? is.least - is.step : is.least, is.most);

@@ -7,6 +7,7 @@
 #include <exception>
 
 #include "base/field_writer.h"
+#include "base/number.h"
 #include "frame_values.h"
 #include "parts.h"
 #include "person/population.h"
@@ -123,7 +124,7 @@ class Sitting {
         plan_.driver = plan_.seeing = hand_;
         plan_.moved_by = {recording::Mover::simulated_person,
                           recording::program_version() + ", Python's " + doing.name, "",
-                          std::to_string(plan_.seed)};
+                          number_text(plan_.seed)};
         plan_.person = doing.traits;
         plan_.resumable = false;
         session::RunOptions options;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/number.h"
 #include "servo/shown_texts.h"
 
 namespace dihaptic::analysis {
@@ -11,7 +12,7 @@ namespace {
 
 std::string listed(const std::vector<std::string>& names, int32_t i) {
     const auto at = static_cast<size_t>(i);
-    return at < names.size() ? names[at] : std::to_string(i);
+    return at < names.size() ? names[at] : number_text(i);
 }
 
 }  // namespace
@@ -58,7 +59,7 @@ void EventFinder::add_task(const servo::Frame& frame) {
                              task.joint_properties.empty() && task.loads.empty());
     if (perturbed != perturbed_) say(frame, "perturbation", perturbed ? "on" : "off");
     perturbed_ = perturbed;
-    if (task.marker != 0) say(frame, "marker", std::to_string(task.marker));
+    if (task.marker != 0) say(frame, "marker", number_text(task.marker));
     add_texts(frame);
     add_sounds(frame);
     if (task.placements.size() > placed_)  // a body that is held is placed in each tick

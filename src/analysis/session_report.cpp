@@ -17,6 +17,7 @@
 #include "analysis/perturbations.h"
 #include "analysis/trials.h"
 #include "base/figure.h"
+#include "base/number.h"
 #include "base/plural.h"
 #include "base/regular_file.h"
 #include "base/unmeasured.h"
@@ -212,7 +213,7 @@ struct SessionReader::Pass {
         PhaseFigures figure = figures_of(trace, range, facts.mass * facts.gravity.norm());
         figure.trial = trial;
         const auto i = static_cast<size_t>(phase);
-        figure.name = i < names.size() ? names[i] : std::to_string(phase);
+        figure.name = i < names.size() ? names[i] : number_text(phase);
         reading.figures.phases.push_back(figure);
     }
 

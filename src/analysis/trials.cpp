@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/figure.h"
+#include "base/number.h"
 #include "base/regular_file.h"
 #include "base/text_file.h"
 #include "base/unmeasured.h"
@@ -40,8 +41,8 @@ void append(std::vector<T>& list, const More& more) {
 
 /// A number if it is written as one: a block may be called 007, or nan.
 Table::Cell cell(const std::string& text) {
-    const Table::Cell number = std::strtod(text.c_str(), nullptr);
-    return !text.empty() && to_csv(number) == text ? number : Table::Cell(text);
+    const auto value = any_number(text);
+    return value && to_csv(Table::Cell(*value)) == text ? Table::Cell(*value) : Table::Cell(text);
 }
 
 /// Throws Error when the list gives the table columns that cannot be told apart, or that

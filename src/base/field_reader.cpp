@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "base/choices.h"
+#include "base/number.h"
 #include "base/text_file.h"
 
 namespace dihaptic {

@@ -12,6 +12,7 @@
 #include "base/formula.h"
 #include "base/geometry.h"
 #include "base/node.h"
+#include "base/number.h"
 
 namespace dihaptic {
 
@@ -82,7 +83,7 @@ class FieldReader {
         if (list == nullptr) return;
         values.clear();
         for (const Node& item : list->items) {
-            const std::string place = std::string(name) + "[" + std::to_string(values.size()) + "]";
+            const std::string place = std::string(name) + "[" + number_text(values.size()) + "]";
             if (is_mapping(item, place)) read_into(values.emplace_back(), item, place);
         }
     }

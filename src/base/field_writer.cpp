@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/number.h"
+
 namespace dihaptic {
 namespace {
 
@@ -74,7 +76,7 @@ void FieldWriter::operator()(std::string_view name, const std::optional<FormulaV
 }
 
 void FieldWriter::operator()(std::string_view name, const int& value, Field) {
-    mapping_.set(std::string(name), Node::of(std::to_string(value)));
+    mapping_.set(std::string(name), Node::of(number_text(value)));
 }
 
 void FieldWriter::operator()(std::string_view name, const bool& value, Field) {

@@ -10,6 +10,7 @@
 #include <ctime>
 #include <fstream>
 
+#include "base/number.h"
 #include "base/text.h"
 
 namespace dihaptic {
@@ -21,7 +22,7 @@ std::string name_of(uid_t uid) {
     passwd* found = nullptr;
     if (getpwuid_r(uid, &entry, room.data(), room.size(), &found) == 0 && found != nullptr)
         return found->pw_name;
-    return std::to_string(uid);
+    return number_text(uid);
 }
 
 /// The name that the process has given itself; "" if it is gone, or hidden.

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <string>
 
+#include "base/number.h"
+
 namespace dihaptic {
 
 inline std::string counted(int64_t n, const std::string& noun) {
-    return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+    return number_text(n) + " " + noun + (n == 1 ? "" : "s");
 }
 
 }  // namespace dihaptic

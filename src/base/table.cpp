@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 
 #include "base/diagnostics.h"
+#include "base/number.h"
 #include "base/text_file.h"
 #include "base/unmeasured.h"
 
@@ -32,7 +32,7 @@ Table transposed(const Table& table) {
 
 std::string to_csv(const Table::Cell& cell) {
     if (const double* number = std::get_if<double>(&cell))
-        return std::isnan(*number) ? "" : fmt::format("{:.9g}", *number);
+        return std::isnan(*number) ? "" : number_text(*number, 9);
     const std::string& text = std::get<std::string>(cell);
     if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
     std::string quoted = "\"";
@@ -193,10 +193,7 @@ std::string CsvFile::text(size_t row, const std::string& column) const {
 }
 
 double CsvFile::number(size_t row, const std::string& column) const {
-    const std::string cell = text(row, column);
-    char* end = nullptr;
-    const double value = std::strtod(cell.c_str(), &end);
-    return !cell.empty() && *end == '\0' ? value : kUnmeasured;
+    return any_number(text(row, column)).value_or(kUnmeasured);
 }
 
 int CsvFile::whole(size_t row, const std::string& column) const {

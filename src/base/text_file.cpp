@@ -5,8 +5,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -94,15 +92,6 @@ void write_file(const std::string& text, const std::string& file, Keep keep) {
     if (keep == Keep::in_time) return;
     const std::filesystem::path folder = std::filesystem::path(file).parent_path();
     sync_to_disk(folder.empty() ? "." : folder.string());
-}
-
-std::optional<double> finite_number(std::string_view word) {
-    if (word.starts_with('+')) word.remove_prefix(1);
-    double value = 0;
-    const char* const last = word.data() + word.size();
-    const auto [end, status] = std::from_chars(word.data(), last, value);
-    if (status != std::errc() || end != last || !std::isfinite(value)) return std::nullopt;
-    return value;
 }
 
 std::string shortened(const std::string& text) {

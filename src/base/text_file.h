@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -29,10 +28,6 @@ enum class Keep { in_time, at_once };
 /// even after a loss of power. Throws Error when the file cannot be written, and when its name is a
 /// link's: nothing is written through one.
 void write_file(const std::string& text, const std::string& file, Keep keep = Keep::in_time);
-
-/// Returns the number that a word says as a whole, "+1e3" too; nullopt if it says no number, or one
-/// that is not finite.
-std::optional<double> finite_number(std::string_view word);
 
 /// Text from a file, shortened to at most 40 bytes for a message.
 std::string shortened(const std::string& text);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "base/number.h"
 
 namespace dihaptic::bench {
 namespace {
@@ -85,7 +86,7 @@ std::string run_cyclictest(const Cyclictest& wanted, double seconds, Wakeups& wa
         const auto thread = nlohmann::json::parse(file).at("thread").at("0");
         int64_t counted = 0;
         for (const auto& [us, count] : thread.at("histogram").items()) {
-            wakeups.add(std::stoi(us), count.get<int64_t>());
+            wakeups.add(whole_number<int>(us).value(), count.get<int64_t>());
             counted += count.get<int64_t>();
         }
         const auto beyond = thread.at("cycles").get<int64_t>() - counted;

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "base/number.h"
 #include "measure/blocks.h"
 #include "model/grasp.h"
 #include "model/gravity.h"
@@ -151,7 +152,7 @@ scene::Scene stack_scene(int blocks) {
     scene.bodies = {measure::table(1, 0.8)};
     for (int i = 0; i < blocks; ++i) {
         scene::Body block =
-            measure::box("block " + std::to_string(i), Vec3::Constant(measure::kBlockSize),
+            measure::box("block " + number_text(i), Vec3::Constant(measure::kBlockSize),
                          {0, 0, (i + 0.5) * measure::kBlockSize}, 0.8);
         block.mass = 0.1;
         scene.bodies.push_back(block);
@@ -177,7 +178,7 @@ scene::Scene cards_scene(int storeys) {
     const double deck = storeys > 2 ? std::min(length, pitch - thick / 4) : length;
     const auto card = [&](const Vec3& position, double angle, double size) {
         scene::Body body =
-            box_at("card " + std::to_string(scene.bodies.size()), {thick, width, size},
+            box_at("card " + number_text(scene.bodies.size()), {thick, width, size},
                    {Quat(Eigen::AngleAxisd(angle, Vec3::UnitY())), position}, friction);
         body.mass = 0.008;
         scene.bodies.push_back(body);
@@ -204,7 +205,7 @@ scene::Scene arch_scene(int voussoirs) {
     scene.bodies = {measure::table(1, friction)};
     for (int i = 0; i < voussoirs; ++i) {
         scene::Body stone;
-        stone.name = "voussoir " + std::to_string(i);
+        stone.name = "voussoir " + number_text(i);
         stone.shape.kind = scene::ShapeKind::mesh;
         std::vector<Vec3> points;
         for (const double angle :

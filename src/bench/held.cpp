@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "base/number.h"
 #include "model/gravity.h"
 
 namespace dihaptic::bench {
@@ -29,12 +30,12 @@ scene::Scene scene_of(Held held, const measure::BenchSetup& setup) {
     double top = measure::kBlockSize;
     for (int i = 0; i < count; ++i) {
         scene::Body part;
-        part.name = "part " + std::to_string(i + 1);
+        part.name = "part " + number_text(i + 1);
         part.shape = scene::Shape::box({0.03, 0.03, kHeight});
         part.mass = mass;
         part.position = {0, 0, top + kApart + kHeight / 2};
         scene::Joint joint;
-        joint.name = "joint " + std::to_string(i + 1);
+        joint.name = "joint " + number_text(i + 1);
         joint.kind = held == Held::hinge || held == Held::six_hinges ? scene::JointKind::hinge
                                                                      : scene::JointKind::slider;
         joint.between = {out.bodies.back().name, part.name};

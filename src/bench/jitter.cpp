@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/number.h"
 #include "base/plural.h"
 #include "bench/bench_log.h"
 #include "bench/drawing.h"
@@ -252,7 +253,7 @@ std::string to_text(const JitterRuns& all) {
     };
     for (size_t i = 0; i < all.runs.size(); ++i) {
         const JitterFigures& f = all.runs[i];
-        row(std::to_string(i + 1), static_cast<double>(f.overruns),
+        row(number_text(i + 1), static_cast<double>(f.overruns),
             static_cast<double>(f.cyclictest_late()), f.p999_ratio(), f.tick_p99_share());
     }
     const OfRuns ours = all.over(&JitterFigures::overruns);

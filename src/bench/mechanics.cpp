@@ -6,6 +6,7 @@
 #include <functional>
 #include <numbers>
 
+#include "base/number.h"
 #include "base/random.h"
 #include "base/unit.h"
 #include "bench/chain.h"
@@ -299,7 +300,7 @@ double door_force_growth(const Bench& bench) {
     std::vector<scene::Joint> hinges;
     for (const double z : {0.2, 0.5, 0.8}) {
         hinges.push_back(hinge({"door"}, {0, 0, z}, Vec3::UnitZ()));
-        hinges.back().name += std::to_string(z);
+        hinges.back().name += number_text(z);
     }
     World world = bench.make({box("door", {0.4, 0.02, 0.8}, {0.2, 0, 0.5}, 2)}, hinges);
     world.apply({0}, {0, 200, 0}, Vec3::Zero());

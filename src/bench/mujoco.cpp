@@ -1,4 +1,5 @@
 // Runs a scene in MuJoCo, as a peer of our own solvers: writes it as MJCF, and steps it.
+#include "base/number.h"
 #include "bench/hinges.h"
 #include "bench/simulator.h"
 
@@ -154,7 +155,7 @@ void run(const Choice& choice, const Trial& trial, int steps, const Watch& watch
     const Owned<mjData> data(mj_makeData(model.get()));
     std::vector<int> index;  // of MuJoCo's bodies, by the scene's order
     for (size_t b = 0; b < trial.scene.bodies.size(); ++b)
-        index.push_back(mj_name2id(model.get(), mjOBJ_BODY, std::to_string(b).c_str()));
+        index.push_back(mj_name2id(model.get(), mjOBJ_BODY, number_text(b).c_str()));
     for (const Trial::Push& push : trial.pushes)
         std::copy_n(push.force_W.data(), 3, data->xfrc_applied + 6 * index[push.body]);
     std::vector<Pose> X_WB(trial.scene.bodies.size());

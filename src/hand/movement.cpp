@@ -11,6 +11,7 @@
 #include <string_view>
 
 #include "base/checksum.h"
+#include "base/number.h"
 #include "base/plural.h"
 #include "base/statistics.h"
 #include "base/text_file.h"

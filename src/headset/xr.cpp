@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include "base/diagnostics.h"
+#include "base/number.h"
 
 namespace dihaptic::headset::xr {
 
 void check(XrInstance instance, XrResult result, const char* what) {
     if (XR_SUCCEEDED(result)) return;
-    std::string said = std::to_string(result);
+    std::string said = number_text(result);
     char name[XR_MAX_RESULT_STRING_SIZE];
     if (instance != XR_NULL_HANDLE && XR_SUCCEEDED(xrResultToString(instance, result, name)))
         said = name;

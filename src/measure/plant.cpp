@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/field_writer.h"
+#include "base/number.h"
 #include "measure/blocks.h"
 
 namespace dihaptic::measure {
@@ -24,7 +25,7 @@ void add_extra_blocks(scene::Scene& scene, int count, double friction) {
         const int column = i % 32;
         const int row = i / 32;
         scene::Body block =
-            box("extra " + std::to_string(i), Vec3::Constant(kBlockSize),
+            box("extra " + number_text(i), Vec3::Constant(kBlockSize),
                 {(column - 15.5) * pitch, 0.15 + row * pitch, kBlockSize / 2}, friction);
         block.mass = 0.1;
         scene.bodies.push_back(block);

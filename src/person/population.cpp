@@ -11,6 +11,7 @@
 #include "base/field_writer.h"
 #include "base/installed.h"
 #include "base/named_file.h"
+#include "base/number.h"
 #include "base/random.h"
 #include "person/shipped_populations.h"
 
@@ -250,7 +251,7 @@ Population read_shipped(Objects objects) {
 size_t number_of(const std::string& id) {
     const size_t last = id.find_last_not_of("0123456789");
     const std::string digits = id.substr(last == std::string::npos ? 0 : last + 1);
-    return digits.empty() || digits.size() > 9 ? 1 : std::stoul(digits);
+    return digits.empty() || digits.size() > 9 ? 1 : *whole_number<size_t>(digits);
 }
 
 Traits with_names(Traits traits, const Population& population, const std::string& group,

@@ -8,7 +8,6 @@
 
 #include <cctype>
 #include <cerrno>
-#include <charconv>
 #include <chrono>
 #include <ctime>
 #include <filesystem>
@@ -17,6 +16,7 @@
 #include "base/checksum.h"
 #include "base/disk.h"
 #include "base/field_writer.h"
+#include "base/number.h"
 #include "base/regular_file.h"
 #include "base/text_file.h"
 
@@ -259,10 +259,7 @@ InputFile SessionFolder::input(const std::string& name) const {
 }
 
 uint64_t SessionFolder::seed_of(const SessionInfo& info) const {
-    uint64_t seed = 0;
-    const char* const last = info.seed.data() + info.seed.size();
-    const auto [end, status] = std::from_chars(info.seed.data(), last, seed);
-    if (status == std::errc() && end == last) return seed;
+    if (const auto seed = whole_number<uint64_t>(info.seed)) return *seed;
     throw Error({file("session.yaml"), 0}, "seed", "is no whole number",
                 "Put it back as it was; raw.log has it in its first lines.");
 }

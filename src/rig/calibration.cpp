@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/number.h"
 #include "base/unit.h"
 #include "rig/calibration_solver.h"
 
@@ -238,11 +239,14 @@ const DeviceCalibration* Calibration::find(const std::string& finger) const {
 
 std::optional<int> days_between(const std::string& from, const std::string& to) {
     const auto day = [](const std::string& text) -> std::optional<std::chrono::sys_days> {
-        int y = 0, m = 0, d = 0;
-        if (std::sscanf(text.c_str(), "%4d-%2d-%2d", &y, &m, &d) != 3) return {};
-        const std::chrono::year_month_day date{std::chrono::year(y),
-                                               std::chrono::month(static_cast<unsigned>(m)),
-                                               std::chrono::day(static_cast<unsigned>(d))};
+        if (text.size() < 10 || text[4] != '-' || text[7] != '-') return {};
+        const std::string_view digits = text;
+        const auto y = whole_number<int>(digits.substr(0, 4));
+        const auto m = whole_number<unsigned>(digits.substr(5, 2));
+        const auto d = whole_number<unsigned>(digits.substr(8, 2));
+        if (!y || !m || !d) return {};
+        const std::chrono::year_month_day date{std::chrono::year(*y), std::chrono::month(*m),
+                                               std::chrono::day(*d)};
         if (!date.ok()) return {};
         return std::chrono::sys_days(date);
     };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/number.h"
 #include "base/text_file.h"
 #include "base/unit.h"
 

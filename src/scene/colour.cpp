@@ -2,17 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
+#include "base/number.h"
 
 namespace dihaptic::scene {
 
 std::optional<int32_t> colour_of(const std::string& text) {
     if (text.size() != 7 || text[0] != '#') return std::nullopt;
-    int32_t rgb = -1;
-    const char* const end = text.data() + text.size();
-    const auto [at, error] = std::from_chars(text.data() + 1, end, rgb, 16);
-    if (error != std::errc() || at != end || rgb < 0) return std::nullopt;
-    return rgb;
+    const auto rgb = whole_number<int32_t>(std::string_view(text).substr(1), 16);
+    return rgb && *rgb >= 0 ? rgb : std::nullopt;
 }
 
 int32_t read_colour(const std::string& text, const Place& place, Diagnostics& diagnostics) {

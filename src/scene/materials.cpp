@@ -8,6 +8,7 @@
 
 #include "base/checksum.h"
 #include "base/diagnostics.h"
+#include "base/number.h"
 #include "base/regular_file.h"
 
 namespace dihaptic::scene {
@@ -73,9 +74,17 @@ Materials read_materials(const std::string& file) {
     for (std::string line; std::getline(in, line);) {
         line = trimmed(line);
         if (line.starts_with("newmtl ")) material = trimmed(line.substr(7));
+        if (!line.starts_with("Kd ")) continue;
         std::array<double, 3> share{};
-        std::istringstream words(line.starts_with("Kd ") ? line.substr(3) : "");
-        if (words >> share[0] >> share[1] >> share[2]) out.colours[material] = rgb_of(share);
+        std::istringstream words(line.substr(3));
+        const bool read = std::all_of(share.begin(), share.end(), [&](double& to) {
+            std::string word;
+            words >> word;
+            const auto number = finite_number(word);
+            to = number.value_or(0);
+            return number.has_value();
+        });
+        if (read) out.colours[material] = rgb_of(share);
     }
     return out;
 }

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "base/companion.h"
+#include "base/number.h"
 #include "base/regular_file.h"
 #include "base/text_file.h"
 #include "base/user_folder.h"
@@ -70,7 +71,12 @@ std::optional<std::vector<Hull>> hulls_of(const std::string& text) {
         if (word != "piece" || !(in >> count) || count > text.size()) return std::nullopt;
         std::vector<Vec3> points(count);
         for (Vec3& p : points) {
-            if (!(in >> p.x() >> p.y() >> p.z())) return std::nullopt;
+            for (double& along : p) {
+                in >> word;
+                const auto number = finite_number(word);
+                if (!in || !number) return std::nullopt;
+                along = *number;
+            }
         }
         // sorted, so that pieces read from a file equal the newly cut ones to the bit
         std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {

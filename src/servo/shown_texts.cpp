@@ -5,6 +5,8 @@
 #include <cctype>
 #include <cmath>
 
+#include "base/number.h"
+
 namespace dihaptic::servo {
 namespace {
 
@@ -94,7 +96,7 @@ std::vector<std::string> shown_texts(const TaskFrame& task,
     std::span<const NumberFrame> numbers = task.numbers;
     const auto add_text = [&](int32_t message) {
         const auto i = static_cast<size_t>(message);
-        out.push_back(i < messages.size() ? filled(messages[i], numbers) : std::to_string(message));
+        out.push_back(i < messages.size() ? filled(messages[i], numbers) : number_text(message));
     };
     if (task.message >= 0) add_text(task.message);
     for (const LineFrame& line : task.lines) add_text(line.message);

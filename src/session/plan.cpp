@@ -10,6 +10,7 @@
 #include "base/field_writer.h"
 #include "base/installed.h"
 #include "base/named_file.h"
+#include "base/number.h"
 #include "base/regular_file.h"
 #include "base/table.h"
 #include "base/text_file.h"
@@ -296,7 +297,7 @@ void sit_down(Plan& plan, const person::Traits& traits) {
     plan.moved_by = {
         recording::Mover::simulated_person, recording::program_version(),
         traits.group.empty() ? traits.population : traits.population + ", group " + traits.group,
-        std::to_string(plan.seed)};
+        number_text(plan.seed)};
 }
 
 namespace {

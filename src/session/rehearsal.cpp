@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "base/field_writer.h"
+#include "base/number.h"
 #include "base/regular_file.h"
 #include "base/temporary_folder.h"
 #include "base/text_file.h"
@@ -36,7 +37,7 @@ std::string difference(const Node& there, const Node& here, const std::string& p
         const Node none;
         const Node& a = i < there.items.size() ? there.items[i] : none;
         const Node& b = i < here.items.size() ? here.items[i] : none;
-        const std::string found = difference(a, b, inner(std::to_string(i + 1)));
+        const std::string found = difference(a, b, inner(number_text(i + 1)));
         if (!found.empty()) return found;
     }
     for (const Node::Entry& entry : there.entries) {
@@ -74,7 +75,7 @@ Rehearsal rehearsal_of(const Plan& plan, Node population) {
     Rehearsal out;
     out.program = recording::program_version();
     out.experiment = plan.title;
-    out.seed = std::to_string(plan.seed);
+    out.seed = number_text(plan.seed);
     out.population = std::move(population);
     out.inputs = Node::mapping();
     const TemporaryFolder scratch;

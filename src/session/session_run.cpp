@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "base/field_writer.h"
+#include "base/number.h"
 #include "base/plural.h"
 #include "base/shell_word.h"
 #include "base/text.h"
@@ -251,7 +252,7 @@ void Run::describe() {
     info_.command = options_.command;
     info_.experiment = plan_.file;
     info_.clock = real_ ? "real" : "virtual";
-    info_.seed = std::to_string(plan_.seed);
+    info_.seed = number_text(plan_.seed);
     info_.participant = options_.participant;
     info_.moved_by = plan_.moved_by;
     info_.study = plan_.study;

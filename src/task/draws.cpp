@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "base/number.h"
 #include "base/random.h"
 #include "base/table.h"
 #include "base/text_file.h"
@@ -55,7 +56,7 @@ double value_at(const std::vector<std::string>& values, size_t i) {
 }
 
 double as_in_tables(double value) {
-    return std::strtod(to_csv(Table::Cell(value)).c_str(), nullptr);
+    return *finite_number(to_csv(Table::Cell(value)));
 }
 
 std::vector<double> permuted(const std::vector<std::string>& values, std::span<const int> blocks,

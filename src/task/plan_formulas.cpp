@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "base/number.h"
 #include "base/text_file.h"
 #include "base/unmeasured.h"
 #include "task/factors.h"

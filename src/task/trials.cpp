@@ -12,6 +12,7 @@
 #include <optional>
 #include <unordered_map>
 
+#include "base/number.h"
 #include "base/text_file.h"
 #include "task/factors.h"
 #include "task/lookup.h"
@@ -312,7 +313,7 @@ int participant_number(const std::string& id) {
     while (digits < id.size() && digits < 8 &&
            std::isdigit(static_cast<unsigned char>(id[id.size() - 1 - digits])) != 0)
         ++digits;
-    return digits == 0 ? -1 : std::atoi(id.substr(id.size() - digits).c_str());
+    return digits == 0 ? -1 : *whole_number<int>(std::string_view(id).substr(id.size() - digits));
 }
 
 bool needs_number(const Task& task) {
@@ -378,6 +379,20 @@ Table trial_list(const Task& task, const std::vector<Trial>& trials) {
     return table;
 }
 
+/// The numbers of a row of a frozen list.
+template <class Bad>
+void read_numbers(Trial& trial, const std::vector<std::string>& row, const Bad& bad) {
+    const auto number = whole_number<int>(row[1]);
+    const auto in_block = whole_number<int>(row[3]);
+    const auto share = finite_number(row[8]);
+    if (!number) throw bad("block_num");
+    if (!in_block) throw bad("trial_num_in_block");
+    if (!share && !row[8].empty()) throw bad("share");
+    trial.number = *number;
+    trial.in_block = *in_block;
+    trial.share = share.value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
 std::vector<Trial> read_trial_list(const Task& task, const std::string& file) {
     const auto rows = read_csv(file);
     std::vector<Trial> out;
@@ -395,16 +410,13 @@ std::vector<Trial> read_trial_list(const Task& task, const std::string& file) {
         };
         if (row.size() < 10) throw bad("trial_num");
         Trial t;
-        t.number = std::atoi(row[1].c_str());
+        read_numbers(t, row, bad);
         t.block = blocks(row[2]);
-        t.in_block = std::atoi(row[3].c_str());
         const auto kinds = enum_names(TrialKind{});
         const auto kind = std::find(kinds.begin(), kinds.end(), row[4]);
         t.round = task.rounds.empty() ? 0 : rounds(row[5]);
         t.condition = task.conditions.empty() ? 0 : conditions(row[6]);
         t.perturb = read_perturbations(task, row[7]);
-        t.share = row[8].empty() ? std::numeric_limits<double>::quiet_NaN()
-                                 : std::strtod(row[8].c_str(), nullptr);
         t.procedure = procedures(row[9]);
         if (t.block < 0) throw bad("block");
         if (kind == kinds.end()) throw bad("kind");

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/disk.h"
+#include "base/number.h"
 #include "cli/doctor/machine.h"
 #include "session/readiness.h"
 
@@ -32,7 +33,8 @@ std::string unescaped(const std::string& text) {
     std::string out;
     for (size_t i = 0; i < text.size(); ++i) {
         if (text[i] == '\\' && i + 3 < text.size()) {
-            out += static_cast<char>(std::stoi(text.substr(i + 1, 3), nullptr, 8));
+            out += static_cast<char>(
+                whole_number<unsigned>(std::string_view(text).substr(i + 1, 3), 8).value_or('?'));
             i += 3;
         } else {
             out += text[i];

@@ -5,6 +5,7 @@
 #include "analysis/events.h"
 #include "analysis/fault_record.h"
 #include "analysis/grasp_trace.h"
+#include "base/number.h"
 
 namespace dihaptic::analysis::analysis_test {
 namespace {
@@ -205,7 +206,7 @@ TEST(GraspTrace, LiftOffIsWhenOnlyFingersCarryTheObject) {
 std::vector<std::string> said_by(const EventFinder& finder) {
     std::vector<std::string> said;
     for (const Event& e : finder.events())
-        said.push_back(std::to_string(std::lround(e.time * 1e3)) + " " + e.name + " " + e.detail);
+        said.push_back(number_text(std::lround(e.time * 1e3)) + " " + e.name + " " + e.detail);
     return said;
 }
 

@@ -1,6 +1,7 @@
 // Tests of companions that crash, hang, exceed their limits or are missing. The shell stands in for
 // the companion, as it can be told to do any of that.
 #include "base/companion.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 
@@ -45,7 +46,7 @@ std::string waited_for;
 TEST(Companion, ThatTakesLongIsTold) {
     tell_companion_waits([](const std::string& what, int seconds, int most) {
         ++waits;
-        waited_for = what + " " + std::to_string(seconds) + " of " + std::to_string(most);
+        waited_for = what + " " + number_text(seconds) + " of " + number_text(most);
     });
     EXPECT_EQ(run_companion(task("sleep 0.1"), ""), "");
     EXPECT_EQ(waits, 0);
@@ -110,7 +111,7 @@ TEST(Companion, SeveralRunAtOnce) {
     for (int i = 0; i < 4; ++i) {
         threads.emplace_back([&, i] {
             for (int k = 0; k < 5; ++k) {
-                const std::string text = std::to_string(100 * i + k);
+                const std::string text = number_text(100 * i + k);
                 if (run_companion(task("cat"), text) == text) ++right;
             }
         });

@@ -1,5 +1,6 @@
 // Tests that what is written goes nowhere else, whatever stands at the names of files.
 #include "base/output.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -65,7 +66,7 @@ TEST_F(OutputTest, TakesNoPipeNorFolderForAFile) {
 
 TEST_F(OutputTest, LinksAtNamesThatCanBeForeseenLeadNowhere) {
     // what versions before 0.3 would have written to
-    fs::create_symlink(foreign, file + "." + std::to_string(getpid()) + ".part");
+    fs::create_symlink(foreign, file + "." + number_text(getpid()) + ".part");
     write_file("ours", file);
     expect_untouched();
     EXPECT_EQ(read_text_file(file), "ours");
@@ -85,7 +86,7 @@ TEST_F(OutputTest, RemovesPartsOfDeadProcessesOnly) {
     const auto part = [&](const std::string& process) {
         return file + "." + process + "-0badcafe.part";
     };
-    const std::string dead = "999999999", alive = std::to_string(getpid());
+    const std::string dead = "999999999", alive = number_text(getpid());
     for (const std::string& process : {dead, alive}) {
         fs::create_directory(part(process));
         std::ofstream(part(process) + "/out") << "half";

@@ -1,5 +1,6 @@
 // Tests who is said to be at the other end of a socket.
 #include "base/peer.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>
@@ -17,7 +18,7 @@ TEST(Peers, AreWhoMadeTheSocket) {
     ASSERT_TRUE(peer);
     EXPECT_EQ(peer->pid, getpid());
     EXPECT_TRUE(peer->is_trusted());
-    EXPECT_NE(peer->describe().find("process " + std::to_string(getpid()) + " of user "),
+    EXPECT_NE(peer->describe().find("process " + number_text(getpid()) + " of user "),
               std::string::npos)
         << peer->describe();
     EXPECT_NE(peer->describe().find(", since 20"), std::string::npos) << peer->describe();

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/number.h"
 #include "bench/solver_problems.h"
 #include "bench/solvers.h"
 
@@ -15,7 +16,7 @@ TEST(BenchSolvers, SolvesGraspsStacksAndWallsWithoutAMiss) {
     bench.budget = 0.05;
     const SolversFigures figures = bench_solvers(bench, {});
     for (const SolverCost& c : figures.costs) {
-        SCOPED_TRACE(c.family + " " + std::to_string(c.contacts) + ", " + c.solver);
+        SCOPED_TRACE(c.family + " " + number_text(c.contacts) + ", " + c.solver);
         // heaps that jam as they settle sometimes miss every solver's tolerance; the bench counts
         // them
         if (c.family != "pile") {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/number.h"
 #include "devices/claims.h"
 #include "devices/forcedimension/group.h"
 
@@ -118,7 +119,7 @@ void add_wrist(const Dhd& dhd, const Connection& connection, const Options& opti
 DeviceInfo info_of(const Dhd& dhd, const Connection& connection, const Options& options,
                    const Place& place) {
     DeviceInfo info = info_of(options);
-    info.serial = std::to_string(connection.serial());
+    info.serial = number_text(connection.serial());
     info.model = fmt::format("{}, serial {}", connection.model(), connection.serial());
     const double most = dhd.max_force(connection.id());
     if (std::isfinite(most) && most > 0) info.peak_force = most;
@@ -162,7 +163,7 @@ Survey survey() {
                 const Connection connection(dhd, n, {});
                 DhdStatus status{};
                 dhd.status(status.data(), connection.id());
-                out.devices.push_back({std::to_string(connection.serial()), connection.model(),
+                out.devices.push_back({number_text(connection.serial()), connection.model(),
                                        status[kDhdPower] == 0 ? "has no power: switch it on"
                                        : status[kDhdReset] != 0
                                            ? "needs calibration: move it into all its end stops"

@@ -4,6 +4,7 @@
 
 #include <atomic>
 
+#include "base/number.h"
 #include "devices/device_group.h"
 #include "devices/force_drops.h"
 #include "devices/forcedimension/dhd.h"
@@ -39,7 +40,7 @@ struct Options {
 
     static constexpr int kAny = -1;
     /// "" for any.
-    std::string serial_text() const { return serial == kAny ? "" : std::to_string(serial); }
+    std::string serial_text() const { return serial == kAny ? "" : number_text(serial); }
 };
 
 /// An open device; the destructor closes it.

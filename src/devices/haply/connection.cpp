@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "base/number.h"
 #include "devices/haply/answerer.h"
 
 namespace dihaptic::devices::haply {
@@ -226,7 +227,7 @@ void Connection::open(const Url& url, Time time_out) {
     hints.ai_socktype = SOCK_STREAM;
     addrinfo* found = nullptr;
     const int failure =
-        ::getaddrinfo(url.host.c_str(), std::to_string(url.port).c_str(), &hints, &found);
+        ::getaddrinfo(url.host.c_str(), number_text(url.port).c_str(), &hints, &found);
     if (failure != 0) {
         throw Error(fmt::format("no computer is called {} ({})", url.host, gai_strerror(failure)),
                     "Correct url: the service is at ws://localhost:10001/ as it comes.");

@@ -1,5 +1,6 @@
 // Tests that a device has one owner at a time.
 #include "devices/device_claim.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -11,7 +12,7 @@ namespace dihaptic::devices::device_claim_test {
 namespace {
 
 /// A device that no other test has.
-DeviceInfo device(const std::string& serial = std::to_string(getpid())) {
+DeviceInfo device(const std::string& serial = number_text(getpid())) {
     DeviceInfo info;
     info.model = "Made up";
     info.serial = serial;
@@ -34,8 +35,7 @@ TEST(DeviceClaim, IsHeldByOneUntilItIsGivenBack) {
         const std::string told = refusal(device());
         EXPECT_NE(told.find("rig.yaml:3: error: serial: Made up is in use by "), std::string::npos)
             << told;
-        EXPECT_NE(told.find("(process " + std::to_string(getpid()) + " of user "),
-                  std::string::npos)
+        EXPECT_NE(told.find("(process " + number_text(getpid()) + " of user "), std::string::npos)
             << told;
         EXPECT_EQ(refusal(device("another")), "");
         DeviceInfo nameless = device("");
@@ -56,7 +56,7 @@ TEST(DeviceClaim, EndsWithItsProgramHoweverThatEnds) {
     }
     char byte = 0;
     ASSERT_EQ(read(ready[0], &byte, 1), 1);
-    EXPECT_NE(refusal(info).find("(process " + std::to_string(child) + " of user "),
+    EXPECT_NE(refusal(info).find("(process " + number_text(child) + " of user "),
               std::string::npos);
     kill(child, SIGKILL);
     waitpid(child, nullptr, 0);

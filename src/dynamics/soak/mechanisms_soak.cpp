@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "base/number.h"
 #include "base/random.h"
 #include "dynamics/test/blocks.h"
 
@@ -28,7 +29,7 @@ struct Mechanism {
         for (int i = 0; i < count; ++i) {
             const double mass = std::pow(10, random.uniform(-2.5, -0.3));
             scene::Body body = box(
-                "body " + std::to_string(i), Vec3::Constant(0.04) + random_vector(random, 0.02),
+                "body " + number_text(i), Vec3::Constant(0.04) + random_vector(random, 0.02),
                 {0.07 * i - 0.03 * count, random.uniform(-0.01, 0.01), random.uniform(0.05, 0.2)},
                 mass, random.uniform(0, 1));
             body.rotation = random_vector(random, 0.3);
@@ -64,9 +65,9 @@ struct Mechanism {
     /// -1 is the world.
     void join(Random& random, int a, int b) {
         scene::Joint joint;
-        joint.name = "joint " + std::to_string(scene.joints.size());
+        joint.name = "joint " + number_text(scene.joints.size());
         joint.kind = static_cast<scene::JointKind>(static_cast<int>(random.uniform(0, 6)));
-        const auto name = [](int i) { return "body " + std::to_string(i); };
+        const auto name = [](int i) { return "body " + number_text(i); };
         const scene::Body& first = scene.bodies[static_cast<size_t>(a) + 1];
         joint.between = {name(a)};
         if (b >= 0) joint.between.push_back(name(b));

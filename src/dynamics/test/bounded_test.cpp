@@ -1,6 +1,8 @@
 // Tests that counted work bounds every step that a hand waits for, and that the step says so.
 #include <gtest/gtest.h>
 
+#include "base/number.h"
+
 #include "dynamics/test/extreme.h"
 
 namespace dihaptic::dynamics::bounded_test {
@@ -88,7 +90,7 @@ World two_hands(bool crushed) {
     finger.shape = scene::Shape::box({0.005, 0.02, 0.02});
     finger.mass = 1;
     for (const Vec3& place : {Vec3(-0.0225, 0, 0.3), Vec3(0.0225, 0, 0.3), Vec3(0.5, 0, 0.05)}) {
-        finger.name = "finger " + std::to_string(world.size());
+        finger.name = "finger " + number_text(world.size());
         world.add_proxy(finger, place);
     }
     world.activate();

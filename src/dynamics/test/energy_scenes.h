@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "base/number.h"
 #include "base/random.h"
 #include "dynamics/world.h"
 
@@ -67,7 +68,7 @@ class EnergyScene {
         const auto within = [&](double most) { return random.uniform(-most, most); };
         const auto length = [&] { return random.uniform(0.02, 0.06); };
         scene::Body body;
-        body.name = "body " + std::to_string(i);
+        body.name = "body " + number_text(i);
         const Vec3 size(length(), length(), length());
         body.shape = random.uniform(0, 1) < 0.3 ? scene::Shape::sphere(size.x() / 2)
                                                 : scene::Shape::box(size);

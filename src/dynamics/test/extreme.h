@@ -2,6 +2,7 @@
 // on bodies of any size and mass that are stacked, joined, on rails and deep inside each other.
 #pragma once
 
+#include "base/number.h"
 #include "base/random.h"
 #include "dynamics/test/blocks.h"
 
@@ -66,7 +67,7 @@ class Extreme {
             Vec3 position(0, 0, height_ + i * (1 - overlap) * size);
             if (!stacked && i > 0) position = Vec3(0, 0, height_) + vector((2 - overlap) * size);
             const Vec3 sizes = Vec3::Constant(size) + vector(i > 0 ? 0.5 * size : 0);
-            scene::Body body = box("body " + std::to_string(i), sizes, position,
+            scene::Body body = box("body " + number_text(i), sizes, position,
                                    power(-1 - masses / 2, -1 + masses / 2), power(-1, 0.3));
             make_extreme(body, i);
             out.bodies.push_back(body);
@@ -87,11 +88,11 @@ class Extreme {
     }
     scene::Joint joint_of(const scene::Scene& scene, int i) {
         const int other = static_cast<int>(random_.uniform(0, i));
-        const auto name = [](int body) { return "body " + std::to_string(body); };
+        const auto name = [](int body) { return "body " + number_text(body); };
         scene::Joint out =
             joint(static_cast<scene::JointKind>(random_.uniform(0, 6)), {name(i), name(other)},
                   scene.bodies[static_cast<size_t>(i) + 1].position);
-        out.name = "joint " + std::to_string(i);
+        out.name = "joint " + number_text(i);
         out.axis = vector(1).normalized();
         out.second_axis = out.axis.unitOrthogonal();
         if (out.is_distance()) {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/number.h"
+
 #include "dynamics/test/blocks.h"
 
 namespace dihaptic::dynamics::islands_test {
@@ -16,7 +18,7 @@ World held_block(int columns, Solver solver = Solver::newton) {
     for (int i = 0; i < 10 * columns; ++i) {
         const int row = i / columns;
         const double x = 0.3 + 0.042 * (i % columns) + 0.02 * (row % 2);
-        scene.bodies.push_back(box("loose " + std::to_string(i), Vec3::Constant(0.04),
+        scene.bodies.push_back(box("loose " + number_text(i), Vec3::Constant(0.04),
                                    {x, 0, 0.021 + 0.0405 * row}, 0.05));
     }
     Settings settings = awake();
@@ -65,7 +67,7 @@ TEST(Islands, WorkIsBoundedOnlyWhereAHandWaits) {
     std::vector<scene::Body> bodies{table()};
     for (int i = 0; i < 20; ++i)
         bodies.push_back(
-            box("block " + std::to_string(i), Vec3::Constant(0.04), {0, 0, 0.02 + 0.04 * i}, 0.1));
+            box("block " + number_text(i), Vec3::Constant(0.04), {0, 0, 0.02 + 0.04 * i}, 0.1));
     World world = make(bodies, awake());
     for (int i = 0; i < 20; ++i) {
         world.step(kStep);
@@ -80,7 +82,7 @@ TEST(Islands, AreSolvedApartWithWorkAndIterationsSummed) {
         std::vector<scene::Body> bodies{table()};
         for (int i = 0; i < blocks; ++i)
             bodies.push_back(
-                box("block " + std::to_string(i), Vec3::Constant(0.04), {0.1 * i, 0, 0.02}, 0.1));
+                box("block " + number_text(i), Vec3::Constant(0.04), {0.1 * i, 0, 0.02}, 0.1));
         World world = make(bodies, awake());
         int problems = 0;
         world.watch_problems([&](const auto& problem, auto) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/number.h"
 #include "dynamics/test/blocks.h"
 #include "dynamics/test/energy_scenes.h"
 #include "testing/allocation_guard.h"
@@ -56,7 +57,7 @@ TEST_P(EachSolver, StepsWithoutAllocating) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     std::vector<scene::Body> bodies{table()};
     for (int i = 0; i < 12; ++i) {
-        bodies.push_back(box("block " + std::to_string(i), Vec3::Constant(0.04),
+        bodies.push_back(box("block " + number_text(i), Vec3::Constant(0.04),
                              {0.02 * (i % 3), 0.01 * (i % 2), 0.021 + 0.042 * i}, 0.1));
     }
     World world = world_of(bodies);

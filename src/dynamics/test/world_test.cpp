@@ -1,4 +1,5 @@
 #include "dynamics/world.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 
@@ -368,7 +369,7 @@ World heap() {
     std::vector<scene::Body> bodies{table()};
     for (int i = 0; i < 20; ++i) {
         scene::Body b = block({0.03 * (i % 3), 0.02 * (i % 2), 0.05 + 0.05 * i});
-        b.name = "block " + std::to_string(i);
+        b.name = "block " + number_text(i);
         b.rotation = {0.1 * i, 0.2 * i, 0};
         bodies.push_back(b);
     }
@@ -401,7 +402,7 @@ TEST(World, StepsWithoutAllocatingWithRoundShapesToo) {
     std::vector<scene::Body> bodies{table()};
     for (int i = 0; i < 12; ++i) {
         scene::Body b = block({0.03 * (i % 3), 0.02 * (i % 2), 0.05 + 0.05 * i});
-        b.name = "thing " + std::to_string(i);
+        b.name = "thing " + number_text(i);
         b.shape.kind = std::array{scene::ShapeKind::sphere, scene::ShapeKind::capsule,
                                   scene::ShapeKind::cylinder,
                                   scene::ShapeKind::box}[static_cast<size_t>(i % 4)];
@@ -422,7 +423,7 @@ TEST(World, TheAllocationGuardSeesWhatAStepWouldAllocate) {
     std::vector<scene::Body> bodies{table()};
     for (int i = 0; i < 80; ++i) {
         bodies.push_back(block({0.05 * (i % 10) - 0.25, 0.05 * (i / 10) - 0.2, 0.02}));
-        bodies.back().name = "block " + std::to_string(i);
+        bodies.back().name = "block " + number_text(i);
     }
     World world = make(bodies, settings);
     const testing::AllocationGuard guard;

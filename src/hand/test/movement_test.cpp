@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "hand/test/reach.h"
+#include "base/number.h"
 
 namespace dihaptic::hand::movement_test {
 namespace {
@@ -101,7 +102,7 @@ const std::vector<Damage> kDamages{
              std::string out, cell;
              for (int c = 0; std::getline(in, cell, ','); ++c) {
                  out += (c ? "," : "") +
-                        (c >= 1 && c <= 6 ? fmt::format("{:.6f}", std::stod(cell) / 1000) : cell);
+                        (c >= 1 && c <= 6 ? fmt::format("{:.6f}", finite_number(cell).value() / 1000) : cell);
              }
              l[i] = out;
          }
@@ -155,7 +156,7 @@ const std::vector<Damage> kDamages{
     {"seconds called milliseconds",
      [](std::vector<std::string> l) {
          for (size_t i = 1; i < l.size(); ++i)
-             set_cell(l[i], 0, fmt::format("{:.6f}", std::stod(cell(l[i], 0)) / 1000));
+             set_cell(l[i], 0, fmt::format("{:.6f}", finite_number(cell(l[i], 0)).value() / 1000));
          return l;
      },
      "If the times are in seconds, name the column so: time_s."},
@@ -256,7 +257,7 @@ TEST(Movement, WarnsOfAHandThatHardlyMoves) {
     auto lines = reach_lines();
     for (size_t i = 1; i < lines.size(); ++i) {
         for (int c = 1; c <= 6; ++c)
-            set_cell(lines[i], c, fmt::format("{:.4f}", std::stod(cell(lines[i], c)) / 10));
+            set_cell(lines[i], c, fmt::format("{:.4f}", finite_number(cell(lines[i], c)).value() / 10));
     }
     EXPECT_NE(errors_of(join(lines)).find("warning: the fingers move by only"), std::string::npos);
 }

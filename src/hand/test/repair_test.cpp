@@ -1,5 +1,6 @@
 // Tests of recorded movements as they are repaired, searched for their grasp, and followed.
 #include "hand/repair.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 
@@ -131,7 +132,8 @@ TEST(Repair, DropsWildFramesAtTheEndsAndKeepsTheirNeighbours) {
             for (size_t i = 0; i < count; ++i) {
                 std::string& line = lines[first ? 1 + i : lines.size() - 1 - i];
                 for (int c = 1; c <= 6; ++c)
-                    set_cell(line, c, fmt::format("{:.6f}", std::stod(cell(line, c)) / 1000));
+                    set_cell(line, c,
+                             fmt::format("{:.6f}", finite_number(cell(line, c)).value() / 1000));
             }
             const Path path = repaired(lines);
             ASSERT_EQ(path.faults.size(), 2u);  // thumb and index
@@ -159,7 +161,8 @@ TEST(Repair, SaysNothingOfDistancesThatItDoesNotKnow) {
 TEST(Repair, SuspectsALineInMetres) {
     auto lines = reach_lines();
     for (int c = 1; c <= 6; ++c)
-        set_cell(lines[60], c, fmt::format("{:.6f}", std::stod(cell(lines[60], c)) / 1000));
+        set_cell(lines[60], c,
+                 fmt::format("{:.6f}", finite_number(cell(lines[60], c)).value() / 1000));
     const Path path = repaired(lines);
     ASSERT_EQ(path.faults.size(), 2u);  // thumb and index
     for (const Fault& fault : path.faults) {
@@ -174,7 +177,8 @@ TEST(Repair, SuspectsALineInMetres) {
 TEST(Repair, CrossesAJumpNoFasterThanAHandWould) {
     auto lines = reach_lines();
     for (size_t i = 130; i < lines.size(); ++i)
-        set_cell(lines[i], 1, fmt::format("{:.3f}", std::stod(cell(lines[i], 1)) + 120));
+        set_cell(lines[i], 1,
+                 fmt::format("{:.3f}", finite_number(cell(lines[i], 1)).value() + 120));
     const Path path = repaired(lines);
     ASSERT_EQ(path.faults.size(), 1u);
     EXPECT_EQ(path.faults[0].kind, FaultKind::jump);
@@ -202,9 +206,9 @@ TEST(GraspSite, IsNotFoundInAHandThatNeverOpens) {
     auto lines = reach_lines();
     for (size_t i = 1; i < lines.size(); ++i) {
         for (int axis = 0; axis < 3; ++axis) {
-            set_cell(
-                lines[i], 4 + axis,
-                fmt::format("{:.3f}", std::stod(cell(lines[i], 1 + axis)) + (axis == 1 ? 30 : 0)));
+            set_cell(lines[i], 4 + axis,
+                     fmt::format("{:.3f}", finite_number(cell(lines[i], 1 + axis)).value() +
+                                               (axis == 1 ? 30 : 0)));
         }
     }
     EXPECT_FALSE(find_grasp(repaired(lines)));

@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "base/number.h"
 #include "base/random.h"
 #include "haptics/god_object.h"
 #include "haptics/test/shapes.h"
@@ -111,8 +112,8 @@ TEST_P(EveryShape, PressesAreFeltOutOfTheFaceThatWasEntered) {
     if (surface.bend_radius() == 0) {
         EXPECT_GT(kept, 10000);
     }
-    RecordProperty("deepest_um", std::to_string(deepest * 1e6));
-    RecordProperty("worst_angle", std::to_string(worst_angle));
+    RecordProperty("deepest_um", number_text(deepest * 1e6));
+    RecordProperty("worst_angle", number_text(worst_angle));
     RecordProperty("pressed", pressed);
     RecordProperty("kept", kept);
 }

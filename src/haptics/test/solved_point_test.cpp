@@ -1,6 +1,7 @@
 // Tests a point whose friction is solved with the dynamics: what god_object_test.cpp tests for
 // points on surfaces, and mechanics.
 #include "haptics/solved_point.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +33,7 @@ struct Room {
     scene::Body& add(const scene::Shape& shape, const Vec3& position = Vec3::Zero(),
                      const Vec3& rotation = Vec3::Zero()) {
         scene::Body body;
-        body.name = "body " + std::to_string(scene.bodies.size());
+        body.name = "body " + number_text(scene.bodies.size());
         body.shape = shape;
         body.position = position;
         body.rotation = rotation;
@@ -157,7 +158,7 @@ TEST_P(EveryShapeSolved, PressesAreFeltOutOfTheFaceThatWasEntered) {
     if (surface.bend_radius() == 0) {
         EXPECT_GT(kept, 10000);
     }
-    RecordProperty("deepest_um", std::to_string(deepest * 1e6));
+    RecordProperty("deepest_um", number_text(deepest * 1e6));
     RecordProperty("pressed", pressed);
     RecordProperty("kept", kept);
 }

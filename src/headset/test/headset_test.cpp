@@ -1,6 +1,7 @@
 // Tests headsets on the tests' OpenXR runtime, with OpenXR's validation layer between, which has to
 // be silent; on a display of Xvfb, since pictures go by OpenGL of X11.
 #include "headset/headset.h"
+#include "base/number.h"
 
 #include <dlfcn.h>
 #include <gtest/gtest.h>
@@ -38,7 +39,7 @@ class Xvfb {
         if (pipe(ends.data()) != 0) throw Error("there is no pipe", "");
         child_ = fork();
         if (child_ == 0) {
-            const std::string number = std::to_string(ends[1]);
+            const std::string number = number_text(ends[1]);
             prctl(PR_SET_PDEATHSIG, SIGKILL);
             execlp("Xvfb", "Xvfb", "-displayfd", number.c_str(), "-screen", "0", "640x480x24",
                    "-nolisten", "tcp", nullptr);
@@ -237,7 +238,7 @@ TEST_F(HeadsetTest, DrawsPointsWhereAPinholeWouldForEachEye) {
         }
     }
     EXPECT_GT(points, 1000);
-    RecordProperty("worst_px", std::to_string(worst));
+    RecordProperty("worst_px", number_text(worst));
     RecordProperty("points", points);
     std::printf("%d points, %.3f pixels off at worst\n", points, worst);
     EXPECT_EQ(messages(), "");

@@ -18,6 +18,7 @@
 #include "keeper/messages.h"
 #include "testing/allocation_guard.h"
 #include "testing/files.h"
+#include "base/number.h"
 
 namespace dihaptic::keeper::keeper_test {
 namespace {
@@ -31,7 +32,7 @@ Order order_on(const std::string& backend) {
     order.keeping.program = program();
     for (const int i : {1, 2}) {
         const std::string which =
-            hd ? "name: PHANToM " + std::to_string(i) : "serial: " + std::to_string(100 + i);
+            hd ? "name: PHANToM " + number_text(i) : "serial: " + number_text(100 + i);
         devices::DeviceConfig config;
         config.finger = i == 1 ? "thumb" : "index";
         config.options = parse_yaml(
@@ -222,7 +223,7 @@ TEST_P(Kept, DevicesAreAtZeroWhenTheProgramIsAboutToDie) {
 
 /// The keeper that this process started last, which has no other children.
 pid_t keeper_pid() {
-    std::ifstream children("/proc/self/task/" + std::to_string(getpid()) + "/children");
+    std::ifstream children("/proc/self/task/" + number_text(getpid()) + "/children");
     pid_t out = 0;
     for (pid_t one = 0; children >> one;) out = one;
     return out;
@@ -290,7 +291,7 @@ TEST_P(Kept, DevicesHaveOneOwnerAtATime) {
     } catch (const Error& e) {
         const std::string told = e.what();
         EXPECT_NE(told.find("rig.yaml:11: error: serial: "), std::string::npos) << told;
-        EXPECT_NE(told.find("is in use by dihaptic-keeper (process " + std::to_string(owner) +
+        EXPECT_NE(told.find("is in use by dihaptic-keeper (process " + number_text(owner) +
                             " of user "),
                   std::string::npos)
             << told;

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <string>
 
+#include "base/number.h"
+
 namespace dihaptic::measure {
 
 /// Expects the same numbers under the same names. Figures below a thousandth, in the unit that the
@@ -23,7 +25,8 @@ inline void expect_alike(const nlohmann::json& a, const nlohmann::json& b,
             << name;
     } else if (a.is_structured()) {
         for (const auto& [key, value] : a.items())
-            expect_alike(value, a.is_array() ? b[std::stoul(key)] : b[key], name + "." + key);
+            expect_alike(value, a.is_array() ? b[whole_number<size_t>(key).value()] : b[key],
+                         name + "." + key);
     } else {
         EXPECT_EQ(a, b) << name;
     }

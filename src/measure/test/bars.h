@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "base/number.h"
 #include "measure/grasp.h"
 #include "model/grasp.h"
 
@@ -54,7 +55,7 @@ inline void expect_bars_of_grasp(dynamics::Solver solver, haptics::CouplingKind 
     expect_held_at_6000(setup);
     const GraspFigures figures = bench_grasp(setup, {});
     for (const HoldFigures& h : figures.hold) {
-        SCOPED_TRACE(std::string(enum_name(h.fingering)) + ", K " + std::to_string(h.k));
+        SCOPED_TRACE(std::string(enum_name(h.fingering)) + ", K " + number_text(h.k));
         EXPECT_TRUE(h.held);
         EXPECT_LE(h.lift_slip_mm, lift_slip_bar(solver, h.fingering));
         EXPECT_LE(h.slip_mm, slip_bar(solver, h.fingering));
@@ -78,7 +79,7 @@ inline void expect_bars_of_grasp(dynamics::Solver solver, haptics::CouplingKind 
     EXPECT_GE(figures.calm_k_premium, 1000);
     EXPECT_LE(figures.torque_turn_deg, 0.1);
     for (const KickFigures& kick : figures.kick) {
-        SCOPED_TRACE("K " + std::to_string(kick.k) + ", " + std::to_string(kick.speed) + " m/s");
+        SCOPED_TRACE("K " + number_text(kick.k) + ", " + number_text(kick.speed) + " m/s");
         EXPECT_LE(kick.kick_ratio, 1.02);
         EXPECT_LE(kick.touch_step_n, 0.02);
         EXPECT_LE(kick.leave_pull_n, 0.005);
@@ -105,7 +106,7 @@ inline void expect_hold_as_friction_says(dynamics::Solver solver, double frictio
     setup.lift += model::series_spring_stretch(load, setup.impedance.stiffness, 1000);
     const double needed = model::minimum_grip(mass * 9.81, friction);
     const double grip = press_force(setup);
-    SCOPED_TRACE(std::to_string(mass * 1e3) + " g, friction " + std::to_string(friction));
+    SCOPED_TRACE(number_text(mass * 1e3) + " g, friction " + number_text(friction));
     if (grip >= 1.1 * needed) {
         const HoldFigures hold = measure_hold(setup);
         EXPECT_TRUE(hold.held);

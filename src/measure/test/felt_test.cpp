@@ -1,6 +1,7 @@
 // Tests what one finger feels against mechanics.
 #include <gtest/gtest.h>
 
+#include "base/number.h"
 #include "measure/grasp.h"
 
 namespace dihaptic::measure::felt_test {
@@ -121,7 +122,7 @@ TEST_P(Felt, AFrictionlessPlaneIsStiffnessTimesDepthAndNothingAcross) {
 void expect_clean_touches(BenchSetup setup, const std::vector<double>& stiffnesses) {
     for (const double k : stiffnesses) {
         for (const double speed : {0.1, 0.3, 0.5}) {
-            SCOPED_TRACE(std::to_string(k) + " N/m, " + std::to_string(speed) + " m/s");
+            SCOPED_TRACE(number_text(k) + " N/m, " + number_text(speed) + " m/s");
             setup.settings.coupling.stiffness = k;
             const KickFigures kick = measure_kick(setup, speed);
             EXPECT_LE(kick.kick_ratio, 1.02);
@@ -245,7 +246,7 @@ TEST(PointsTogether, ReachTheBarsOfAGrasp) {
     setup.settings.proxy.kind = haptics::ProxyKind::point;
     const GraspFigures figures = bench_grasp(setup, {});
     for (const HoldFigures& h : figures.hold) {
-        SCOPED_TRACE(std::string(enum_name(h.fingering)) + ", K " + std::to_string(h.k));
+        SCOPED_TRACE(std::string(enum_name(h.fingering)) + ", K " + number_text(h.k));
         EXPECT_TRUE(h.held);
         EXPECT_LE(h.lift_slip_mm, 1e-3);
         EXPECT_LE(h.slip_mm, 1e-3);

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "base/number.h"
 #include "base/random.h"
 #include "hand/script.h"
 #include "measure/blocks.h"
@@ -171,7 +172,7 @@ class Play {
         fixed("post", {0.02, 0.02, 0.06}, {0.05, 0.03, 0.03});
         for (int i = 0; i < 10; ++i) {
             scene::Body body;
-            body.name = "object " + std::to_string(i);
+            body.name = "object " + number_text(i);
             const auto size = [&] { return pick(0.015, 0.045); };
             if (i % 3 == 2) {
                 body.shape = scene::Shape::sphere(size() / 2);

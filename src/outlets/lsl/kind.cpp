@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/number.h"
 #include "outlets/lsl/library.h"
 
 namespace dihaptic::outlets::lsl {
@@ -71,7 +72,7 @@ class Lsl final : public Outlet {
     }
 
     void mark(int code, Clock::time_point at) override {
-        const std::string text = std::to_string(code);
+        const std::string text = number_text(code);
         const char* value = text.c_str();
         must(library_.push_sample_strt(markers_.get(), &value, time(at)), "a code");
     }

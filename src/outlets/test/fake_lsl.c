@@ -4,6 +4,7 @@
    Its one stream that comes in is the file that DIHAPTIC_FAKE_LSL_IN names, as long as there is one:
    a line with its name and its number of channels, and one with the sample that comes again and
    again, "silent" or "lost". */
+#include <locale.h>
 #include <stdatomic.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -22,6 +23,14 @@ enum { argument_error = -3 };
 static atomic_int fails; /* an enum FakeLslFails of fake_lsl.h */
 void dihaptic_fake_lsl_fail(int what) {
     atomic_store(&fails, what);
+}
+
+/* Its files have points before decimals in every language. */
+static locale_t begin_points(void) {
+    return uselocale(newlocale(LC_ALL_MASK, "C", (locale_t)0));
+}
+static void end_points(locale_t before) {
+    freelocale(uselocale(before));
 }
 
 /* The real one uses what it is given without looking. */
@@ -52,8 +61,10 @@ void* lsl_create_streaminfo(const char* name, const char* type, int32_t channels
     strncpy(info->name, name, sizeof info->name - 1);
     info->channels = channels;
     info->format = format;
+    const locale_t before = begin_points();
     snprintf(text, sizeof text, "info|%s|%s|%d|%g|%d|%s\n", name, type, channels, rate, format,
              source);
+    end_points(before);
     tell(text);
     return info;
 }
@@ -95,9 +106,11 @@ int32_t lsl_push_sample_ft(void* outlet, const float* values, double time) {
     const struct stream* stream = given(outlet);
     if (atomic_load(&fails) == 3) return -2;
     if (stream->format == 3) return argument_error;
+    const locale_t before = begin_points();
     int length = snprintf(text, sizeof text, "sample|%s|%.6f", stream->name, time);
     for (int i = 0; i < stream->channels; ++i)
         length += snprintf(text + length, sizeof text - (size_t)length, "|%g", (double)values[i]);
+    end_points(before);
     snprintf(text + length, sizeof text - (size_t)length, "\n");
     tell(text);
     return 0;
@@ -108,7 +121,9 @@ int32_t lsl_push_sample_strt(void* outlet, const char** values, double time) {
     const struct stream* stream = given(outlet);
     if (atomic_load(&fails) >= 3) return -2;
     if (stream->format != 3) return argument_error;
+    const locale_t before = begin_points();
     snprintf(text, sizeof text, "mark|%s|%.6f|%s\n", stream->name, time, values[0]);
+    end_points(before);
     tell(text);
     return 0;
 }
@@ -168,7 +183,9 @@ double lsl_pull_sample_f(void* inlet, float* values, int32_t count, double timeo
         if (!file) *error = -2;
         return 0;
     }
+    const locale_t before = begin_points();
     for (int i = 0; i < count && fscanf(file, "%63s", word) == 1; ++i) values[i] = strtof(word, NULL);
+    end_points(before);
     fclose(file);
     if (!strcmp(word, "lost")) *error = -2;
     if (!strcmp(word, "silent")) wait_for(timeout);

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/number.h"
 #include "base/temporary_folder.h"
 #include "fake_lsl.h"
 #include "outlets/station.h"
@@ -135,8 +136,8 @@ TEST(Lsl, StreamsCodesAndValuesWithTheTimesOfTheirTicks) {
     const auto marks = records.read("mark");
     ASSERT_EQ(marks.size(), 1u);
     EXPECT_EQ(marks[0][3], "42");
-    EXPECT_GE(std::stod(marks[0][2]), before - 1e-3);
-    EXPECT_LE(std::stod(marks[0][2]), after + 1e-3);
+    EXPECT_GE(finite_number(marks[0][2]).value(), before - 1e-3);
+    EXPECT_LE(finite_number(marks[0][2]).value(), after + 1e-3);
 }
 
 TEST(Lsl, OneStreamThatFailsIsEnough) {

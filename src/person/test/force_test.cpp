@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "analysis/fits/two_rate_fit.h"
+#include "base/number.h"
 #include "person/test/forces.h"
 
 namespace dihaptic::person::force_test {
@@ -47,7 +48,7 @@ TEST(Forces, OfAPersonWithoutNoisePressAgainstAChannelAsTheTwoRateModelSays) {
     double before = NAN;  // deviation of the first reach in the field
     for (size_t i = 0; i < reaches.size(); ++i) {
         const ForceReach& reach = reaches[i];
-        SCOPED_TRACE(std::to_string(i) + " " + reach.perturbed);
+        SCOPED_TRACE(number_text(i) + " " + reach.perturbed);
         most = std::max(most, x[i]);
         if (reach.perturbed == "channel") {
             EXPECT_NEAR(reach.index, x[i], 0.04);

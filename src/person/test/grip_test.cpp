@@ -1,6 +1,7 @@
 // Tests grip and lift of simulated people against figures of Johansson and Westling (1984, 1988)
 // and of later studies.
 #include "person/grip.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 
@@ -219,7 +220,7 @@ TEST(Lifts, OfRealObjectsHaveTheFiguresOfPeople) {
     std::vector<double> after_heavier;
     for (size_t i = 0; i < all.size(); ++i) {
         const Lift& lift = all[i];
-        SCOPED_TRACE(std::to_string(i) + ": " + lift.condition);
+        SCOPED_TRACE(number_text(i) + ": " + lift.condition);
         ASSERT_TRUE(lift.done);
         couplings.push_back(lift.coupling);
         EXPECT_NEAR(lift.load, 9.81 * lift.mass, 0.03 * lift.load);

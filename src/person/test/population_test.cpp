@@ -1,4 +1,5 @@
 #include "person/population.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 
@@ -85,7 +86,7 @@ correlations:
     double a = 0, b = 0, aa = 0, bb = 0, ab = 0;
     constexpr int kPeople = 2000;
     for (int i = 0; i < kPeople; ++i) {
-        const Traits traits = draw_person(population, 1, "sim-" + std::to_string(i));
+        const Traits traits = draw_person(population, 1, "sim-" + number_text(i));
         const double x = std::log(traits.direction_noise * 180 / M_PI / 5);
         const double y = std::log(traits.tempo);
         a += x / kPeople;

@@ -1,3 +1,4 @@
+#include "base/number.h"
 #include "person/population.h"
 
 #include <gtest/gtest.h>
@@ -26,7 +27,7 @@ TEST(Traits, AreWithinTheirBoundsAndAroundTheMedian) {
         std::vector<double> learning;
         std::vector<double> margin;
         for (int i = 0; i < 400; ++i) {
-            Traits traits = draw_person(objects, 1, std::to_string(i));
+            Traits traits = draw_person(objects, 1, number_text(i));
             // reading what was written checks every bound
             Diagnostics diagnostics;
             Traits read;

@@ -5,6 +5,7 @@
 
 #include <set>
 
+#include "base/number.h"
 #include "recording/raw_log.h"
 #include "recording/recorder.h"
 #include "testing/files.h"
@@ -40,7 +41,7 @@ inline servo::Frame damage_frame(int64_t sequence, double session) {
 inline std::string damage_log(const testing::TemporaryFolder& folder, double session) {
     const std::string file = folder.file("made.log");
     std::filesystem::remove(file);
-    Recorder recorder(file, damage_head(std::to_string(session)), Writing::in_place);
+    Recorder recorder(file, damage_head(number_text(session)), Writing::in_place);
     for (int i = 0; i < 600; ++i) recorder.record(damage_frame(i, session));
     recorder.finish();
     return testing::read_file(file);
@@ -72,7 +73,7 @@ inline void expect_mischief_is_told(int cases) {
     const std::string other = damage_log(folder, 2);
     for (int what = 0; what < testing::kMischiefs; ++what) {
         for (int seed = 0; seed < cases; ++seed) {
-            SCOPED_TRACE(std::string(testing::kMischiefNames[what]) + " " + std::to_string(seed));
+            SCOPED_TRACE(std::string(testing::kMischiefNames[what]) + " " + number_text(seed));
             std::mt19937_64 random(static_cast<uint64_t>(seed));
             const std::string text =
                 do_mischief(static_cast<testing::Mischief>(what), log, other, random);

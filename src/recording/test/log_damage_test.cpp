@@ -1,5 +1,7 @@
 #include "recording/test/log_damage.h"
 
+#include "base/number.h"
+
 namespace dihaptic::recording::log_damage_test {
 namespace {
 
@@ -88,7 +90,7 @@ TEST(DamagedLog, AHeadWithAbsurdNumbersIsRefused) {
         return std::string("accepted");
     };
     std::string many = "fingers: [a0";
-    for (int i = 1; i < 70000; ++i) many += ", a" + std::to_string(i);
+    for (int i = 1; i < 70000; ++i) many += ", a" + number_text(i);
     EXPECT_NE(refused("fingers: [thumb, index]", many + "]").find("fingers"), std::string::npos);
     EXPECT_NE(refused("[thumb, index]", "[thumb, thumb]").find("fingers"), std::string::npos);
     EXPECT_NE(refused("[thumb, index]", "[../thumb, index]").find("fingers"), std::string::npos);

@@ -1,4 +1,5 @@
 #include "rig/calibration_run.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 
@@ -80,7 +81,7 @@ TEST(CalibrationRun, OfSimulatedPremiumsBringsTheirEndpointsTogether) {
     EXPECT_LT(after.rms, 0.1e-3);
     EXPECT_LT(after.worst, 0.3e-3);
     EXPECT_NEAR(result.calibration.agreement_rms / after.rms, 1, 0.4);
-    RecordProperty("after_um", std::to_string(after.rms * 1e6));
+    RecordProperty("after_um", number_text(after.rms * 1e6));
 
     const std::string svg = residual_picture(result, "two <Premiums>");
     for (const char* words :

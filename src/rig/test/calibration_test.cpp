@@ -1,4 +1,5 @@
 #include "rig/calibration.h"
+#include "base/number.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -147,7 +148,7 @@ Judged judge(const Faulty& rig, const Calibration* calibration) {
 /// Records errors for --gtest_output=json, in micrometres.
 void record(uint64_t seed, const Judged& before, const Judged& after, const Calibration& says) {
     const auto um = [&](const char* name, double metres) {
-        ::testing::Test::RecordProperty("seed_" + std::to_string(seed) + "_" + name,
+        ::testing::Test::RecordProperty("seed_" + number_text(seed) + "_" + name,
                                         static_cast<int>(std::lround(metres * 1e6)));
     };
     um("before_rms", before.agreement.rms);

@@ -1,6 +1,7 @@
 // Tests displays and their registration: what rig files may not say, and how well a finger finds a
 // screen.
 #include "rig/display.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 
@@ -152,8 +153,8 @@ TEST(Registration, FindsAMisplacedScreenByANoisyFinger) {
         // three axes of 0.3 mm, less what the fit takes
         EXPECT_NEAR(found.registration.rms, 0.5e-3, 0.15e-3) << seed;
     }
-    RecordProperty("off_mm", std::to_string(1e3 * std::sqrt(off)));
-    RecordProperty("turned_deg", std::to_string(std::sqrt(turned) / kDegree));
+    RecordProperty("off_mm", number_text(1e3 * std::sqrt(off)));
+    RecordProperty("turned_deg", number_text(std::sqrt(turned) / kDegree));
     // 0.3 mm over the root of 20 touches, times that of three axes
     EXPECT_NEAR(std::sqrt(off), 0.116e-3, 0.04e-3);
     EXPECT_LT(std::sqrt(turned), 0.06 * kDegree);

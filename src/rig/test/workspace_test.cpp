@@ -1,4 +1,5 @@
 #include "rig/workspace.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ Rig boxes(const std::vector<Vec3>& places, const std::string& edges) {
     Rig rig;
     for (const Vec3& place : places) {
         Device& device = rig.devices.emplace_back();
-        device.finger = std::to_string(rig.devices.size());
+        device.finger = number_text(rig.devices.size());
         device.backend = "simulated";
         device.position = place;
         device.options = parse_yaml("workspace_mm: " + edges, "rig.yaml");
@@ -29,7 +30,7 @@ Rig premiums(int count) {
     Rig rig;
     for (int i = 0; i < count; ++i) {
         Device& device = rig.devices.emplace_back();
-        device.finger = std::to_string(i);
+        device.finger = number_text(i);
         device.backend = "simulated";
         device.position = {0, 0, 0.07};
         const double around[] = {90, -90, 0};
@@ -121,7 +122,7 @@ TEST_P(Premiums, ShareWhatAMonteCarloEstimateSays) {
             ASSERT_TRUE(reach.contains(inside));
         }
     }
-    RecordProperty("litres", std::to_string(found.shared * 1e3));
+    RecordProperty("litres", number_text(found.shared * 1e3));
 }
 INSTANTIATE_TEST_SUITE_P(Workspace, Premiums, ::testing::Values(2, 3));
 

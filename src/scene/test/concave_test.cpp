@@ -5,6 +5,7 @@
 #include <numbers>
 #include <thread>
 
+#include "base/number.h"
 #include "scene/mesh.h"
 #include "scene/scene.h"
 #include "testing/files.h"
@@ -146,18 +147,18 @@ std::string star(int teeth) {
         for (int i = 0; i < n; ++i) {
             const double r = i % 2 == 0 ? 1 : 2;
             const double angle = std::numbers::pi * i / teeth;
-            out += "v " + std::to_string(r * std::cos(angle)) + " " +
-                   std::to_string(r * std::sin(angle)) + " " + std::to_string(z) + "\n";
+            out += "v " + number_text(r * std::cos(angle)) + " " +
+                   number_text(r * std::sin(angle)) + " " + number_text(z) + "\n";
         }
     }
     std::string top = "f";
     std::string bottom = "f";
     for (int i = 0; i < n; ++i) {
-        bottom += " " + std::to_string(n - i);
-        top += " " + std::to_string(n + i + 1);
+        bottom += " " + number_text(n - i);
+        top += " " + number_text(n + i + 1);
         const int next = (i + 1) % n;
-        out += "f " + std::to_string(i + 1) + " " + std::to_string(next + 1) + " " +
-               std::to_string(n + next + 1) + " " + std::to_string(n + i + 1) + "\n";
+        out += "f " + number_text(i + 1) + " " + number_text(next + 1) + " " +
+               number_text(n + next + 1) + " " + number_text(n + i + 1) + "\n";
     }
     return out + top + "\n" + bottom + "\n";
 }

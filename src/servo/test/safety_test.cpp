@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/number.h"
 #include "lift.h"
 #include "planted_group.h"
 #include "servo/run.h"
@@ -285,7 +286,7 @@ class SoundCoupling : public ::testing::TestWithParam<Rendering> {
 TEST_P(SoundCoupling, GivesNobodyEnergyInGraspLiftTossPushAndSlap) {
     const Energy energy = observe(block_on_table(), busy_hand(), settings(), GetParam().options);
     EXPECT_EQ(energy.status & kEnergyGenerated, 0u);
-    RecordProperty("generated_mJ", std::to_string(energy.most * 1e3));
+    RecordProperty("generated_mJ", number_text(energy.most * 1e3));
     EXPECT_LT(energy.most, haptics::kEnergyBudget / 2);
     EXPECT_GT(energy.most_force, 1);
 }

@@ -1,6 +1,7 @@
 // Tests workspaces that turn about the vertical: readings and forces turn with them, and nothing
 // steps.
 #include "servo/workspace_turn.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 
@@ -322,7 +323,7 @@ TEST_P(AnyHand, HoldsABlockWhileTheWorkspaceTurnsByARightAngle) {
     EXPECT_EQ(status & ~uint32_t{kEnergyGenerated}, 0u);
     // the slew limit would permit 3 N
     EXPECT_LT(most, 2e-3);
-    RecordProperty("most_change_N", std::to_string(most));
+    RecordProperty("most_change_N", number_text(most));
     const Pose after = frame->bodies[1].X_WB;
     const Vec3 c(0.02, -0.03, 0);
     const Vec3 arm = before.p - c;

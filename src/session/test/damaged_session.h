@@ -7,6 +7,7 @@
 #include "analysis/bids.h"
 #include "analysis/recovery.h"
 #include "analysis/report/report.h"
+#include "base/number.h"
 #include "recording/raw_log.h"
 #include "session/replay.h"
 #include "session/test/reaches.h"
@@ -72,7 +73,7 @@ inline void expect_all_tell(int cases) {
     }
     for (int what = 0; what < testing::kMischiefs; ++what) {
         for (int seed = 0; seed < cases; ++seed) {
-            SCOPED_TRACE(std::string(testing::kMischiefNames[what]) + " " + std::to_string(seed));
+            SCOPED_TRACE(std::string(testing::kMischiefNames[what]) + " " + number_text(seed));
             std::mt19937_64 random(static_cast<uint64_t>(seed));
             const std::string log = testing::do_mischief(static_cast<testing::Mischief>(what),
                                                          sessions.log(), sessions.other(), random);
@@ -134,7 +135,7 @@ inline void expect_mutated_files_are_borne(int cases, uint64_t first_seed) {
                                             "settings.csv", "raw.log"};
     for (int i = 0; i < cases; ++i) {
         const std::string& name = names[static_cast<size_t>(i) % names.size()];
-        SCOPED_TRACE(name + " " + std::to_string(i));
+        SCOPED_TRACE(name + " " + number_text(i));
         std::mt19937_64 random(first_seed + static_cast<uint64_t>(i));
         fs::remove_all(copy);
         fs::remove_all(files.folder.file("study"));

@@ -7,6 +7,7 @@
 
 #include "analysis/recovery.h"
 #include "base/image.h"
+#include "base/number.h"
 #include "session/resume.h"
 #include "session/test/sessions.h"
 
@@ -107,7 +108,7 @@ TEST(FrozenInputs, AFileThatWasChangedAfterItWasReadEndsTheStart) {
     std::mt19937_64 random(1);
     for (const char* name : Study::kFiles) {
         for (int how = 0; how < 5; ++how) {
-            SCOPED_TRACE(std::string(name) + " " + std::to_string(how));
+            SCOPED_TRACE(std::string(name) + " " + number_text(how));
             Study study;
             const Plan plan = study.plan(Mover::script);
             change(study.files.folder.file(name), how, random);

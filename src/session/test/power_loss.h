@@ -14,6 +14,7 @@
 #include <mutex>
 #include <string>
 
+#include "base/number.h"
 #include "testing/files.h"
 
 namespace dihaptic::testing {
@@ -71,7 +72,7 @@ class Disk {
         struct stat status {};
         fstat(descriptor, &status);
         times_[status.st_ino] = now;
-        const std::string name = "/proc/self/fd/" + std::to_string(descriptor);
+        const std::string name = "/proc/self/fd/" + number_text(descriptor);
         if (!S_ISDIR(status.st_mode)) {
             files_[status.st_ino] = read_file(name);
             return;

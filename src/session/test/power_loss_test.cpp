@@ -8,6 +8,7 @@
 
 #include "analysis/recovery.h"
 #include "analysis/session_report.h"
+#include "base/number.h"
 #include "recording/raw_log.h"
 #include "session/replay.h"
 #include "session/session_run.h"
@@ -110,7 +111,7 @@ TEST(PowerLoss, AStateThatSaysCompleteHasAllFilesWheneverPowerFails) {
     int complete = 0;
     std::string session;
     const auto look = [&] {
-        const std::string after = folder.file("after") + std::to_string(++losses);
+        const std::string after = folder.file("after") + number_text(++losses);
         disk.lose_power(folder.path(), after);
         const std::string left = after + "/sessions/" + fs::path(session).filename().string();
         if (!fs::exists(left + "/session.yaml")) return;

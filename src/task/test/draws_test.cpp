@@ -1,6 +1,7 @@
 // Tests what is drawn for trials: the distributions against their closed forms, and that the seed
 // decides.
 #include "task/draws.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 
@@ -185,7 +186,7 @@ TEST(Draws, AreOfTheSeedAndOfTheirNames) {
 
 TEST(Draws, HaveTheDigitsOfATable) {
     for (const double value : drawn_10000(foreperiod(), 3))
-        EXPECT_EQ(value, std::strtod(to_csv(Table::Cell(value)).c_str(), nullptr));
+        EXPECT_EQ(value, finite_number(to_csv(Table::Cell(value))));
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """evaluate.py FILE: evaluates expressions as Python reads them, for expression_test.cpp.
 
-The first line of FILE has the names; each line after it their values, as hexadecimal numbers, and behind a tab the
+The first line of FILE has the names; each line after it their values, and behind a tab the
 expression. Prints the value of each, in that form. What binds what, and what chains, is Python's; where Python
 raises an error, a number of IEEE 754 takes its place.
 """
@@ -92,10 +92,10 @@ def main():
         names = file.readline().split()
         for line in file:
             values, text = line.rstrip("\n").split("\t")
-            scope = dict(zip(names, map(float.fromhex, values.split())), **FUNCTIONS)
+            scope = dict(zip(names, map(float, values.split())), **FUNCTIONS)
             tree = Ieee().visit(ast.parse(text.replace("^", "**"), mode="eval"))
             value = eval(compile(ast.fix_missing_locations(tree), text, "eval"), {"__builtins__": {}}, scope)
-            print(float(value).hex())
+            print(repr(float(value)))
 
 
 main()

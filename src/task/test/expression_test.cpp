@@ -1,6 +1,7 @@
 // Tests expressions: values, dimensions and names against hand-written cases, arithmetic against
 // Python's, and the message for each mistake.
 #include "task/expression.h"
+#include "base/number.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -201,7 +202,7 @@ TEST_P(MistakenExpression, IsRefusedWithFileLineKeyColumnAndRemedy) {
     ASSERT_EQ(grasp.diagnostics.problems().size(), 1u) << GetParam().text;
     const Problem& problem = grasp.diagnostics.problems().front();
     const std::string begin =
-        "task.yaml:7: error: when: column " + std::to_string(GetParam().column) + ": ";
+        "task.yaml:7: error: when: column " + number_text(GetParam().column) + ": ";
     EXPECT_TRUE(problem.text().starts_with(begin)) << problem.text();
     EXPECT_NE(problem.text().find(GetParam().said), std::string::npos) << problem.text();
     EXPECT_FALSE(problem.remedy.empty()) << problem.text();
@@ -387,7 +388,7 @@ TEST(Expression, TenThousandAgreeWithPython) {
             for (const char* name : names) {
                 const double value = below(random, 8) == 0 ? 0 : 3 * random.normal();
                 quantities.set(quantities.find(name)->slot, value);
-                file << fmt::format("{:a} ", value);
+                file << number_text(value) + " ";
             }
             file << "\t" << texts.back() << "\n";
             Diagnostics diagnostics;
@@ -410,7 +411,8 @@ TEST(Expression, TenThousandAgreeWithPython) {
     std::string line;
     for (size_t i = 0; i < texts.size(); ++i) {
         ASSERT_TRUE(std::getline(values, line)) << i;
-        const double theirs = std::strtod(line.c_str(), nullptr);
+        const double theirs =
+            line == "nan" ? std::numeric_limits<double>::quiet_NaN() : any_number(line).value();
         EXPECT_TRUE(agree(ours[i], theirs)) << texts[i] << "\n" << ours[i] << " " << theirs;
         finite += std::isfinite(theirs) ? 1 : 0;
     }

@@ -6,6 +6,7 @@
 
 #include "analysis/recovery.h"
 #include "base/field_writer.h"
+#include "base/number.h"
 #include "recording/raw_log.h"
 #include "session/replay.h"
 #include "session/test/allocations.h"
@@ -70,7 +71,8 @@ std::vector<std::string> column(const std::string& session, const std::string& n
 
 std::vector<double> numbers_of(const std::string& session, const std::string& name) {
     std::vector<double> out;
-    for (const std::string& text : column(session, name)) out.push_back(std::stod(text));
+    for (const std::string& text : column(session, name))
+        out.push_back(finite_number(text).value());
     return out;
 }
 
@@ -105,7 +107,7 @@ TEST(Formulas, FollowDrawsFactorsAndVariablesInEachTrial) {
     int changed = 0;
     while (const servo::Frame* frame = log.next()) {
         if (frame->trial < 1 || frame->phase == kBetween) continue;
-        const size_t row = rows.at(std::to_string(frame->trial));
+        const size_t row = rows.at(number_text(frame->trial));
         began.try_emplace(frame->trial, seconds(frame->time));
         const double in_trial = seconds(frame->time) - began[frame->trial];
         EXPECT_EQ(frame->phase == 1, in_trial < trials.number(row, "wait_s") - 5e-4);

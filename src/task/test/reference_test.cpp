@@ -12,6 +12,7 @@
 #include <typeindex>
 
 #include "base/field_writer.h"
+#include "base/number.h"
 #include "person/population.h"
 #include "rig/rig.h"
 #include "servo/settings.h"
@@ -250,9 +251,8 @@ class Lister {
             return items.empty() ? "" : fmt::format("[{}]", fmt::join(items, ", "));
         }
         if (node.kind != Node::Kind::scalar || node.scalar.empty()) return "";
-        char* end = nullptr;
-        const double value = std::strtod(node.scalar.c_str(), &end);
-        return *end == '\0' ? number(value) : node.scalar;
+        const auto value = any_number(node.scalar);
+        return value ? number(*value) : node.scalar;
     }
 
     Page& page_;

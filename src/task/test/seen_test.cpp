@@ -8,6 +8,7 @@
 
 #include "analysis/session_report.h"
 #include "base/field_writer.h"
+#include "base/number.h"
 #include "recording/raw_log.h"
 #include "servo/displayed.h"
 #include "servo/shown_texts.h"
@@ -220,12 +221,12 @@ TEST(Seen, TextsHaveLinesNumbersAndACountdown) {
     int good = 0;
     while (const servo::Frame* frame = log.next()) {
         const auto texts = servo::shown_texts(frame->task, messages);
-        const std::string trial = "Trial " + std::to_string(frame->trial) + " of 9";
+        const std::string trial = "Trial " + number_text(frame->trial) + " of 9";
         const int block = frame->trial < 3 ? 1 : frame->trial < 8 ? 2 : 3;
-        const std::string where = "Block " + std::to_string(block) + "/3";
+        const std::string where = "Block " + number_text(block) + "/3";
         if (frame->phase == kHome && frame->task.lines.size() == 3) {
             ++homes;
-            const std::string left = std::to_string(10 - frame->trial) + " left";
+            const std::string left = number_text(10 - frame->trial) + " left";
             EXPECT_EQ(texts, (std::vector<std::string>{trial, "5", left, where}));
         } else if (frame->phase == kReach && frame->task.outcome < 0) {
             EXPECT_EQ(texts, (std::vector<std::string>{trial, where}));
@@ -261,7 +262,7 @@ TEST(Seen, TextsNameVariablesDrawsAndWhatIsMeasured) {
             const Trial& trial = plan.task->trials[static_cast<size_t>(frame->trial - 1)];
             EXPECT_EQ(texts.at(0), fmt::format("Score {}, wait {:.3f}", 10 * frame->trial - 5,
                                                trial.draws.at(0) / 1000));
-            EXPECT_NEAR(std::stod(texts.at(1)), z, 5e-5 + 1e-3);  // by a tick
+            EXPECT_NEAR(finite_number(texts.at(1)).value(), z, 5e-5 + 1e-3);  // by a tick
         }
         z = frame->fingers.at(0).p_WH.z();
     }

@@ -4,6 +4,7 @@
 
 #include <set>
 
+#include "base/number.h"
 #include "recording/raw_log.h"
 #include "session/replay.h"
 #include "session/test/allocations.h"
@@ -101,8 +102,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Sounds, AreAtMostAsManyAsATickCanBegin) {
     WithSounds files;
     std::string many = "  sounds:\n";
-    for (int i = 0; i < 30; ++i)
-        many += "    - { name: s" + std::to_string(i) + ", tone_Hz: 440 }\n";
+    for (int i = 0; i < 30; ++i) many += "    - { name: s" + number_text(i) + ", tone_Hz: 440 }\n";
     session::expect_refused(files, Mistake{"  sounds:\n", many.c_str(), "where 32 are the most"});
 }
 

@@ -1,5 +1,6 @@
 // Tests tasks: states and their exits, perturbations in the file, sessions that are resumed.
 #include "task/task.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 
@@ -52,15 +53,15 @@ TEST(Task, RunsItsTrialsRecordsThemAndReplaysToTheBit) {
     EXPECT_EQ(figures.status & ~uint32_t{servo::kSoftStarted}, 0u);
     EXPECT_EQ(column(result.folder, "outcome"), std::vector<std::string>(9, "reached"));
     const auto number = column(result.folder, "trial_num");
-    for (size_t i = 0; i < 9; ++i) EXPECT_EQ(number[i], std::to_string(i + 1));
+    for (size_t i = 0; i < 9; ++i) EXPECT_EQ(number[i], number_text(i + 1));
     // the file's hand does not adapt
     const auto hand = column(result.folder, "hand_angle_deg");
     const auto shown = column(result.folder, "shown_angle_deg");
     for (size_t i = 0; i < 9; ++i) {
         const Trial& trial = plan.task->trials[i];
-        EXPECT_NEAR(std::stod(hand[i]), 0, 0.2) << i;
+        EXPECT_NEAR(finite_number(hand[i]).value(), 0, 0.2) << i;
         const double turned = trial.perturb == std::vector{0} ? 30 * trial.share : 0;
-        EXPECT_NEAR(std::stod(shown[i]), turned, 0.2) << i;
+        EXPECT_NEAR(finite_number(shown[i]).value(), turned, 0.2) << i;
     }
     std::map<std::string, int> events;
     for (const auto& row : read_csv(result.folder + "/events.csv")) ++events[row[2]];
@@ -164,7 +165,7 @@ TEST(Task, DoesAbortedTrialsAgain) {
     finish(result);
     EXPECT_EQ(column(result.folder, "outcome"), std::vector<std::string>(27, "too slow"));
     const auto attempt = column(result.folder, "attempt");
-    for (size_t i = 0; i < 27; ++i) EXPECT_EQ(attempt[i], std::to_string(i % 3 + 1));
+    for (size_t i = 0; i < 27; ++i) EXPECT_EQ(attempt[i], number_text(i % 3 + 1));
 }
 
 TEST(Task, PutsObjectsBackOnceFingersAreClearOfTheirPlaces) {
@@ -354,7 +355,7 @@ TEST(Task, ATriggerEndsAStateAndComesOnceASecondToASimulatedSession) {
     EXPECT_EQ(column(result.folder, "outcome"), std::vector<std::string>(9, "reached"));
     for (const auto& row : read_csv(result.folder + "/events.csv")) {
         if (row[2] != "phase" || row[3] != "reach") continue;
-        const double time = std::stod(row[0]);
+        const double time = finite_number(row[0]).value();
         EXPECT_NEAR(time, std::round(time), 1.5e-3);
     }
 
@@ -420,8 +421,9 @@ TEST(ShippedTask, RotatesWhatIsShownAboutEachRoundsAxisAndReplaysToTheBit) {
     for (size_t i = 0; i < outcome.size(); ++i) {
         ++kinds[kind[i]];
         EXPECT_EQ(outcome[i], "reached");
-        EXPECT_NEAR(std::stod(hand[i]), 0, 0.2);
-        EXPECT_NEAR(std::stod(shown[i]), kind[i] == "perturbed" ? 30 : 0, 0.3) << i << kind[i];
+        EXPECT_NEAR(finite_number(hand[i]).value(), 0, 0.2);
+        EXPECT_NEAR(finite_number(shown[i]).value(), kind[i] == "perturbed" ? 30 : 0, 0.3)
+            << i << kind[i];
     }
     EXPECT_GT(kinds["perturbed"], 10);
     EXPECT_EQ(kinds["visual_clamp"], 4);

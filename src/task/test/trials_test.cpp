@@ -1,5 +1,6 @@
 // Tests the order of trials, and which are done again.
 #include "task/trials.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 
@@ -65,7 +66,7 @@ TEST(Order, TrialsHaveTheirKindsSharesAndInsertsAndTheSeedDecides) {
     const auto conditions = [&](uint64_t seed) {
         std::string out;
         const session::Plan of_seed = session::make_plan(files.request(seed));
-        for (const Trial& t : of_seed.task->trials) out += std::to_string(t.condition);
+        for (const Trial& t : of_seed.task->trials) out += number_text(t.condition);
         return out;
     };
     EXPECT_EQ(conditions(3), conditions(3));
@@ -79,7 +80,7 @@ TEST(Order, IsOfEachParticipantAndTheSameAgain) {
     const auto conditions = [&](const char* participant) {
         std::string out;
         const session::Plan plan = session::make_plan(files.request(1, participant));
-        for (const Trial& t : plan.task->trials) out += std::to_string(t.condition);
+        for (const Trial& t : plan.task->trials) out += number_text(t.condition);
         return out;
     };
     EXPECT_EQ(conditions("S01"), conditions(""));
@@ -115,7 +116,7 @@ TEST(TrialQueue, DoesTrialsAgainWhereThePolicySays) {
         TrialQueue queue(trials, redo, 3, 1);
         std::string out;
         while (!queue.empty()) {
-            out += std::to_string(queue.trial());
+            out += number_text(queue.trial());
             queue.finish(queue.trial() == 0 && queue.attempt() <= bad_attempts);
         }
         return out;

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/image.h"
+#include "base/number.h"
 #include "scene/scene.h"
 #include "servo/frame.h"
 
@@ -17,7 +18,7 @@ struct Balls {
     /// Adds one there, of that radius [m].
     void add(const Vec3& p_W, double radius = 0.0025) {
         scene::Body ball;
-        ball.name = "ball " + std::to_string(scene.bodies.size());
+        ball.name = "ball " + number_text(scene.bodies.size());
         ball.shape = scene::Shape::sphere(radius);
         ball.mass = 0.01;
         ball.position = p_W;

@@ -1,6 +1,7 @@
 // Tests displays: that each eye sees a thing where a pinhole camera at that eye would, by numbers
 // and in pictures.
 #include "view/panes.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 
@@ -147,7 +148,7 @@ TEST(Panes, AreDrawnWhereAPinholeWouldForEachEye) {
         }
     }
     EXPECT_GT(points, 1000);
-    RecordProperty("worst_px", std::to_string(worst));
+    RecordProperty("worst_px", number_text(worst));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/diagnostics.h"
+#include "base/number.h"
 #include "base/random.h"
 
 namespace dihaptic::analysis::adaptation_fit_test {
@@ -84,9 +85,8 @@ TEST(TwoRateFit, OfPeopleIsNoWorseThanTheTruthAndPredictsIt) {
     }
     EXPECT_LT(std::sqrt(curve_error), 1.0);
     for (const int count : held) EXPECT_GE(count, people - 3);
-    RecordProperty("curve_rms_deg", std::to_string(std::sqrt(curve_error)));
-    for (int i = 0; i < 4; ++i)
-        RecordProperty("held_" + std::to_string(i), std::to_string(held[i]));
+    RecordProperty("curve_rms_deg", number_text(std::sqrt(curve_error)));
+    for (int i = 0; i < 4; ++i) RecordProperty("held_" + number_text(i), number_text(held[i]));
 }
 
 TEST(TwoRateFit, IgnoresTrialsThatWereNotMeasured) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "analysis/fits/two_rate_fit.h"
+#include "base/number.h"
 #include "base/random.h"
 
 namespace dihaptic::analysis {
@@ -77,7 +78,7 @@ inline void expect_least_of_all(int people, int starts, uint64_t seed) {
     const WideResult result = fit_wide_people(people, starts, seed);
     EXPECT_EQ(result.above_truth, 0);
     EXPECT_LT(result.worst_start, 1e-9);
-    ::testing::Test::RecordProperty("ms_a_fit", std::to_string(result.milliseconds));
+    ::testing::Test::RecordProperty("ms_a_fit", number_text(result.milliseconds));
 }
 
 }  // namespace dihaptic::analysis

@@ -11,6 +11,7 @@
 #include "analysis/report/page.h"
 #include "analysis/report/session_data.h"
 #include "analysis/report/statistics.h"
+#include "base/number.h"
 #include "base/palette.h"
 #include "base/random.h"
 #include "testing/files.h"
@@ -57,9 +58,8 @@ struct Learner {
         for (size_t i = 0; i < x.size(); ++i) {
             const double hand = -(x[i] + bias);
             const double shown = schedule[i].clamp ? 0 : hand + schedule[i].perturbation;
-            out +=
-                std::to_string(i + 1) + "," + kinds[i].block + "," + kinds[i].kind + ",about z," +
-                (i == unreached ? "," : std::to_string(hand) + "," + std::to_string(shown)) + "\n";
+            out += number_text(i + 1) + "," + kinds[i].block + "," + kinds[i].kind + ",about z," +
+                   (i == unreached ? "," : number_text(hand) + "," + number_text(shown)) + "\n";
         }
         return out;
     }
@@ -148,11 +148,11 @@ TEST(Generalisation, IsToldByProbesInDirectionsThatWereNotTrained) {
     int number = 0;
     const auto add = [&](const char* kind, double degrees, double compensation) {
         const double angle = degrees * std::numbers::pi / 180;
-        list += "thumb,0,0,100," + std::to_string(50 * std::cos(angle)) + "," +
-                std::to_string(50 * std::sin(angle)) + ",100\n";
-        trials += std::to_string(++number) + "," + kind + ",at " +
-                  std::to_string(static_cast<int>(degrees)) + ",z," +
-                  std::to_string(-compensation) + "\n";
+        list += "thumb,0,0,100," + number_text(50 * std::cos(angle)) + "," +
+                number_text(50 * std::sin(angle)) + ",100\n";
+        trials += number_text(++number) + "," + kind + ",at " +
+                  number_text(static_cast<int>(degrees)) + ",z," + number_text(-compensation) +
+                  "\n";
     };
     for (const double angle : {0.0, 45.0, 90.0}) add("baseline", angle, 1);
     add("visual_clamp", 45, 20);  // before training, so it is no probe
@@ -198,7 +198,7 @@ TEST(PreviousWeight, IsTheShareThatTheLiftsWereMadeWith) {
     for (int i = 0; i < 60; ++i) {
         const double weight = random.uniform(0, 1) < 0.5 ? 2 : 8;
         const double rate = 5 + 1.5 * weight + 0.5 * before + 0.1 * random.normal();
-        text += "complete," + std::to_string(weight) + "," + std::to_string(rate) + "\n";
+        text += "complete," + number_text(weight) + "," + number_text(rate) + "\n";
         before = weight;
     }
     const auto effect = previous_weight(CsvFile(folder.write("lifts.csv", text)));
@@ -220,7 +220,7 @@ TEST(Thresholds, AreFittedToTheAnswersOfTheirProcedure) {
     for (int i = 1; i <= 400; ++i) {
         const double level = random.uniform(-1, 0);
         const bool yes = random.uniform(0, 1) < observer.probability(level);
-        text += std::to_string(i) + "," + std::to_string(std::pow(10, level)) + "," +
+        text += number_text(i) + "," + number_text(std::pow(10, level)) + "," +
                 (i % 10 == 0   ? ",none\n"
                  : i % 11 == 0 ? "a,late\n"
                  : yes         ? "a,felt\n"
@@ -361,7 +361,7 @@ TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
     for (int i = 1; i <= 30; ++i) {
         const bool field = i > 10 && i <= 20;
         const bool rail = field && i % 5 == 0;
-        text += std::to_string(i) + (field ? ",field," : ",flat,") +
+        text += number_text(i) + (field ? ",field," : ",flat,") +
                 (rail     ? "error_clamp,,turn + rail,1,0,0\n"  // as earlier versions called it
                  : field  ? "perturbed,,curl,1,12,12\n"
                  : i > 20 ? "washout,,,0,-5,-5\n"
@@ -421,13 +421,12 @@ std::string fields_of(const model::TwoRate& rates, double sign) {
     for (size_t i = 0; i < x.size(); ++i) {
         const bool channel = learner.schedule[i].clamp;
         const double f = learner.schedule[i].perturbation;
-        out += std::to_string(i + 1) + "," + learner.kinds[i].block + "," + learner.kinds[i].kind +
+        out += number_text(i + 1) + "," + learner.kinds[i].block + "," + learner.kinds[i].kind +
                ",," +
                (channel  ? "rail"
                 : f != 0 ? "curl"
                          : "") +
-               ",1,0,0," + (channel ? std::to_string(x[i] + 0.01) + "," : "," + std::to_string(f)) +
-               "\n";
+               ",1,0,0," + (channel ? number_text(x[i] + 0.01) + "," : "," + number_text(f)) + "\n";
     }
     return out;
 }
@@ -489,9 +488,9 @@ std::string errors_of(double effect, double noise) {
         for (const bool left : {true, false}) {
             const double error =
                 3 + (left ? -1 : 0.5) * effect * (p - x[i]) + noise * random.normal();
-            out += std::to_string(2 * i + (left ? 1 : 2)) + "," + kind + "," + kind + ",," +
+            out += number_text(2 * i + (left ? 1 : 2)) + "," + kind + "," + kind + ",," +
                    (left ? "left" : "right") + "," + (p > 0 ? "heavy" : "") + ",1," +
-                   std::to_string(error) + "\n";
+                   number_text(error) + "\n";
         }
     }
     return out;

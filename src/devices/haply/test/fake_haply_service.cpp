@@ -18,10 +18,12 @@
 #include "devices/haply/test/fake_service.h"
 #include "devices/test/felt_outside.h"
 
+#include "base/number.h"
+
 int main(int argc, char** argv) {
     using namespace dihaptic::devices;
     prctl(PR_SET_PDEATHSIG, SIGTERM);
-    const int count = argc > 1 ? std::atoi(argv[1]) : 2;
+    const int count = argc > 1 ? dihaptic::whole_number<int>(argv[1]).value() : 2;
     if (count < 1 || count > static_cast<int>(FeltOutside::kDevices)) {
         fmt::print(stderr, "usage: {} [DEVICES], 1 to {}\n", argv[0], FeltOutside::kDevices);
         return 1;

@@ -1,6 +1,7 @@
 // Tests the backend on the fake service: what it requires of a set-up, and what trouble leads to.
 #include <gtest/gtest.h>
 
+#include "base/number.h"
 #include "devices/haply/connection.h"
 #include "devices/haply/group.h"
 #include "devices/haply/inventory.h"
@@ -44,7 +45,7 @@ class Haply : public ::testing::Test {
         return *service_;
     }
     std::unique_ptr<DeviceGroup> group(const std::string& more = "") {
-        const std::string waits = "time_out_ms: " + std::to_string(time_out_ms_) + ", ";
+        const std::string waits = "time_out_ms: " + number_text(time_out_ms_) + ", ";
         return make_group(rig_of(*service_, fingers_, waits + more), context_);
     }
     /// The message with which activation fails.

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "analysis/fits/psychometric_fit.h"
+#include "base/number.h"
 #include "base/random.h"
 #include "task/procedures/procedure.h"
 
@@ -34,10 +35,9 @@ struct Judge {
     }
     void check() const {
         const double coverage = static_cast<double>(held) / kObservers;
-        testing::Test::RecordProperty(std::string(name) + "_bias", std::to_string(bias));
-        testing::Test::RecordProperty(std::string(name) + "_rms",
-                                      std::to_string(std::sqrt(square)));
-        testing::Test::RecordProperty(std::string(name) + "_coverage", std::to_string(coverage));
+        testing::Test::RecordProperty(std::string(name) + "_bias", number_text(bias));
+        testing::Test::RecordProperty(std::string(name) + "_rms", number_text(std::sqrt(square)));
+        testing::Test::RecordProperty(std::string(name) + "_coverage", number_text(coverage));
         EXPECT_LT(std::abs(bias), 0.1) << name;
         EXPECT_GE(coverage, 0.90) << name;
         EXPECT_LE(coverage, 0.98) << name;
@@ -83,7 +83,7 @@ TEST(Observers, StaircasesFittedByMaximumLikelihood) {
         reversal_bias += (staircase.estimate().threshold - settles) / truth.sd() / kObservers;
     }
     fitted.check();
-    RecordProperty("reversal_bias", std::to_string(reversal_bias));
+    RecordProperty("reversal_bias", number_text(reversal_bias));
     EXPECT_LT(std::abs(reversal_bias), 0.1);
 }
 

@@ -1,0 +1,9 @@
+// Tests take the numbers of the system's language, as the window's toolkit does: no number may
+// depend on it (base/number.h). LC_ALL=de_DE.UTF-8 ./dev test --fast tries another.
+#include <clocale>
+
+namespace {
+
+[[maybe_unused]] const char* const taken = std::setlocale(LC_NUMERIC, "");
+
+}  // namespace
