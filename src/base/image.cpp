@@ -3,6 +3,11 @@
 #include <fmt/format.h>
 #include <png.h>
 
+#include <algorithm>
+#include <csetjmp>
+#include <memory>
+#include <string_view>
+
 #include "base/checksum.h"
 #include "base/diagnostics.h"
 #include "base/regular_file.h"
@@ -39,6 +44,82 @@ void write_png(const Image& image, const std::string& file) {
     write_file(bytes, file);
 }
 
+namespace {
+
+Error unreadable(const std::string& file, const std::string& why) {
+    return {{file, 0}, "", "cannot be read: " + why, "It must be a PNG file."};
+}
+
+void check_pixels(int64_t width, int64_t height, const std::string& file) {
+    if (width * height <= kMostPixels) return;
+    throw Error(
+        {file, 0}, "", "has more pixels than this program takes",
+        fmt::format("Make it smaller: {} million pixels are the most.", kMostPixels / 1'000'000));
+}
+
+/// libpng's plain interface, with which no value is bent by a gamma, as far as all forms of a PNG
+/// file are brought to one: rows of red, green, blue and alpha. It jumps at an error: what it jumps
+/// over has no destructors.
+class PngReader {
+  public:
+    explicit PngReader(const std::string& bytes) : rest_(bytes) {
+        png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, &fail, &warn);
+        info_ = png_create_info_struct(png_);
+    }
+    ~PngReader() { png_destroy_read_struct(&png_, &info_, nullptr); }
+    PngReader(const PngReader&) = delete;
+    PngReader& operator=(const PngReader&) = delete;
+
+    bool begin() {
+        if (setjmp(png_jmpbuf(png_))) return false;
+        png_set_read_fn(png_, this, &take);
+        png_read_info(png_, info_);
+        png_set_expand(png_);  // palettes, fewer than 8 bits, tRNS
+        png_set_gray_to_rgb(png_);
+        png_set_add_alpha(png_, 0xffff, PNG_FILLER_AFTER);
+        png_set_interlace_handling(png_);
+        png_read_update_info(png_, info_);
+        return true;
+    }
+    bool read(png_bytep* rows) {
+        if (setjmp(png_jmpbuf(png_))) return false;
+        png_read_image(png_, rows);
+        png_read_end(png_, nullptr);
+        return true;
+    }
+    size_t width() const { return png_get_image_width(png_, info_); }
+    size_t height() const { return png_get_image_height(png_, info_); }
+    size_t row_bytes() const { return png_get_rowbytes(png_, info_); }
+    size_t sample_bytes() const { return png_get_bit_depth(png_, info_) / 8; }
+    const std::string& why() const { return why_; }
+
+  private:
+    static void take(png_structp png, png_bytep to, size_t size) {
+        auto& rest = static_cast<PngReader*>(png_get_io_ptr(png))->rest_;
+        if (size > rest.size()) png_error(png, "its end is missing");
+        std::copy_n(rest.begin(), size, to);
+        rest.remove_prefix(size);
+    }
+    [[noreturn]] static void fail(png_structp png, png_const_charp why) {
+        static_cast<PngReader*>(png_get_error_ptr(png))->why_ = why;
+        png_longjmp(png, 1);
+    }
+    static void warn(png_structp, png_const_charp) {}
+
+    png_structp png_ = nullptr;
+    png_infop info_ = nullptr;
+    std::string_view rest_;
+    std::string why_;
+};
+
+/// A sample of one or two bytes as a share of the most.
+float share(const uint8_t* at, size_t bytes) {
+    return bytes == 1 ? static_cast<float>(at[0]) / 255
+                      : static_cast<float>(at[0] << 8 | at[1]) / 65535;
+}
+
+}  // namespace
+
 Image read_png(const std::string& file) {
     const std::string bytes = read_bytes(file, kMostPng);
     check_whole(bytes, file);
@@ -47,20 +128,45 @@ Image read_png(const std::string& file) {
     Image image;
     image.checksum = checksum_of(bytes);
     if (png_image_begin_read_from_memory(&png, bytes.data(), bytes.size()) != 0) {
-        if (int64_t{png.width} * png.height > kMostPixels) {
-            png_image_free(&png);
-            throw Error({file, 0}, "", "has more pixels than this program takes",
-                        fmt::format("Make it smaller: {} million pixels are the most.",
-                                    kMostPixels / 1'000'000));
-        }
+        const std::unique_ptr<png_image, decltype(&png_image_free)> freed(&png, &png_image_free);
+        check_pixels(png.width, png.height, file);
+        png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB;
         png.format = PNG_FORMAT_RGB;
         image.width = static_cast<int>(png.width);
         image.height = static_cast<int>(png.height);
         image.rgb.resize(PNG_IMAGE_SIZE(png));
         if (png_image_finish_read(&png, nullptr, image.rgb.data(), 0, nullptr) != 0) return image;
     }
-    throw Error({file, 0}, "", std::string("cannot be read: ") + png.message,
-                "It must be a PNG file.");
+    throw unreadable(file, png.message);
+}
+
+GreyImage read_grey_png(const std::string& file) {
+    const std::string bytes = read_bytes(file, kMostPng);
+    check_whole(bytes, file);
+    PngReader png(bytes);
+    if (!png.begin()) throw unreadable(file, png.why());
+    check_pixels(static_cast<int64_t>(png.width()), static_cast<int64_t>(png.height()), file);
+    std::vector<uint8_t> samples(png.row_bytes() * png.height());
+    std::vector<png_bytep> rows;
+    for (size_t y = 0; y < png.height(); ++y) rows.push_back(&samples[y * png.row_bytes()]);
+    if (!png.read(rows.data())) throw unreadable(file, png.why());
+
+    GreyImage out{
+        static_cast<int>(png.width()), static_cast<int>(png.height()), {}, checksum_of(bytes)};
+    out.grey.reserve(png.width() * png.height());
+    const size_t size = png.sample_bytes();
+    for (size_t i = 0; i < samples.size(); i += 4 * size) {
+        const auto sample = [&](size_t k) { return share(&samples[i + k * size], size); };
+        if (sample(3) < 1)
+            throw Error(
+                {file, 0}, "",
+                fmt::format("pixel {} of row {} is not opaque", out.grey.size() % png.width() + 1,
+                            out.grey.size() / png.width() + 1),
+                "Export it without transparency (an alpha channel): its greys are data, "
+                "which nothing shines through.");
+        out.grey.push_back((sample(0) + sample(1) + sample(2)) / 3);
+    }
+    return out;
 }
 
 }  // namespace dihaptic

@@ -38,5 +38,7 @@ struct Picture {
 /// Reads a PNG file whose edges have `fewest` to `most` pixels. Throws Error, with that place and
 /// the key `file`, when it is none or is of another size.
 Image read_picture(const std::string& file, int fewest, int most, const Place& place);
+/// As read_picture(), of one whose greys are data.
+GreyImage read_data(const std::string& file, int fewest, int most, const Place& place);
 
 }  // namespace dihaptic::scene

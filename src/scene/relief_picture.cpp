@@ -65,13 +65,8 @@ ReliefPicture::Value ReliefPicture::at(double x, double y) const noexcept {
 }
 
 ReliefPicture read_relief(const std::string& file, const Place& place) {
-    const Image image = read_picture(file, ReliefPicture::kFewest, ReliefPicture::kMost, place);
-    std::vector<float> grey;
-    grey.reserve(image.rgb.size() / 3);
-    for (size_t i = 0; i + 2 < image.rgb.size(); i += 3)
-        grey.push_back(static_cast<float>(image.rgb[i] + image.rgb[i + 1] + image.rgb[i + 2]) /
-                       (3 * 255));
-    return {image.width, image.height, std::move(grey), image.checksum};
+    GreyImage image = read_data(file, ReliefPicture::kFewest, ReliefPicture::kMost, place);
+    return {image.width, image.height, std::move(image.grey), std::move(image.checksum)};
 }
 
 }  // namespace dihaptic::scene
