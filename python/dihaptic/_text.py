@@ -7,6 +7,10 @@ import re
 from typing import Any
 
 
+class Plain(str):
+    """A word that stands without quotes in a file: a number, yes or no, or a text, as its key wants it."""
+
+
 def to_json(value: Any) -> str:
     r"""One line of JSON. Half of a surrogate pair, which is no character and which Python has for a byte that it could not
     read, is written as Python's own escape for it.

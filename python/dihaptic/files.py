@@ -361,7 +361,7 @@ def _value(raw: Any) -> Any:
         return _YES_OR_NO[raw]
     if isinstance(raw, str) and _NUMBER.fullmatch(raw):
         return int(raw) if raw.lstrip("+-").isdigit() else float(raw)
-    return raw
+    return raw if raw is None else str(raw)
 
 
 def _plain(value: Any) -> Any:
@@ -397,9 +397,7 @@ def _to_raw(value: Any) -> Any:
         return value._to_raw()
     if isinstance(value, list):
         return [_to_raw(item) for item in value]
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    return value if value is None else repr(value) if isinstance(value, float) else str(value)
+    return value
 
 
 def _moved(raw: Any, old: Path, new: Path) -> Any:

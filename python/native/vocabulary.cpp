@@ -87,13 +87,18 @@ std::string unit_of(const std::string& column) {
     return suffix;
 }
 
+/// dihaptic._text.Plain, a word that a file has without quotes.
+py::object plain_type() {
+    return py::module_::import("dihaptic._text").attr("Plain");
+}
+
 /// A document as dictionaries, lists and texts.
 py::object to_python(const Node& node) {
     switch (node.kind) {
         case Node::Kind::null:
             return py::none();
         case Node::Kind::scalar:
-            return py::str(node.scalar);
+            return node.plain ? plain_type()(node.scalar) : py::object(py::str(node.scalar));
         case Node::Kind::sequence: {
             py::list out;
             for (const Node& item : node.items) out.append(to_python(item));
@@ -123,7 +128,12 @@ Node to_node(const py::handle& value) {
         for (const py::handle& item : py::cast<py::list>(value)) out.items.push_back(to_node(item));
         return out;
     }
-    return Node::of(py::str(value));
+    if (py::isinstance<py::bool_>(value))
+        return Node::plain_word(py::cast<bool>(value) ? "yes" : "no");
+    if (py::isinstance<py::float_>(value)) return Node::number(py::cast<double>(value));
+    const std::string word = py::str(value);
+    const bool text = py::isinstance<py::str>(value) && !py::isinstance(value, plain_type());
+    return text ? Node::of(word) : Node::plain_word(word);
 }
 
 /// What a session's seals tell of one of its tables; nothing of a session whose session.yaml cannot

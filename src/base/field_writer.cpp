@@ -1,7 +1,6 @@
 #include "base/field_writer.h"
 
-#include <fmt/format.h>
-
+#include <algorithm>
 #include <cmath>
 
 #include "base/number.h"
@@ -9,23 +8,25 @@
 namespace dihaptic {
 namespace {
 
-/// The shortest text that reads back as the same number.
-Node exact(double value) {
-    return Node::of(fmt::format("{}", value));
-}
-
 Node exact(const Vec3& value) {
     Node list;
     list.kind = Node::Kind::sequence;
-    for (int i = 0; i < 3; ++i) list.items.push_back(exact(value[i]));
+    for (int i = 0; i < 3; ++i) list.items.push_back(Node::number(value[i]));
     return list;
+}
+
+/// Whether a word is a number that is written just so: levels may be numbers or texts.
+bool is_as_written(const std::string& word) {
+    if (const auto whole = whole_number<uint64_t>(word)) return number_text(*whole) == word;
+    const auto number = finite_number(word);
+    return number && number_text(*number) == word;
 }
 
 }  // namespace
 
 void FieldWriter::operator()(std::string_view name, const double& value, Field field) {
     if (std::isinf(value)) return;
-    mapping_.set(si_key(name, field.quantity), exact(value));
+    mapping_.set(si_key(name, field.quantity), Node::number(value));
 }
 
 void FieldWriter::operator()(std::string_view name, const std::optional<double>& value,
@@ -66,7 +67,7 @@ void FieldWriter::operator()(std::string_view name, const FormulaVec3& value, Fi
     Node list;
     list.kind = Node::Kind::sequence;
     for (const Formula& component : value)
-        list.items.push_back(computed ? Node::of(component.text) : exact(component.value));
+        list.items.push_back(computed ? Node::of(component.text) : Node::number(component.value));
     mapping_.set(computed ? value[0].key : si_key(name, field.quantity), list);
 }
 
@@ -76,21 +77,26 @@ void FieldWriter::operator()(std::string_view name, const std::optional<FormulaV
 }
 
 void FieldWriter::operator()(std::string_view name, const int& value, Field) {
-    mapping_.set(std::string(name), Node::of(number_text(value)));
+    mapping_.set(std::string(name), Node::plain_word(number_text(value)));
 }
 
 void FieldWriter::operator()(std::string_view name, const bool& value, Field) {
-    mapping_.set(std::string(name), Node::of(value ? "yes" : "no"));
+    mapping_.set(std::string(name), Node::plain_word(value ? "yes" : "no"));
 }
 
-void FieldWriter::operator()(std::string_view name, const std::string& value, Field) {
-    if (!value.empty()) mapping_.set(std::string(name), Node::of(value));
+void FieldWriter::operator()(std::string_view name, const std::string& value, Field field) {
+    if (value.empty()) return;
+    // a number that is kept as a text, for its size, has bounds
+    const bool number = std::isfinite(field.min) && is_as_written(value);
+    mapping_.set(std::string(name), number ? Node::plain_word(value) : Node::of(value));
 }
 
 void FieldWriter::operator()(std::string_view name, const std::vector<std::string>& value, Field) {
     Node list;
     list.kind = Node::Kind::sequence;
-    for (const std::string& item : value) list.items.push_back(Node::of(item));
+    const bool numbers = std::all_of(value.begin(), value.end(), is_as_written);
+    for (const std::string& item : value)
+        list.items.push_back(numbers ? Node::plain_word(item) : Node::of(item));
     if (!list.items.empty()) mapping_.set(std::string(name), list);
 }
 
@@ -105,7 +111,7 @@ void FieldWriter::operator()(std::string_view name, const Texts& value, Field fi
 void FieldWriter::operator()(std::string_view name, const std::vector<double>& value, Field field) {
     Node list;
     list.kind = Node::Kind::sequence;
-    for (const double item : value) list.items.push_back(exact(item));
+    for (const double item : value) list.items.push_back(Node::number(item));
     if (!list.items.empty()) mapping_.set(si_key(name, field.quantity), list);
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <sstream>
 
+#include "base/number.h"
 #include "base/text.h"
 #include "base/text_file.h"
 #include "base/unsaved.h"
@@ -22,11 +23,25 @@ const Node* Node::find(const std::string& key) const {
     return nullptr;
 }
 
-Node Node::of(std::string scalar) {
+Node Node::of(std::string text) {
     Node node;
     node.kind = Kind::scalar;
-    node.scalar = std::move(scalar);
+    node.scalar = std::move(text);
     return node;
+}
+
+Node Node::plain_word(std::string word) {
+    Node node = of(std::move(word));
+    node.plain = true;
+    return node;
+}
+
+Node Node::number(double value) {
+    std::string text = number_text(value);
+    // PyYAML takes 1e-05 for a text
+    if (const size_t e = text.find('e'); e != std::string::npos && text.find('.') > e)
+        text.insert(e, ".0");
+    return plain_word(std::move(text));
 }
 
 Node Node::mapping() {
@@ -82,10 +97,11 @@ class TreeBuilder final : public YAML::EventHandler {
     void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
         add(begin(Node::Kind::null, mark), anchor);
     }
-    void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t anchor,
+    void OnScalar(const YAML::Mark& mark, const std::string& tag, YAML::anchor_t anchor,
                   const std::string& text) override {
         Node node = begin(Node::Kind::scalar, mark);
         node.scalar = text;
+        node.plain = tag == "?";  // yaml-cpp's word for it
         if (const auto fault = find_fault(text)) {
             node.scalar = mended(text);
             if (words_ == Words::checked)
@@ -226,13 +242,64 @@ void TreeBuilder::put(Node node) {
     }
 }
 
+bool is_one_of(std::string_view word, std::initializer_list<std::string_view> words) {
+    const auto same = [](char a, char b) {
+        return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b;
+    };
+    return std::any_of(words.begin(), words.end(), [&](std::string_view w) {
+        return std::equal(word.begin(), word.end(), w.begin(), w.end(), same);
+    });
+}
+
+/// Whether YAML 1.1 has the word for a truth, as this program does.
+bool is_truth(std::string_view word) {
+    return is_one_of(word, {"yes", "no", "true", "false", "on", "off"});
+}
+
+/// Whether YAML 1.1 may have a text that stands without quotes for something else
+/// (yaml.org/type/): what begins as a number or a sign does, or is a word of its own.
+bool reads_otherwise(std::string_view text) {
+    const auto begins_word = [](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '/' ||
+               (c & 0x80) != 0;
+    };
+    return text.empty() || !begins_word(text[0]) || is_truth(text) ||
+           is_one_of(text, {"y", "n", "null"});
+}
+
+/// Whether YAML 1.1 reads the same number as this program: not of 010, 1e3, 1_000.
+bool is_number(std::string_view word) {
+    if (!finite_number(word)) return false;
+    if (word[0] == '+' || word[0] == '-') word.remove_prefix(1);
+    const auto is_digit = [&](size_t i) {
+        return i < word.size() && word[i] >= '0' && word[i] <= '9';
+    };
+    if (!is_digit(0) || (word[0] == '0' && is_digit(1))) return false;
+    const size_t e = word.find_first_of("eE");
+    return e == std::string_view::npos || (word.find('.') < e && e + 1 < word.size() &&
+                                           (word[e + 1] == '+' || word[e + 1] == '-'));
+}
+
+void emit_text(const std::string& text, YAML::Emitter& out) {
+    // YAML 1.1 has them for the ends of lines
+    if (text.find("\u2028") != std::string::npos || text.find("\u2029") != std::string::npos)
+        out << YAML::EscapeNonAscii << YAML::DoubleQuoted;
+    else if (reads_otherwise(text))
+        out << YAML::DoubleQuoted;
+    out << text;
+}
+
 void emit(const Node& node, YAML::Emitter& out) {
     switch (node.kind) {
         case Node::Kind::null:
             out << YAML::Null;
             break;
         case Node::Kind::scalar:
-            out << node.scalar;
+            if (node.plain && (is_truth(node.scalar) || is_number(node.scalar))) {
+                out << node.scalar;
+            } else {
+                emit_text(node.scalar, out);
+            }
             break;
         case Node::Kind::sequence:
             if (std::all_of(node.items.begin(), node.items.end(),
@@ -245,7 +312,9 @@ void emit(const Node& node, YAML::Emitter& out) {
         case Node::Kind::mapping:
             out << YAML::BeginMap;
             for (const auto& [key, value] : node.entries) {
-                out << YAML::Key << key << YAML::Value;
+                out << YAML::Key;
+                emit_text(key, out);
+                out << YAML::Value;
                 emit(value, out);
             }
             out << YAML::EndMap;

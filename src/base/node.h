@@ -16,13 +16,18 @@ struct Node {
     Kind kind = Kind::null;
     Place place;
     std::string scalar;
-    std::vector<Node> items;     ///< of a sequence
+    bool plain = false;       ///< of a scalar: without quotes, as numbers, yes and no are written
+    std::vector<Node> items;  ///< of a sequence
     std::vector<Entry> entries;  ///< of a mapping, in the order of the file
 
     /// The value of a mapping's key, or null.
     const Node* find(const std::string& key) const;
 
-    static Node of(std::string scalar);
+    /// A text, which to_yaml() quotes where other programs would take it for something else.
+    static Node of(std::string text);
+    /// A number, or what else is no text.
+    static Node number(double value);
+    static Node plain_word(std::string word);
     static Node mapping();
     /// Adds or replaces an entry of a mapping.
     void set(const std::string& key, Node value);
@@ -43,6 +48,8 @@ Node read_yaml(const std::string& file);
 /// As read_yaml(), from text; messages call it `file`.
 Node parse_yaml(const std::string& text, const std::string& file, Words words = Words::checked);
 
+/// Texts are quoted wherever a reader of YAML 1.1, as PyYAML and R have it, would take them for
+/// something else: 010 for 8, 1:30 for 90, no for false, a day for a date.
 std::string to_yaml(const Node& node);
 
 }  // namespace dihaptic

@@ -78,7 +78,7 @@ Traits traits_with(const std::vector<TraitSpread>& rows, const std::vector<doubl
                    Diagnostics& diagnostics) {
     Node node = Node::mapping();
     for (size_t i = 0; i < rows.size(); ++i) {
-        Node value = Node::of(fmt::format("{}", values[i]));
+        Node value = Node::number(values[i]);
         value.place = rows[i].place;
         node.set(rows[i].trait, std::move(value));
     }

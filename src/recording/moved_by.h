@@ -45,7 +45,7 @@ struct MovedBy {
         v("mover", mover);
         v("program", program);
         v("population", population);
-        v("seed", seed);
+        v("seed", seed, Field::number().at_least(0));
     }
 };
 

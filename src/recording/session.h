@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/field.h"
 #include "recording/setup.h"
 
 namespace dihaptic::recording {
@@ -33,7 +34,7 @@ struct Participant {
     template <class Visitor>
     void visit(Visitor& v) {
         v("id", id);
-        v("age", age);
+        v("age", age, Field::number().at_least(0));
         v("sex", sex);
         v("handedness", handedness);
     }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/field.h"
 #include "base/field_reader.h"
 #include "base/study.h"
 #include "devices/device_info.h"
@@ -83,7 +84,7 @@ struct Setup {
         v("title", title);
         v("experiment", experiment);
         v("clock", clock);
-        v("seed", seed);
+        v("seed", seed, Field::number().at_least(0));
         v("object", object);
         v("moved_by", moved_by);
         v("study", study);

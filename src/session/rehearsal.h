@@ -40,7 +40,7 @@ struct Rehearsal {
     void visit(Visitor& v) {
         v("program", program);
         v("experiment", experiment);
-        v("seed", seed);
+        v("seed", seed, Field::number().at_least(0));
         v("asked", asked);
         v("population", population);
         v("between", between);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/number.h"
 #include "task/lookup.h"
 
 namespace dihaptic::task {
@@ -39,7 +40,7 @@ std::vector<Condition> crossed(const Task& task) {
                 Condition& next = more.emplace_back(condition);
                 next.name += (next.name.empty() ? "" : " ") + level;
                 next.factors.kind = Node::Kind::mapping;
-                Node value = Node::of(level);
+                Node value = finite_number(level) ? Node::plain_word(level) : Node::of(level);
                 value.place = factor.place;
                 next.factors.set(factor.factor, value);
                 next.place = factor.place;

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "base/geometry.h"
+#include "base/number.h"
 #include "devices/test/felt_outside.h"
 #include "fake_makers.h"
 #include "keeper/force_off.h"
@@ -18,7 +19,6 @@
 #include "keeper/messages.h"
 #include "testing/allocation_guard.h"
 #include "testing/files.h"
-#include "base/number.h"
 
 namespace dihaptic::keeper::keeper_test {
 namespace {
@@ -233,7 +233,7 @@ TEST_P(Kept, DevicesOfAKeeperThatWasStoppedLoseTheirForceAtOnceWhenItGoesOn) {
     // the firmware's watchdog would do so by itself
     if (!hd) {
         for (devices::DeviceConfig& config : order.configs)
-            config.options.set("watchdog", Node::of("no"));
+            config.options.set("watchdog", Node::plain_word("no"));
     }
     const auto kept = keep_devices(order);
     const pid_t keeper = keeper_pid();
@@ -291,9 +291,9 @@ TEST_P(Kept, DevicesHaveOneOwnerAtATime) {
     } catch (const Error& e) {
         const std::string told = e.what();
         EXPECT_NE(told.find("rig.yaml:11: error: serial: "), std::string::npos) << told;
-        EXPECT_NE(told.find("is in use by dihaptic-keeper (process " + number_text(owner) +
-                            " of user "),
-                  std::string::npos)
+        EXPECT_NE(
+            told.find("is in use by dihaptic-keeper (process " + number_text(owner) + " of user "),
+            std::string::npos)
             << told;
     }
     first->deactivate();
