@@ -105,10 +105,46 @@ class Nwb(unittest.TestCase):
         with pynwb.NWBHDF5IO(self.file.filename, "r") as nwb:
             self.assertEqual(nwb.read().subject.subject_id, "S07")
 
+    def test_time_runs_along_the_rows(self):
+        """The rules of NWB Inspector that are critical or of best practice, over every object of sessions of both kinds."""
+        def look(name, item):
+            kind = item.attrs.get("neurodata_type", "")
+            if kind in ("TimeSeries", "SpatialSeries"):
+                shape = item["data"].shape
+                self.assertGreaterEqual(shape[0], max(shape[1:], default=0), f"{name}: time is the longest dimension")
+                self.assertNotEqual("timestamps" in item, "starting_time" in item, name)
+                if "timestamps" in item:
+                    self.assertEqual(len(item["timestamps"]), shape[0], name)
+                    self.assertTrue(np.all(np.diff(item["timestamps"][:]) > 0), f"{name}: times ascend")
+                else:
+                    self.assertGreater(item["starting_time"].attrs["rate"], 0, name)
+                self.assertTrue(item["data"].attrs["unit"], name)
+            elif kind in ("DynamicTable", "TimeIntervals"):
+                rows = len(item["id"])
+                self.assertGreater(len(item.attrs["colnames"]), 0, name)
+                for column in item.attrs["colnames"]:
+                    self.assertEqual(item[column].shape, (rows,), f"{name}/{column}")
+                    self.assertEqual(item[column].attrs["neurodata_type"], "VectorData")
+                    self.assertTrue(item[column].attrs["description"], f"{name}/{column}")
+                if kind == "TimeIntervals":
+                    self.assertTrue(np.all(np.diff(item["start_time"][:]) >= 0), f"{name}: times ascend")
+                    self.assertTrue(np.all(item["stop_time"][:] >= item["start_time"][:]), name)
+                elif "time" in item.attrs["colnames"]:
+                    self.assertTrue(np.all(np.diff(item["time"][:]) >= 0), f"{name}: times ascend")
+
+        for name in ("first-trials", "unexpected-weight", "bimanual-bar", "turn-block"):
+            with self.subTest(name), tempfile.TemporaryDirectory() as folder:
+                subprocess.run([PROGRAM, "run", f"experiments/{name}.yaml", "--simulate", "--out", folder], check=True, capture_output=True)
+                (session,) = glob.glob(folder + "/*/session.nwb")
+                with h5py.File(session) as file:
+                    file.visititems(look)
+
     def test_contacts_have_times_that_never_go_back(self):
         contacts = self.file["acquisition/contacts"]
-        self.assertEqual(contacts["data"].shape, (len(contacts["timestamps"]), 14))
-        self.assertTrue(np.all(np.diff(contacts["timestamps"][:]) >= 0))
+        self.assertEqual(contacts.attrs["neurodata_type"], "DynamicTable")
+        self.assertEqual(len(contacts.attrs["colnames"]), 15)
+        self.assertTrue(np.all(np.diff(contacts["time"][:]) >= 0))
+        self.assertTrue(np.issubdtype(contacts["body_a"].dtype, np.integer))
 
     def test_the_physics_is_in_it(self):
         hold = slice(4500, 7400)
@@ -161,7 +197,8 @@ class Nwb(unittest.TestCase):
     def test_descriptions_are_those_of_the_quantities(self):
         self.assertEqual(self.file["acquisition/thumb_force_sent"].attrs["description"],
                          "thumb: Force on the handle, as sent to the device. In the world's axes.")
-        self.assertIn(" gap [m]: Smallest distance; negative: penetration. ", self.file["acquisition/contacts"].attrs["description"])
+        self.assertEqual(self.file["acquisition/contacts/gap"].attrs["description"],
+                         "Smallest distance; negative: penetration. [m]")
 
     def test_axes_are_those_of_the_data(self):
         for finger in ["thumb", "index"]:

@@ -33,12 +33,12 @@ def figures(session, said=""):
     out = {}
     with h5py.File(session / "session.nwb", "r") as nwb:
         for name, series in nwb["acquisition"].items():
-            data = np.asarray(series["data"][:], float)
-            if name in dict(lacking):
-                columns = [column for column, components in
-                           re.findall(r"(?<=[.:] )([a-z]\w*)(?: \[[^]]*\])?((?: [xyzw]\b)*):", series.attrs["description"])
-                           for _ in components.split() or [""]]
-                data = data[:, [(name, column) not in lacking for column in columns]]
+            if "colnames" in series.attrs:
+                columns = [column for column in series.attrs["colnames"][1:]
+                           if not {(name, column), (name, re.sub("_[wxyz]$", "", column))} & lacking]
+                data = np.column_stack([np.asarray(series[column][:], float) for column in columns])
+            else:
+                data = np.asarray(series["data"][:], float)
             finite = data[np.isfinite(data)]
             out[name] = [len(data)] + ([float(finite.mean()), float(np.abs(finite).max())] if len(finite) else [])
     return out

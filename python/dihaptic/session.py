@@ -356,6 +356,9 @@ class Session:
         if not self._has(group):
             return pd.DataFrame(columns=["time", *columns])
         series = self._series(group)
+        if "colnames" in series.attrs:
+            return pd.DataFrame({column: series[column][...] for column in series.attrs["colnames"]})
+        # of versions before 0.3, a series
         rows = series["data"][...].reshape(len(series["data"]), -1)
         table = pd.DataFrame(rows, columns=columns[: rows.shape[1]])
         table.insert(0, "time", self._times(series))
@@ -391,5 +394,5 @@ def _damaged(folder: Path, why: Exception) -> Error:
 
 
 def _group_of(list_name: str) -> str:
-    """The series of a list in session.nwb."""
+    """The table of a list in session.nwb."""
     return list_name if list_name == "contacts" else f"task_{list_name}"

@@ -50,7 +50,7 @@ class OtherLanguages(unittest.TestCase):
         script = blocks("read-in-r", "r")
         keep = {"grip": "grip", "z": "position[3, ]", "time": "time", "mean": "rowMeans(aligned)"}
         script += [f'write(format({what}, digits = 9), "{name}.txt", ncolumns = 1)' for name, what in keep.items()]
-        script += ["stopifnot(ncol(contacts) == length(contact_time), nchar(meaning) > 100)"]
+        script += ["stopifnot(nrow(contacts) > 1000, ncol(contacts) == 15, diff(contacts$time) >= 0, nchar(meaning) > 20)"]
         self.compare(self.run_in(["Rscript"], "\n".join(script), "R"))
 
     def test_matlab_s_in_octave(self):

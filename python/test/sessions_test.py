@@ -47,18 +47,31 @@ class Sessions(unittest.TestCase):
             for name in session.keys():
                 group = f"task_{name}" if f"task_{name}" in series else name.replace(".", "_")
                 found.add(group)
-                there = series[group]["data"][...]
                 here = session[name]
                 if isinstance(here, pd.DataFrame):
-                    here = here.drop(columns="time").to_numpy()
-                    there = there.reshape(len(there), -1)
-                np.testing.assert_array_equal(here, there, err_msg=name)
+                    self.assertEqual(list(here.columns), list(series[group].attrs["colnames"]))
+                    for column in here.columns:
+                        np.testing.assert_array_equal(here[column], series[group][column], err_msg=name)
+                else:
+                    np.testing.assert_array_equal(here, series[group]["data"], err_msg=name)
             self.assertEqual(found, set(series))
 
     def test_every_series_is_read(self):
         for kind in KINDS:
             with self.subTest(kind):
                 self.assert_is_the_file(record(kind, self.folder.name))
+
+    def test_lists_of_earlier_versions_were_series(self):
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copytree(self.lift.folder, f"{folder}/session")
+            now = self.lift["contacts"]
+            with h5py.File(f"{folder}/session/session.nwb", "a") as nwb:
+                del nwb["acquisition/contacts"]
+                nwb["acquisition/contacts/data"] = now.drop(columns="time").to_numpy(dtype="f4")
+                nwb["acquisition/contacts/timestamps"] = now.time
+            before = dh.load(f"{folder}/session")["contacts"]
+        np.testing.assert_array_equal(before, now)
+        self.assertEqual(list(before.columns), list(now.columns))
 
     def test_sessions_of_earlier_versions_are_read(self):
         for archive in sorted(RECORDINGS.glob("*.tar.xz")):

@@ -103,18 +103,68 @@ std::string words_of(const servo::Term& term) {
     return std::string(term.meaning) + axes;
 }
 
-/// What these numbers are, in words.
-class RowText {
+/// The columns of a list's table, in the order of a FrameRow.
+class ListColumns {
   public:
+    struct Column {
+        std::string name;
+        std::string description;
+        hdf5::Numbers numbers;
+    };
     template <class T>
     void operator()(const T&, const servo::Term& term) {
-        text += fmt::format(" {}", term.name);
-        if (term.unit != std::string("1")) text += fmt::format(" [{}]", term.unit);
-        if constexpr (std::is_same_v<T, Vec3>) text += " x y z";
-        if constexpr (std::is_same_v<T, Quat>) text += " w x y z";
-        text += ": " + words_of(term);
+        const std::string parts = std::is_same_v<T, Vec3>   ? "xyz"
+                                  : std::is_same_v<T, Quat> ? "wxyz"
+                                                            : "";
+        std::string words = words_of(term);
+        if (term.unit != std::string("1")) words += fmt::format(" [{}]", term.unit);
+        constexpr bool whole = std::is_integral_v<T> || std::is_enum_v<T>;
+        const auto numbers = whole ? hdf5::Numbers::whole : hdf5::Numbers::real;
+        if (parts.empty()) columns.push_back({term.name, words, numbers});
+        for (const char part : parts)
+            columns.push_back({fmt::format("{}_{}", term.name, part), words, numbers});
     }
-    std::string text;
+    std::vector<Column> columns;
+};
+
+/// A list of which a tick has any number of items, or none: a table with a row an item. As a series
+/// it would have more columns than rows wherever little happens, which readers of NWB take for a
+/// series whose time runs along its columns.
+class ListTable {
+  public:
+    ListTable(hid_t acquisition, const std::string& name, const std::string& meaning,
+              const std::vector<ListColumns::Column>& columns)
+        : group_(create_group(acquisition, name)), ids_(group_, "id", 1, hdf5::Numbers::whole) {
+        mark(group_, "DynamicTable", "hdmf-common");
+        write_attribute(group_, "description", meaning);
+        mark(ids_.dataset(), "ElementIdentifiers", "hdmf-common");
+        std::vector<std::string> names;
+        add_column({"time", "Session time of the tick [s]", hdf5::Numbers::exact}, names);
+        for (const ListColumns::Column& column : columns) add_column(column, names);
+        write_attribute(group_, "colnames", names);
+    }
+    void add(double time, const std::vector<double>& numbers) {
+        const auto id = static_cast<double>(ids_.count());
+        ids_.add(&id);
+        columns_[0].add(&time);
+        for (size_t i = 0; i < numbers.size(); ++i) columns_[i + 1].add(&numbers[i]);
+    }
+    void close() {
+        ids_.flush();
+        for (hdf5::Rows& column : columns_) column.flush();
+    }
+
+  private:
+    void add_column(const ListColumns::Column& column, std::vector<std::string>& names) {
+        names.push_back(column.name);
+        hdf5::Rows& rows = columns_.emplace_back(group_, column.name, 1, column.numbers);
+        mark(rows.dataset(), "VectorData", "hdmf-common");
+        write_attribute(rows.dataset(), "description", column.description);
+    }
+
+    Id group_;
+    hdf5::Rows ids_;
+    std::vector<hdf5::Rows> columns_;
 };
 
 /// Turns frames into series, one for each field that Frame::visit() names. The first frame creates
@@ -136,7 +186,7 @@ class FrameExporter {
     }
     void close() {
         for (Series& series : series_) series.close(head_.tick, regular_ ? nullptr : &times_);
-        for (auto& [name, list] : lists_) list.series.close(head_.tick, &list.times);
+        for (auto& [name, list] : lists_) list.close();
     }
 
     // as a visitor
@@ -162,17 +212,24 @@ class FrameExporter {
                  const std::vector<uint16_t>&, const char*) {
         each_of(head_.bodies, name, bodies);
     }
-    /// Lists of any length: a series each, with a row an item, once there is one.
+    /// Lists of any length: a table each, once there is an item.
     template <class T>
     void each(const char* name, const std::vector<T>& items, const char* meaning) {
         for (const T& item : items) {
             row_.numbers.clear();
             T::visit(item, row_);
             auto found = lists_.find(name);
-            if (found == lists_.end())
-                found = lists_.emplace(name, List{begin_list<T>(name, meaning), {}}).first;
-            found->second.series.add(row_.numbers.data());
-            found->second.times.push_back(times_.back());
+            if (found == lists_.end()) {
+                ListColumns columns;
+                T::visit(item, columns);
+                const bool of_contacts = std::is_same_v<T, servo::ContactFrame>;
+                found = lists_
+                            .try_emplace(name, acquisition_,
+                                         of_contacts ? name : "task_" + std::string(name), meaning,
+                                         columns.columns)
+                            .first;
+            }
+            found->second.add(times_.back(), row_.numbers);
         }
     }
 
@@ -186,15 +243,6 @@ class FrameExporter {
             T::visit(items[i], *this);
         }
         list_ = nullptr;
-    }
-    template <class T>
-    Series begin_list(const std::string& name, const std::string& meaning) const {
-        RowText columns;
-        const T item{};
-        T::visit(item, columns);
-        const bool of_contacts = std::is_same_v<T, servo::ContactFrame>;
-        return Series(acquisition_, of_contacts ? name : "task_" + name, row_.numbers.size(), "n/a",
-                      meaning + " Columns:" + columns.text, "");
     }
     /// Adds the row to the next series.
     void put(const servo::Term& term, hdf5::Numbers numbers) {
@@ -237,11 +285,7 @@ class FrameExporter {
     size_t next_ = 0;
     std::vector<double> times_;
     bool regular_ = true;
-    struct List {
-        Series series;
-        std::vector<double> times;
-    };
-    std::map<std::string, List> lists_;
+    std::map<std::string, ListTable> lists_;
     FrameRow row_;
 };
 

@@ -28,6 +28,8 @@ class Person:
         with h5py.File(self.folder / "session.nwb", "r") as nwb:
             self.series = {name: (one["data"][:], one["timestamps"][:] if "timestamps" in one else None)
                            for name, one in nwb["acquisition"].items() if "data" in one}
+            self.series |= {name: (np.column_stack([one[column][:] for column in one.attrs["colnames"][1:]]), one["time"][:])
+                            for name, one in nwb["acquisition"].items() if "colnames" in one.attrs}
         self.trial, self.phase = self["trial"].astype(int), self["phase"].astype(int)
         self.attempt = self["attempt"].astype(int)
         self.time = np.arange(len(self.trial)) * 1e-3
