@@ -38,18 +38,24 @@ struct Fitted {
     }
 };
 
-double number(const CsvFile& table, const std::string& file, size_t row, const char* column,
-              const char* remedy) {
+/// Reads a table that somebody hands in, and tells what it warns of.
+CsvFile given(const std::string& file) {
+    Diagnostics diagnostics;
+    CsvFile table = CsvFile::given(file, diagnostics);
+    print(diagnostics.problems(), stderr);
+    return table;
+}
+
+double number(const CsvFile& table, size_t row, const char* column, const char* remedy) {
     const double value = table.number(row, column);
     if (std::isfinite(value)) return value;
-    throw Error({file, static_cast<int>(row) + 2}, column,
+    throw Error(table.place(row), column,
                 fmt::format("is '{}', which is no number", table.text(row, column)), remedy);
 }
 
-void require(const CsvFile& table, const std::string& file,
-             std::initializer_list<const char*> columns, const char* remedy) {
+void require(const CsvFile& table, std::initializer_list<const char*> columns, const char* remedy) {
     for (const char* column : columns) {
-        if (!table.has(column)) throw Error({file, 1}, column, "is not there", remedy);
+        if (!table.has(column)) throw Error(table.head(), column, "is not there", remedy);
     }
 }
 
@@ -60,36 +66,36 @@ struct Measured {
 };
 
 /// Throws Error when fewer trials than `least` were measured.
-Measured read_measured(const CsvFile& table, const std::string& file, int least,
-                       const char* parameters) {
+Measured read_measured(const CsvFile& table, int least, const char* parameters) {
     Measured out;
     for (size_t i = 0; i < table.rows(); ++i) {
         const bool unmeasured = table.text(i, "compensation").empty();
         out.values.push_back(unmeasured ? NAN
-                                        : number(table, file, i, "compensation",
+                                        : number(table, i, "compensation",
                                                  "Leave it empty where nothing was measured."));
         out.count += unmeasured ? 0 : 1;
     }
     if (out.count < least) {
-        throw Error({file, 0}, "compensation", fmt::format("is measured in {} trials", out.count),
+        throw Error(table.head(), "compensation",
+                    fmt::format("is measured in {} trials", out.count),
                     fmt::format("{} take {} at least.", parameters, least));
     }
     return out;
 }
 
-std::vector<model::AdaptationTrial> read_trials(const CsvFile& table, const std::string& file) {
+std::vector<model::AdaptationTrial> read_trials(const CsvFile& table) {
     std::vector<model::AdaptationTrial> out;
     for (size_t i = 0; i < table.rows(); ++i) {
         const std::string clamp = table.text(i, "clamp");
         if (clamp != "0" && clamp != "1") {
-            throw Error({file, static_cast<int>(i) + 2}, "clamp", fmt::format("is '{}'", clamp),
+            throw Error(table.place(i), "clamp", fmt::format("is '{}'", clamp),
                         "Write 1 where no error was shown, whatever the person did, and 0 "
                         "elsewhere.");
         }
         // in a clamp trial the perturbation is not learned from
         const double perturbation =
             clamp == "1" ? 0
-                         : number(table, file, i, "perturbation",
+                         : number(table, i, "perturbation",
                                   "Write what the trial showed, 0 for none, in one unit and with "
                                   "the sign of what compensates for it.");
         out.push_back({perturbation, clamp == "1"});
@@ -109,25 +115,25 @@ constexpr const char* kTrialColumns =
     "Give the columns perturbation, clamp and compensation, a row a trial.";
 
 Fitted fit_two_rate(const std::string& file) {
-    const CsvFile table(file);
-    require(table, file, {"perturbation", "clamp", "compensation"}, kTrialColumns);
-    const auto trials = read_trials(table, file);
-    const Measured measured = read_measured(table, file, 5, "Four parameters");
+    const CsvFile table = given(file);
+    require(table, {"perturbation", "clamp", "compensation"}, kTrialColumns);
+    const auto trials = read_trials(table);
+    const Measured measured = read_measured(table, 5, "Four parameters");
     return curve(analysis::fit_two_rate(measured.values, trials), measured.count);
 }
 
 Fitted fit_single_rate(const std::string& file) {
-    const CsvFile table(file);
-    require(table, file, {"perturbation", "clamp", "compensation"}, kTrialColumns);
-    const auto trials = read_trials(table, file);
-    const Measured measured = read_measured(table, file, 3, "Two parameters");
+    const CsvFile table = given(file);
+    require(table, {"perturbation", "clamp", "compensation"}, kTrialColumns);
+    const auto trials = read_trials(table);
+    const Measured measured = read_measured(table, 3, "Two parameters");
     return curve(analysis::fit_single_rate(measured.values, trials), measured.count);
 }
 
 Fitted fit_learning_curve(const std::string& file) {
-    const CsvFile table(file);
-    require(table, file, {"compensation"}, "Give the column compensation, a row a trial.");
-    const Measured measured = read_measured(table, file, 4, "Three parameters");
+    const CsvFile table = given(file);
+    require(table, {"compensation"}, "Give the column compensation, a row a trial.");
+    const Measured measured = read_measured(table, 4, "Three parameters");
     return curve(analysis::fit_learning_curve(measured.values), measured.count);
 }
 
@@ -138,18 +144,17 @@ struct PsychometricOptions {
 
 /// The answers of a table: yes is 1 or yes, and 0 or no.
 std::vector<analysis::Answer> read_answers(const std::string& file) {
-    const CsvFile table(file);
-    require(table, file, {"level", "yes"},
-            "Give the columns level and yes (1 or 0), a row an answer.");
+    const CsvFile table = given(file);
+    require(table, {"level", "yes"}, "Give the columns level and yes (1 or 0), a row an answer.");
     std::vector<analysis::Answer> out;
     for (size_t i = 0; i < table.rows(); ++i) {
         const std::string yes = table.text(i, "yes");
         const bool is_yes = yes == "1" || yes == "yes";
         if (!is_yes && yes != "0" && yes != "no") {
-            throw Error({file, static_cast<int>(i) + 2}, "yes", fmt::format("is '{}'", yes),
+            throw Error(table.place(i), "yes", fmt::format("is '{}'", yes),
                         "Write 1 for yes, or a right answer, and 0 for the other.");
         }
-        out.push_back({number(table, file, i, "level", "Write what was shown."), is_yes});
+        out.push_back({number(table, i, "level", "Write what was shown."), is_yes});
     }
     return out;
 }

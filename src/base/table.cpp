@@ -8,7 +8,9 @@
 #include <limits>
 
 #include "base/diagnostics.h"
+#include "base/given_table.h"
 #include "base/number.h"
+#include "base/plural.h"
 #include "base/text_file.h"
 #include "base/unmeasured.h"
 
@@ -170,6 +172,14 @@ class CsvParser {
 std::vector<std::vector<std::string>> read_csv(const std::string& file) {
     const std::string text = read_text_file(file, kMostTable);
     auto rows = CsvParser(text, file).run();
+    for (const auto& [separator, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}}) {
+        if (!rows.empty() && rows[0].size() == 1 && rows[0][0].find(separator) != std::string::npos)
+            throw Error(
+                {file, 1}, "",
+                fmt::format("is separated by {}: another program has saved it", name),
+                "Put a backup of it in its place; dihaptic recover makes a session's tables "
+                "anew from raw.log.");
+    }
     if (rows.empty()) {
         throw Error({file, 0}, "", "is empty, without the line that names its columns",
                     "Put a backup of it in its place; dihaptic recover makes a session's tables "
@@ -178,9 +188,48 @@ std::vector<std::vector<std::string>> read_csv(const std::string& file) {
     return rows;
 }
 
-CsvFile::CsvFile(const std::string& file) : rows_(read_csv(file)) {
+CsvFile::CsvFile(const std::string& file) : file_(file), rows_(read_csv(file)) {
     header_ = std::move(rows_.front());
     rows_.erase(rows_.begin());
+}
+
+CsvFile CsvFile::given(const std::string& file, Diagnostics& diagnostics) {
+    const std::string text = read_text_file(file, kMostTable);
+    GivenTable table(text, file);
+    CsvFile out;
+    out.file_ = file;
+    auto cells = table.next();
+    if (!cells) throw Error({file, 0}, "", "is empty", "Its first line names its columns.");
+    if (cells->front().starts_with('#'))
+        throw Error(table.place(), "", "begins with a comment (#), not with the columns' names",
+                    "Delete this line.");
+    out.head_ = table.place().line;
+    out.header_ = std::move(*cells);
+    size_t read = 0;
+    while ((cells = table.next())) {
+        if (cells->size() != out.header_.size())
+            throw Error(
+                table.place(), "",
+                fmt::format("has {}, where line {} names {}",
+                            counted(static_cast<int64_t>(cells->size()), "value"), out.head_,
+                            counted(static_cast<int64_t>(out.header_.size()), "column")),
+                fmt::format("Complete it. Values are separated by {} here; in one that has a "
+                            "comma before its decimals stand quotes, or semicolons between "
+                            "all values.",
+                            table.separators()));
+        read += cells->size();
+        if (read > kMostCells)
+            throw Error(table.place(), "", "from here on the table is too large",
+                        "Check that it is the right file, or make it smaller.");
+        for (std::string& cell : *cells) {
+            // so that it is a number for all that look at it later
+            if (table.number(cell)) std::replace(cell.begin(), cell.end(), ',', '.');
+        }
+        out.lines_.push_back(table.place().line);
+        out.rows_.push_back(std::move(*cells));
+    }
+    table.tell_commas(diagnostics);
+    return out;
 }
 
 size_t CsvFile::find(const std::string& column) const {

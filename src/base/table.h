@@ -6,6 +6,8 @@
 #include <variant>
 #include <vector>
 
+#include "base/diagnostics.h"
+
 namespace dihaptic {
 
 struct Table {
@@ -48,7 +50,17 @@ class CsvFile {
   public:
     /// Throws Error when the file is empty or cannot be read.
     explicit CsvFile(const std::string& file);
+    /// A table that somebody hands in (base/given_table.h), whose lines all have the columns of the
+    /// first. Throws Error, with the line, when one has not.
+    static CsvFile given(const std::string& file, Diagnostics& diagnostics);
 
+    /// Where a row stands.
+    Place place(size_t row) const {
+        return {file_, lines_.empty() ? static_cast<int>(row) + 2 : lines_[row]};
+    }
+    /// Where its columns are named.
+    Place head() const { return {file_, head_}; }
+    const std::vector<std::string>& columns() const { return header_; }
     size_t rows() const { return rows_.size(); }
     bool has(const std::string& column) const { return find(column) < header_.size(); }
     std::string text(size_t row, const std::string& column) const;
@@ -62,8 +74,12 @@ class CsvFile {
     }
 
   private:
+    CsvFile() = default;
     size_t find(const std::string& column) const;
 
+    std::string file_;
+    int head_ = 1;
+    std::vector<int> lines_;  // of a given table's rows
     std::vector<std::string> header_;
     std::vector<std::vector<std::string>> rows_;
 };

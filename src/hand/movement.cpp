@@ -11,12 +11,12 @@
 #include <string_view>
 
 #include "base/checksum.h"
-#include "base/number.h"
 #include "base/plural.h"
 #include "base/statistics.h"
 #include "base/text_file.h"
 #include "base/unit.h"
 #include "base/unmeasured.h"
+#include "hand/columns.h"
 #include "hand/movement_check.h"
 
 namespace dihaptic::hand {
@@ -27,41 +27,12 @@ std::string counted_of(const auto& list, const std::string& noun) {
     return counted(static_cast<int64_t>(list.size()), noun);
 }
 
-std::vector<std::string> split(std::string_view line) {
-    std::vector<std::string> cells(1);
-    for (const char c : line) {
-        if (c == ',') {
-            cells.emplace_back();
-        } else if (c != '"' && c != ' ' && c != '\t') {
-            cells.back() += c;
-        }
-    }
-    return cells;
-}
-
 bool is_missing(const std::string& cell) {
     std::string lower;
     for (const char c : cell)
         lower += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return lower.empty() || lower == "nan" || lower == "na";
+    return lower.empty() || lower == "nan" || lower == "na" || lower == "null";
 }
-
-/// Which cell of a line holds what, from the header.
-struct Columns {
-    std::vector<std::string> keys;  ///< as in the file
-    int time = -1;
-    double time_unit = 1;
-    int occluded = -1;
-    struct Finger {
-        std::string name;
-        std::string unit_name;
-        double unit = 1;
-        std::array<int, 3> axis{-1, -1, -1};
-    };
-    std::vector<Finger> fingers;
-
-    const std::string& key(int column) const { return keys[static_cast<size_t>(column)]; }
-};
 
 std::optional<double> unit_of(const std::string& suffix, Quantity quantity) {
     for (const Unit& unit : units(quantity)) {
@@ -73,25 +44,6 @@ std::optional<double> unit_of(const std::string& suffix, Quantity quantity) {
 constexpr const char* kHeaderRemedy =
     "The first line names the columns: time_ms, then thumb_x_mm, thumb_y_mm, thumb_z_mm, the same "
     "for each other finger, and occluded if the tracker tells.";
-
-/// Refuses a table that is not separated by commas: one error, rather than one for every column.
-void check_separator(const std::string& file, const std::string& header) {
-    if (header.find(',') != std::string::npos) return;
-    for (const auto& [separator, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}}) {
-        if (header.find(separator) == std::string::npos) continue;
-        throw Error({file, 1}, "", fmt::format("is separated by {}", name),
-                    "Export it with commas between the values, and points in the numbers: "
-                    "time_ms,thumb_x_mm,...");
-    }
-}
-
-/// Refuses lines that no movement has, before they are taken apart.
-void check_columns(std::string_view line, const Place& place) {
-    constexpr int64_t kMost = 1000;  // of 256 fingers
-    if (std::count(line.begin(), line.end(), ',') < kMost) return;
-    throw Error(place, "", fmt::format("this line has more than {} columns", kMost),
-                "Check that it is the right file.");
-}
 
 /// What a column's name says about it.
 struct Heading {
@@ -158,11 +110,12 @@ void check_complete(const Columns& columns, const Place& place, Diagnostics& dia
     }
 }
 
-Columns read_header(const std::string& file, const std::string& header, Diagnostics& diagnostics) {
-    const Place place{file, 1};
-    check_columns(header, place);
+Columns read_header(const Place& place, std::vector<std::string> header, Diagnostics& diagnostics) {
+    if (header[0].starts_with('#'))
+        throw Error(place, "", "begins with a comment (#), not with the columns' names",
+                    "Delete this line.");
     Columns columns;
-    columns.keys = split(header);
+    columns.keys = std::move(header);
     std::set<std::string> seen;
     std::vector<std::string> unknown;
     for (size_t i = 0; i < columns.keys.size(); ++i) {
@@ -196,45 +149,26 @@ Columns read_header(const std::string& file, const std::string& header, Diagnost
     return columns;
 }
 
-/// Iterates over the lines of a text and counts them.
-class Lines {
-  public:
-    explicit Lines(std::string_view text) : rest_(text) {}
-    std::optional<std::string_view> next() {
-        if (rest_.empty()) return std::nullopt;
-        const size_t end = std::min(rest_.find('\n'), rest_.size());
-        std::string_view line = rest_.substr(0, end);
-        rest_.remove_prefix(std::min(end + 1, rest_.size()));
-        if (line.ends_with('\r')) line.remove_suffix(1);
-        ++number_;
-        return line;
-    }
-    int number() const { return number_; }
-
-  private:
-    std::string_view rest_;
-    int number_ = 0;
-};
-
 Vec3 to_world(const Vec3& p, RecordingAxes axes) {
     return axes == RecordingAxes::y_up ? Vec3(p.x(), -p.z(), p.y()) : p;
 }
 
 /// Reads a line's cells into a frame; reports errors and returns false if they make no sense.
 bool read_frame(const Columns& columns, const std::vector<std::string>& cells, RecordingAxes axes,
-                const Place& place, Movement::Frame& frame, Diagnostics& problems) {
+                GivenTable& table, Movement::Frame& frame, Diagnostics& problems) {
     bool readable = true;
+    const Place place = table.place();
     const auto cell = [&](int i) {
         const std::string& text = cells[static_cast<size_t>(i)];
         if (is_missing(text)) return kUnmeasured;
-        if (const auto value = finite_number(text)) return *value;
+        if (const auto value = table.number(text)) return *value;
         problems.error(place, columns.key(i), fmt::format("'{}' is not a number", shortened(text)),
                        kLineRemedy);
         readable = false;
         return kUnmeasured;
     };
     frame.line = place.line;
-    frame.time = cell(columns.time) * columns.time_unit;
+    if (columns.time >= 0) frame.time = cell(columns.time) * columns.time_unit;
     if (readable && std::isnan(frame.time)) {
         problems.error(place, columns.key(columns.time), "has no time", kLineRemedy);
         return false;
@@ -259,7 +193,7 @@ bool read_frame(const Columns& columns, const std::vector<std::string>& cells, R
 
 /// Names the movement's fingers, and their columns by world axis.
 void name_columns(Movement& movement, const Columns& columns, RecordingAxes axes) {
-    movement.time_column = columns.key(columns.time);
+    movement.time_column = columns.time < 0 ? "time_s" : columns.key(columns.time);
     for (const Columns::Finger& finger : columns.fingers) {
         movement.fingers.push_back(finger.name);
         std::array<std::string, 3> keys;
@@ -269,46 +203,92 @@ void name_columns(Movement& movement, const Columns& columns, RecordingAxes axes
     }
 }
 
-void read_lines(const std::string& text, RecordingAxes axes, Movement& movement,
-                Diagnostics& problems) {
-    const std::string& file = movement.file;
-    if (text.find('\n') == std::string::npos && text.find('\r') != std::string::npos) {
-        throw Error({file, 0}, "", "its lines end in CR alone, as on old Macs",
-                    "Save it with line ends LF, or CR LF.");
-    }
-    Lines lines(text);
-    const std::string header(lines.next().value_or(""));
-    if (header.empty()) {
-        throw Error({file, 1}, "", "is empty",
-                    "A movement starts with a line of column names, then a line a frame.");
-    }
-    check_separator(file, header);
-    const Columns columns = read_header(file, header, problems);
-    if (problems.has_errors()) return;
-    name_columns(movement, columns, axes);
+/// Whether a line has as many cells as it should; else an error. Trackers' programs may add empty
+/// ones at its end.
+bool check_count(const Columns& columns, const std::vector<std::string>& cells,
+                 const GivenTable& table, Diagnostics& problems) {
+    const size_t wanted = columns.keys.size();
+    const bool enough = columns.exported ? cells.size() >= wanted : cells.size() == wanted;
+    if (enough) return true;
+    const bool commas = table.separator() == ',' && cells.size() + 1 >= 2 * wanted;
+    problems.error(table.place(), "",
+                   fmt::format("has {} where the first line names {}", counted_of(cells, "value"),
+                               counted_of(columns.keys, "column")),
+                   commas ? "Have its numbers decimal commas? Export them with points, or with "
+                            "semicolons between the values."
+                          : "Complete the line, or delete it: missing frames are bridged.");
+    return false;
+}
+
+/// The lines below the head.
+void read_frames(const Columns& columns, GivenTable& table, RecordingAxes axes, Movement& movement,
+                 Diagnostics& problems) {
     while (problems.problems().size() < kMostErrors) {
-        const auto line = lines.next();
-        if (!line) break;
-        if (line->empty()) continue;
-        const Place place{file, lines.number()};
-        check_columns(*line, place);
-        const std::vector<std::string> cells = split(*line);
-        if (cells.size() != columns.keys.size()) {
-            problems.error(
-                place, "",
-                fmt::format("has {} where the first line names {}", counted_of(cells, "value"),
-                            counted_of(columns.keys, "column")),
-                "Complete the line, or delete it: missing frames are bridged.");
-            continue;
-        }
+        const auto cells = table.next();
+        // another part of the file may follow, such as force plates
+        if (!cells || (columns.exported && table.after_gap() && !movement.frames.empty())) return;
+        if (!check_count(columns, *cells, table, problems)) continue;
         Movement::Frame frame;
-        if (read_frame(columns, cells, axes, place, frame, problems))
+        frame.time = static_cast<double>(movement.frames.size()) * columns.time_unit;
+        if (read_frame(columns, *cells, axes, table, frame, problems))
             movement.frames.push_back(std::move(frame));
     }
+}
+
+/// From where on a text is a movement: an export of Nexus may have force plates before it.
+size_t begin_of(std::string_view text) {
+    for (const std::string_view line : {"\nTrajectories\n", "\nTrajectories\r", "\nTrajectories,",
+                                        "\nTrajectories;", "\nTrajectories\t"}) {
+        if (const size_t at = text.find(line); at != std::string_view::npos) return at + 1;
+    }
+    return 0;
+}
+
+/// Leaves out the markers of an export that are no fingers, if these are known, and tells so.
+void choose_markers(Columns& columns, const std::vector<std::string>& fingers, const Place& place,
+                    Diagnostics& problems) {
+    if (fingers.empty()) return;
+    std::vector<std::string> others;
+    for (const Columns::Finger& marker : columns.fingers) {
+        if (std::find(fingers.begin(), fingers.end(), marker.name) == fingers.end())
+            others.push_back(marker.name);
+    }
+    if (others.empty()) return;
+    const std::string names = shortened(fmt::format("{}", fmt::join(others, ", ")));
+    const std::string wanted = fmt::format("{}", fmt::join(fingers, ", "));
+    if (others.size() == columns.fingers.size()) {
+        problems.error(place, names, "are the markers, and no finger of the scene is called so",
+                       fmt::format("Name the markers as the scene names its fingers: {}.", wanted));
+        return;
+    }
+    problems.warning(place, names,
+                     fmt::format("{} left out: no finger of the scene is called so",
+                                 others.size() == 1 ? "is" : "are"),
+                     fmt::format("The scene has {}.", wanted));
+    std::erase_if(columns.fingers, [&](const Columns::Finger& marker) {
+        return std::find(others.begin(), others.end(), marker.name) != others.end();
+    });
+}
+
+void read_lines(const std::string& text, RecordingAxes axes, const std::vector<std::string>& wanted,
+                Movement& movement, Diagnostics& problems) {
+    GivenTable table(text, movement.file, begin_of(text));
+    auto first = table.next();
+    if (!first)
+        throw Error({movement.file, 1}, "", "is empty",
+                    "A movement starts with a line of column names, then a line a frame.");
+    auto found = read_export(*first, table);
+    if (found) choose_markers(*found, wanted, table.place(), problems);
+    const Columns columns =
+        found ? *found : read_header(table.place(), std::move(*first), problems);
+    if (problems.has_errors()) return;
+    name_columns(movement, columns, axes);
+    read_frames(columns, table, axes, movement, problems);
+    table.tell_commas(problems);
     check_times(movement, problems);
     if (problems.has_errors()) return;
     if (movement.frames.size() < 10) {
-        problems.error({file, lines.number()}, "",
+        problems.error(table.place(), "",
                        fmt::format("has only {}", counted_of(movement.frames, "frame")),
                        "A movement needs at least 10.");
         return;
@@ -318,14 +298,15 @@ void read_lines(const std::string& text, RecordingAxes axes, Movement& movement,
 
 }  // namespace
 
-Movement read_movement(const std::string& file, RecordingAxes axes, Diagnostics& diagnostics) {
+Movement read_movement(const std::string& file, RecordingAxes axes, Diagnostics& diagnostics,
+                       const std::vector<std::string>& fingers) {
     Movement movement;
     movement.file = file;
     Diagnostics problems;
     try {
         const std::string text = read_text_file(file);
         movement.checksum = checksum_of(text);
-        read_lines(text, axes, movement, problems);
+        read_lines(text, axes, fingers, movement, problems);
     } catch (const Error& e) {
         problems.add(e.problems());
     }

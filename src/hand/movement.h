@@ -46,8 +46,11 @@ constexpr double kSlowestTracker = 10;    // [Hz]
 constexpr double kFastestTracker = 5000;  // [Hz]
 
 /// Reads a recording. Lines that cannot be read are errors in `diagnostics`, each with its line
-/// number and remedy; values that the file marks as missing are kept as NaN, for repair().
-Movement read_movement(const std::string& file, RecordingAxes axes, Diagnostics& diagnostics);
+/// number and remedy; values that the file marks as missing are kept as NaN, for repair(). A file
+/// that a tracker's own program exported may have other markers than the `fingers`, if these are
+/// known.
+Movement read_movement(const std::string& file, RecordingAxes axes, Diagnostics& diagnostics,
+                       const std::vector<std::string>& fingers = {});
 
 /// Keeps the named fingers, in that order. Each one that the movement lacks is an error in
 /// `diagnostics`; each one of the movement that is not named is a warning.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/field.h"
 #include "base/unmeasured.h"
@@ -80,10 +81,30 @@ class FingerRepair {
 
     void drop_missing(std::vector<Fault>& faults) {
         for (size_t i = 0; i < valid_.size(); ++i) valid_[i] = at(i).allFinite();
+        drop_zeros();
         for (size_t i = 0; i < valid_.size(); ++i) {
             if (valid_[i] || (i > 0 && !valid_[i - 1])) continue;
             size_t end = next_valid(i);
             report(faults, FaultKind::missing_marker, i, end);
+        }
+    }
+
+    /// Many programs write 0, 0, 0 for a marker that was lost. Somebody may be there all the same,
+    /// as when positions are counted from the first: so it counts as one where the frames beside it
+    /// could not be reached from there.
+    void drop_zeros() {
+        const auto is_zero = [&](size_t i) { return valid_[i] && at(i).isZero(0); };
+        for (size_t i = next_valid_from(0); i < valid_.size(); i = next_valid(i)) {
+            if (!is_zero(i)) continue;
+            const size_t first = i;
+            size_t end = next_valid(i);
+            while (end < valid_.size() && is_zero(end)) i = std::exchange(end, next_valid(end));
+            const size_t before = last_valid(first);
+            if ((before == first || plausible(before, first)) &&
+                (end == valid_.size() || plausible(i, end)))
+                continue;
+            std::fill(valid_.begin() + static_cast<std::ptrdiff_t>(first),
+                      valid_.begin() + static_cast<std::ptrdiff_t>(end), char{0});
         }
     }
 

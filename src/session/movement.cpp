@@ -119,7 +119,8 @@ std::shared_ptr<const hand::Driver> place_movement(const task::MovementSpec& spe
                                                    scene::Scene& scene,
                                                    std::optional<MovementReport>& report,
                                                    Diagnostics& diagnostics) {
-    hand::Movement movement = hand::read_movement(file, spec.axes, diagnostics);
+    hand::Movement movement =
+        hand::read_movement(file, spec.axes, diagnostics, scene::finger_names(scene));
     if (!diagnostics.has_errors())
         hand::choose_fingers(movement, scene::finger_names(scene), diagnostics);
     scene::Body* block = find_box(scene, spec.block);

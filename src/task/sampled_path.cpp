@@ -1,6 +1,7 @@
 #include "task/sampled_path.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -9,6 +10,7 @@
 
 #include "base/installed.h"
 #include "base/table.h"
+#include "base/text_file.h"
 
 namespace dihaptic::task {
 namespace {
@@ -41,27 +43,52 @@ void SampledPath::read_file(const std::string& folder, Diagnostics& diagnostics)
     }
     const std::string path = named_in(folder, file);
     try {
-        const CsvFile table(path);
-        struct Column {
-            const char* name;
-            double unit;
-            std::vector<double>& to;
-        };
-        for (const Column& column : {Column{"time_s", 1, times}, Column{"x_mm", 1e-3, x},
-                                     Column{"y_mm", 1e-3, y}, Column{"z_mm", 1e-3, z}}) {
-            if (!table.has(column.name)) continue;
-            for (size_t row = 0; row < table.rows(); ++row)
-                column.to.push_back(column.unit * table.number(row, column.name));
-        }
-    } catch (const Error&) {
+        read_table(CsvFile::given(path, diagnostics), diagnostics);
+        file.clear();
+    } catch (const Error& e) {
+        if (e.problems().front().place.line > 0) return diagnostics.add(e.problems());
         diagnostics.error(place, "file", fmt::format("'{}' is empty, or cannot be read", path),
                           "Name a CSV file, relative to the experiment's, whose first line is e.g. "
                           "time_s,x_mm,y_mm,z_mm.");
     }
-    file.clear();
+}
+
+void SampledPath::read_table(const CsvFile& table, Diagnostics& diagnostics) {
+    struct Column {
+        const char* name;
+        double unit;
+        std::vector<double>& to;
+    };
+    const std::array columns{Column{"time_s", 1, times}, Column{"x_mm", 1e-3, x},
+                             Column{"y_mm", 1e-3, y}, Column{"z_mm", 1e-3, z}};
+    const auto is_there = [&](const Column& column) { return table.has(column.name); };
+    if (!table.has("time_s") || !std::any_of(columns.begin() + 1, columns.end(), is_there))
+        throw Error(table.head(), table.has("time_s") ? "z_mm" : "time_s",
+                    fmt::format("no column has this name, but {}",
+                                shortened(fmt::format("{}", fmt::join(table.columns(), ", ")))),
+                    "The first line names the columns: time_s, and some of x_mm, y_mm, z_mm.");
+    for (const Column& column : columns) {
+        for (size_t row = 0; row < table.rows() && is_there(column); ++row) {
+            const double value = table.number(row, column.name);
+            if (!std::isfinite(value))
+                throw Error(
+                    table.place(row), column.name,
+                    fmt::format("'{}' is no number", shortened(table.text(row, column.name))),
+                    "Fill the gap, or leave the row out.");
+            if (column.to.data() == times.data() && row > 0 && value <= times.back())
+                throw Error(table.place(row), column.name,
+                            fmt::format("time goes from {:.9g} to {:.9g} s", times.back(), value),
+                            "Sort the times, and leave out what comes twice.");
+            column.to.push_back(column.unit * value);
+        }
+    }
+    if (times.size() < 2)
+        diagnostics.error(table.head(), "time_s", "there are fewer than two times below",
+                          "A path has a row for each place, and two at least.");
 }
 
 bool SampledPath::check(Diagnostics& diagnostics) const {
+    if (!file.empty()) return false;  // its table has told
     if (times.size() < 2) {
         diagnostics.error(place, "times", "has fewer than two times",
                           "Give times_s: [0, 0.5, 1] and e.g. z_mm: [0, 20, 0], or a file with the "

@@ -9,6 +9,10 @@
 #include "base/field.h"
 #include "base/geometry.h"
 
+namespace dihaptic {
+class CsvFile;
+}
+
 namespace dihaptic::task {
 
 /// Places at times. A way is counted from the first of them, so that a recording in the coordinates
@@ -46,6 +50,9 @@ struct SampledPath {
     /// places, with the slope from neighbour to neighbour at each (Catmull and Rom 1974), at rest
     /// at both ends. Needs a path that can be followed.
     Vec3 way(double t) const noexcept;
+
+  private:
+    void read_table(const CsvFile& table, Diagnostics& diagnostics);
 };
 
 }  // namespace dihaptic::task

@@ -1,11 +1,11 @@
 #include "hand/movement.h"
+#include "base/number.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "hand/test/reach.h"
-#include "base/number.h"
 
 namespace dihaptic::hand::movement_test {
 namespace {
@@ -101,8 +101,10 @@ const std::vector<Damage> kDamages{
              std::istringstream in(l[i]);
              std::string out, cell;
              for (int c = 0; std::getline(in, cell, ','); ++c) {
-                 out += (c ? "," : "") +
-                        (c >= 1 && c <= 6 ? fmt::format("{:.6f}", finite_number(cell).value() / 1000) : cell);
+                 out +=
+                     (c ? "," : "") +
+                     (c >= 1 && c <= 6 ? fmt::format("{:.6f}", finite_number(cell).value() / 1000)
+                                       : cell);
              }
              l[i] = out;
          }
@@ -171,7 +173,7 @@ const std::vector<Damage> kDamages{
      "a second are needed"},
     {"many gaps that make ten minutes",
      [](std::vector<std::string> l) {
-         const double end = std::stod(cell(l.back(), 0));
+         const double end = finite_number(cell(l.back(), 0)).value();
          for (int i = 0; i < 150; ++i) {
              l.push_back(l.back());
              set_cell(l.back(), 0, fmt::format("{}", end + 4500 * (i + 1)));
@@ -229,18 +231,30 @@ std::string replaced(std::string text, char from, char to) {
 }
 INSTANTIATE_TEST_SUITE_P(
     Movement, NoMovement,
-    ::testing::Values(
-        std::pair{replaced(join(reach_lines()), ',', ';'),
-                  std::string("m.csv:1: error: is separated by semicolons. Export it with commas")},
-        std::pair{replaced(join(reach_lines()), ',', '\t'), std::string("separated by tabs")},
-        std::pair{replaced(join(reach_lines()), '\n', '\r'), std::string("end in CR alone")},
-        std::pair{std::string("\xff\xfet\0i\0", 6), std::string("is UTF-16 text")},
-        std::pair{std::string("\x7f"
-                              "ELF\2\1\0\0",
-                              8),
-                  std::string("is not a text file")},
-        std::pair{std::string("Dear reader,\nthis is a letter.\n"),
-                  std::string("names no column of a movement")}));
+    ::testing::Values(std::pair{replaced(join(reach_lines()), '\n', '\r'),
+                                std::string("end in CR alone")},
+                      std::pair{std::string("\xff\xfet\0i\0", 6), std::string("is UTF-16 text")},
+                      std::pair{std::string("\x7f"
+                                            "ELF\2\1\0\0",
+                                            8),
+                                std::string("is not a text file")},
+                      std::pair{std::string("Dear reader,\nthis is a letter.\n"),
+                                std::string("names no column of a movement")}));
+
+TEST(Movement, ReadsTablesOfAllCountries) {
+    const std::string commas = join(reach_lines());
+    const Result usual = read(commas);
+    const std::string others[] = {replaced(commas, ',', ';'), replaced(commas, ',', '\t'),
+                                  replaced(replaced(commas, ',', ';'), '.', ','),
+                                  "sep=;\r\n" + replaced(commas, ',', ';')};
+    for (const std::string& text : others) {
+        const Result result = read(text);
+        EXPECT_TRUE(result.diagnostics.problems().empty());
+        ASSERT_EQ(result.movement.frames.size(), usual.movement.frames.size());
+        EXPECT_EQ(result.movement.frames[100].p_WH, usual.movement.frames[100].p_WH);
+        EXPECT_EQ(result.movement.frames[100].time, usual.movement.frames[100].time);
+    }
+}
 
 TEST(Movement, ReadsWhatSpreadsheetsAndRWrite) {
     auto lines = reach_lines();
@@ -257,7 +271,8 @@ TEST(Movement, WarnsOfAHandThatHardlyMoves) {
     auto lines = reach_lines();
     for (size_t i = 1; i < lines.size(); ++i) {
         for (int c = 1; c <= 6; ++c)
-            set_cell(lines[i], c, fmt::format("{:.4f}", finite_number(cell(lines[i], c)).value() / 10));
+            set_cell(lines[i], c,
+                     fmt::format("{:.4f}", finite_number(cell(lines[i], c)).value() / 10));
     }
     EXPECT_NE(errors_of(join(lines)).find("warning: the fingers move by only"), std::string::npos);
 }

@@ -1,0 +1,56 @@
+// A table that somebody hands in, as spreadsheets, trackers and statistics programs write it in any
+// country: with commas, semicolons or tabs between its cells (perhaps said so by a line sep=;),
+// points or commas before decimals, and cells in quotes. What cannot be told for certain is an
+// error with file, line and remedy. Tables of the program's own are read by read_csv().
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/diagnostics.h"
+
+namespace dihaptic {
+
+/// Goes through a table line by line: movements have millions of them.
+class GivenTable {
+  public:
+    /// `text`: of the file, which has to live on; the table begins at one of its lines.
+    GivenTable(std::string_view text, std::string file, size_t begin = 0);
+
+    /// Cells of the next line that has any, without the blanks around them; nullopt at the end.
+    /// Throws Error when a line's quotes do not end in it, or it has thousands of cells.
+    std::optional<std::vector<std::string>> next();
+    /// What next() will give.
+    std::optional<std::vector<std::string>> peek() const { return GivenTable(*this).next(); }
+    /// Of the line that next() gave.
+    Place place() const { return {file_, line_}; }
+    /// Whether lines without cells stood before it.
+    bool after_gap() const { return gap_; }
+
+    /// The number that a cell says; nullopt if it says none. Throws Error when the table has both
+    /// points and commas before decimals: one of them parts thousands then.
+    std::optional<double> number(const std::string& cell);
+    /// Warns, once all was read, of numbers in which a comma may have parted thousands.
+    void tell_commas(Diagnostics& diagnostics) const;
+
+    char separator() const { return separator_; }
+    /// "semicolons", for messages.
+    const char* separators() const;
+
+  private:
+    std::string_view take_line();
+    std::vector<std::string> split(std::string_view line) const;
+
+    std::string file_;
+    std::string_view rest_;
+    char separator_ = ',';
+    int line_ = 0;
+    bool gap_ = false;
+    int point_ = 0;  // line of the first number with a point before decimals; 0: none so far
+    int comma_ = 0;
+};
+
+}  // namespace dihaptic

@@ -1,0 +1,37 @@
+// Which cell of a movement's line holds what, as its first lines say.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "base/given_table.h"
+
+namespace dihaptic::hand {
+
+struct Columns {
+    std::vector<std::string> keys;  ///< names for messages
+    int time = -1;                  ///< -1: lines are counted
+    double time_unit = 1;           ///< of a cell's number, or of a line [s]
+    int occluded = -1;
+    struct Finger {
+        std::string name;
+        std::string unit_name;
+        double unit = 1;
+        std::array<int, 3> axis{-1, -1, -1};
+    };
+    std::vector<Finger> fingers;
+    bool exported = false;  ///< by a tracker's own program: it may have cells that nobody asked for
+
+    const std::string& key(int column) const { return keys[static_cast<size_t>(column)]; }
+};
+
+/// The columns of a file as a tracker's own program exports it: Motive and Nexus (CSV), or Qualisys
+/// (TSV). Each marker is a finger of its name, without the asset's name before a colon. `first` is
+/// the file's first line; what follows its head is left to `table`. nullopt: it is none of these.
+/// Throws Error when the head does not say what the numbers are.
+std::optional<Columns> read_export(const std::vector<std::string>& first, GivenTable& table);
+
+}  // namespace dihaptic::hand
