@@ -38,10 +38,15 @@ struct Fitted {
     }
 };
 
-/// Reads a table that somebody hands in, and tells what it warns of.
-CsvFile given(const std::string& file) {
+/// Reads a table that somebody hands in, with these columns, and tells what it warns of.
+CsvFile given(const std::string& file, std::initializer_list<const char*> columns,
+              const char* remedy) {
     Diagnostics diagnostics;
-    CsvFile table = CsvFile::given(file, diagnostics);
+    CsvFile table = CsvFile::given(file, diagnostics, [&](const CsvFile& head) {
+        for (const char* column : columns) {
+            if (!head.has(column)) throw Error(head.head(), column, "is not there", remedy);
+        }
+    });
     print(diagnostics.problems(), stderr);
     return table;
 }
@@ -51,12 +56,6 @@ double number(const CsvFile& table, size_t row, const char* column, const char* 
     if (std::isfinite(value)) return value;
     throw Error(table.place(row), column,
                 fmt::format("is '{}', which is no number", table.text(row, column)), remedy);
-}
-
-void require(const CsvFile& table, std::initializer_list<const char*> columns, const char* remedy) {
-    for (const char* column : columns) {
-        if (!table.has(column)) throw Error(table.head(), column, "is not there", remedy);
-    }
 }
 
 /// What was measured in each trial; NaN where the cell is empty.
@@ -115,24 +114,22 @@ constexpr const char* kTrialColumns =
     "Give the columns perturbation, clamp and compensation, a row a trial.";
 
 Fitted fit_two_rate(const std::string& file) {
-    const CsvFile table = given(file);
-    require(table, {"perturbation", "clamp", "compensation"}, kTrialColumns);
+    const CsvFile table = given(file, {"perturbation", "clamp", "compensation"}, kTrialColumns);
     const auto trials = read_trials(table);
     const Measured measured = read_measured(table, 5, "Four parameters");
     return curve(analysis::fit_two_rate(measured.values, trials), measured.count);
 }
 
 Fitted fit_single_rate(const std::string& file) {
-    const CsvFile table = given(file);
-    require(table, {"perturbation", "clamp", "compensation"}, kTrialColumns);
+    const CsvFile table = given(file, {"perturbation", "clamp", "compensation"}, kTrialColumns);
     const auto trials = read_trials(table);
     const Measured measured = read_measured(table, 3, "Two parameters");
     return curve(analysis::fit_single_rate(measured.values, trials), measured.count);
 }
 
 Fitted fit_learning_curve(const std::string& file) {
-    const CsvFile table = given(file);
-    require(table, {"compensation"}, "Give the column compensation, a row a trial.");
+    const CsvFile table =
+        given(file, {"compensation"}, "Give the column compensation, a row a trial.");
     const Measured measured = read_measured(table, 4, "Three parameters");
     return curve(analysis::fit_learning_curve(measured.values), measured.count);
 }
@@ -144,8 +141,8 @@ struct PsychometricOptions {
 
 /// The answers of a table: yes is 1 or yes, and 0 or no.
 std::vector<analysis::Answer> read_answers(const std::string& file) {
-    const CsvFile table = given(file);
-    require(table, {"level", "yes"}, "Give the columns level and yes (1 or 0), a row an answer.");
+    const CsvFile table =
+        given(file, {"level", "yes"}, "Give the columns level and yes (1 or 0), a row an answer.");
     std::vector<analysis::Answer> out;
     for (size_t i = 0; i < table.rows(); ++i) {
         const std::string yes = table.text(i, "yes");

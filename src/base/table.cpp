@@ -193,7 +193,8 @@ CsvFile::CsvFile(const std::string& file) : file_(file), rows_(read_csv(file)) {
     rows_.erase(rows_.begin());
 }
 
-CsvFile CsvFile::given(const std::string& file, Diagnostics& diagnostics) {
+CsvFile CsvFile::given(const std::string& file, Diagnostics& diagnostics,
+                       const std::function<void(const CsvFile&)>& check_columns) {
     const std::string text = read_text_file(file, kMostTable);
     GivenTable table(text, file);
     CsvFile out;
@@ -205,6 +206,7 @@ CsvFile CsvFile::given(const std::string& file, Diagnostics& diagnostics) {
                     "Delete this line.");
     out.head_ = table.place().line;
     out.header_ = std::move(*cells);
+    check_columns(out);
     size_t read = 0;
     while ((cells = table.next())) {
         if (cells->size() != out.header_.size())

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -51,8 +52,10 @@ class CsvFile {
     /// Throws Error when the file is empty or cannot be read.
     explicit CsvFile(const std::string& file);
     /// A table that somebody hands in (base/given_table.h), whose lines all have the columns of the
-    /// first. Throws Error, with the line, when one has not.
-    static CsvFile given(const std::string& file, Diagnostics& diagnostics);
+    /// first. Throws Error, with the line, when one has not; before it, `check_columns`, which is
+    /// asked of the table without its rows, may throw what is missing.
+    static CsvFile given(const std::string& file, Diagnostics& diagnostics,
+                         const std::function<void(const CsvFile&)>& check_columns);
 
     /// Where a row stands.
     Place place(size_t row) const {

@@ -31,6 +31,7 @@ Place place_of(const json& at) {
 json tree(const Node& node) {
     json out{{"at", place(node.place)}};
     if (node.kind == Node::Kind::scalar) out["scalar"] = node.scalar;
+    if (node.plain) out["plain"] = true;
     if (node.kind == Node::Kind::sequence) {
         out["items"] = json::array();
         for (const Node& item : node.items) out["items"].push_back(tree(item));
@@ -49,6 +50,7 @@ Node node_of(const json& in) {
     if (in.contains("scalar")) {
         node.kind = Node::Kind::scalar;
         node.scalar = in["scalar"].get<std::string>();
+        node.plain = in.value("plain", false);
     } else if (in.contains("items")) {
         node.kind = Node::Kind::sequence;
         for (const json& item : in["items"]) node.items.push_back(node_of(item));

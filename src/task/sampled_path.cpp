@@ -32,6 +32,15 @@ double along(const std::vector<double>& times, const std::vector<double>& places
            s * (begin + s * (3 * rise - 2 * begin - end + s * (begin + end - 2 * rise)));
 }
 
+void check_columns(const CsvFile& table) {
+    const bool timed = table.has("time_s");
+    if (timed && (table.has("x_mm") || table.has("y_mm") || table.has("z_mm"))) return;
+    throw Error(table.head(), timed ? "z_mm" : "time_s",
+                fmt::format("no column has this name, but {}",
+                            shortened(fmt::format("{}", fmt::join(table.columns(), ", ")))),
+                "The first line names the columns: time_s, and some of x_mm, y_mm, z_mm.");
+}
+
 }  // namespace
 
 void SampledPath::read_file(const std::string& folder, Diagnostics& diagnostics) {
@@ -43,7 +52,7 @@ void SampledPath::read_file(const std::string& folder, Diagnostics& diagnostics)
     }
     const std::string path = named_in(folder, file);
     try {
-        read_table(CsvFile::given(path, diagnostics), diagnostics);
+        read_table(CsvFile::given(path, diagnostics, check_columns), diagnostics);
         file.clear();
     } catch (const Error& e) {
         if (e.problems().front().place.line > 0) return diagnostics.add(e.problems());
@@ -61,14 +70,8 @@ void SampledPath::read_table(const CsvFile& table, Diagnostics& diagnostics) {
     };
     const std::array columns{Column{"time_s", 1, times}, Column{"x_mm", 1e-3, x},
                              Column{"y_mm", 1e-3, y}, Column{"z_mm", 1e-3, z}};
-    const auto is_there = [&](const Column& column) { return table.has(column.name); };
-    if (!table.has("time_s") || !std::any_of(columns.begin() + 1, columns.end(), is_there))
-        throw Error(table.head(), table.has("time_s") ? "z_mm" : "time_s",
-                    fmt::format("no column has this name, but {}",
-                                shortened(fmt::format("{}", fmt::join(table.columns(), ", ")))),
-                    "The first line names the columns: time_s, and some of x_mm, y_mm, z_mm.");
     for (const Column& column : columns) {
-        for (size_t row = 0; row < table.rows() && is_there(column); ++row) {
+        for (size_t row = 0; row < table.rows() && table.has(column.name); ++row) {
             const double value = table.number(row, column.name);
             if (!std::isfinite(value))
                 throw Error(
