@@ -1,0 +1,198 @@
+"""Mechanics that other engines got wrong in public, with their right values. docs/outside.md has the sources.
+
+Usage: outside/mechanics_test.py PROGRAM, from the project's folder.
+"""
+import math
+import os
+import sys
+import unittest
+
+import numpy as np
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(sys.argv[1])), "python"))
+import dihaptic as dh
+
+SOLVERS = ("newton", "staggered_projections", "stewart_trinkle", "sequential_impulse")
+G = 9.81
+
+
+def scene(bodies, gravity=(0, 0, -G), **more):
+    """Bodies alone: the hand stays far away."""
+    return dh.Scene(title="outside", gravity_m_s2=list(gravity), bodies=bodies, object=bodies[-1].name,
+                    hand=dh.Part(centre_mm=[0, 0, 2000], aperture_mm=400, script=[dh.Part(name="wait", duration_s=1)]), **more)
+
+
+def world(bodies, solver="newton", **more):
+    return dh.World(scene(bodies, **more), settings={"dynamics.solver": solver})
+
+
+def rotation(quaternion):
+    w, x, y, z = quaternion
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                     [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                     [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+
+
+def about(axis, angle):
+    return (math.cos(angle / 2), *(math.sin(angle / 2) * np.asarray(axis, float)))
+
+
+TABLE = dh.Part(name="table", shape="box", size_mm=[8000, 2000, 50], position_mm=[0, 0, -25], fixed=True, friction=0.8)
+PLANE = dh.Part(name="plane", shape="plane", fixed=True, friction=0.8)
+SIDEWAYS = [90, 0, 0]
+
+
+class FreeRotation(unittest.TestCase):
+    def test_a_brick_that_tumbles_keeps_momentum_and_energy(self):
+        moments = 0.2 / 12 * np.array([0.06**2 + 0.02**2, 0.1**2 + 0.02**2, 0.1**2 + 0.06**2])
+        for speed in (10, 30):
+            for axis in range(3):
+                with self.subTest(speed=speed, axis=axis):
+                    w = world([dh.Part(name="brick", shape="box", size_mm=[100, 60, 20], mass_g=200, position_mm=[0, 0, 500])],
+                              gravity=(0, 0, 0))
+                    begins = np.full(3, 0.01 * speed)
+                    begins[axis] = speed
+                    brick = w.bodies["brick"]
+                    brick.place((0, 0, 0.5), angular_velocity=tuple(begins))
+                    energy, momentum = [], []
+                    for _ in range(400):
+                        w.step(50)
+                        R = rotation(brick.orientation)
+                        local = R.T @ brick.angular_velocity
+                        energy.append(local @ (moments * local) / 2)
+                        momentum.append(R @ (moments * local))
+                    energy, momentum = np.array(energy), np.array(momentum)
+                    size = np.linalg.norm(momentum[0])
+                    self.assertLess(np.linalg.norm(momentum - momentum[0], axis=1).max(), 1e-9 * size)
+                    self.assertLess(abs(energy / energy[0] - 1).max(), 1e-4)
+                    self.assertLess(abs(energy[:100].mean() / energy[-100:].mean() - 1), 1e-6)
+
+    def test_a_top_on_its_tip_precesses_steadily(self):
+        radius, height, arm, tip, mass, tilt = 0.03, 0.01, 0.05, 0.002, 0.2, math.radians(20)
+        disc, ball = math.pi * radius**2 * height, 4 / 3 * math.pi * tip**3
+        of_disc, of_ball = mass * disc / (disc + ball), mass * ball / (disc + ball)
+        centre = of_disc * arm / mass
+        along = of_disc * radius**2 / 2 + 0.4 * of_ball * tip**2
+        across = (of_disc * (3 * radius**2 + height**2) / 12 + of_disc * (arm - centre)**2 + 0.4 * of_ball * tip**2
+                  + of_ball * centre**2)
+        axis = np.array([math.sin(tilt), 0, math.cos(tilt)])
+        for solver in SOLVERS:
+            for spin in (150, 250, 400):
+                with self.subTest(solver=solver, spin=spin):
+                    a, b, c = across * math.cos(tilt), along * spin, mass * G * centre
+                    precession = (b - math.sqrt(b * b - 4 * a * c)) / (2 * a)
+                    turns = np.array([0, 0, precession]) + (spin - precession * math.cos(tilt)) * axis
+                    w = world([dh.Part(name="plane", shape="plane", fixed=True, friction=0),
+                               dh.Part(name="top", shape="compound", mass_g=1e3 * mass, friction=0, position_mm=[0, 0, 2], parts=[
+                                   dh.Part(shape="cylinder", radius_mm=30, length_mm=10, position_mm=[0, 0, 50]),
+                                   dh.Part(shape="sphere", radius_mm=2)])], solver)
+                    top = w.bodies["top"]
+                    origin = np.array([0, 0, tip + centre * math.cos(tilt)]) - centre * axis
+                    top.place(tuple(origin), about([0, 1, 0], tilt), tuple(np.cross(turns, -centre * axis)), tuple(turns))
+                    azimuth = []
+                    for _ in range(200):
+                        w.step(50)
+                        now = rotation(top.orientation)[:, 2]
+                        self.assertAlmostEqual(math.degrees(math.acos(now[2])), 20, delta=0.5)
+                        azimuth.append(math.atan2(now[1], now[0]))
+                    turned = np.unwrap(azimuth)[-1]
+                    self.assertAlmostEqual(math.degrees(turned - precession * 10), 0, delta=0.5)
+
+
+class RoundShapes(unittest.TestCase):
+    def test_a_can_that_is_nudged_goes_on_as_it_was(self):
+        for solver in SOLVERS:
+            for ground in (TABLE, PLANE):
+                for speed in (0.02, 0.35):
+                    with self.subTest(solver=solver, ground=ground.name, speed=speed):
+                        w = world([ground, dh.Part(name="can", shape="cylinder", radius_mm=20, length_mm=60, mass_g=100,
+                                                   position_mm=[-1000, 0, 20], rotation_deg=SIDEWAYS, friction=0.8)], solver)
+                        can = w.bodies["can"]
+                        can.place((-1, 0, 0.02), can.orientation, (speed, 0, 0), (0, speed / 0.02, 0))
+                        w.step(6000)
+                        self.assertAlmostEqual(can.velocity[0], speed, delta=1e-4 * speed)
+                        heading = math.degrees(math.atan2(can.velocity[1], can.velocity[0]))
+                        self.assertLess(abs(heading), 0.01)
+
+    def test_small_fast_things_do_not_pass_through_thin_plates(self):
+        shapes = {"capsule": dict(shape="capsule", radius_mm=0.5, length_mm=2), "pen": dict(shape="cylinder", radius_mm=4, length_mm=100),
+                  "ball": dict(shape="sphere", radius_mm=0.3), "cube": dict(shape="box", size_mm=[2, 2, 2])}
+        random = np.random.default_rng(1)
+        for name, shape in shapes.items():
+            for speed in (5, 20, 60, 99):
+                for thickness in (1, 0.1):
+                    with self.subTest(name, speed=speed, thickness=thickness):
+                        w = world([dh.Part(name="plate", shape="box", size_mm=[thickness, 400, 400], fixed=True, position_mm=[0, 0, 500]),
+                                   dh.Part(name="thing", mass_g=1, position_mm=[-200, 0, 500], **shape)], gravity=(0, 0, 0))
+                        thing = w.bodies["thing"]
+                        turn = random.normal(size=3)
+                        thing.place((-0.2 - 1e-3 * random.random(), *(0.05 * random.random(2) + (0, 0.5))),
+                                    about(turn / np.linalg.norm(turn), 3 * random.random()), (speed, 0, 0), tuple(20 * random.normal(size=3)))
+                        for _ in range(100):
+                            w.step(1)
+                            self.assertLess(thing.position[0], 0)
+
+    def test_two_that_meet_at_fifty_metres_a_second_do_not_pass_through_each_other(self):
+        for shape in (dict(shape="sphere", radius_mm=1), dict(shape="box", size_mm=[2, 2, 2]), dict(shape="capsule", radius_mm=1, length_mm=3)):
+            with self.subTest(shape["shape"]):
+                w = world([dh.Part(name=name, mass_g=1, position_mm=[x, 0, 500], **shape) for name, x in (("a", -90), ("b", 90))],
+                          gravity=(0, 0, 0))
+                for name, sign in (("a", 1), ("b", -1)):
+                    w.bodies[name].place((-0.09 * sign, 0, 0.5), velocity=(50 * sign, 0, 0))
+                w.step(20)
+                self.assertLess(w.bodies["a"].position[0], w.bodies["b"].position[0])
+
+    def test_seams_between_flush_boxes_are_not_felt(self):
+        tiles = [dh.Part(name=f"tile{i}", shape="box", size_mm=[40, 200, 20], position_mm=[40 * i, 0, -10], fixed=True, friction=0.8)
+                 for i in range(10)]
+        rollers = {"block": dict(shape="box", size_mm=[40, 40, 40], friction=0), "ball": dict(shape="sphere", radius_mm=20),
+                   "capsule": dict(shape="capsule", radius_mm=20, length_mm=60, rotation_deg=SIDEWAYS),
+                   "can": dict(shape="cylinder", radius_mm=20, length_mm=60, rotation_deg=SIDEWAYS)}
+        for name, roller in rollers.items():
+            with self.subTest(name):
+                w = world([*tiles, dh.Part(name=name, mass_g=100, position_mm=[0, 0, 20], **{"friction": 0.8, **roller})])
+                body = w.bodies[name]
+                body.place((0, 0, 0.02), body.orientation, (0.35, 0, 0), (0, 0 if name == "block" else 0.35 / 0.02, 0))
+                for _ in range(95):
+                    w.step(10)
+                    self.assertAlmostEqual(body.velocity[0], 0.35, delta=3.5e-4)
+                    self.assertAlmostEqual(body.position[2], 0.02, delta=1e-5)
+
+
+class Impacts(unittest.TestCase):
+    def test_a_cradle_keeps_its_energy_whatever_its_gaps(self):
+        radius, length, angle = 0.02, 0.3, math.radians(20)
+        speed = math.sqrt(2 * G * length * (1 - math.cos(angle)))
+        for gap in (0, 0.0001, 0.0005, 0.002):
+            with self.subTest(gap=gap):
+                balls, strings = [], []
+                for i in range(5):
+                    x = i * (2 * radius + gap)
+                    lifted = angle if i == 0 else 0
+                    place = [1e3 * (x - length * math.sin(lifted)), 0, 500 - 1e3 * length * math.cos(lifted)]
+                    balls.append(dh.Part(name=f"ball{i}", shape="sphere", radius_mm=20, mass_g=100, friction=0, position_mm=place,
+                                         surface=dh.Part(restitution=1)))
+                    strings += [dh.Part(name=f"string{i}{side}", kind="distance", between=[f"ball{i}"], recorded=False,
+                                        position_mm=[1e3 * x, 100 * side, 500], second_position_mm=place) for side in (-1, 1)]
+                w = world(balls, joints=strings)
+                while w.bodies["ball4"].velocity[0] < 0.1 * speed:
+                    w.step(2)
+                w.step(6)
+                v = np.array([w.bodies[f"ball{i}"].velocity[0] for i in range(5)]) / speed
+                self.assertAlmostEqual((v**2).sum(), 1, delta=0.01)
+                self.assertAlmostEqual(v.sum(), 1, delta=0.01)
+                if gap >= 0.0005:
+                    self.assertAlmostEqual(v[4], 1, delta=0.01)
+
+    def test_a_heavy_block_rests_on_a_light_one(self):
+        for light_g, heavy_g in ((1, 1e3), (1, 1e5)):
+            with self.subTest(light_g=light_g, heavy_g=heavy_g):
+                w = world([TABLE, dh.Part(name="light", shape="box", size_mm=[40, 40, 40], position_mm=[0, 0, 20], mass_g=light_g, friction=0.8),
+                           dh.Part(name="heavy", shape="box", size_mm=[40, 40, 40], position_mm=[6, -5, 60], mass_g=heavy_g, friction=0.8)])
+                w.step(3000)
+                self.assertAlmostEqual(w.bodies["heavy"].position[2], 0.06, delta=1e-6)
+                self.assertAlmostEqual(w.bodies["heavy"].position[0], 0.006, delta=1e-6)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
