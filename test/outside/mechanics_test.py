@@ -39,7 +39,8 @@ def about(axis, angle):
 
 TABLE = dh.Part(name="table", shape="box", size_mm=[8000, 2000, 50], position_mm=[0, 0, -25], fixed=True, friction=0.8)
 PLANE = dh.Part(name="plane", shape="plane", fixed=True, friction=0.8)
-SIDEWAYS = [90, 0, 0]
+SIDEWAYS = about([1, 0, 0], math.pi / 2)
+UPRIGHT = (1, 0, 0, 0)
 
 
 class FreeRotation(unittest.TestCase):
@@ -106,9 +107,9 @@ class RoundShapes(unittest.TestCase):
                 for speed in (0.02, 0.35):
                     with self.subTest(solver=solver, ground=ground.name, speed=speed):
                         w = world([ground, dh.Part(name="can", shape="cylinder", radius_mm=20, length_mm=60, mass_g=100,
-                                                   position_mm=[-1000, 0, 20], rotation_deg=SIDEWAYS, friction=0.8)], solver)
+                                                   position_mm=[-1000, 0, 20], friction=0.8)], solver)
                         can = w.bodies["can"]
-                        can.place((-1, 0, 0.02), can.orientation, (speed, 0, 0), (0, speed / 0.02, 0))
+                        can.place((-1, 0, 0.02), SIDEWAYS, (speed, 0, 0), (0, speed / 0.02, 0))
                         w.step(6000)
                         self.assertAlmostEqual(can.velocity[0], speed, delta=1e-4 * speed)
                         heading = math.degrees(math.atan2(can.velocity[1], can.velocity[0]))
@@ -138,7 +139,7 @@ class RoundShapes(unittest.TestCase):
                 w = world([dh.Part(name=name, mass_g=1, position_mm=[x, 0, 500], **shape) for name, x in (("a", -90), ("b", 90))],
                           gravity=(0, 0, 0))
                 for name, sign in (("a", 1), ("b", -1)):
-                    w.bodies[name].place((-0.09 * sign, 0, 0.5), velocity=(50 * sign, 0, 0))
+                    w.bodies[name].place((-0.09 * sign, 0, 0.5), UPRIGHT, (50 * sign, 0, 0))
                 w.step(20)
                 self.assertLess(w.bodies["a"].position[0], w.bodies["b"].position[0])
 
@@ -146,13 +147,14 @@ class RoundShapes(unittest.TestCase):
         tiles = [dh.Part(name=f"tile{i}", shape="box", size_mm=[40, 200, 20], position_mm=[40 * i, 0, -10], fixed=True, friction=0.8)
                  for i in range(10)]
         rollers = {"block": dict(shape="box", size_mm=[40, 40, 40], friction=0), "ball": dict(shape="sphere", radius_mm=20),
-                   "capsule": dict(shape="capsule", radius_mm=20, length_mm=60, rotation_deg=SIDEWAYS),
-                   "can": dict(shape="cylinder", radius_mm=20, length_mm=60, rotation_deg=SIDEWAYS)}
+                   "capsule": dict(shape="capsule", radius_mm=20, length_mm=60),
+                   "can": dict(shape="cylinder", radius_mm=20, length_mm=60)}
         for name, roller in rollers.items():
             with self.subTest(name):
                 w = world([*tiles, dh.Part(name=name, mass_g=100, position_mm=[0, 0, 20], **{"friction": 0.8, **roller})])
                 body = w.bodies[name]
-                body.place((0, 0, 0.02), body.orientation, (0.35, 0, 0), (0, 0 if name == "block" else 0.35 / 0.02, 0))
+                turned = SIDEWAYS if name in ("capsule", "can") else UPRIGHT
+                body.place((0, 0, 0.02), turned, (0.35, 0, 0), (0, 0 if name == "block" else 0.35 / 0.02, 0))
                 for _ in range(95):
                     w.step(10)
                     self.assertAlmostEqual(body.velocity[0], 0.35, delta=3.5e-4)
@@ -175,6 +177,7 @@ class Impacts(unittest.TestCase):
                     strings += [dh.Part(name=f"string{i}{side}", kind="distance", between=[f"ball{i}"], recorded=False,
                                         position_mm=[1e3 * x, 100 * side, 500], second_position_mm=place) for side in (-1, 1)]
                 w = world(balls, joints=strings)
+                w.step(2)
                 while w.bodies["ball4"].velocity[0] < 0.1 * speed:
                     w.step(2)
                 w.step(6)

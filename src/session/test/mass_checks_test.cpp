@@ -23,9 +23,10 @@ std::string said_of(const std::string& bodies, const std::string& more = "") {
 }
 
 std::string box(const std::string& name, double mass_g, double z_mm) {
-    return fmt::format("  - {{ name: {}, shape: box, size_mm: [40, 40, 40], mass_g: {}, "
-                       "position_mm: [0, 0, {}] }}\n",
-                       name, mass_g, z_mm);
+    return fmt::format(
+        "  - {{ name: {}, shape: box, size_mm: [40, 40, 40], mass_g: {}, "
+        "position_mm: [0, 0, {}] }}\n",
+        name, mass_g, z_mm);
 }
 
 /// A chain of links of 3 x 3 x 8 mm on ball joints, with a load.
@@ -34,13 +35,15 @@ std::string chain(double link_g, double load_g) {
     std::string bodies, joints = "joints:\n";
     for (int i = 0; i <= kLinks; ++i) {
         const bool is_load = i == kLinks;
-        bodies += fmt::format("  - {{ name: l{}, shape: box, size_mm: {}, mass_g: {}, "
-                              "position_mm: [0, 0, {}] }}\n",
-                              i, is_load ? "[60, 60, 60]" : "[3, 3, 8]", is_load ? load_g : link_g,
-                              500 - 8 * i - (is_load ? 30 : 4));
-        joints += fmt::format("  - {{ name: j{0}, kind: ball, between: [{1}l{0}], position_mm: [0, "
-                              "0, {2}] }}\n",
-                              i, i == 0 ? "" : fmt::format("l{}, ", i - 1), 500 - 8 * i);
+        bodies += fmt::format(
+            "  - {{ name: l{}, shape: box, size_mm: {}, mass_g: {}, "
+            "position_mm: [0, 0, {}] }}\n",
+            i, is_load ? "[60, 60, 60]" : "[3, 3, 8]", is_load ? load_g : link_g,
+            500 - 8 * i - (is_load ? 30 : 4));
+        joints += fmt::format(
+            "  - {{ name: j{0}, kind: ball, between: [{1}l{0}], position_mm: [0, "
+            "0, {2}] }}\n",
+            i, i == 0 ? "" : fmt::format("l{}, ", i - 1), 500 - 8 * i);
     }
     return bodies + joints;
 }
