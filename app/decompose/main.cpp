@@ -1,31 +1,152 @@
-// dihaptic-decompose < MESH.off > PIECES: cuts a closed mesh into convex pieces, exactly (CGAL's
-// Nef polyhedra; Chazelle 1984). For each piece it writes a line "piece COUNT" and then COUNT
-// vertices, one per line. The program dihaptic calls it, under limits, and keeps the result; there
-// is no need to call it by hand.
-#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
-#include <CGAL/IO/Polyhedron_iostream.h>
-#include <CGAL/Nef_polyhedron_3.h>
-#include <CGAL/Polyhedron_3.h>
+// dihaptic-decompose < SHELLS > PIECES: cuts a solid into convex pieces, exactly (CGAL's Nef
+// polyhedra; Chazelle 1984). It reads shells, each a line "solid" or "cavity" with its numbers of
+// vertices and of triangles, then these, one per line. Shells are closed and face outward, cavities
+// too; a cavity is cut out of the solid before it. The program dihaptic calls it, under limits, and
+// keeps the result; there is no need to call it by hand.
+//
+// It writes "crossing X Y Z", a place where a shell crosses or touches itself, if one does;
+// "inverted VOLUME" of what a shell winds around the wrong way; "volume SOLID SHELLS", the volume
+// of the solid, in which shells that overlap count once, and what the volumes of the shells add up
+// to; and for each piece a line "piece COUNT" and then COUNT vertices, one per line.
+#include "arrangement.h"
+#include "solids.h"
+// after Nef polyhedra: these do not compile before them
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Polyhedron_incremental_builder_3.h>
 #include <CGAL/convex_decomposition_3.h>
 
+#include <cmath>
 #include <exception>
 #include <iostream>
 #include <new>
+#include <optional>
+#include <sstream>
 
 namespace {
 
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using Polyhedron = CGAL::Polyhedron_3<Kernel>;
-using Nef = CGAL::Nef_polyhedron_3<Kernel>;
+using namespace dihaptic::decompose;
 
-void decompose(std::istream& in, std::ostream& out) {
+/// Volumes that are the same but for rounding.
+constexpr double kSame = 1e-9;
+
+struct Shell {
+    bool is_cavity = false;
+    std::vector<Point> points;
+    std::vector<std::array<size_t, 3>> faces;
+
+    Triangle triangle(const std::array<size_t, 3>& f) const {
+        return {points[f[0]], points[f[1]], points[f[2]]};
+    }
+};
+
+std::vector<Shell> read(std::istream& in) {
+    std::vector<Shell> out;
+    size_t vertices = 0;
+    size_t faces = 0;
+    for (std::string kind; in >> kind >> vertices >> faces;) {
+        Shell shell{kind == "cavity", {}, {}};
+        double x = 0;
+        double y = 0;
+        double z = 0;
+        while (shell.points.size() < vertices && in >> x >> y >> z)
+            shell.points.emplace_back(x, y, z);
+        std::array<size_t, 3> f{};
+        while (shell.faces.size() < faces && in >> f[0] >> f[1] >> f[2]) {
+            if (std::max({f[0], f[1], f[2]}) >= vertices)
+                throw std::runtime_error("no such vertex");
+            shell.faces.push_back(f);
+        }
+        out.push_back(std::move(shell));
+    }
+    if (out.empty() || out.front().is_cavity) throw std::runtime_error("there is no solid");
+    return out;
+}
+
+double enclosed(const Shell& shell) {
+    Number sum = 0;
+    for (const auto& f : shell.faces) {
+        const Triangle t = shell.triangle(f);
+        sum += six_volumes({t[0], t[1], t[2]});
+    }
+    return CGAL::to_double(sum) / 6;
+}
+
+/// Makes a polyhedron of a shell.
+class Build : public CGAL::Modifier_base<Polyhedron::HalfedgeDS> {
+  public:
+    explicit Build(const Shell& shell) : shell_(shell) {}
+    void operator()(Polyhedron::HalfedgeDS& target) override {
+        CGAL::Polyhedron_incremental_builder_3<Polyhedron::HalfedgeDS> builder(target);
+        builder.begin_surface(shell_.points.size(), shell_.faces.size());
+        for (const Point& p : shell_.points) builder.add_vertex(p);
+        for (const auto& f : shell_.faces) {
+            if (!builder.test_facet(f.begin(), f.end())) throw std::runtime_error("not a surface");
+            builder.add_facet(f.begin(), f.end());
+        }
+        builder.end_surface();
+    }
+
+  private:
+    const Shell& shell_;
+};
+
+/// The solid within a shell. Throws when the shell crosses or touches itself, and tells where.
+Nef inside(const Shell& shell, std::ostream& out) {
     Polyhedron surface;
-    in >> surface;
-    if (!in || !surface.is_closed()) throw std::runtime_error("the mesh is not a closed surface");
+    Build build(shell);
+    surface.delegate(build);
+    if (!surface.is_closed()) throw std::runtime_error("not closed");
+    using Face = Polyhedron::Facet_handle;
+    std::vector<std::pair<Face, Face>> crossings;
+    CGAL::Polygon_mesh_processing::self_intersections(surface, std::back_inserter(crossings));
+    if (!crossings.empty()) {
+        const auto corner = crossings.front().first->halfedge();
+        const Point p = CGAL::centroid(corner->vertex()->point(), corner->next()->vertex()->point(),
+                                       corner->next()->next()->vertex()->point());
+        out << "crossing " << CGAL::to_double(p.x()) << " " << CGAL::to_double(p.y()) << " "
+            << CGAL::to_double(p.z()) << "\n";
+        throw std::runtime_error("crosses itself");
+    }
     Nef solid(surface);
-    CGAL::convex_decomposition_3(solid);
+    const double wanted = enclosed(shell);
+    if (std::abs(volume_of(solid) - wanted) > kSame * wanted)
+        throw std::runtime_error("not filled");
+    return solid;
+}
 
-    out.precision(17);
+/// The union of all solids, each without its cavities.
+Nef by_shells(const std::vector<Shell>& shells, std::ostream& out) {
+    Nef all;
+    Nef one;
+    for (size_t i = 0; i < shells.size(); ++i) {
+        const Nef next = inside(shells[i], out);
+        one = shells[i].is_cavity ? one - next : next;
+        const bool is_last = i + 1 == shells.size() || !shells[i + 1].is_cavity;
+        if (is_last) all = i == 0 || all.is_empty() ? one : all + one;
+    }
+    return shells.size() == 1 ? all : all.regularization();
+}
+
+Nef by_winding(const std::vector<Shell>& shells, std::ostream& out) {
+    std::vector<Triangle> triangles;
+    for (const Shell& shell : shells) {
+        for (const auto& f : shell.faces) {
+            Triangle t = shell.triangle(f);
+            if (shell.is_cavity) std::swap(t[1], t[2]);
+            if (normal_of(t) != CGAL::NULL_VECTOR) triangles.push_back(t);
+        }
+    }
+    Wound all = wound(triangles);
+    if (all.inverted > 0) out << "inverted " << all.inverted << "\n";
+    return all.solid;
+}
+
+/// Writes the convex pieces of a solid. Throws when they do not fill it.
+void cut(Nef solid, std::ostream& out) {
+    const double whole = volume_of(solid);
+    CGAL::convex_decomposition_3(solid);
+    if (!(whole > 0) || std::abs(volume_of(solid) - whole) > kSame * whole)
+        throw std::runtime_error("the pieces do not fill the solid");
     // the first volume is the outside
     for (auto volume = ++solid.volumes_begin(); volume != solid.volumes_end(); ++volume) {
         if (!volume->mark()) continue;
@@ -38,8 +159,30 @@ void decompose(std::istream& in, std::ostream& out) {
                 << CGAL::to_double(p.z()) << "\n";
         }
     }
-    out.flush();
-    if (!out) throw std::runtime_error("the pieces cannot be written");
+}
+
+void decompose(const std::vector<Shell>& shells) {
+    double sum = 0;
+    for (const Shell& shell : shells) sum += shell.is_cavity ? -enclosed(shell) : enclosed(shell);
+    for (const auto& fill : {by_shells, by_winding}) {
+        std::ostringstream told;
+        std::ostringstream pieces;
+        pieces.precision(17);
+        told.precision(17);
+        try {
+            const Nef solid = fill(shells, told);
+            cut(solid, pieces);
+            std::cout.precision(17);
+            std::cout << told.str() << "volume " << volume_of(solid) << " " << sum << "\n"
+                      << pieces.str() << std::flush;
+            return;
+        } catch (const std::bad_alloc&) {
+            throw;
+        } catch (const std::exception&) {
+            std::cout << told.str();  // then the other way
+        }
+    }
+    std::cout << std::flush;
 }
 
 }  // namespace
@@ -48,11 +191,11 @@ int main() {
     try {
         // CGAL prints nothing: the calling program reports the failure
         CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
-        decompose(std::cin, std::cout);
+        decompose(read(std::cin));
     } catch (const std::bad_alloc&) {
         return 3;
     } catch (const std::exception&) {
         return 1;
     }
-    return 0;
+    return std::cout ? 0 : 1;
 }

@@ -3,6 +3,22 @@
 #include <LinearMath/btConvexHullComputer.h>
 
 namespace dihaptic::scene {
+namespace {
+
+double area(const Hull& hull) {
+    double sum = 0;
+    for (const std::vector<int>& face : hull.faces) {
+        Vec3 twice = Vec3::Zero();
+        const Vec3& first = hull.vertices[static_cast<size_t>(face[0])];
+        for (size_t i = 1; i + 1 < face.size(); ++i)
+            twice += (hull.vertices[static_cast<size_t>(face[i])] - first)
+                         .cross(hull.vertices[static_cast<size_t>(face[i + 1])] - first);
+        sum += twice.norm() / 2;
+    }
+    return sum;
+}
+
+}  // namespace
 
 Hull convex_hull(std::span<const Vec3> points) {
     Hull hull;
@@ -33,10 +49,9 @@ Hull convex_hull(std::span<const Vec3> points) {
         low = low.cwiseMin(v);
         high = high.cwiseMax(v);
     }
-    const double extent = (high - low).norm();
-    if (hull.faces.size() < 4 ||
-        integrate(hull.vertices, hull.faces).volume < 1e-6 * std::pow(extent, 3))
-        return {};
+    if (hull.faces.size() < 4) return {};
+    const double thickness = 2 * integrate(hull.vertices, hull.faces).volume / area(hull);
+    if (!(thickness > 1e-6 * (high - low).norm())) return {};
     return hull;
 }
 
@@ -44,11 +59,15 @@ VolumeIntegrals integrate(std::span<const Vec3> vertices, std::span<const std::v
     double volume = 0;
     Vec3 first = Vec3::Zero();   // integral of x
     Mat3 second = Mat3::Zero();  // integral of x x^T
+    // far from the origin the tetrahedra would cancel each other, and leave their rounding
+    constexpr double kFar = 1;  // [m]
+    const bool is_far = !vertices.empty() && vertices.front().norm() > kFar;
+    const Vec3 origin = is_far ? vertices.front() : Vec3::Zero();
     for (const std::vector<int>& face : faces) {
         for (size_t i = 1; i + 1 < face.size(); ++i) {
-            const Vec3& a = vertices[static_cast<size_t>(face[0])];
-            const Vec3& b = vertices[static_cast<size_t>(face[i])];
-            const Vec3& c = vertices[static_cast<size_t>(face[i + 1])];
+            const Vec3 a = vertices[static_cast<size_t>(face[0])] - origin;
+            const Vec3 b = vertices[static_cast<size_t>(face[i])] - origin;
+            const Vec3 c = vertices[static_cast<size_t>(face[i + 1])] - origin;
             const double six_volumes = a.dot(b.cross(c));
             const Vec3 sum = a + b + c;
             volume += six_volumes / 6;
@@ -64,6 +83,7 @@ VolumeIntegrals integrate(std::span<const Vec3> vertices, std::span<const std::v
     out.centre = first / volume;
     const Mat3 about_centre = second - volume * out.centre * out.centre.transpose();
     out.inertia = about_centre.trace() * Mat3::Identity() - about_centre;
+    out.centre += origin;
     return out;
 }
 

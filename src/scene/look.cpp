@@ -42,7 +42,7 @@ void load_seen(Body& body, const std::string& file, Diagnostics& diagnostics,
     const double size = extent_of(mesh);
     if (size < kSmallest || size > kLargest)
         throw Error(seen.place, "unit", fmt::format("the mesh {} is {:g} m large", file, size),
-                    "Give the unit of its coordinates: m, cm or mm.");
+                    "Give the unit of its coordinates: m, cm, mm or inch.");
     check_size(size, extent(body.shape), seen, diagnostics);
     if (has_own_colours(body)) {
         check_materials(mesh, file, seen.place, diagnostics);
@@ -75,7 +75,7 @@ void load_look(Body& body, const std::string& folder, Pictures& pictures, Diagno
             body.picture->image = image;
         });
     }
-    if (body.seen && !body.seen->file.empty())
+    if (body.seen && !body.seen->file.empty() && is_unit_known(body.seen->unit_place, diagnostics))
         attempt([&] { load_seen(body, path(body.seen->file), diagnostics, stop); });
 }
 

@@ -24,6 +24,7 @@ struct SeenMesh {
     MeshUnit unit = MeshUnit::m;
     std::shared_ptr<const Mesh> mesh;  ///< without colours if others are drawn
     Place place;                       ///< where the scene file names its file
+    Place unit_place;                  ///< where it names its unit
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -32,7 +33,10 @@ struct SeenMesh {
               "Mesh file (OBJ, STL, PLY or OFF), relative to this file; its coordinates are in the "
               "body's frame."));
         v("unit", unit, Field::text().required().says("Unit of the mesh's coordinates."));
-        if constexpr (requires { v.place(); }) place = v.place_of("file");
+        if constexpr (requires { v.place(); }) {
+            place = v.place_of("file");
+            unit_place = v.place_of("unit");
+        }
     }
 };
 

@@ -14,6 +14,7 @@
 #include "base/companion.h"
 #include "base/regular_file.h"
 #include "scene/materials.h"
+#include "scene/mesh_text.h"
 
 namespace dihaptic::scene {
 
@@ -41,8 +42,9 @@ std::string missing_in(const std::string& bytes, const std::string& format) {
     size_t vertices = 0;
     size_t faces = 0;
     for (std::string line; std::getline(in, line);) {
-        if (line.starts_with("v ")) ++vertices;
-        if (line.starts_with("f ")) ++faces;
+        const std::string word = line.substr(0, line.find_first_of(" \t"));
+        if (word == "v") ++vertices;
+        if (word == "f") ++faces;
     }
     const auto counted = [&](size_t n, const char* one, const char* many) {
         return n == 0 ? fmt::format("no {}", many) : fmt::format("{} {}", n, n == 1 ? one : many);
@@ -184,7 +186,7 @@ Mesh read_mesh(const std::string& file, double unit, const Place& asked_at,
         throw Error(asked_at, "file", "there is no mesh " + file,
                     "Give its path relative to the scene file, or put the mesh there.");
     }
-    const std::string bytes = [&] {
+    std::string bytes = [&] {
         try {
             return read_bytes(file, kLargestFile);
         } catch (const Error& e) {
@@ -196,6 +198,10 @@ Mesh read_mesh(const std::string& file, double unit, const Place& asked_at,
         throw refused("cannot be read: its name ends neither in .obj nor in .stl, .ply or .off",
                       kRemedy);
     }
+    const std::string checksum = checksum_of(bytes);
+    MeshText text = tidy(std::move(bytes), format);
+    if (!text.fault.empty()) throw refused(text.fault, kRemedy);
+    bytes = std::move(text.bytes);
     const CompanionTask task{
         kReader, {format}, limits_for(bytes.size()), "reading the mesh " + file, kRemedy, asked_at,
         "file",  stop};
@@ -206,7 +212,7 @@ Mesh read_mesh(const std::string& file, double unit, const Place& asked_at,
         throw refused(missing, kRemedy);
     if (!read) throw refused("cannot be read as a mesh", kRemedy);
     Mesh& mesh = read->mesh;
-    mesh.checksum = checksum_of(bytes);
+    mesh.checksum = checksum;
     for (const Vec3& v : mesh.vertices) {
         if (!v.allFinite()) throw refused("has a vertex that is no number", "Export it again.");
     }
@@ -216,6 +222,14 @@ Mesh read_mesh(const std::string& file, double unit, const Place& asked_at,
     if (format == "obj") mesh.materials = materials_of(file, bytes);
     add_materials(*read);
     return std::move(mesh);
+}
+
+bool is_unit_known(const Place& place, const Diagnostics& diagnostics) {
+    const std::vector<Problem>& told = diagnostics.problems();
+    return std::none_of(told.begin(), told.end(), [&](const Problem& problem) {
+        return problem.severity == Severity::error && problem.key == "unit" &&
+               problem.place.file == place.file && problem.place.line == place.line;
+    });
 }
 
 }  // namespace dihaptic::scene

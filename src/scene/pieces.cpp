@@ -14,11 +14,14 @@
 #include "base/regular_file.h"
 #include "base/text_file.h"
 #include "base/user_folder.h"
+#include "scene/closed.h"
 
 namespace dihaptic::scene {
 namespace {
 
-constexpr const char* kFirstLine = "dihaptic pieces 1";
+/// Files of the first version may have pieces that do not fill the mesh.
+constexpr const char* kUnchecked = "dihaptic pieces 1\n";
+constexpr const char* kFirstLine = "dihaptic pieces 2\n";
 constexpr const char* kDecomposer = "dihaptic-decompose";
 constexpr int64_t kMostPieces = 1'000'000'000;  // bytes
 /// Meshes with thousands of dents take minutes to cut; the user can cancel.
@@ -91,7 +94,9 @@ std::optional<std::vector<Hull>> hulls_of(const std::string& text) {
     return hulls;
 }
 
-std::optional<Pieces> read_pieces(const std::string& file, uint64_t mesh) {
+/// The pieces of a mesh in a file; nullopt if it has none. `volume`: of the mesh, which pieces of
+/// the first version have to have.
+std::optional<Pieces> read_pieces(const std::string& file, uint64_t mesh, double volume) {
     if (!is_there(file)) return std::nullopt;
     const std::string text = [&]() -> std::string {
         try {
@@ -100,85 +105,139 @@ std::optional<Pieces> read_pieces(const std::string& file, uint64_t mesh) {
             return "";  // then the mesh is cut anew
         }
     }();
-    const std::string head = fmt::format("{}\nmesh {:016x}\n", kFirstLine, mesh);
+    const bool is_checked = text.starts_with(kFirstLine);
+    const std::string head =
+        fmt::format("{}mesh {:016x}\n", is_checked ? kFirstLine : kUnchecked, mesh);
     const size_t end = text.rfind("end ");
     if (!text.starts_with(head) || end == std::string::npos) return std::nullopt;
     const std::string body = text.substr(0, end);
     if (text.substr(end) != fmt::format("end {:016x}\n", fingerprint(body))) return std::nullopt;
     std::optional<std::vector<Hull>> hulls = hulls_of(body.substr(head.size()));
     if (!hulls) return std::nullopt;
-    return Pieces{*std::move(hulls), mesh};
+    Pieces out{*std::move(hulls), mesh};
+    if (!is_checked && !is_same_size(integrate(out).volume, volume)) return std::nullopt;
+    return out;
 }
 
-std::string off_of(const Mesh& mesh) {
-    std::string off = fmt::format("OFF\n{} {} 0\n", mesh.vertices.size(), mesh.faces.size());
-    for (const Vec3& v : mesh.vertices) off += fmt::format("{} {} {}\n", v.x(), v.y(), v.z());
-    for (const std::vector<int>& f : mesh.faces)
-        off += fmt::format("3 {} {} {}\n", f[0], f[1], f[2]);
-    return off;
+/// What dihaptic-decompose reads (app/decompose/main.cpp).
+std::string text_of(const ClosedMesh& solid) {
+    std::string out;
+    const auto add = [&](const Shell& shell, const char* kind, bool is_cavity) {
+        std::map<int, size_t> number;
+        std::string vertices;
+        std::string faces;
+        for (const size_t i : shell.faces) {
+            std::array<size_t, 3> f{};
+            for (size_t k = 0; k < 3; ++k) {
+                const int at = solid.mesh.faces[i][k];
+                const auto [known, is_new] = number.try_emplace(at, number.size());
+                f[k] = known->second;
+                const Vec3& v = solid.mesh.vertices[static_cast<size_t>(at)];
+                if (is_new) vertices += fmt::format("{} {} {}\n", v.x(), v.y(), v.z());
+            }
+            if (is_cavity) std::swap(f[1], f[2]);
+            faces += fmt::format("{} {} {}\n", f[0], f[1], f[2]);
+        }
+        out +=
+            fmt::format("{} {} {}\n{}{}", kind, number.size(), shell.faces.size(), vertices, faces);
+    };
+    for (size_t i = 0; i < solid.shells.size(); ++i) {
+        if (solid.shells[i].within >= 0) continue;
+        add(solid.shells[i], "solid", false);
+        for (const Shell& cavity : solid.shells) {
+            if (cavity.within == static_cast<int>(i)) add(cavity, "cavity", true);
+        }
+    }
+    return out;
 }
 
-std::vector<Hull> decompose(const Mesh& mesh, const std::string& file, const Place& asked_at,
+/// What dihaptic-decompose has written.
+struct Cut {
+    std::vector<Hull> hulls;       ///< none if there is no way to cut the solid
+    double volume = 0;             ///< of the solid [m^3]
+    double inverted = 0;           ///< of what a shell winds around the wrong way [m^3]
+    std::optional<Vec3> crossing;  ///< where a shell crosses or touches itself
+};
+
+Cut cut_of(const std::string& text) {
+    Cut out;
+    std::istringstream in(text);
+    std::string word;
+    for (std::streampos at = in.tellg(); in >> word; at = in.tellg()) {
+        double shells = 0;
+        Vec3 p = Vec3::Zero();
+        if (word == "crossing" && in >> p.x() >> p.y() >> p.z()) {
+            out.crossing = p;
+        } else if (word == "inverted") {
+            in >> out.inverted;
+        } else if (word == "volume") {
+            in >> out.volume >> shells;
+        } else {
+            std::optional<std::vector<Hull>> hulls = hulls_of(text.substr(at));
+            if (hulls) hulls = hulls_of(text_of(*hulls));  // as they will be when read from a file
+            if (hulls) out.hulls = *std::move(hulls);
+            break;
+        }
+    }
+    return out;
+}
+
+/// Whether the pieces reach as far as the mesh along each axis.
+bool reach(const std::vector<Hull>& hulls, const Mesh& mesh) {
+    const auto grow = [](Eigen::AlignedBox3d& box, const std::vector<Vec3>& points) {
+        for (const Vec3& p : points) box.extend(p);
+    };
+    Eigen::AlignedBox3d pieces;
+    Eigen::AlignedBox3d whole;
+    for (const Hull& hull : hulls) grow(pieces, hull.vertices);
+    for (const std::vector<int>& f : mesh.faces) {
+        for (const int i : f) whole.extend(mesh.vertices[static_cast<size_t>(i)]);
+    }
+    const double most = kSameSize * whole.diagonal().norm();
+    return (pieces.min() - whole.min()).norm() <= most &&
+           (pieces.max() - whole.max()).norm() <= most;
+}
+
+std::string near(const Cut& cut, const MeshName& name) {
+    return cut.crossing ? "; its faces cross or touch each other near " + name.place(*cut.crossing)
+                        : "";
+}
+
+constexpr const char* kRepair =
+    "Repair the faces there in a mesh editor, or unite its parts there, or leave out concave.";
+
+std::vector<Hull> decompose(const ClosedMesh& solid, const MeshName& name,
                             const std::stop_token& stop) {
     const CompanionTask task{
         kDecomposer,
         {},
         kLimits,
-        "cutting " + file + " into convex pieces",
+        "cutting " + name.file + " into convex pieces",
         "Repair faces that intersect, or give it fewer, in a mesh editor, or leave out concave.",
-        asked_at,
+        name.asked_at,
         "concave",
         stop};
-    const std::optional<std::string> text = run_companion(task, off_of(mesh));
-    std::optional<std::vector<Hull>> hulls = text ? hulls_of(*text) : std::nullopt;
-    if (hulls) hulls = hulls_of(text_of(*hulls));  // as they will be when read from the file
-    if (!hulls) {
-        throw Error(
-            asked_at, "file", "the mesh " + file + " cannot be cut into convex pieces",
-            "Look for faces that intersect or touch each other in a mesh editor, and repair them.");
-    }
-    return *std::move(hulls);
+    const std::optional<std::string> text = run_companion(task, text_of(solid));
+    Cut cut = text ? cut_of(*text) : Cut{};
+    if (cut.inverted > kSameSize * cut.volume)
+        throw name.refused(
+            fmt::format("winds the wrong way around {} of its space, beside {} of solid{}",
+                        name.volume(cut.inverted), name.volume(cut.volume), near(cut, name)),
+            kRepair);
+    if (cut.hulls.empty())
+        throw name.refused("cannot be cut into convex pieces" + near(cut, name), kRepair);
+    if (const double filled = integrate(Pieces{cut.hulls}).volume;
+        !is_same_size(filled, cut.volume))
+        throw name.refused(
+            fmt::format("has {}, and its convex pieces {}{}", name.volume(cut.volume),
+                        name.volume(filled), near(cut, name)),
+            kRepair);
+    if (!reach(cut.hulls, solid.mesh))
+        throw name.refused("reaches further than its convex pieces" + near(cut, name), kRepair);
+    return std::move(cut.hulls);
 }
 
 }  // namespace
-
-Mesh closed(const Mesh& mesh, const std::string& file, const Place& asked_at) {
-    Mesh out;
-    std::map<std::array<double, 3>, int> known;
-    std::vector<int> index;
-    for (const Vec3& v : mesh.vertices) {
-        const auto [at, is_new] =
-            known.try_emplace({v.x(), v.y(), v.z()}, static_cast<int>(out.vertices.size()));
-        if (is_new) out.vertices.push_back(v);
-        index.push_back(at->second);
-    }
-    std::map<std::pair<int, int>, int> edges;  // each directed edge must be used exactly once
-    for (const std::vector<int>& f : mesh.faces) {
-        const std::array<int, 3> t{index[static_cast<size_t>(f[0])],
-                                   index[static_cast<size_t>(f[1])],
-                                   index[static_cast<size_t>(f[2])]};
-        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;  // a face without area
-        out.faces.push_back({t[0], t[1], t[2]});
-        for (size_t i = 0; i < 3; ++i) ++edges[{t[i], t[(i + 1) % 3]}];
-    }
-    size_t open = 0;
-    for (const auto& [edge, count] : edges) {
-        const auto back = edges.find({edge.second, edge.first});
-        if (count != 1 || back == edges.end() || back->second != 1) ++open;
-    }
-    if (open > 0) {
-        throw Error(
-            asked_at, "file",
-            fmt::format("the mesh {} is not closed: {} of its edges do not join two faces of "
-                        "the same orientation",
-                        file, open),
-            "Close its holes and orient its faces alike in a mesh editor, or leave out concave.");
-    }
-    if (integrate(out.vertices, out.faces).volume < 0) {
-        for (std::vector<int>& face : out.faces) std::swap(face[1], face[2]);
-    }
-    return out;
-}
 
 std::string pieces_file(const std::string& mesh_file) {
     return mesh_file + ".pieces";
@@ -186,7 +245,7 @@ std::string pieces_file(const std::string& mesh_file) {
 
 void write_pieces(const Pieces& pieces, const std::string& file) {
     const std::string body =
-        fmt::format("{}\nmesh {:016x}\n", kFirstLine, pieces.mesh) + text_of(pieces.hulls);
+        fmt::format("{}mesh {:016x}\n", kFirstLine, pieces.mesh) + text_of(pieces.hulls);
     write_file(body + fmt::format("end {:016x}\n", fingerprint(body)), file);
 }
 
@@ -208,20 +267,62 @@ void keep(const Pieces& pieces, const std::string& file) {
 
 }  // namespace
 
-Pieces convex_pieces(const Mesh& mesh, const std::string& file, const Place& asked_at,
-                     Diagnostics& diagnostics, const std::stop_token& stop) {
-    const uint64_t print = fingerprint(mesh);
-    const std::string kept = kept_file(print);
-    for (const std::string& there : {pieces_file(file), kept}) {
-        if (std::optional<Pieces> pieces = read_pieces(there, print)) return *std::move(pieces);
+namespace {
+
+/// Tells that shells overlap: what is felt and weighed is their union.
+void check_overlap(const ClosedMesh& solid, const Pieces& pieces, const MeshName& name,
+                   Diagnostics& diagnostics) {
+    const double shells = integrate(solid.mesh.vertices, solid.mesh.faces).volume;
+    const double united = integrate(pieces).volume;
+    if (is_same_size(shells, united)) return;
+    diagnostics.warning(
+        name.asked_at, "file",
+        fmt::format("the mesh {} has parts that overlap: they have {} together, and {} where what "
+                    "they share counts once, which is felt and weighed",
+                    name.file, name.volume(shells), name.volume(united)),
+        "Unite its parts in a mesh editor, and turn the faces of cavities inward.");
+}
+
+}  // namespace
+
+VolumeIntegrals integrate(const Pieces& pieces) {
+    VolumeIntegrals out;
+    std::vector<VolumeIntegrals> parts;
+    Vec3 first = Vec3::Zero();
+    for (const Hull& hull : pieces.hulls) {
+        parts.push_back(integrate(hull.vertices, hull.faces));
+        out.volume += parts.back().volume;
+        first += parts.back().volume * parts.back().centre;
     }
-    Pieces pieces{decompose(mesh, file, asked_at, stop), print};
+    if (out.volume <= 0) return out;
+    out.centre = first / out.volume;
+    for (const VolumeIntegrals& part : parts) {
+        const Vec3 r = part.centre - out.centre;
+        out.inertia +=
+            part.inertia + part.volume * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
+    }
+    return out;
+}
+
+Pieces convex_pieces(const ClosedMesh& solid, const MeshName& name, Diagnostics& diagnostics,
+                     const std::stop_token& stop) {
+    const uint64_t print = fingerprint(solid.mesh);
+    const std::string kept = kept_file(print);
+    const double volume = integrate(solid.mesh.vertices, solid.mesh.faces).volume;
+    for (const std::string& there : {pieces_file(name.file), kept}) {
+        std::optional<Pieces> pieces = read_pieces(there, print, volume);
+        if (!pieces || !reach(pieces->hulls, solid.mesh)) continue;
+        check_overlap(solid, *pieces, name, diagnostics);
+        return *std::move(pieces);
+    }
+    Pieces pieces{decompose(solid, name, stop), print};
+    check_overlap(solid, pieces, name, diagnostics);
     try {
         keep(pieces, kept);
     } catch (const Error& e) {
-        diagnostics.warning(asked_at, "file",
-                            fmt::format("the convex pieces of {} cannot be kept: {} {}", file, kept,
-                                        e.problems().front().what),
+        diagnostics.warning(name.asked_at, "file",
+                            fmt::format("the convex pieces of {} cannot be kept: {} {}", name.file,
+                                        kept, e.problems().front().what),
                             "They are cut anew in each run, unless that folder can be written to.");
     }
     return pieces;

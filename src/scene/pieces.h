@@ -1,6 +1,6 @@
-// Cuts concave meshes into convex pieces, for contact. The pieces fill the mesh exactly. A separate
-// program, dihaptic-decompose, cuts the mesh (docs/adr/0008), and a file beside the mesh keeps the
-// pieces.
+// Cuts concave meshes into convex pieces, for contact. The pieces fill the mesh exactly, which is
+// checked by their volume and extent. A separate program, dihaptic-decompose, cuts the mesh
+// (docs/adr/0008), and a file keeps the pieces.
 #pragma once
 
 #include <cstdint>
@@ -14,22 +14,23 @@
 
 namespace dihaptic::scene {
 
+struct ClosedMesh;
+struct MeshName;
+
 struct Pieces {
     std::vector<Hull> hulls;  ///< in the mesh's frame [m]
     uint64_t mesh = 0;        ///< fingerprint of the mesh that was cut, in metres
 };
 
-/// The mesh with vertices at equal positions merged and all faces facing outward. Throws Error when
-/// the surface is not closed, as it then has no inside. `asked_at` is where `file` was named, for
-/// messages.
-Mesh closed(const Mesh& mesh, const std::string& file, const Place& asked_at);
+/// Integrals over all pieces, for unit density.
+VolumeIntegrals integrate(const Pieces& pieces);
 
-/// Convex pieces of a closed mesh that was read from `file`. The pieces kept beside the file are
-/// used if they are intact and belong to this mesh; else the mesh is cut and the new pieces are
-/// kept. Warns if they cannot be written. Throws Error when the mesh cannot be cut, e.g. because it
-/// intersects itself, or when the cut is stopped.
-Pieces convex_pieces(const Mesh& mesh, const std::string& file, const Place& asked_at,
-                     Diagnostics& diagnostics, const std::stop_token& stop = {});
+/// Convex pieces of a closed mesh. The pieces kept beside its file are used if they are intact,
+/// belong to this mesh and fill it; else the mesh is cut and the new pieces are kept. Where shells
+/// overlap, the pieces fill their union, which is told in a warning. Warns if they cannot be
+/// written. Throws Error when no pieces that fill the mesh are found, or when the cut is stopped.
+Pieces convex_pieces(const ClosedMesh& mesh, const MeshName& name, Diagnostics& diagnostics,
+                     const std::stop_token& stop = {});
 
 /// Name of the file beside a mesh that keeps its pieces.
 std::string pieces_file(const std::string& mesh_file);

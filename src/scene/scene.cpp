@@ -14,6 +14,7 @@
 #include "base/choices.h"
 #include "base/installed.h"
 #include "base/text.h"
+#include "scene/closed.h"
 #include "scene/colour.h"
 #include "scene/finger_set.h"
 #include "scene/mesh.h"
@@ -71,7 +72,9 @@ const Mesh* Meshes::read(const std::string& file, double unit, const Place& plac
 
 void Meshes::load(Shape& shape, bool coloured) {
     for (Part& part : shape.parts) load(part.shape, coloured);
-    if (shape.kind != ShapeKind::mesh || shape.file.empty()) return;
+    if (shape.kind != ShapeKind::mesh || shape.file.empty() ||
+        !is_unit_known(shape.unit_place, diagnostics_))
+        return;
     try {
         load_file(shape, coloured, named_in(folder_, shape.file));
     } catch (const Error& e) {
@@ -95,14 +98,19 @@ void Meshes::load_file(Shape& shape, bool coloured, const std::string& file) {
     }
     if (const double size = extent(shape); size < kSmallest || size > kLargest) {
         diagnostics_.error(place, "unit", fmt::format("the mesh {} is {:g} m large", file, size),
-                           "Give the unit of its coordinates: m, cm or mm.");
+                           "Give the unit of its coordinates: m, cm, mm or inch.");
         return;
     }
     if (coloured) keep_colours(shape, mesh, file, diagnostics_);
     if (shape.concave) {
-        shape.surface = closed(mesh, file, place);
-        shape.solid = integrate(shape.surface.vertices, shape.surface.faces);
-        shape.pieces = convex_pieces(shape.surface, file, place, diagnostics_, stop_);
+        const MeshName name{file, place, metres(shape.unit), enum_name(shape.unit)};
+        ClosedMesh solid = closed(mesh, name, diagnostics_);
+        shape.pieces = convex_pieces(solid, name, diagnostics_, stop_);
+        // where shells overlap, what they share counts once
+        const VolumeIntegrals shells = integrate(solid.mesh.vertices, solid.mesh.faces);
+        const VolumeIntegrals pieces = integrate(shape.pieces);
+        shape.solid = is_same_size(shells.volume, pieces.volume) ? shells : pieces;
+        shape.surface = std::move(solid.mesh);
         return;
     }
     const double solid = integrate(mesh.vertices, mesh.faces).volume;

@@ -60,6 +60,8 @@ double metres(MeshUnit unit) {
             return 1e-2;
         case MeshUnit::mm:
             return 1e-3;
+        case MeshUnit::inch:
+            return 0.0254;
     }
     return 1;
 }

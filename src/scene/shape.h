@@ -20,9 +20,9 @@ constexpr auto enum_names(ShapeKind) {
 }
 
 /// The unit of a mesh file's coordinates, which the file itself does not give.
-enum class MeshUnit { m, cm, mm };
+enum class MeshUnit { m, cm, mm, inch };
 constexpr auto enum_names(MeshUnit) {
-    return std::array{"m", "cm", "mm"};
+    return std::array{"m", "cm", "mm", "inch"};
 }
 
 /// How long one is [m].
@@ -52,8 +52,9 @@ struct Shape {
     Hull hull;                ///< mesh: its convex hull [m]
     Mesh surface;             ///< concave mesh: the mesh itself, closed [m]
     Pieces pieces;            ///< concave mesh: convex pieces that fill it
-    VolumeIntegrals solid;    ///< concave mesh: integrals over the mesh itself
+    VolumeIntegrals solid;    ///< concave mesh: integrals over what its pieces fill
     Place file_place;         ///< mesh: where the scene file names its file
+    Place unit_place;         ///< mesh: where it names its unit
     std::shared_ptr<const Mesh> coloured;  ///< mesh: as its file has it, if its colours are drawn
 
     template <class Visitor>
@@ -93,7 +94,10 @@ struct Shape {
                 v("unit", unit, Field::text().required().says("Unit of the mesh's coordinates."));
                 v("concave", concave,
                   says("Whether the mesh itself is felt, in place of its convex hull."));
-                if constexpr (requires { v.place(); }) file_place = v.place_of("file");
+                if constexpr (requires { v.place(); }) {
+                    file_place = v.place_of("file");
+                    unit_place = v.place_of("unit");
+                }
                 break;
             case ShapeKind::compound:
                 visit_parts(v);

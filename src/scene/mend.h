@@ -1,0 +1,40 @@
+// Mends the surfaces of meshes: corners that are the same but for rounding become one, faces
+// without area are left out, and an edge on which corners of other faces lie ends at each of them.
+#pragma once
+
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "scene/mesh.h"
+
+namespace dihaptic::scene {
+
+using Edge = std::pair<int, int>;  ///< from one vertex to another, as a face has it
+
+inline const Vec3& corner(const Mesh& mesh, int i) {
+    return mesh.vertices[static_cast<size_t>(i)];
+}
+
+/// Of each edge that is not balanced by as many faces that have it the other way: how many more
+/// have it this way.
+std::map<Edge, int> open_edges(const Mesh& mesh);
+
+/// Corners closer than this are taken as one [m]: a millionth of the mesh's diagonal, and eight
+/// steps of a coordinate in single precision.
+double rounding_of(const Mesh& mesh);
+
+/// The mesh without colours, with corners at equal positions merged, and without faces that have a
+/// corner twice or lie back to back.
+Mesh merged(const Mesh& mesh);
+
+struct Mended {
+    Mesh mesh;
+    double largest = 0;  ///< of the distances between corners that were taken as one [m]
+};
+
+/// The mesh with all that is said above, within `rounding`.
+Mended mended(const Mesh& mesh, double rounding);
+
+}  // namespace dihaptic::scene

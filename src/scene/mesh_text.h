@@ -1,0 +1,17 @@
+// Mesh files as they are found: with byte order marks, old line ends, capitals, spare bytes, or
+// without a count. The reader of meshes knows none of these, and does not say what it lacks.
+#pragma once
+
+#include <string>
+
+namespace dihaptic::scene {
+
+struct MeshText {
+    std::string bytes;  ///< as the reader knows them
+    std::string fault;  ///< what is wrong with the file, after its name; "": nothing that is seen
+};
+
+/// `format`: obj, stl, ply or off.
+MeshText tidy(std::string bytes, const std::string& format);
+
+}  // namespace dihaptic::scene
