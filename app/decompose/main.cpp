@@ -1,8 +1,11 @@
-// dihaptic-decompose < SHELLS > PIECES: cuts a solid into convex pieces, exactly (CGAL's Nef
-// polyhedra; Chazelle 1984). It reads shells, each a line "solid" or "cavity" with its numbers of
-// vertices and of triangles, then these, one per line. Shells are closed and face outward, cavities
-// too; a cavity is cut out of the solid before it. The program dihaptic calls it, under limits, and
-// keeps the result; there is no need to call it by hand.
+// dihaptic-decompose shells|winding < SHELLS > PIECES: cuts a solid into convex pieces, exactly
+// (CGAL's Nef polyhedra; Chazelle 1984). It reads shells, each a line "solid" or "cavity" with its
+// numbers of vertices and of triangles, then these, one per line. Shells are closed and face
+// outward, cavities too; a cavity is cut out of the solid before it. The program dihaptic calls it,
+// under limits, and keeps the result; there is no need to call it by hand.
+//
+// "shells" makes a solid of each shell and unites them. "winding" takes longer, and makes no
+// assumption but that all shells together are closed (arrangement.h).
 //
 // It writes "crossing X Y Z", a place where a shell crosses or touches itself, if one does;
 // "inverted VOLUME" of what a shell winds around the wrong way; "volume SOLID SHELLS", the volume
@@ -91,7 +94,7 @@ class Build : public CGAL::Modifier_base<Polyhedron::HalfedgeDS> {
 };
 
 /// The solid within a shell. Throws when the shell crosses or touches itself, and tells where.
-Nef inside(const Shell& shell, std::ostream& out) {
+Nef inside(const Shell& shell) {
     Polyhedron surface;
     Build build(shell);
     surface.delegate(build);
@@ -103,8 +106,8 @@ Nef inside(const Shell& shell, std::ostream& out) {
         const auto corner = crossings.front().first->halfedge();
         const Point p = CGAL::centroid(corner->vertex()->point(), corner->next()->vertex()->point(),
                                        corner->next()->next()->vertex()->point());
-        out << "crossing " << CGAL::to_double(p.x()) << " " << CGAL::to_double(p.y()) << " "
-            << CGAL::to_double(p.z()) << "\n";
+        std::cout << "crossing " << CGAL::to_double(p.x()) << " " << CGAL::to_double(p.y()) << " "
+                  << CGAL::to_double(p.z()) << "\n";
         throw std::runtime_error("crosses itself");
     }
     Nef solid(surface);
@@ -115,11 +118,11 @@ Nef inside(const Shell& shell, std::ostream& out) {
 }
 
 /// The union of all solids, each without its cavities.
-Nef by_shells(const std::vector<Shell>& shells, std::ostream& out) {
+Nef by_shells(const std::vector<Shell>& shells) {
     Nef all;
     Nef one;
     for (size_t i = 0; i < shells.size(); ++i) {
-        const Nef next = inside(shells[i], out);
+        const Nef next = inside(shells[i]);
         one = shells[i].is_cavity ? one - next : next;
         const bool is_last = i + 1 == shells.size() || !shells[i + 1].is_cavity;
         if (is_last) all = i == 0 || all.is_empty() ? one : all + one;
@@ -127,7 +130,7 @@ Nef by_shells(const std::vector<Shell>& shells, std::ostream& out) {
     return shells.size() == 1 ? all : all.regularization();
 }
 
-Nef by_winding(const std::vector<Shell>& shells, std::ostream& out) {
+Nef by_winding(const std::vector<Shell>& shells) {
     std::vector<Triangle> triangles;
     for (const Shell& shell : shells) {
         for (const auto& f : shell.faces) {
@@ -137,7 +140,7 @@ Nef by_winding(const std::vector<Shell>& shells, std::ostream& out) {
         }
     }
     Wound all = wound(triangles);
-    if (all.inverted > 0) out << "inverted " << all.inverted << "\n";
+    if (all.inverted > 0) std::cout << "inverted " << all.inverted << "\n";
     return all.solid;
 }
 
@@ -161,41 +164,29 @@ void cut(Nef solid, std::ostream& out) {
     }
 }
 
-void decompose(const std::vector<Shell>& shells) {
+void decompose(const std::string& way, const std::vector<Shell>& shells) {
+    std::cout.precision(17);
+    const Nef solid = way == "winding" ? by_winding(shells) : by_shells(shells);
     double sum = 0;
     for (const Shell& shell : shells) sum += shell.is_cavity ? -enclosed(shell) : enclosed(shell);
-    for (const auto& fill : {by_shells, by_winding}) {
-        std::ostringstream told;
-        std::ostringstream pieces;
-        pieces.precision(17);
-        told.precision(17);
-        try {
-            const Nef solid = fill(shells, told);
-            cut(solid, pieces);
-            std::cout.precision(17);
-            std::cout << told.str() << "volume " << volume_of(solid) << " " << sum << "\n"
-                      << pieces.str() << std::flush;
-            return;
-        } catch (const std::bad_alloc&) {
-            throw;
-        } catch (const std::exception&) {
-            std::cout << told.str();  // then the other way
-        }
-    }
-    std::cout << std::flush;
+    std::ostringstream pieces;
+    pieces.precision(17);
+    cut(solid, pieces);
+    std::cout << "volume " << volume_of(solid) << " " << sum << "\n" << pieces.str();
 }
 
 }  // namespace
 
-int main() {
+int main(int count, char** arguments) {
     try {
         // CGAL prints nothing: the calling program reports the failure
         CGAL::set_error_handler([](const char*, const char*, const char*, int, const char*) {});
-        decompose(read(std::cin));
+        decompose(count > 1 ? arguments[1] : "shells", read(std::cin));
     } catch (const std::bad_alloc&) {
         return 3;
     } catch (const std::exception&) {
-        return 1;
+        // what was written says where; there are no pieces
     }
+    std::cout.flush();
     return std::cout ? 0 : 1;
 }

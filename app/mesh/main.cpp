@@ -21,6 +21,8 @@
 #include <string>
 #include <vector>
 
+#include "ears.h"
+
 namespace {
 
 /// How the program ends (base/companion.h).
@@ -70,6 +72,33 @@ void add_colours(const aiMesh& part, std::vector<int32_t>& out) {
     }
 }
 
+/// Adds the triangles of a face; points and lines bound no volume.
+void add_face(const aiFace& face, const aiMesh& part, uint32_t offset, Surface& out) {
+    if (face.mNumIndices == 3) {
+        out.faces.push_back(
+            {offset + face.mIndices[0], offset + face.mIndices[1], offset + face.mIndices[2]});
+        return;
+    }
+    std::vector<dihaptic::mesh::Corner> corners;
+    for (unsigned i = 0; i < face.mNumIndices; ++i) {
+        const aiVector3D& v = part.mVertices[face.mIndices[i]];
+        corners.push_back({v.x, v.y, v.z});
+    }
+    for (const auto& [a, b, c] : dihaptic::mesh::ears(corners))
+        out.faces.push_back(
+            {offset + face.mIndices[a], offset + face.mIndices[b], offset + face.mIndices[c]});
+}
+
+/// How many triangles the faces make.
+size_t count_triangles(const aiScene& scene) {
+    size_t out = 0;
+    for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+        for (unsigned i = 0; i < scene.mMeshes[m]->mNumFaces; ++i)
+            out += std::max(scene.mMeshes[m]->mFaces[i].mNumIndices, 2U) - 2;
+    }
+    return out;
+}
+
 Surface surface_of(const aiScene& scene) {
     Surface out;
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
@@ -79,12 +108,7 @@ Surface surface_of(const aiScene& scene) {
             const aiVector3D& v = part.mVertices[i];
             out.vertices.push_back({v.x, v.y, v.z});
         }
-        for (unsigned i = 0; i < part.mNumFaces; ++i) {
-            const aiFace& face = part.mFaces[i];
-            if (face.mNumIndices != 3) continue;  // points and lines bound no volume
-            out.faces.push_back(
-                {offset + face.mIndices[0], offset + face.mIndices[1], offset + face.mIndices[2]});
-        }
+        for (unsigned i = 0; i < part.mNumFaces; ++i) add_face(part.mFaces[i], part, offset, out);
         add_colours(part, out.colours);
         out.parts.push_back(part.mNumVertices);
         if (part.mMaterialIndex < scene.mNumMaterials)
@@ -110,13 +134,18 @@ bool write(const Items& items) {
 Status read(const std::string& format) {
     const std::string bytes = standard_input();
     const std::string name = AI_MEMORYIO_MAGIC_FILENAME "." + format;
-    Assimp::Importer importer;
-    importer.SetIOHandler(new OneFile(bytes, name));  // the importer owns it from now on
-    const aiScene* scene =
-        importer.ReadFile(name, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
-                                    aiProcess_PreTransformVertices);
-    if (scene == nullptr) return kRefused;
-    const Surface surface = surface_of(*scene);
+    // twice: the library leaves out what it cannot cut of faces whose corners lie in line, and does
+    // not say so
+    constexpr unsigned kJoined = aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices;
+    std::array<Assimp::Importer, 2> importers;
+    std::array<const aiScene*, 2> scenes{};
+    for (size_t i = 0; i < 2; ++i) {
+        importers[i].SetIOHandler(new OneFile(bytes, name));  // the importer owns it from now on
+        scenes[i] = importers[i].ReadFile(name, i == 0 ? kJoined | aiProcess_Triangulate : kJoined);
+        if (scenes[i] == nullptr) return kRefused;
+    }
+    const bool is_whole = count_triangles(*scenes[0]) == count_triangles(*scenes[1]);
+    const Surface surface = surface_of(*scenes[is_whole ? 0 : 1]);
     const std::array<uint64_t, 3> counts{surface.vertices.size(), surface.faces.size(),
                                          surface.parts.size()};
     std::fputs("dihaptic mesh 2\n", stdout);

@@ -280,18 +280,34 @@ size_t count_faulty(const Mesh& mesh) {
     }));
 }
 
+/// What is wrong at an edge that is not balanced.
+std::string fault_at(const Mesh& mesh, const Edge& edge) {
+    size_t forward = 0;
+    size_t back = 0;
+    for (const std::vector<int>& f : mesh.faces) {
+        for (size_t i = 0; i < 3; ++i) {
+            const Edge one{f[i], f[(i + 1) % 3]};
+            forward += one == edge;
+            back += one == Edge{edge.second, edge.first};
+        }
+    }
+    if (forward == 1 && back == 0) return "where one face has no neighbour";
+    if (forward == 2 && back == 0) return "where two faces face opposite ways";
+    return fmt::format("where {} faces meet", forward + back);
+}
+
 /// Why a mesh is refused that stays open.
 Error not_closed(const Mesh& mesh, const Mesh& best, double rounding, const MeshName& name) {
     const std::map<Edge, int> open = open_edges(best);
     const Edge& first = open.begin()->first;
     const std::string where =
-        fmt::format("the first from {} to {}", name.place(corner(best, first.first)),
-                    name.place(corner(best, first.second)));
+        fmt::format("the first from {} to {}, {}", name.place(corner(best, first.first)),
+                    name.place(corner(best, first.second)), fault_at(best, first));
     std::set<int> ends;
     for (const auto& [edge, count] : open) ends.insert({edge.first, edge.second});
     Edge nearest{-1, -1};
-    double gap = 1e-3 * rounding / 1e-6;  // corners further apart are not meant to be one
-    constexpr size_t kMost = 5000;        // of ends, all of whose pairs are looked at
+    double gap = 1000 * rounding;   // corners further apart are not meant to be one
+    constexpr size_t kMost = 5000;  // of ends, all of whose pairs are looked at
     for (auto a = ends.begin(); a != ends.end() && ends.size() <= kMost; ++a) {
         for (auto b = std::next(a); b != ends.end(); ++b) {
             const double distance = (corner(best, *a) - corner(best, *b)).norm();
@@ -305,9 +321,10 @@ Error not_closed(const Mesh& mesh, const Mesh& best, double rounding, const Mesh
         "orientation, {}",
         count_faulty(mesh), where);
     if (nearest.first < 0)
-        return name.refused(what,
-                            "Close its holes and orient its faces alike in a mesh editor, or leave "
-                            "out concave.");
+        return name.refused(
+            what,
+            "Close its holes, orient its faces alike and delete faces that are there "
+            "twice in a mesh editor, or leave out concave.");
     return name.refused(
         fmt::format("{}; its corners at {} and {} are {:.2g} {} apart, where up to {:.2g} {} are "
                     "taken for rounding",

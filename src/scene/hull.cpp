@@ -50,8 +50,11 @@ Hull convex_hull(std::span<const Vec3> points) {
         high = high.cwiseMax(v);
     }
     if (hull.faces.size() < 4) return {};
-    const double thickness = 2 * integrate(hull.vertices, hull.faces).volume / area(hull);
-    if (!(thickness > 1e-6 * (high - low).norm())) return {};
+    // neither a needle nor a leaf, whose volume and area are but rounding
+    const double extent = (high - low).norm();
+    const double surface = area(hull);
+    const double thickness = 2 * integrate(hull.vertices, hull.faces).volume / surface;
+    if (!(surface > 1e-6 * extent * extent && thickness > 1e-6 * extent)) return {};
     return hull;
 }
 

@@ -65,8 +65,22 @@ std::string text_of(const std::vector<Hull>& hulls) {
     return out;
 }
 
-std::optional<std::vector<Hull>> hulls_of(const std::string& text) {
+/// What "piece <count>" lines and vertices say.
+struct Parsed {
     std::vector<Hull> hulls;
+    std::optional<Vec3> lost;  ///< a corner that no hull has, of a piece that is too thin if any is
+};
+
+std::optional<Vec3> lost_of(const std::vector<Vec3>& points, const Hull& hull) {
+    for (const Vec3& p : points) {
+        if (std::find(hull.vertices.begin(), hull.vertices.end(), p) == hull.vertices.end())
+            return p;
+    }
+    return std::nullopt;
+}
+
+std::optional<Parsed> parse(const std::string& text) {
+    Parsed out;
     std::istringstream in(text);
     std::string word;
     size_t count = 0;
@@ -86,12 +100,14 @@ std::optional<std::vector<Hull>> hulls_of(const std::string& text) {
             return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
         });
         Hull hull = convex_hull(points);
-        // slivers that rounding has flattened hold no volume, and cannot be touched without their
-        // neighbours
-        if (!hull.faces.empty()) hulls.push_back(std::move(hull));
+        // slivers that rounding has flattened hold hardly any volume, and cannot be touched without
+        // their neighbours
+        const std::optional<Vec3> lost = lost_of(points, hull);
+        if (lost && (hull.faces.empty() || !out.lost)) out.lost = lost;
+        if (!hull.faces.empty()) out.hulls.push_back(std::move(hull));
     }
-    if (hulls.empty()) return std::nullopt;
-    return hulls;
+    if (out.hulls.empty()) return std::nullopt;
+    return out;
 }
 
 /// The pieces of a mesh in a file; nullopt if it has none. `volume`: of the mesh, which pieces of
@@ -112,9 +128,9 @@ std::optional<Pieces> read_pieces(const std::string& file, uint64_t mesh, double
     if (!text.starts_with(head) || end == std::string::npos) return std::nullopt;
     const std::string body = text.substr(0, end);
     if (text.substr(end) != fmt::format("end {:016x}\n", fingerprint(body))) return std::nullopt;
-    std::optional<std::vector<Hull>> hulls = hulls_of(body.substr(head.size()));
-    if (!hulls) return std::nullopt;
-    Pieces out{*std::move(hulls), mesh};
+    std::optional<Parsed> parsed = parse(body.substr(head.size()));
+    if (!parsed) return std::nullopt;
+    Pieces out{std::move(parsed->hulls), mesh};
     if (!is_checked && !is_same_size(integrate(out).volume, volume)) return std::nullopt;
     return out;
 }
@@ -157,6 +173,7 @@ struct Cut {
     double volume = 0;             ///< of the solid [m^3]
     double inverted = 0;           ///< of what a shell winds around the wrong way [m^3]
     std::optional<Vec3> crossing;  ///< where a shell crosses or touches itself
+    std::optional<Vec3> lost;      ///< as Parsed has it
 };
 
 Cut cut_of(const std::string& text) {
@@ -173,9 +190,12 @@ Cut cut_of(const std::string& text) {
         } else if (word == "volume") {
             in >> out.volume >> shells;
         } else {
-            std::optional<std::vector<Hull>> hulls = hulls_of(text.substr(at));
-            if (hulls) hulls = hulls_of(text_of(*hulls));  // as they will be when read from a file
-            if (hulls) out.hulls = *std::move(hulls);
+            if (const std::optional<Parsed> first = parse(text.substr(at))) {
+                // as they will be when read from a file
+                if (std::optional<Parsed> again = parse(text_of(first->hulls)))
+                    out.hulls = std::move(again->hulls);
+                out.lost = first->lost;
+            }
             break;
         }
     }
@@ -198,19 +218,12 @@ bool reach(const std::vector<Hull>& hulls, const Mesh& mesh) {
            (pieces.max() - whole.max()).norm() <= most;
 }
 
-std::string near(const Cut& cut, const MeshName& name) {
-    return cut.crossing ? "; its faces cross or touch each other near " + name.place(*cut.crossing)
-                        : "";
-}
-
-constexpr const char* kRepair =
-    "Repair the faces there in a mesh editor, or unite its parts there, or leave out concave.";
-
-std::vector<Hull> decompose(const ClosedMesh& solid, const MeshName& name,
-                            const std::stop_token& stop) {
+/// What dihaptic-decompose makes of the solid in one of its ways.
+Cut cut_by(const std::string& way, const ClosedMesh& solid, const MeshName& name,
+           const std::stop_token& stop) {
     const CompanionTask task{
         kDecomposer,
-        {},
+        {way},
         kLimits,
         "cutting " + name.file + " into convex pieces",
         "Repair faces that intersect, or give it fewer, in a mesh editor, or leave out concave.",
@@ -218,23 +231,55 @@ std::vector<Hull> decompose(const ClosedMesh& solid, const MeshName& name,
         "concave",
         stop};
     const std::optional<std::string> text = run_companion(task, text_of(solid));
-    Cut cut = text ? cut_of(*text) : Cut{};
+    return text ? cut_of(*text) : Cut{};
+}
+
+/// Why a mesh is refused, and what helps; empty if it need not be.
+struct Fault {
+    std::string why;
+    std::string remedy =
+        "Repair the faces there in a mesh editor, or unite its parts there, or "
+        "leave out concave.";
+};
+
+Fault fault_of(const Cut& cut, const ClosedMesh& solid, const MeshName& name) {
     if (cut.inverted > kSameSize * cut.volume)
-        throw name.refused(
-            fmt::format("winds the wrong way around {} of its space, beside {} of solid{}",
-                        name.volume(cut.inverted), name.volume(cut.volume), near(cut, name)),
-            kRepair);
-    if (cut.hulls.empty())
-        throw name.refused("cannot be cut into convex pieces" + near(cut, name), kRepair);
-    if (const double filled = integrate(Pieces{cut.hulls}).volume;
-        !is_same_size(filled, cut.volume))
-        throw name.refused(
-            fmt::format("has {}, and its convex pieces {}{}", name.volume(cut.volume),
-                        name.volume(filled), near(cut, name)),
-            kRepair);
-    if (!reach(cut.hulls, solid.mesh))
-        throw name.refused("reaches further than its convex pieces" + near(cut, name), kRepair);
-    return std::move(cut.hulls);
+        return {fmt::format("winds the wrong way around {} of its space, beside {} of solid",
+                            name.volume(cut.inverted), name.volume(cut.volume))};
+    if (cut.hulls.empty()) return {"cannot be cut into convex pieces"};
+    const double filled = integrate(Pieces{cut.hulls}).volume;
+    const std::string both = fmt::format("has {}, and its convex pieces {}",
+                                         name.volume(cut.volume), name.volume(filled));
+    const bool is_filled = is_same_size(filled, cut.volume);
+    if (!is_filled)
+        return {fmt::format("{}: faces that ought to be flat are bent by rounding{}, and what is "
+                            "too thin to be felt is lost",
+                            both, cut.lost ? ", near " + name.place(*cut.lost) : ""),
+                "Export it with more digits, or leave out concave."};
+    if (!reach(cut.hulls, solid.mesh)) return {"reaches further than its convex pieces"};
+    return {""};
+}
+
+std::vector<Hull> decompose(const ClosedMesh& solid, const MeshName& name,
+                            const std::stop_token& stop) {
+    std::optional<Vec3> crossing;
+    Fault fault;
+    for (const std::string way : {"shells", "winding"}) {
+        Cut cut;
+        try {
+            cut = cut_by(way, solid, name, stop);
+        } catch (const Error&) {
+            // the library crashes on some solids: then the other way may cut them
+            if (stop.stop_requested() || way == "winding") throw;
+            continue;
+        }
+        fault = fault_of(cut, solid, name);
+        if (fault.why.empty()) return std::move(cut.hulls);
+        if (cut.crossing) crossing = cut.crossing;
+    }
+    const std::string near =
+        crossing ? "; its faces cross or touch each other near " + name.place(*crossing) : "";
+    throw name.refused(fault.why + near, fault.remedy);
 }
 
 }  // namespace

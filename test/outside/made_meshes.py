@@ -51,6 +51,22 @@ def triangles(faces):
     return [[f[0], f[i], f[i + 1]] for f in faces for i in range(1, len(f) - 1)]
 
 
+def enclosed(faces):
+    """The volume within triangles."""
+    def six(a, b, c):
+        return sum(a[i] * (b[(i + 1) % 3] * c[(i + 2) % 3] - b[(i + 2) % 3] * c[(i + 1) % 3]) for i in range(3))
+
+    return sum(six(*face) for face in faces) / 6
+
+
+def voxels(cells):
+    """The surface of cubes of 10 mm, which may share an edge or a corner only."""
+    neighbours = [(0, 0, -1), (0, 0, 1), (0, -1, 0), (1, 0, 0), (0, 1, 0), (-1, 0, 0)]
+    return [[tuple(10 * (cell[i] + CORNERS[corner][i]) for i in range(3)) for corner in side]
+            for cell in cells for side, way in zip(SIDES, neighbours)
+            if tuple(a + b for a, b in zip(cell, way)) not in cells]
+
+
 def a_box(draw, low=-30, high=30):
     edges = [sorted((draw.uniform(low, high), draw.uniform(low, high))) for _ in range(3)]
     return [a for a, _ in edges], [max(b, a + 4) for a, b in edges]
@@ -146,6 +162,11 @@ def pipe(draw):
     return ring(n, inner, outer, height), n / 2 * math.sin(2 * math.pi / n) * (outer**2 - inner**2) * height
 
 
+def of_cubes(draw):
+    cells = {(x, y, z) for x in range(3) for y in range(3) for z in range(2) if draw.random() < 0.5} | {(0, 0, 0)}
+    return voxels(cells), 1000 * len(cells)
+
+
 def t_junction(draw):
     """A face that is cut where its neighbours are not, and the gap open or closed by triangles without area."""
     low, high = a_box(draw)
@@ -173,7 +194,7 @@ def bow_tie(draw):
 
 
 KINDS = [cavity, cavity_that_faces_outward, nested, overlapping, touching, touching_at_an_edge, steps, star, plus, pipe,
-         t_junction, open_box, bow_tie]
+         of_cubes, t_junction, open_box, bow_tie]
 
 
 def rotated(draw, faces):
