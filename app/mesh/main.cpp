@@ -134,18 +134,19 @@ bool write(const Items& items) {
 Status read(const std::string& format) {
     const std::string bytes = standard_input();
     const std::string name = AI_MEMORYIO_MAGIC_FILENAME "." + format;
-    // twice: the library leaves out what it cannot cut of faces whose corners lie in line, and does
-    // not say so
     constexpr unsigned kJoined = aiProcess_JoinIdenticalVertices | aiProcess_PreTransformVertices;
-    std::array<Assimp::Importer, 2> importers;
-    std::array<const aiScene*, 2> scenes{};
-    for (size_t i = 0; i < 2; ++i) {
-        importers[i].SetIOHandler(new OneFile(bytes, name));  // the importer owns it from now on
-        scenes[i] = importers[i].ReadFile(name, i == 0 ? kJoined | aiProcess_Triangulate : kJoined);
-        if (scenes[i] == nullptr) return kRefused;
-    }
-    const bool is_whole = count_triangles(*scenes[0]) == count_triangles(*scenes[1]);
-    const Surface surface = surface_of(*scenes[is_whole ? 0 : 1]);
+    Assimp::Importer importer;
+    importer.SetIOHandler(new OneFile(bytes, name));  // the importer owns it from now on
+    const auto read_with = [&](unsigned steps) { return importer.ReadFile(name, steps); };
+    // first to count: the library leaves out what it cannot cut of faces whose corners lie in line,
+    // and does not say so; STL has triangles alone
+    const aiScene* scene = format == "stl" ? nullptr : read_with(kJoined);
+    const size_t wanted = scene == nullptr ? 0 : count_triangles(*scene);
+    scene = read_with(kJoined | aiProcess_Triangulate);
+    if (scene != nullptr && format != "stl" && count_triangles(*scene) != wanted)
+        scene = read_with(kJoined);
+    if (scene == nullptr) return kRefused;
+    const Surface surface = surface_of(*scene);
     const std::array<uint64_t, 3> counts{surface.vertices.size(), surface.faces.size(),
                                          surface.parts.size()};
     std::fputs("dihaptic mesh 2\n", stdout);
