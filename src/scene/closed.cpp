@@ -296,42 +296,56 @@ std::string fault_at(const Mesh& mesh, const Edge& edge) {
     return fmt::format("where {} faces meet", forward + back);
 }
 
+/// How far a point is from an edge, its ends included.
+double distance(const Mesh& mesh, int point, const Edge& edge) {
+    const Vec3& a = corner(mesh, edge.first);
+    const Vec3 along = corner(mesh, edge.second) - a;
+    const Vec3 p = corner(mesh, point) - a;
+    const double share = std::clamp(p.dot(along) / along.squaredNorm(), 0.0, 1.0);
+    return (p - share * along).norm();
+}
+
+/// The corner that is nearest to an edge that it is not of, if they seem to have been meant to
+/// meet;
+/// "" if none is.
+std::string near_miss(const Mesh& mesh, const std::map<Edge, int>& open, double rounding,
+                      const MeshName& name) {
+    std::set<int> ends;
+    for (const auto& [edge, count] : open) ends.insert({edge.first, edge.second});
+    int nearest = -1;
+    double gap = 1000 * rounding;
+    constexpr size_t kMost = 3000;  // all are looked at together
+    for (const auto& [edge, count] : open) {
+        if (open.size() > kMost) break;
+        for (const int end : ends) {
+            if (end == edge.first || end == edge.second) continue;
+            const double away = distance(mesh, end, edge);
+            if (away >= gap) continue;
+            gap = away;
+            nearest = end;
+        }
+    }
+    if (nearest < 0) return "";
+    return fmt::format(
+        "; its corner at {} is {:.2g} {} from another edge, where up to {:.2g} {} are taken for "
+        "rounding",
+        name.place(corner(mesh, nearest)), gap / name.unit, name.word, rounding / name.unit,
+        name.word);
+}
+
 /// Why a mesh is refused that stays open.
 Error not_closed(const Mesh& mesh, const Mesh& best, double rounding, const MeshName& name) {
     const std::map<Edge, int> open = open_edges(best);
     const Edge& first = open.begin()->first;
-    const std::string where =
-        fmt::format("the first from {} to {}, {}", name.place(corner(best, first.first)),
-                    name.place(corner(best, first.second)), fault_at(best, first));
-    std::set<int> ends;
-    for (const auto& [edge, count] : open) ends.insert({edge.first, edge.second});
-    Edge nearest{-1, -1};
-    double gap = 1000 * rounding;   // corners further apart are not meant to be one
-    constexpr size_t kMost = 5000;  // of ends, all of whose pairs are looked at
-    for (auto a = ends.begin(); a != ends.end() && ends.size() <= kMost; ++a) {
-        for (auto b = std::next(a); b != ends.end(); ++b) {
-            const double distance = (corner(best, *a) - corner(best, *b)).norm();
-            if (distance >= gap) continue;
-            gap = distance;
-            nearest = {*a, *b};
-        }
-    }
-    const std::string what = fmt::format(
-        "is not closed: {} of its edges do not join two faces of the same "
-        "orientation, {}",
-        count_faulty(mesh), where);
-    if (nearest.first < 0)
-        return name.refused(
-            what,
-            "Close its holes, orient its faces alike and delete faces that are there "
-            "twice in a mesh editor, or leave out concave.");
+    const std::string miss = near_miss(best, open, rounding, name);
     return name.refused(
-        fmt::format("{}; its corners at {} and {} are {:.2g} {} apart, where up to {:.2g} {} are "
-                    "taken for rounding",
-                    what, name.place(corner(best, nearest.first)),
-                    name.place(corner(best, nearest.second)), gap / name.unit, name.word,
-                    rounding / name.unit, name.word),
-        "Merge its close corners in a mesh editor, or leave out concave.");
+        fmt::format("is not closed: {} of its edges do not join two faces of the same "
+                    "orientation, the first from {} to {}, {}{}",
+                    count_faulty(mesh), name.place(corner(best, first.first)),
+                    name.place(corner(best, first.second)), fault_at(best, first), miss),
+        miss.empty() ? "Close its holes, orient its faces alike and delete faces that are there "
+                       "twice in a mesh editor, or leave out concave."
+                     : "Merge its close corners in a mesh editor, or leave out concave.");
 }
 
 }  // namespace

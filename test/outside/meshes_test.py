@@ -163,12 +163,18 @@ class Meshes(unittest.TestCase):
         self.felt("open.stl", made.stl(made.triangles(cut + CUBE[1:])), 64000)
         self.felt("zero.stl", made.stl(made.triangles(CUBE) + [[a, a, b]]), 64000)
 
+    def test_a_corner_beside_an_edge_is_told(self):
+        a, b, c, d = CUBE[0]
+        middle = (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, a[2] + 0.001
+        cut = [[a, middle, d], [middle, b, d], [b, c, d]]
+        self.refused("beside.stl", made.stl(made.triangles(cut + CUBE[1:])), "is 0.001 mm from another edge", "rounding")
+
     def test_corners_that_differ_by_rounding(self):
         draw = made.random.Random(1)
         self.felt("rounded.stl", made.stl(made.triangles(CUBE), draw), 64000, ["are taken as one"])
         faces = made.triangles(CUBE)
         faces[0] = [tuple(c + 0.004 for c in faces[0][0]), *faces[0][1:]]
-        self.refused("gap.stl", made.stl(faces), "is not closed", "mm apart", "rounding", "(-20, -20, -20) mm")
+        self.refused("gap.stl", made.stl(faces), "is not closed", "from another edge", "rounding", ") mm is 0.")
 
     def test_coordinates_with_few_decimals(self):
         inner = made.turned(made.box((-10, -10, -10), (10, 10, 10)))
