@@ -53,11 +53,12 @@ std::vector<Shell> read(std::istream& in) {
         double z = 0;
         while (shell.points.size() < vertices && in >> x >> y >> z)
             shell.points.emplace_back(x, y, z);
-        std::array<size_t, 3> f{};
-        while (shell.faces.size() < faces && in >> f[0] >> f[1] >> f[2]) {
-            if (std::max({f[0], f[1], f[2]}) >= vertices)
-                throw std::runtime_error("no such vertex");
-            shell.faces.push_back(f);
+        size_t a = 0;
+        size_t b = 0;
+        size_t c = 0;
+        while (shell.faces.size() < faces && in >> a >> b >> c) {
+            if (std::max({a, b, c}) >= vertices) throw std::runtime_error("no such vertex");
+            shell.faces.push_back({a, b, c});
         }
         out.push_back(std::move(shell));
     }

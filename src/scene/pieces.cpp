@@ -79,6 +79,14 @@ std::optional<Vec3> lost_of(const std::vector<Vec3>& points, const Hull& hull) {
     return std::nullopt;
 }
 
+bool read(std::istream& in, double& value) {
+    std::string word;
+    in >> word;
+    const auto number = finite_number(word);
+    if (number) value = *number;
+    return number.has_value();
+}
+
 std::optional<Parsed> parse(const std::string& text) {
     Parsed out;
     std::istringstream in(text);
@@ -89,10 +97,7 @@ std::optional<Parsed> parse(const std::string& text) {
         std::vector<Vec3> points(count);
         for (Vec3& p : points) {
             for (double& along : p) {
-                in >> word;
-                const auto number = finite_number(word);
-                if (!in || !number) return std::nullopt;
-                along = *number;
+                if (!read(in, along)) return std::nullopt;
             }
         }
         // sorted, so that pieces read from a file equal the newly cut ones to the bit
@@ -183,12 +188,12 @@ Cut cut_of(const std::string& text) {
     for (std::streampos at = in.tellg(); in >> word; at = in.tellg()) {
         double shells = 0;
         Vec3 p = Vec3::Zero();
-        if (word == "crossing" && in >> p.x() >> p.y() >> p.z()) {
-            out.crossing = p;
+        if (word == "crossing") {
+            if (read(in, p.x()) && read(in, p.y()) && read(in, p.z())) out.crossing = p;
         } else if (word == "inverted") {
             in >> out.inverted;
         } else if (word == "volume") {
-            in >> out.volume >> shells;
+            if (!read(in, out.volume) || !read(in, shells)) break;
         } else {
             if (const std::optional<Parsed> first = parse(text.substr(at))) {
                 // as they will be when read from a file

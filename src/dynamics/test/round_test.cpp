@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "base/number.h"
 #include "dynamics/test/blocks.h"
 
 namespace dihaptic::dynamics::round_test {
@@ -217,8 +218,7 @@ TEST(Round, ACanThatIsTiltedFallsBackOrOverByWhereItsCentreIs) {
 TEST(Round, WhatRollsOverSeamsOfFlushBoxesDoesNotFeelThem) {
     std::vector<scene::Body> tiles;
     for (int i = 0; i < 10; ++i)
-        tiles.push_back(
-            box("tile" + std::to_string(i), {0.04, 0.2, 0.02}, {0.04 * i, 0, -0.01}, 0));
+        tiles.push_back(box("tile" + number_text(i), {0.04, 0.2, 0.02}, {0.04 * i, 0, -0.01}, 0));
     scene::Body ball = block({0, 0, 0.02});
     ball.shape = scene::Shape::sphere(0.02);
     for (const scene::Body& roller :

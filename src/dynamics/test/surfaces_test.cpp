@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/number.h"
 #include "base/random.h"
 #include "dynamics/test/blocks.h"
 
@@ -259,7 +260,7 @@ TEST_P(OfEach, KeepTheEnergyOfARowOfBallsWhateverItsGaps) {
         scene.gravity.setZero();
         for (int i = 0; i < 5; ++i) {
             scene.bodies.push_back(ball(0, 1));
-            scene.bodies.back().name = "ball" + std::to_string(i);
+            scene.bodies.back().name = "ball" + number_text(i);
             const double radius = scene.bodies.back().shape.radius;
             scene.bodies.back().position = {(2 * radius + gap) * i - (i == 0 ? 0.02 : 0), 0, 0};
         }

@@ -6,11 +6,8 @@
 #include <numbers>
 #include <thread>
 
-<<<<<<< HEAD
 #include "base/number.h"
-=======
 #include "scene/closed.h"
->>>>>>> bf9e122 (Fill concave meshes as they are drawn, or say why not)
 #include "scene/mesh.h"
 #include "scene/scene.h"
 #include "testing/files.h"
