@@ -15,10 +15,10 @@ namespace {
 constexpr double kWorldHalfExtent = 10.0;  // [m]
 /// Pairs are found this far before they touch.
 constexpr double kApproach = 3e-3;  // [m]
-/// Bullet finds contacts of round shapes this far before they touch, and further for bodies that
-/// could approach by more in the step.
-constexpr double kRoundMargin = 2e-3;      // [m]
-constexpr double kMostRoundMargin = 5e-2;  // [m]
+/// Bullet finds contacts of hulls of many edges this far before they touch, and further for bodies
+/// that could approach by more in the step.
+constexpr double kHullMargin = 2e-3;      // [m]
+constexpr double kMostHullMargin = 5e-2;  // [m]
 
 /// Bodies that enter each other are searched at least once in this distance along their way [m].
 constexpr double kStride = 2e-3;
@@ -279,9 +279,8 @@ bool Collision::look_at(btBroadphasePair& pair, const btDispatcherInfo& info) {
     const btTransform X_WB = part_b.X_WS();
     const btCollisionObjectWrapper a_wrap(nullptr, part_a.shape.get(), &a, X_WA, -1, -1);
     const btCollisionObjectWrapper b_wrap(nullptr, part_b.shape.get(), &b, X_WB, -1, -1);
-    // round shapes are met ahead of touch: Bullet takes the distance from three places
-    const double margin =
-        std::min(kMostRoundMargin, kRoundMargin + approach(a_wrap, b_wrap, step_));
+    // such hulls are met ahead of touch: Bullet takes the distance from three places
+    const double margin = std::min(kMostHullMargin, kHullMargin + approach(a_wrap, b_wrap, step_));
     dispatcher_.margin = margin;
     scratch_.resizeNoInitialize(0);
     if (pair.m_algorithm == nullptr) {
@@ -373,7 +372,7 @@ bool Collision::enters(btBroadphasePair& pair, double h, double recovery, btPers
             dispatcher_.findAlgorithm(&a_wrap, &b_wrap, &out, BT_CONTACT_POINT_ALGORITHMS);
         if (algorithm == nullptr) break;
         btManifoldResult result(&a_wrap, &b_wrap);
-        result.m_closestPointDistanceThreshold = kRoundMargin;
+        result.m_closestPointDistanceThreshold = kHullMargin;
         algorithm->processCollision(&a_wrap, &b_wrap, btDispatcherInfo(), &result);
         algorithm->~btCollisionAlgorithm();
         dispatcher_.freeCollisionAlgorithm(algorithm);
