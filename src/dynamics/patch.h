@@ -58,4 +58,11 @@ inline bool is_across(const Vec3& axis, const Vec3& n_flush) {
 void reduce(const Polygon& points, const Gaps& gaps, const Vec3& n, std::array<size_t, 4>& kept,
             int& count);
 
+/// Puts those of the points on B within the margin into the patch, whose normal is known; `offset`
+/// is that of A's face.
+void keep_near(const Polygon& points, double offset, double margin, ContactPatch& patch);
+
+/// Whether another part of the same body covers the face that looks along outward_W.
+bool is_covered(const Polyhedron& polyhedron, const Pose& X_WP, const Vec3& outward_W);
+
 }  // namespace dihaptic::dynamics

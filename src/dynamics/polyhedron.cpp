@@ -215,6 +215,31 @@ void reduce(const Polygon& points, const Gaps& gaps, const Vec3& n, std::array<s
     if (right != deepest) kept[static_cast<size_t>(count++)] = right;
 }
 
+void keep_near(const Polygon& points, double offset, double margin, ContactPatch& patch) {
+    Polygon near;
+    Gaps gaps;
+    for (size_t i = 0; i < points.count; ++i) {
+        const double gap = patch.n_W.dot(points.points[i]) - offset;
+        if (gap > margin) continue;
+        gaps[near.count] = gap;
+        near.add(points.points[i]);
+    }
+    std::array<size_t, 4> kept{};
+    reduce(near, gaps, patch.n_W, kept, patch.count);
+    for (int i = 0; i < patch.count; ++i) {
+        const size_t k = kept[static_cast<size_t>(i)];
+        patch.points[static_cast<size_t>(i)] = {near.points[k] - gaps[k] * patch.n_W,
+                                                near.points[k], gaps[k]};
+    }
+}
+
+bool is_covered(const Polyhedron& polyhedron, const Pose& X_WP, const Vec3& outward_W) {
+    constexpr double kAlike = 1 - 1e-6;
+    return std::any_of(
+        polyhedron.covered.begin(), polyhedron.covered.end(),
+        [&](const Vec3& normal) { return (X_WP.R * normal).dot(outward_W) > kAlike; });
+}
+
 Polyhedron Polyhedron::of(const scene::Hull& hull) {
     Polyhedron out;
     out.vertices = hull.vertices;
@@ -291,13 +316,6 @@ Choice choose(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB, const 
     return by_a ? Choice{on_a.face, -1} : Choice{-1, on_b.face};
 }
 
-bool is_covered(const Polyhedron& polyhedron, const Pose& X_WP, const Vec3& outward_W) {
-    constexpr double kAlike = 1 - 1e-6;
-    return std::any_of(
-        polyhedron.covered.begin(), polyhedron.covered.end(),
-        [&](const Vec3& normal) { return (X_WP.R * normal).dot(outward_W) > kAlike; });
-}
-
 }  // namespace
 
 ContactPatch collide(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b, const Pose& X_WB,
@@ -330,25 +348,10 @@ ContactPatch collide_half_space(const Pose& X_WA, const Polyhedron& b, const Pos
                                 double margin) noexcept {
     ContactPatch patch;
     patch.n_W = X_WA.R * Vec3::UnitZ();
-    const double offset = patch.n_W.dot(X_WA.p);
     // the vertices within the margin make up the patch, whatever faces they belong to
-    Polygon near;
-    Gaps gaps;
-    for (const Vec3& vertex : b.vertices) {
-        const Vec3 p = X_WB * vertex;
-        const double gap = patch.n_W.dot(p) - offset;
-        if (gap > margin) continue;
-        if (near.count == near.points.size()) break;
-        gaps[near.count] = gap;
-        near.add(p);
-    }
-    std::array<size_t, 4> kept{};
-    reduce(near, gaps, patch.n_W, kept, patch.count);
-    for (int i = 0; i < patch.count; ++i) {
-        const size_t k = kept[static_cast<size_t>(i)];
-        patch.points[static_cast<size_t>(i)] = {near.points[k] - gaps[k] * patch.n_W,
-                                                near.points[k], gaps[k]};
-    }
+    Polygon corners;
+    for (const Vec3& vertex : b.vertices) corners.add(X_WB * vertex);
+    keep_near(corners, patch.n_W.dot(X_WA.p), margin, patch);
     return patch;
 }
 

@@ -152,26 +152,6 @@ void clip_line(const Vec3& n, double offset, Polygon& line) {
     }
 }
 
-/// Puts those of the points on B within the margin into the patch, whose normal is known; `offset`
-/// is that of A's face.
-void keep_near(const Polygon& points, double offset, double margin, ContactPatch& patch) {
-    Polygon near;
-    Gaps gaps;
-    for (size_t i = 0; i < points.count; ++i) {
-        const double gap = patch.n_W.dot(points.points[i]) - offset;
-        if (gap > margin) continue;
-        gaps[near.count] = gap;
-        near.add(points.points[i]);
-    }
-    std::array<size_t, 4> kept{};
-    reduce(near, gaps, patch.n_W, kept, patch.count);
-    for (int i = 0; i < patch.count; ++i) {
-        const size_t k = kept[static_cast<size_t>(i)];
-        patch.points[static_cast<size_t>(i)] = {near.points[k] - gaps[k] * patch.n_W,
-                                                near.points[k], gaps[k]};
-    }
-}
-
 /// A's face, with corners counter-clockwise about the patch's normal, meets a feature of B.
 void face_contact(const Polygon& face, const Polygon& of_b, double margin, ContactPatch& patch) {
     std::array<Polygon, 2> polygons;  // used alternately
@@ -364,12 +344,6 @@ struct Corners {
             if (shape.faces[f].normal.dot(d) > shape.faces[best].normal.dot(d)) best = f;
         return static_cast<int>(best);
     }
-    /// Whether another part of the body covers the face that looks along u.
-    bool is_covered(const Vec3& u) const {
-        constexpr double kAlike = 1 - 1e-6;
-        return std::any_of(shape.covered.begin(), shape.covered.end(),
-                           [&](const Vec3& normal) { return (X_W.R * normal).dot(u) > kAlike; });
-    }
 };
 
 /// Tries the direction between the edges of `a` and the axis or the rim of `b`.
@@ -533,7 +507,7 @@ ContactPatch collide(const Polyhedron& shape_a, const Pose& X_WA, const Round& s
         best.kind = Best::face;
         best.at = flush;
         best.axis = n_flush;
-        if (!a.is_covered(n_flush)) face_contact(a, b, best, margin, patch);
+        if (!is_covered(shape_a, X_WA, n_flush)) face_contact(a, b, best, margin, patch);
         return patch;
     }
     face_contact(a, b, best, margin, patch);
@@ -550,7 +524,7 @@ ContactPatch collide(const Polyhedron& shape_a, const Pose& X_WA, const Round& s
             line_contact(of_a, of_b, best.line_separation, margin, patch);
         }
     }
-    if (a.is_covered(patch.n_W)) return {};
+    if (is_covered(shape_a, X_WA, patch.n_W)) return {};
     return patch;
 }
 

@@ -540,7 +540,8 @@ contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& ho
         iterations = stats.iterations += iterations;
         work_before = stats.work += work_before;
         const bool is_last = guess > kMostGuesses || stats.route == contact::Route::out_of_work;
-        stats.missed = stats.missed || is_last;  // its joints are off a little then
+        // its joints are off a little then
+        stats.missed = stats.missed || (is_last && !island_joints.empty());
         if (is_last || stats.refused) return stats;
         island_change.clear();
         for (size_t i = 0; i < island_bodies.size(); ++i)
@@ -574,8 +575,8 @@ double World::Impl::guess_turns(double h) {
 
 void World::Impl::integrate_positions(double h) {
     for (const size_t i : awake) {
-        btRigidBody& body = *items[i].body;
         Item& item = items[i];
+        btRigidBody& body = *item.body;
         if (item.turns_freely()) {
             // contacts and joints act at the beginning of the step
             const btVector3& w_after = item.bounces ? item.w_leaves : body.getAngularVelocity();
