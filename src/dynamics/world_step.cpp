@@ -504,10 +504,14 @@ void World::Impl::let_bounce(const contact::SolveSettings& how, double h,
                   problem.joint_impulses(), after);
     problem.store(island_contacts);
     stats.join(after);
+    island_change.clear();
+    for (size_t i = 0; i < island_bodies.size(); ++i)
+        island_change.push_back(solvers.velocity_change(static_cast<int>(i)));
+    problem.store(joints, island_joints, island_change, h);
     for (size_t i = 0; i < island_bodies.size(); ++i) {
         btRigidBody& body = *btRigidBody::upcast(island_bodies[i]);
         Item& item = items[static_cast<size_t>(body.getUserIndex())];
-        const contact::Vec6 change = solvers.velocity_change(static_cast<int>(i));
+        const contact::Vec6& change = island_change[i];
         item.bounces = true;
         item.v_leaves = item.v_before + to_bullet(Vec3(change.head<3>()));
         const btVector3 w = item.w_free + to_bullet(Vec3(change.tail<3>()));

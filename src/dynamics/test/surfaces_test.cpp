@@ -291,6 +291,28 @@ TEST_P(OfEach, KeepTheEnergyOfARowOfBallsWhateverItsGaps) {
     }
 }
 
+TEST(BouncingSurfaces, AreFeltByTheJointsOfWhatIsHit) {
+    // a ball that comes back as fast as it came leaves twice its momentum in the joint
+    scene::Scene scene;
+    scene.gravity.setZero();
+    scene.bodies = {ball(0, 1), ball(0, 1)};
+    scene.bodies[0].name = "held";
+    scene.bodies[0].position = Vec3::Zero();
+    scene.bodies[1].position = {-0.1, 0, 0};
+    scene.joints = {joint(scene::JointKind::fixed, {"held"}, Vec3::Zero())};
+    World world(scene, awake());
+    world.activate();
+    const double speed = 0.7;
+    world.set_velocity({1}, {speed, 0, 0});
+    Vec3 impulse = Vec3::Zero();
+    for (int i = 0; i < 300; ++i) {
+        world.step(kStep);
+        impulse += kStep * world.joints()[0].force_W;
+    }
+    EXPECT_NEAR(world.state({1}).v_WB.x(), -speed, 1e-3);
+    EXPECT_NEAR(std::abs(impulse.x()), 2 * scene::mass(scene.bodies[1]) * speed, 1e-3);
+}
+
 /// Where a block on a table is after some time, pushed by a force along x [N], and how fast.
 struct Slid {
     double x = 0;
