@@ -7,4 +7,5 @@ find_dependency(PNG)
 find_dependency(PkgConfig)
 # Bullet's own CMake config picks single precision
 pkg_check_modules(Bullet REQUIRED IMPORTED_TARGET bullet-float64)
+pkg_check_modules(Qhull REQUIRED IMPORTED_TARGET qhull_r)
 include(${CMAKE_CURRENT_LIST_DIR}/targets.cmake)

@@ -1,34 +1,41 @@
 #include "scene/hull.h"
 
 #include <LinearMath/btConvexHullComputer.h>
+extern "C" {
+#include <libqhull_r/qhull_ra.h>
+}
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <memory>
 
 namespace dihaptic::scene {
 namespace {
 
+/// Twice the area of a face, along its normal.
+Vec3 twice_area(const Hull& hull, const std::vector<int>& face) {
+    Vec3 out = Vec3::Zero();
+    const Vec3& first = hull.vertices[static_cast<size_t>(face[0])];
+    for (size_t i = 1; i + 1 < face.size(); ++i)
+        out += (hull.vertices[static_cast<size_t>(face[i])] - first)
+                   .cross(hull.vertices[static_cast<size_t>(face[i + 1])] - first);
+    return out;
+}
+
 double area(const Hull& hull) {
     double sum = 0;
-    for (const std::vector<int>& face : hull.faces) {
-        Vec3 twice = Vec3::Zero();
-        const Vec3& first = hull.vertices[static_cast<size_t>(face[0])];
-        for (size_t i = 1; i + 1 < face.size(); ++i)
-            twice += (hull.vertices[static_cast<size_t>(face[i])] - first)
-                         .cross(hull.vertices[static_cast<size_t>(face[i + 1])] - first);
-        sum += twice.norm() / 2;
-    }
+    for (const std::vector<int>& face : hull.faces) sum += twice_area(hull, face).norm() / 2;
     return sum;
 }
 
-}  // namespace
-
-Hull convex_hull(std::span<const Vec3> points) {
+/// Bullet's hull rounds coordinates to a ten-thousandth of their extent, and takes corners for one,
+/// or turns faces over, that are nearer to each other than that.
+Hull quick_hull(std::span<const Vec3> points) {
     Hull hull;
-    if (points.size() < 4) return hull;
-    for (const Vec3& point : points) {
-        if (!point.allFinite()) return hull;
-    }
     btConvexHullComputer computer;
     computer.compute(points.front().data(), sizeof(Vec3), static_cast<int>(points.size()), 0, 0);
-    // the computer rounds coordinates; the original points are exact
+    // the original points are exact
     for (int i = 0; i < computer.vertices.size(); ++i) {
         hull.vertices.push_back(points[static_cast<size_t>(computer.original_vertex_index[i])]);
     }
@@ -42,16 +49,101 @@ Hull convex_hull(std::span<const Vec3> points) {
         } while (edge != first);
         hull.faces.push_back(std::move(face));
     }
-    if (hull.vertices.empty()) return hull;
-    Vec3 low = hull.vertices.front();
-    Vec3 high = low;
-    for (const Vec3& v : hull.vertices) {
-        low = low.cwiseMin(v);
-        high = high.cwiseMax(v);
+    return hull;
+}
+
+/// Whether every face is flat, and has all points behind it, but for rounding. Not said of hulls of
+/// so many points that it would take long.
+bool is_exact(const Hull& hull, std::span<const Vec3> points, double extent) {
+    constexpr double kMostWork = 1e8;
+    constexpr double kThin = 1e-9;      // of a face, as a share of the extent
+    constexpr double kRounding = 1e-7;  // of files, likewise
+    if (static_cast<double>(hull.faces.size()) * static_cast<double>(points.size()) > kMostWork)
+        return false;
+    return std::all_of(hull.faces.begin(), hull.faces.end(), [&](const std::vector<int>& face) {
+        const Vec3 area = twice_area(hull, face);
+        if (!(area.norm() > kThin * extent * extent)) return false;
+        const Vec3 n = area.normalized();
+        const double offset = n.dot(hull.vertices[static_cast<size_t>(face[0])]);
+        const double off = kRounding * extent;
+        return std::all_of(face.begin(), face.end(),
+                           [&](int v) {
+                               return n.dot(hull.vertices[static_cast<size_t>(v)]) > offset - off;
+                           }) &&
+               std::all_of(points.begin(), points.end(),
+                           [&](const Vec3& p) { return n.dot(p) < offset + off; });
+    });
+}
+
+/// Qhull's state, which it wants to be freed.
+class Qhull {
+  public:
+    explicit Qhull(std::span<const Vec3> points) : coordinates_(points.begin(), points.end()) {
+        qh_zero(&state_, nullptr);
+        char options[] = "qhull";
+        const std::unique_ptr<FILE, int (*)(FILE*)> unheard(std::fopen("/dev/null", "w"),
+                                                            &std::fclose);
+        failed_ =
+            qh_new_qhull(&state_, 3, static_cast<int>(points.size()), coordinates_.front().data(),
+                         0, options, unheard.get(), unheard.get()) != 0;
     }
+    ~Qhull() {
+        qh_freeqhull(&state_, qh_ALL);
+        int kept = 0;
+        int total = 0;
+        qh_memfreeshort(&state_, &kept, &total);
+    }
+    Qhull(const Qhull&) = delete;
+    Qhull& operator=(const Qhull&) = delete;
+
+    Hull hull() {
+        Hull out;
+        if (failed_) return out;
+        std::map<int, int> index;  // by the point's number
+        for (facetT* facet = state_.facet_list; facet != nullptr && facet->next != nullptr;
+             facet = facet->next) {
+            std::vector<int>& face = out.faces.emplace_back();
+            setT* const corners = qh_facet3vertex(&state_, facet);
+            for (int k = 0; k < qh_setsize(&state_, corners); ++k) {
+                const auto* corner = static_cast<vertexT*>(SETelem_(corners, k));
+                const int point = qh_pointid(&state_, corner->point);
+                const auto [at, is_new] =
+                    index.try_emplace(point, static_cast<int>(out.vertices.size()));
+                if (is_new) out.vertices.push_back(coordinates_[static_cast<size_t>(point)]);
+                face.push_back(at->second);
+            }
+            qh_settempfree_all(&state_);
+            const Vec3 outward(facet->normal[0], facet->normal[1], facet->normal[2]);
+            if (twice_area(out, face).dot(outward) < 0) std::reverse(face.begin(), face.end());
+        }
+        return out;
+    }
+
+  private:
+    std::vector<Vec3> coordinates_;
+    qhT state_;
+    bool failed_ = false;
+};
+
+}  // namespace
+
+Hull convex_hull(std::span<const Vec3> points) {
+    if (points.size() < 4) return {};
+    for (const Vec3& point : points) {
+        if (!point.allFinite()) return {};
+    }
+    Vec3 low = points.front();
+    Vec3 high = low;
+    for (const Vec3& p : points) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    const double extent = (high - low).norm();
+    Hull hull = quick_hull(points);
+    // recordings are of its order of corners and faces: it goes first
+    if (!is_exact(hull, points, extent)) hull = Qhull(points).hull();
     if (hull.faces.size() < 4) return {};
     // neither a needle nor a leaf, whose volume and area are but rounding
-    const double extent = (high - low).norm();
     const double surface = area(hull);
     const double thickness = 2 * integrate(hull.vertices, hull.faces).volume / surface;
     if (!(surface > 1e-6 * extent * extent && thickness > 1e-6 * extent)) return {};

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <numbers>
+#include <random>
 
 #include "scene/finger_set.h"
 #include "scene/mesh.h"
@@ -37,6 +40,45 @@ TEST(Hull, OfABoxWithPointsInsideHasItsVolumeAndInertia) {
 
 TEST(Hull, OfPointsInAPlaneIsEmpty) {
     EXPECT_TRUE(convex_hull(corners({1, 1, 0})).faces.empty());
+}
+
+TEST(Hull, HasAllPointsBehindEachFaceHoweverNearTheyAre) {
+    // corners in line and in planes, and such as are apart by nanometres to tenths of a millimetre
+    std::mt19937 random(7);
+    const auto draw = [&](int from, int to) {
+        return std::uniform_int_distribution<>(from, to)(random);
+    };
+    for (int trial = 0; trial < 400; ++trial) {
+        SCOPED_TRACE(trial);
+        std::vector<Vec3> points;
+        const double grain = std::pow(10, -draw(4, 9));
+        for (int i = draw(8, 30); i > 0; --i) {
+            const Vec3 coarse = 0.01 * Vec3(draw(0, 4), draw(0, 4), draw(0, 4));
+            points.push_back(coarse + grain * Vec3(draw(0, 1), draw(0, 1), draw(0, 1)));
+        }
+        const Hull hull = convex_hull(points);
+        if (hull.faces.empty()) continue;
+        for (const std::vector<int>& face : hull.faces) {
+            Vec3 area = Vec3::Zero();
+            const auto corner = [&](size_t i) {
+                return hull.vertices[static_cast<size_t>(face[i % face.size()])];
+            };
+            for (size_t i = 1; i + 1 < face.size(); ++i)
+                area += (corner(i) - corner(0)).cross(corner(i + 1) - corner(0));
+            ASSERT_GT(area.norm(), 0);
+            for (const Vec3& p : points)
+                ASSERT_LT(area.normalized().dot(p - corner(0)), 1e-8) << face.size();
+        }
+        std::map<std::pair<int, int>, int> sides;
+        for (const std::vector<int>& face : hull.faces) {
+            for (size_t i = 0; i < face.size(); ++i) {
+                const int a = face[i];
+                const int b = face[(i + 1) % face.size()];
+                sides[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
+            }
+        }
+        for (const auto& [side, balance] : sides) ASSERT_EQ(balance, 0);
+    }
 }
 
 TEST(Integrals, OfRoundShapesAgreeWithTheirFinePolyhedra) {
