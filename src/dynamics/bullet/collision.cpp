@@ -134,6 +134,7 @@ Collision::Collision(int max_parts, int max_pairs)
         dispatcher_.getDispatcherFlags() &
         ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
     manifolds_.reserve(static_cast<size_t>(max_pairs) + kMostEntered);
+    found_.reserve(static_cast<size_t>(max_pairs) + kMostEntered);
     looked_at_.reserve(static_cast<size_t>(max_pairs));
     live_.reserve(static_cast<size_t>(max_pairs));
     sorting_.reserve(static_cast<size_t>(max_pairs));
@@ -224,6 +225,7 @@ void Collision::find_contacts(double h) {
     btDispatcherInfo info;
     info.m_timeStep = h;
     manifolds_.clear();
+    found_.clear();
     entered_count_ = 0;
 
     btBroadphasePairArray& pairs = pairs_.getOverlappingPairArray();
@@ -241,20 +243,39 @@ void Collision::find_contacts(double h) {
         }
         live_is_stale_ = woke;
     }
-    if (several_parts_) sort_by_bodies();
+    if (!several_parts_) return;
+    sort_by_bodies();
+    remove_inner();
 }
 
 void Collision::sort_by_bodies() {
     sorting_.clear();
-    for (btPersistentManifold* manifold : manifolds_) {
+    for (const OfParts& of : found_) {
         sorting_.push_back(
-            {{manifold->getBody0()->getUserIndex(), manifold->getBody1()->getUserIndex(),
+            {{of.manifold->getBody0()->getUserIndex(), of.manifold->getBody1()->getUserIndex(),
               static_cast<int>(sorting_.size())},
-             manifold});
+             of});
     }
     std::sort(sorting_.begin(), sorting_.end(),
               [](const OfBodies& a, const OfBodies& b) { return a.key < b.key; });
-    for (size_t i = 0; i < sorting_.size(); ++i) manifolds_[i] = sorting_[i].manifold;
+    for (size_t i = 0; i < sorting_.size(); ++i) found_[i] = sorting_[i].of;
+}
+
+void Collision::remove_inner() {
+    const auto same_bodies = [](const OfParts& a, const OfParts& b) {
+        return a.manifold->getBody0() == b.manifold->getBody0() &&
+               a.manifold->getBody1() == b.manifold->getBody1();
+    };
+    for (size_t from = 0; from < found_.size();) {
+        size_t to = from + 1;
+        while (to < found_.size() && same_bodies(found_[from], found_[to])) ++to;
+        if (to - from > 1) remove_inner_contacts(std::span(found_).subspan(from, to - from));
+        from = to;
+    }
+    manifolds_.clear();
+    for (const OfParts& of : found_) {
+        if (of.manifold->getNumContacts() > 0) manifolds_.push_back(of.manifold);
+    }
 }
 
 void Collision::list_live_pairs() {
@@ -300,6 +321,8 @@ bool Collision::look_at(btBroadphasePair& pair, const btDispatcherInfo& info) {
     for (int m = 0; m < scratch_.size(); ++m) {
         if (scratch_[m]->getNumContacts() == 0) continue;
         manifolds_.push_back(scratch_[m]);
+        const bool in_order = scratch_[m]->getBody0() == &a;
+        found_.push_back({scratch_[m], in_order ? &part_a : &part_b, in_order ? &part_b : &part_a});
         if (a.isStaticObject() || b.isStaticObject()) continue;
         for (btCollisionObject* object : {&a, &b}) {
             if (object->getUserIndex2() == kAwake) continue;

@@ -15,6 +15,7 @@
 
 #include "contact/work.h"
 #include "dynamics/bullet/contact_algorithm.h"
+#include "dynamics/bullet/seams.h"
 #include "dynamics/bullet/shape.h"
 
 namespace dihaptic::dynamics {
@@ -106,6 +107,8 @@ class Collision {
     void set_bounds(CollisionPart& part, double h, bool keep);
     void reserve_pairs(int pairs);
     void sort_by_bodies();
+    /// Removes contacts with what lies inside bodies of several parts (seams.h).
+    void remove_inner();
     void list_live_pairs();
     bool look_at(btBroadphasePair& pair, const btDispatcherInfo& info);
     /// Whether there is work for another stride, which it spends; notes if there is none.
@@ -139,9 +142,10 @@ class Collision {
     bool several_parts_ = false;  // whether any body has several
     struct OfBodies {
         std::array<int, 3> key;  // both bodies, and the order in which they were found
-        btPersistentManifold* manifold;
+        OfParts of;
     };
     std::vector<OfBodies> sorting_;
+    std::vector<OfParts> found_;  // of manifolds_, in order
     std::vector<btPersistentManifold*> manifolds_;
     btManifoldArray scratch_;
     std::vector<std::unique_ptr<btPersistentManifold>> entered_;  // room for what is found late

@@ -1,10 +1,14 @@
 // Tests bodies that consist of several convex parts.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include <numbers>
 
 #include "dynamics/test/blocks.h"
 #include "dynamics/world.h"
 #include "scene/solid.h"
 #include "testing/allocation_guard.h"
+#include "testing/files.h"
 
 namespace dihaptic::dynamics::concave_test {
 namespace {
@@ -89,6 +93,66 @@ TEST(Concave, AMugHangsOnAHookBelowWhereItsHandleRests) {
     EXPECT_GT(mug.X_WB.p.z(), -0.12);
     // its centre has come to rest below the hook
     EXPECT_LT((mug.X_WB * centre - Vec3(0.016, 0, (mug.X_WB * centre).z())).norm(), 0.02);
+}
+
+/// An OBJ file of a ring about z, in millimetres.
+std::string ring(double radius, double thickness, int around, int across) {
+    std::string out;
+    const auto angle = [](int i, int of) { return 2 * std::numbers::pi * i / of; };
+    for (int i = 0; i < around; ++i) {
+        for (int j = 0; j < across; ++j) {
+            const double r = radius + thickness * std::cos(angle(j, across));
+            out += "v " + number_text(r * std::cos(angle(i, around))) + " " +
+                   number_text(r * std::sin(angle(i, around))) + " " +
+                   number_text(thickness * std::sin(angle(j, across))) + "\n";
+        }
+    }
+    const auto corner = [&](int i, int j) {
+        return " " + fmt::format("{}", i % around * across + j % across + 1);
+    };
+    for (int i = 0; i < around; ++i) {
+        for (int j = 0; j < across; ++j)
+            out += "f" + corner(i, j) + corner(i + 1, j) + corner(i + 1, j + 1) + corner(i, j + 1) +
+                   "\n";
+    }
+    return out;
+}
+
+TEST(Concave, RingsLieOnATableAsTheyFall) {
+    // their pieces have corners in line, and faces that hardly have an area
+    for (const auto& [around, across] : {std::pair{16, 8}, {24, 12}}) {
+        SCOPED_TRACE(around);
+        const testing::TemporaryFolder folder;
+        const std::string file = folder.write("ring.obj", ring(30, 8, around, across));
+        World world = make({table(), body("{name: ring, shape: mesh, file: " + file +
+                                          ", unit: mm, concave: yes, mass_g: 100, position_mm: "
+                                          "[0, 0, 9]}")},
+                           awake());
+        bool balanced = true;
+        for (int i = 0; i < 500; ++i) {
+            ASSERT_EQ(world.step(kStep), StepStatus::ok) << i;
+            balanced = balanced && !world.balance().unbalanced;
+        }
+        EXPECT_TRUE(balanced);
+        EXPECT_NEAR(world.states()[1].X_WB.p.z(), 0.008, 1e-5);
+        double force = 0;
+        for (const contact::Contact& c : world.contacts()) force += c.f_B_W.z();
+        EXPECT_NEAR(force, 0.1 * kGravity, 1e-6);
+    }
+}
+
+TEST(Concave, ABallInABowlLosesLessThanItsFacetsTake) {
+    // where pieces meet within the bowl's side nothing is felt
+    const std::string bowl =
+        "{name: bowl, shape: mesh, file: ../meshes/bowl.obj, unit: mm, concave: yes, fixed: yes, "
+        "friction: 0}";
+    World world = make({body(bowl), body("{name: ball, shape: sphere, radius_mm: 10, mass_g: 20, "
+                                         "friction: 0, position_mm: [60, 3, -79]}")},
+                       awake());
+    world.step(kStep);
+    const double before = world.balance().energy();
+    run(world, kSeconds);
+    EXPECT_LT(before - world.balance().energy(), 0.6e-3);  // 0.72e-3 J with the pieces' own edges
 }
 
 TEST(Concave, ACompoundTurnsAboutItsCentreOfMass) {

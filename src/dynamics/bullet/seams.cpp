@@ -1,0 +1,68 @@
+#include "dynamics/bullet/seams.h"
+
+#include <algorithm>
+
+namespace dihaptic::dynamics {
+namespace {
+
+/// A part has the points within this distance of it [m].
+constexpr double kOnPart = 1e-6;
+/// A part is nearer than a point if it is so by more than rounding [m].
+constexpr double kNearer = 1e-8;
+/// Points with the same normal ask for the same: none is in the way of the other.
+constexpr double kSameNormal = 1 - 1e-8;
+
+bool has(const CollisionPart& part, const btVector3& p_W) {
+    if (!part.polyhedron) return false;
+    const Vec3 p_S = from_bullet(part.X_WS().inverse() * p_W);
+    return std::all_of(
+        part.polyhedron->faces.begin(), part.polyhedron->faces.end(),
+        [&](const Polyhedron::Face& face) { return face.normal.dot(p_S) < face.offset + kOnPart; });
+}
+
+double nearest(const btPersistentManifold& manifold) {
+    double out = manifold.getContactPoint(0).getDistance();
+    for (int i = 1; i < manifold.getNumContacts(); ++i)
+        out = std::min<double>(out, manifold.getContactPoint(i).getDistance());
+    return out;
+}
+
+/// Whether the other manifold's parts, of which one is the same, are nearer and have the point.
+bool is_inner(const btManifoldPoint& point, const OfParts& of, const OfParts& other) {
+    const bool same_0 = of.part_0 == other.part_0;
+    const bool same_1 = of.part_1 == other.part_1;
+    if (same_0 == same_1) return false;
+    const btManifoldPoint& first = other.manifold->getContactPoint(0);
+    if (point.m_normalWorldOnB.dot(first.m_normalWorldOnB) > kSameNormal) return false;
+    if (nearest(*other.manifold) > point.getDistance() - kNearer) return false;
+    return same_1 ? has(*other.part_0, point.getPositionWorldOnA())
+                  : has(*other.part_1, point.getPositionWorldOnB());
+}
+
+}  // namespace
+
+void remove_inner_contacts(std::span<const OfParts> of_two_bodies) noexcept {
+    // all are judged before any is removed: what is inner itself may show that another is
+    constexpr int kMost = 4;
+    constexpr size_t kMostManifolds = 256;
+    std::array<std::array<bool, kMost>, kMostManifolds> inner{};
+    const size_t count = std::min(of_two_bodies.size(), kMostManifolds);
+    for (size_t m = 0; m < count; ++m) {
+        const OfParts& of = of_two_bodies[m];
+        const int points = std::min(kMost, of.manifold->getNumContacts());
+        for (int i = 0; i < points; ++i) {
+            inner[m][static_cast<size_t>(i)] =
+                std::any_of(of_two_bodies.begin(), of_two_bodies.end(), [&](const OfParts& other) {
+                    return is_inner(of.manifold->getContactPoint(i), of, other);
+                });
+        }
+    }
+    for (size_t m = 0; m < count; ++m) {
+        btPersistentManifold& manifold = *of_two_bodies[m].manifold;
+        for (int i = std::min(kMost, manifold.getNumContacts()) - 1; i >= 0; --i) {
+            if (inner[m][static_cast<size_t>(i)]) manifold.removeContactPoint(i);
+        }
+    }
+}
+
+}  // namespace dihaptic::dynamics

@@ -1,0 +1,28 @@
+// Takes away contacts with what lies inside a body of several parts.
+//
+// Contacts are found part by part, and a part has faces, edges and corners where it meets others:
+// inside the body, or within one of its faces. Bodies are nearest to each other there only if no
+// part that has the same point is nearer yet: that part is convex, so that on the way from the
+// point to where it is nearest the distance only falls. Such a point is no place where the bodies
+// can touch first, and its normal is that of no surface.
+#pragma once
+
+#include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
+
+#include <span>
+
+#include "dynamics/bullet/shape.h"
+
+namespace dihaptic::dynamics {
+
+/// A manifold of two parts.
+struct OfParts {
+    btPersistentManifold* manifold = nullptr;
+    const CollisionPart* part_0 = nullptr;  ///< of its body 0
+    const CollisionPart* part_1 = nullptr;
+};
+
+/// Removes such points from the manifolds of two bodies, some of which may be left without any.
+void remove_inner_contacts(std::span<const OfParts> of_two_bodies) noexcept;
+
+}  // namespace dihaptic::dynamics
