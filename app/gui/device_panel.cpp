@@ -32,7 +32,7 @@ DevicePanel::DevicePanel(QWidget* parent)
 
 void DevicePanel::set_devices(const std::vector<Device>& devices) {
     devices_ = devices;
-    overruns_ = 0;
+    overruns_ = unbalanced_ = 0;
     lateness_ = tick_ = 0;
     loop_->clear();
     table_->setRowCount(static_cast<int>(devices.size()));
@@ -77,6 +77,7 @@ void DevicePanel::show_frame(const servo::Frame& frame) {
         table_->item(static_cast<int>(i), kStatus)->setText(words(finger.status));
     }
     if (frame.status & servo::kOverrun) ++overruns_;
+    if (frame.status & servo::kUnbalanced) ++unbalanced_;
     // slow averages, because figures of single ticks would flicker
     const auto follow = [](double& value, double now) {
         if (std::isfinite(now)) value += 0.05 * (now - value);
@@ -88,7 +89,12 @@ void DevicePanel::show_frame(const servo::Frame& frame) {
             .arg(tick_ * 1e6, 0, 'f', 0)
             .arg(lateness_ * 1e6, 0, 'f', 0)
             .arg(overruns_)
-            .arg((frame.status & servo::kForceOff) != 0 ? tr("Force is off.") : ""));
+            .arg((frame.status & servo::kForceOff) != 0 ? tr("Force is off.") : "") +
+        (unbalanced_ > 0
+             ? tr("\nIn %1 of the frames shown %2.")
+                   .arg(unbalanced_)
+                   .arg(QString::fromStdString(std::string(describe(servo::kUnbalanced).what)))
+             : QString()));
 }
 
 }  // namespace dihaptic::gui

@@ -32,6 +32,7 @@ class DevicePanel : public QWidget {
     QLabel* loop_;
     std::vector<Device> devices_;
     int overruns_ = 0;
+    int unbalanced_ = 0;
     double lateness_ = 0;
     double tick_ = 0;
 };

@@ -240,6 +240,11 @@ struct SessionReader::Pass {
         figures.duration = seconds(frame.time);
         figures.status |= frame.status;
         for_each_status(frame.status, [&](Status bit) { ++figures.ticks_with(bit); });
+        // logs before version 0.3 have no balance
+        if (std::isnan(frame.energy_imbalance)) return;
+        figures.energy_imbalance += frame.energy_imbalance;
+        figures.momentum_imbalance = std::max(figures.momentum_imbalance, frame.momentum_imbalance);
+        figures.angular_imbalance = std::max(figures.angular_imbalance, frame.angular_imbalance);
     }
 
     void end(const recording::LogHealth& log) {
@@ -451,7 +456,20 @@ const PhaseFigures* SessionFigures::phase(const std::string& name) const {
     return nullptr;
 }
 
+std::string SessionFigures::describe_imbalance() const {
+    return fmt::format(
+        "in {} of {} {}: by {:.2g} J in all, and by at most {:.2g} N*s and {:.2g} N*m*s of a body "
+        "in a tick",
+        ticks_with(servo::kUnbalanced), counted(frames, "tick"), describe(servo::kUnbalanced).what,
+        energy_imbalance, momentum_imbalance, angular_imbalance);
+}
+
 namespace {
+
+/// Has the session, and so its report, say if its objects moved as nothing explains.
+void note_imbalance(recording::SessionInfo& info, const SessionFigures& figures) {
+    if (figures.ticks_with(servo::kUnbalanced) > 0) add_note(info, figures.describe_imbalance());
+}
 
 /// Writes all tables except NWB's.
 SessionFigures write_tables(const recording::SessionFolder& folder, recording::SessionInfo info,
@@ -522,6 +540,7 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     for (const std::string& what : damage) add_note(info, what);
     for (const std::string& what : recording::describe_version(figures.log)) add_note(info, what);
     if (!reading.why_no_facts.empty()) add_note(info, reading.why_no_facts);
+    note_imbalance(info, figures);
     if (info.ticks == 0) info.ticks = static_cast<int>(figures.log.last_tick + 1);
 
     recording::NwbContent content = content_of(reading, info, folder);
@@ -532,13 +551,14 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     return write_tables(folder, info, reading, content, events);
 }
 
-SessionFigures finish_tables(const recording::SessionFolder& folder,
-                             const recording::SessionInfo& info, SessionReader reader) {
+SessionFigures finish_tables(const recording::SessionFolder& folder, recording::SessionInfo info,
+                             SessionReader reader) {
     recording::LogHealth whole;
     whole.complete = true;
     whole.last_tick = info.ticks - 1;
     reader.pass_->end(whole);
     const Reading& reading = reader.pass_->reading;
+    note_imbalance(info, reading.figures);
     return write_tables(folder, info, reading, content_of(reading, info, folder),
                         events_of(reading, folder, info));
 }

@@ -59,6 +59,11 @@ struct SessionFigures {
     double duration = 0;                ///< [s]
     uint32_t status = 0;                ///< all status bits that occurred
     std::vector<int64_t> status_ticks;  ///< number of ticks with each status bit
+    /// What the books of ticks (dynamics/balance.h) leave unexplained: the energy of all ticks
+    /// together [J], and the largest changes of momentum in a tick [N*s], [N*m*s].
+    double energy_imbalance = 0;
+    double momentum_imbalance = 0;
+    double angular_imbalance = 0;
 
     /// Whether something was not a number, so that no figure can be trusted.
     bool diverged() const { return (status & servo::kNotFinite) != 0; }
@@ -71,6 +76,8 @@ struct SessionFigures {
     int64_t& ticks_with(Status bit) { return status_ticks[place_of(bit)]; }
     /// The phase of that name; null if there is none.
     const PhaseFigures* phase(const std::string& name) const;
+    /// What kUnbalanced says of the session, in figures.
+    std::string describe_imbalance() const;
 
   private:
     static size_t place_of(Status bit) {
@@ -103,16 +110,16 @@ class SessionReader {
   private:
     friend SessionFigures finish_session(const recording::SessionFolder&, recording::SessionInfo,
                                          const std::function<void(double)>&);
-    friend SessionFigures finish_tables(const recording::SessionFolder&,
-                                        const recording::SessionInfo&, SessionReader);
+    friend SessionFigures finish_tables(const recording::SessionFolder&, recording::SessionInfo,
+                                        SessionReader);
     struct Pass;
     std::unique_ptr<Pass> pass_;
 };
 
 /// Does what finish_session() does for a session without a log that was read while it ran: writes
 /// all tables and session.yaml, but no session.nwb.
-SessionFigures finish_tables(const recording::SessionFolder& folder,
-                             const recording::SessionInfo& info, SessionReader reader);
+SessionFigures finish_tables(const recording::SessionFolder& folder, recording::SessionInfo info,
+                             SessionReader reader);
 
 /// Adds a note unless `info` has it already: a session may be recovered more than once.
 void add_note(recording::SessionInfo& info, const std::string& note);

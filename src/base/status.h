@@ -43,6 +43,7 @@ enum Status : uint32_t {
     kSoftened = 1u << 27,
     kAbandoned = 1u << 28,
     kPaused = 1u << 29,
+    kUnbalanced = 1u << 30,
 };
 
 /// What devices report in their readings.
@@ -188,6 +189,12 @@ constexpr StatusRow kStatusTable[] = {
      "close other programs",
      {{FaultKind::abandoned, "the window has not answered for {value:.1f} s"}}},
     {kPaused, "the session paused, and force was off", ""},
+    {kUnbalanced,
+     "the energy or the momentum of the objects changed by more than what acted on them explains",
+     "do not trust how objects moved in these ticks: look at energy_imbalance, momentum_imbalance "
+     "and angular_imbalance; let nothing begin within something else, turn by an eighth of a turn "
+     "in a tick, or hang on a spring too stiff for its mass; otherwise report the session's folder "
+     "as a bug"},
 };
 constexpr int kStatusBits = static_cast<int>(std::size(kStatusTable));
 constexpr uint32_t kAllStatus = (1u << kStatusBits) - 1;

@@ -108,6 +108,7 @@ UnitInSi unit_in_si(std::string_view symbol) {
         Atom{"s", {1, {0, 0, 1}}},
         Atom{"ns", {1e-9, {0, 0, 1}}},
         Atom{"N", {1, {1, 1, -2}}},
+        Atom{"J", {1, {2, 1, -2}}},
         Atom{"Hz", {1, {0, 0, -1}}},
     };
     UnitInSi out;

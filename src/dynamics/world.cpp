@@ -150,6 +150,7 @@ void World::Impl::reserve_bodies(size_t count) {
     can_move.reserve(count);
     inverse_mass.resize(count);
     by_loads.assign(count, contact::Vec6::Zero());
+    books.reserve(count, joints.size());
     bodies_of_islands.reserve(count);
     holds_finger.resize(count);
     island_bodies.reserve(count);
@@ -303,6 +304,10 @@ void World::watch_problems(ProblemWatcher watcher) {
 
 std::span<const JointState> World::joints() const noexcept {
     return impl_->joints.states().first(impl_->recorded_joints);
+}
+
+const Balance& World::balance() const noexcept {
+    return impl_->books.last();
 }
 
 double World::held_residual() const noexcept {

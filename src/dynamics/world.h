@@ -19,6 +19,7 @@
 
 #include "contact/contact.h"
 #include "contact/solver.h"
+#include "dynamics/balance.h"
 #include "dynamics/settings.h"
 #include "scene/scene.h"
 
@@ -133,6 +134,8 @@ class World {
     const contact::SolveStats& solve_stats() const { return stats_; }
     /// The largest residual of the islands with a finger in the last step: 0 if there was none.
     double held_residual() const noexcept;
+    /// The books of the last step.
+    const Balance& balance() const noexcept;
     /// Joints of the scene that are recorded, in its order, after the last step.
     std::span<const JointState> joints() const noexcept;
     double mass(BodyIndex body) const;
@@ -216,6 +219,7 @@ class World {
     void mend() noexcept;
 
   private:
+    friend class Sabotage;  // plants faults within a step, which the books are to find (test)
     struct Impl;
     std::unique_ptr<Impl> impl_;
     std::vector<BodyState> states_;

@@ -5,6 +5,7 @@
 #include <btBulletDynamicsCommon.h>
 
 #include "contact/solver.h"
+#include "dynamics/books.h"
 #include "dynamics/bullet/carried.h"
 #include "dynamics/bullet/collision.h"
 #include "dynamics/bullet/joints.h"
@@ -100,6 +101,7 @@ struct World::Impl {
     bool has_fingers = false;
     double held_residual = 0;  // of the islands with a finger
     contact::Work work;        // of the step's solves
+    Books books;
 
     void add(const std::string& name, const scene::Shape& shape, double mass,
              double friction_coefficient, double torsion_radius, const Pose& X_WB,
@@ -163,7 +165,8 @@ struct World::Impl {
     int64_t held_islands() const;
     /// Solves island by island.
     contact::SolveStats solve(double h);
-    contact::SolveStats solve_with_entered(double h, std::vector<BodyState>& states);
+    contact::SolveStats solve_with_entered(double h, const Vec3& gravity,
+                                           std::vector<BodyState>& states);
     contact::SolveStats solve_island(double h, bool held);
     /// Solves the island again for the velocities after the step, where something bounces.
     void let_bounce(const contact::SolveSettings& how, double h, contact::SolveStats& stats);
@@ -184,6 +187,20 @@ struct World::Impl {
     void turn_on(std::vector<BodyState>& states);
     void read_state(size_t i, BodyState& state) const;
     void let_sleep(double h, std::vector<BodyState>& states);
+
+    static Books::Motion motion_of(const Item& item);
+    static Books::Body account_of(const Item& item, const Vec3& gravity);
+    /// Opens the books of what is awake; of what woke late in the step, once more.
+    void open_books(const Vec3& gravity, bool late);
+    void close_books();
+    /// Lists the contacts of the step, and takes each to the books. False if there is no room for
+    /// all.
+    bool publish_contacts(double h, std::vector<contact::Contact>& out);
+    void take(const contact::Contact& contact, const btManifoldPoint& point, double h);
+    void take_joints(double h);
+    /// By how much the step's loads changed the speed at which a contact's bodies part, times its
+    /// force [W].
+    double loads_at(const contact::Contact& contact, const btManifoldPoint& point) const;
 };
 
 }  // namespace dihaptic::dynamics

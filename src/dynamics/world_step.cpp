@@ -54,10 +54,13 @@ StepStatus World::step(double h) noexcept {
         contacts_.clear();
         stats_ = {};
         w.held_residual = 0;
+        w.books.forget();
         return StepStatus::diverged;
     };
     if (w.diverged) return diverge();
     w.collect_awake(states_);
+    w.books.begin(h);
+    w.open_books(gravity_, false);
     w.integrate_loads(h, gravity_);
     if (!w.all_sound()) {  // before anything is looked up by its position
         for (const size_t i : w.awake) w.read_state(i, states_[i]);
@@ -67,10 +70,11 @@ StepStatus World::step(double h) noexcept {
     w.update_bounds(h);
     w.collision->find_contacts(h);
     w.collect_awake(states_);  // some may have woken
+    w.open_books(gravity_, true);
     w.prepare_contacts(w.collision->manifolds(), h);
     for (btPersistentManifold* manifold : w.collision->manifolds()) even_out(*manifold);
     w.take_points(h);
-    stats_ = w.solve_with_entered(h, states_);
+    stats_ = w.solve_with_entered(h, gravity_, states_);
     w.integrate_positions(h);
     w.joints.end_step();
     w.joints.read();
@@ -78,33 +82,39 @@ StepStatus World::step(double h) noexcept {
     w.note_stepped();
     if (stats_.refused || !w.all_sound()) return diverge();
 
-    StepStatus status = w.collision->overflowed() ? StepStatus::contacts_full : StepStatus::ok;
-    contacts_.clear();
-    for (const btPersistentManifold* manifold : w.collision->manifolds()) {
+    w.close_books();
+    const bool all = w.publish_contacts(h, contacts_) && !w.collision->overflowed();
+    w.take_joints(h);
+    w.books.balance();
+    w.let_sleep(h, states_);
+    return all ? StepStatus::ok : StepStatus::contacts_full;
+}
+
+bool World::Impl::publish_contacts(double h, std::vector<contact::Contact>& out) {
+    out.clear();
+    for (const btPersistentManifold* manifold : collision->manifolds()) {
         const int a = manifold->getBody0()->getUserIndex();
         const int b = manifold->getBody1()->getUserIndex();
         for (int i = 0; i < manifold->getNumContacts(); ++i) {
-            if (contacts_.size() == contacts_.capacity()) {
-                status = StepStatus::contacts_full;
-                break;
-            }
+            if (out.size() == out.capacity()) return false;
             // Bullet's normal points from its body 1 to its body 0, and its impulses act on body 0
             const btManifoldPoint& point = manifold->getContactPoint(i);
             const Carried& impulse = carried(point);
-            contact::Contact& out = contacts_.emplace_back();
-            out.a = {a};
-            out.b = {b};
-            out.p_WC = from_bullet(point.getPositionWorldOnB());
-            out.n_W = -normal_of(point);
-            out.gap = gap_of(point);
-            out.friction = point.m_combinedFriction;
-            out.normal_force = impulse.normal / h;
-            out.f_B_W = (impulse.normal * out.n_W - impulse.friction_W) / h;
-            out.moment = impulse.moment / h;  // on the other body, about the opposite normal
+            contact::Contact& contact = out.emplace_back();
+            contact.a = {a};
+            contact.b = {b};
+            contact.p_WC = from_bullet(point.getPositionWorldOnB());
+            contact.n_W = -normal_of(point);
+            contact.gap = gap_of(point);
+            contact.friction = point.m_combinedFriction;
+            contact.normal_force = impulse.normal / h;
+            contact.f_B_W = (impulse.normal * contact.n_W - impulse.friction_W) / h;
+            // on the other body, about the opposite normal
+            contact.moment = impulse.moment / h;
+            take(contact, point, h);
         }
     }
-    w.let_sleep(h, states_);
-    return status;
+    return true;
 }
 
 void World::Impl::wake(size_t i, std::vector<BodyState>& states) {
@@ -120,6 +130,7 @@ void World::Impl::wake(size_t i, std::vector<BodyState>& states) {
     items[i].w_start = items[i].w_free = items[i].w_before;
     inverse_mass[i] = inverse_mass_of(items[i]);
     by_loads[i].setZero();
+    items[i].bounces = false;
 }
 
 void World::Impl::place_fixed(size_t i, std::vector<BodyState>& states) {
@@ -208,6 +219,7 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
         item.v_last = body.getLinearVelocity();
         item.w_last = body.getAngularVelocity();
         by_loads[i].setZero();
+        item.bounces = false;
         if (item.is_driven || item.drive_to) {
             drive(item, h);
             continue;
@@ -252,7 +264,8 @@ bool World::Impl::all_sound() const {
     return std::all_of(awake.begin(), awake.end(), [&](size_t i) { return is_sound(i); });
 }
 
-contact::SolveStats World::Impl::solve_with_entered(double h, std::vector<BodyState>& states) {
+contact::SolveStats World::Impl::solve_with_entered(double h, const Vec3& gravity,
+                                                    std::vector<BodyState>& states) {
     for (const size_t i : awake) {
         items[i].v_before = items[i].body->getLinearVelocity();
         items[i].w_before = items[i].body->getAngularVelocity();
@@ -273,6 +286,7 @@ contact::SolveStats World::Impl::solve_with_entered(double h, std::vector<BodySt
         }
         if (!collision->find_entered(h, settings.penetration_recovery, search)) break;
         collect_awake(states);
+        open_books(gravity, true);
         prepare_contacts(collision->entered(), h);
         for (const size_t i : awake) {
             items[i].body->setLinearVelocity(items[i].v_before);
@@ -595,7 +609,6 @@ void World::Impl::integrate_positions(double h) {
         if (!item.bounces) continue;
         body.setLinearVelocity(item.v_leaves);
         body.setAngularVelocity(item.w_leaves);
-        item.bounces = false;
     }
     for (const size_t i : awake) {
         if (!items[i].is_point) continue;
@@ -643,6 +656,7 @@ void World::Impl::let_sleep(double h, std::vector<BodyState>& states) {
         states[i].v_WB.setZero();
         states[i].w_WB.setZero();
         states[i].awake = false;
+        books.rest(i);
     }
 }
 

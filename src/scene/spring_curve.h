@@ -25,6 +25,16 @@ struct SpringCurve {
         const double slope = (resistance[i] - resistance[i - 1]) / (stretch[i] - stretch[i - 1]);
         return {resistance[i - 1] + slope * (x - stretch[i - 1]), slope};
     }
+    /// Work that it takes to stretch the spring from the curve's first point to x [J].
+    double energy(double x) const noexcept {
+        double out = 0;
+        double from = stretch.front();
+        for (size_t i = 1; i + 1 < stretch.size() && x > stretch[i]; ++i) {
+            out += (stretch[i] - from) * (resistance[i - 1] + resistance[i]) / 2;
+            from = stretch[i];
+        }
+        return out + (x - from) * (at(from).resistance + at(x).resistance) / 2;
+    }
 };
 
 }  // namespace dihaptic::scene

@@ -162,6 +162,14 @@ struct Frame : Knobs {
     int32_t solver_route = 0;  ///< contact::Route
     double solver_residual = 0;
     double solver_held_residual = kUnmeasured;
+    // the balance of the step (dynamics/balance.h)
+    double kinetic_energy = kUnmeasured;
+    double potential_energy = kUnmeasured;
+    double work = kUnmeasured;
+    double dissipation = kUnmeasured;
+    double energy_imbalance = kUnmeasured;
+    double momentum_imbalance = kUnmeasured;
+    double angular_imbalance = kUnmeasured;
     double lateness = kUnmeasured;
     double tick_duration = kUnmeasured;
     TaskFrame task;
@@ -202,6 +210,28 @@ struct Frame : Knobs {
         v(f.solver_held_residual,
           {"solver_held_residual", "1", "",
            "The same of the contacts of what a finger touches, directly or through others."});
+        v(f.kinetic_energy,
+          {"kinetic_energy", "J", "",
+           "Of all bodies that move by themselves, half a step before their positions."});
+        v(f.potential_energy,
+          {"potential_energy", "J", "",
+           "Of their weights, zero at the world's origin, and of springs, then as well."});
+        v(f.work,
+          {"work", "J", "",
+           "Work done on them in the step by fingers, loads, motors and driven bodies, and the "
+           "energy that came with what the experiment set."});
+        v(f.dissipation,
+          {"dissipation", "J", "", "Energy that friction, dampers and impacts took in the step."});
+        v(f.energy_imbalance,
+          {"energy_imbalance", "J", "",
+           "Energy that came from nowhere in the step: the change of kinetic_energy and "
+           "potential_energy, less work, plus dissipation."});
+        v(f.momentum_imbalance,
+          {"momentum_imbalance", "N*s", "",
+           "The largest change of a body's momentum in the step that no force explains."});
+        v(f.angular_imbalance,
+          {"angular_imbalance", "N*m*s", "",
+           "The largest change of a body's angular momentum in the step that no force explains."});
         v(f.lateness, {"lateness", "s", "", "Lateness of the wake-up; NaN on the virtual clock."});
         v(f.tick_duration,
           {"tick_duration", "s", "", "Duration of the last tick; NaN on the virtual clock."});

@@ -33,6 +33,17 @@ void note_solver(const dynamics::World& world, Frame& frame) noexcept {
     frame.solver_route = static_cast<int32_t>(solve.route);
 }
 
+void note_balance(const dynamics::Balance& balance, Frame& frame) noexcept {
+    frame.kinetic_energy = balance.kinetic;
+    frame.potential_energy = balance.potential;
+    frame.work = balance.work;
+    frame.dissipation = balance.dissipated;
+    frame.energy_imbalance = balance.energy_imbalance;
+    frame.momentum_imbalance = balance.momentum_imbalance;
+    frame.angular_imbalance = balance.angular_imbalance;
+    if (balance.unbalanced) frame.status |= kUnbalanced;
+}
+
 void note_motion(const devices::Reading& reading, const haptics::Handle& handle,
                  const dynamics::BodyState& proxy, FingerFrame& out) noexcept {
     out.p_DH = reading.p_DH;
@@ -109,6 +120,7 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
     static_cast<Knobs&>(frame_) = commands.knobs;  // but for those that are not in force yet
     frame_.set_coupling(in_force_);
     note_solver(world_, frame_);
+    note_balance(world_.balance(), frame_);
     frame_.workspace_turn = turn_.angle();
     frame_.workspace_rate = turn_.rate();
     frame_.lateness = lateness_;

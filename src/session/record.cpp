@@ -19,10 +19,13 @@ std::vector<std::string> closing_notes(const Recorded& session, const Plan& plan
     if (figures.ticks_with(servo::kStopped) > 0) told &= ~(servo::kStopped | servo::kForceOff);
     for_each_status(told, [&](Status bit) {
         const StatusRow& row = describe(bit);
-        out.push_back(
-            fmt::format("{}: in {} of {} {}{}", bit == servo::kNotFinite ? "WARNING" : "note",
-                        figures.ticks_with(bit), counted(figures.frames, "tick"), row.what,
-                        row.remedy.empty() ? "" : fmt::format(": {}", row.remedy)));
+        const bool grave = bit == servo::kNotFinite || bit == servo::kUnbalanced;
+        const std::string what = bit == servo::kUnbalanced
+                                     ? figures.describe_imbalance()
+                                     : fmt::format("in {} of {} {}", figures.ticks_with(bit),
+                                                   counted(figures.frames, "tick"), row.what);
+        out.push_back(fmt::format("{}: {}{}", grave ? "WARNING" : "note", what,
+                                  row.remedy.empty() ? "" : fmt::format(": {}", row.remedy)));
     });
     if (session.timing.refusals.any()) {
         out.push_back("note: " +

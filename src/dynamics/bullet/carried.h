@@ -28,6 +28,7 @@ struct Carried {
     double normal = 0;               ///< [N*s]
     Vec3 friction_W = Vec3::Zero();  ///< [N*s]
     double moment = 0;               ///< about the normal [N*m*s]
+    Vec3 acts_at_W = Vec3::Zero();   ///< where the impulses act, between both surfaces
     ContactLaw law;
     bool in_use = false;
 };

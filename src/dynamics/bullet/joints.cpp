@@ -263,6 +263,53 @@ void Joints::ask_of_bushing(const Joint& joint, const Gaps& then, double h, cons
     }
 }
 
+double Joints::stored(const Joint& joint, double h, const Vec3& v_W, const Vec3& w_W) noexcept {
+    const scene::Joint& spec = joint.spec;
+    const auto& rows = joint.rows;
+    double energy = 0;
+    if (spec.is_bushing()) {
+        for (int k = 0; k < 3; ++k) {
+            const double gap =
+                joint.start.linear[k] + h / 2 * rows[0].J_b.row(k).head<3>().dot(v_W);
+            const double turn =
+                joint.start.angular[k] + h / 2 * rows[1].J_b.row(k).tail<3>().dot(w_W);
+            energy += spec.stiffnesses[k] * gap * gap + spec.turn_stiffnesses[k] * turn * turn;
+        }
+        return joint.properties.stiffness * energy / 2;
+    }
+    if (!spec.has_axis_spring()) return 0;
+    const double rate = spec.slides() ? rows[2].J_b.row(0).head<3>().dot(v_W)
+                                      : rows[2].J_b.row(0).tail<3>().dot(w_W);
+    const double stretch = joint.start.q + h / 2 * rate - spec.rest;
+    return joint.properties.stiffness * (spec.curve.is_empty()
+                                             ? spec.stiffness * stretch * stretch / 2
+                                             : spec.curve.energy(stretch));
+}
+
+Books::Exchange Joints::exchange(size_t i, double h, const Books::Velocities& a,
+                                 const Books::Velocities& b) const noexcept {
+    const Joint& joint = joints_[i];
+    const JointState& state = states_[i];
+    Books::Exchange out{.a = joint.a.item,
+                        .b = joint.b.item,
+                        .p_W = joint.acts_at_W,
+                        .impulse_W = h * state.force_W,
+                        .moment_W = h * state.torque_W,
+                        .joint = static_cast<int>(i)};
+    const Vec3 v_before = b.v_before - a.v_before;
+    const Vec3 v_after = b.v_after - a.v_after;
+    const Vec3 w_before = b.w_before - a.w_before;
+    const Vec3 w_after = b.w_after - a.w_after;
+    out.stored_before = stored(joint, -h, v_before, w_before);
+    out.stored_after = stored(joint, h, v_after, w_after);
+    if (!joint.led_from) return out;
+    const auto& axis = joint.rows[2].J_b.row(0);
+    const double way = joint.spec.slides() ? axis.head<3>().dot(v_before + v_after)
+                                           : axis.tail<3>().dot(w_before + w_after);
+    out.given = joint.impulses[2][1] * way / 2;
+    return out;
+}
+
 /// Rows of the coordinate, which would be q at the end of a step in which it rests: a spring with
 /// its damper, dry friction, and the nearer stop.
 void Joints::ask_of_coordinate(size_t i, double q, double h, ProblemJoint& row) const noexcept {
@@ -385,6 +432,8 @@ void Joints::add_rows(std::span<const size_t> which, std::span<const int> index,
             rows.b = joint.b.fixed ? contact::kFixed : index[joint.b.at()];
         }
         fill(joint, pose_of(joint.a), pose_of(joint.b), joint.rows);
+        joint.start = gaps(joint, pose_of(joint.a), pose_of(joint.b), states_[i].position);
+        joint.acts_at_W = pose_of(joint.b) * joint.X_BF.p;
         if (joint.spec.has_axis_spring() || joint.motor)
             joint.inverse_mass = along_coordinate(problem, joint.rows);
         if (joint.spec.is_bushing()) joint.inverse_masses = along_rows(problem, joint.rows);

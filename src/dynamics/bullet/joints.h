@@ -33,6 +33,7 @@
 #include <vector>
 
 #include "contact/problem.h"
+#include "dynamics/books.h"
 #include "dynamics/world.h"
 
 namespace dihaptic::dynamics {
@@ -84,6 +85,12 @@ class Joints {
     void end_step() noexcept;
     /// Reads the coordinates, after a step or after bodies were put elsewhere.
     void read() noexcept;
+    /// Where a joint's force acts on both bodies in the step: the second body's point at its
+    /// beginning.
+    const Vec3& acts_at(size_t i) const noexcept { return joints_[i].acts_at_W; }
+    /// What a joint did in a step of h, of which its bodies have these velocities at acts_at().
+    Books::Exchange exchange(size_t i, double h, const Books::Velocities& a,
+                             const Books::Velocities& b) const noexcept;
     /// Forgets the impulses.
     void forget() noexcept;
 
@@ -99,6 +106,12 @@ class Joints {
             before = last;
             last = now;
         }
+    };
+    /// What the relative pose of a joint's frames is to be: zero, but for the coordinate.
+    struct Gaps {
+        Vec3 linear = Vec3::Zero();
+        Vec3 angular = Vec3::Zero();
+        double q = 0;
     };
     struct Joint {
         scene::Joint spec;
@@ -117,12 +130,8 @@ class Joints {
         JointProperties properties = {};
         std::optional<Motor> motor = {};      // in this step
         std::optional<double> led_from = {};  // where the motor was to be in the step before
-    };
-    /// What the relative pose of a joint's frames is to be: zero, but for the coordinate.
-    struct Gaps {
-        Vec3 linear = Vec3::Zero();
-        Vec3 angular = Vec3::Zero();
-        double q = 0;
+        Gaps start = {};                      // as the step began
+        Vec3 acts_at_W = Vec3::Zero();
     };
     static Gaps gaps(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
                      double q_near) noexcept;
@@ -138,6 +147,9 @@ class Joints {
     static void ask_of_bushing(const Joint& joint, const Gaps& then, double h,
                                const contact::Vec6& v_a, const contact::Vec6& v_b,
                                std::span<contact::ProblemJoint> rows) noexcept;
+    /// Energy of its springs, moved by these rates for half a step from where the step began, h
+    /// being negative for what was before [J].
+    static double stored(const Joint& joint, double h, const Vec3& v_W, const Vec3& w_W) noexcept;
     /// The row in which a motor, or else dry friction, acts.
     static void ask_of_motor(const Joint& joint, double q, double h, int k,
                              contact::ProblemJoint& row) noexcept;

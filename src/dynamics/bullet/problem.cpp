@@ -119,6 +119,7 @@ void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
             const Vec3 n_W = from_bullet(point.m_normalWorldOnB);
             Vec3 p_WC = middle(point);
             p_WC += (height - n_W.dot(p_WC)) * n_W;
+            carried(point).acts_at_W = p_WC;
             out.p_AC_W = p_WC - from_bullet(a.getWorldTransform().getOrigin());
             out.p_BC_W = p_WC - from_bullet(b.getWorldTransform().getOrigin());
             out.R_WC = contact_frame(normal_of(point));

@@ -56,7 +56,7 @@ class Lists {
 };
 
 std::set<std::string> known_units() {
-    std::set<std::string> out{"ns", "rad/s"};
+    std::set<std::string> out{"ns", "rad/s", "J", "N*s", "N*m*s"};
     for (auto i = Quantity::none; i <= Quantity::inertia;
          i = static_cast<Quantity>(static_cast<int>(i) + 1))
         out.emplace(si_symbol(i));

@@ -69,6 +69,7 @@ Plan plan_of(const std::string& file, dynamics::Solver solver) {
 std::string hash_of(const std::string& file, dynamics::Solver solver) {
     const testing::TemporaryFolder folder;
     Hash hash;
+    int64_t unbalanced = 0;
     std::atomic<bool> stop{false};
     const int64_t ticks = ticks_of(file);
     RunOptions options;
@@ -76,10 +77,13 @@ std::string hash_of(const std::string& file, dynamics::Solver solver) {
     options.in_place_of_log = [&](const auto&, const auto&, const auto&) -> servo::FrameSink {
         return [&](const servo::Frame& frame) {
             if (frame.sequence < ticks) hash.add(outcome_of(frame));
+            unbalanced += (frame.status & servo::kUnbalanced) != 0;
             stop = frame.sequence >= ticks;
         };
     };
     run_session(plan_of(file, solver), options, stop, {});
+    EXPECT_EQ(unbalanced, 0) << "ticks of " << file << " do not balance, with "
+                             << enum_name(solver);
     return hash.text();
 }
 

@@ -63,6 +63,33 @@ TEST(Record, TellsOfAFaultFirst) {
         EXPECT_TRUE(recorded.notes[i].starts_with("note: in ")) << recorded.notes[i];
 }
 
+TEST(Record, TellsOfWhatDoesNotBalanceWhereverTheSessionIsReadAgain) {
+    const testing::TemporaryFolder folder;
+    std::string scene = testing::read_file("scenes/block-on-table.yaml");
+    const std::string rests = "position_mm: [0, 0, 20]";
+    scene.replace(scene.find(rests), rests.size(), "position_mm: [0, 0, 5]");  // in the table
+    Request request;
+    request.file = folder.write("sunk.yaml", scene);
+    RunOptions options;
+    options.out = folder.file("sessions");
+    const Recorded recorded = record(make_plan(request), options, kGoOn);
+    const int64_t ticks = recorded.figures.ticks_with(servo::kUnbalanced);
+    EXPECT_GT(ticks, 0);
+    EXPECT_GT(recorded.figures.energy_imbalance, 1e-3);
+    const std::string said = recorded.figures.describe_imbalance();
+    const auto says = [&](const std::vector<std::string>& notes) {
+        return std::count_if(notes.begin(), notes.end(), [&](const std::string& note) {
+            return note.find(said) != std::string::npos;
+        });
+    };
+    EXPECT_EQ(says(recorded.notes), 1) << said;
+    const auto made = recording::SessionFolder::open(recorded.folder);
+    EXPECT_EQ(says(made.read_info().notes), 1) << said;
+    EXPECT_NE(testing::read_file(made.file("events.csv"))
+                  .find(std::string(describe(servo::kUnbalanced).what)),
+              std::string::npos);
+}
+
 TEST(Record, TellsOfTheOperatorsStopOnce) {
     const testing::TemporaryFolder folder;
     Request request;

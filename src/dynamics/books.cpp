@@ -1,0 +1,258 @@
+#include "dynamics/books.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace dihaptic::dynamics {
+namespace {
+
+/// Momentum may be off by this share of the impulses that were summed, which rounding explains.
+constexpr double kRounding = 1e-6;
+constexpr double kLeastMomentum = 1e-9;  // [N*s]
+constexpr double kLeastTurning = 1e-11;  // [N*m*s]
+/// Energy that came from nowhere within this time is compared with what there is, and what was
+/// exchanged [s].
+constexpr double kMemory = 0.5;
+constexpr double kMostShare = 0.05;
+constexpr double kLeastEnergy = 1e-3;  // [J]
+
+Vec3 angular_momentum(const Books::Body& body, const Quat& R_WM, const Vec3& w_W) {
+    return R_WM * Vec3(body.moments.cwiseProduct(R_WM.conjugate() * w_W));
+}
+
+/// Angular velocity of a body that turns freely, of its momentum.
+Vec3 turning_by(const Vec3& L_W, const Books::Body& body, const Quat& R_WM) {
+    return R_WM * Vec3((R_WM.conjugate() * L_W).cwiseQuotient(body.moments));
+}
+
+double kinetic_of(const Books::Body& body, const Vec3& v_W, const Vec3& w_W, const Vec3& L_W) {
+    return (v_W.dot(body.masses.cwiseProduct(v_W)) + w_W.dot(L_W)) / 2;
+}
+
+double potential_of(const Books::Body& body, const Books::Motion& at, double h) {
+    return -body.weight_W.dot(at.p_WM - h / 2 * at.v_W);
+}
+
+}  // namespace
+
+void Books::reserve(size_t bodies, size_t joints) {
+    entries_.assign(bodies, {});
+    owed_.assign(joints, 0);
+    open_.reserve(bodies);
+}
+
+void Books::forget() noexcept {
+    for (Entry& one : entries_) one.open = false;
+    open_.clear();
+    std::fill(owed_.begin(), owed_.end(), 0);
+    has_last_ = false;
+    found_ = exchanged_ = 0;
+    balance_ = {};
+}
+
+void Books::begin(double h) noexcept {
+    for (const size_t i : open_) entries_[i].open = false;
+    open_.clear();
+    h_ = h;
+    before_ = last_energy_ = gains_ = 0;
+    last_springs_ = springs_;
+    springs_ = 0;
+    balance_ = {};
+}
+
+void Books::open(size_t body, const Body& what, const Motion& before, const Wrench& load_W,
+                 bool late) noexcept {
+    Entry& one = entries_[body];
+    last_energy_ += one.kinetic + one.potential;
+    one.open = true;
+    one.late = late;
+    one.body = what;
+    one.before = before;
+    one.load_W = late ? Wrench{} : load_W;
+    one.L_before_W = angular_momentum(what, before.R_WM, before.w_W);
+    one.impulse_W.setZero();
+    one.moment_W.setZero();
+    one.size = one.turning_size = 0;
+    open_.push_back(body);
+    if (what.is_outside) return;
+    before_ +=
+        kinetic_of(what, before.v_W, before.w_W, one.L_before_W) + potential_of(what, before, h_);
+}
+
+void Books::close(size_t body, const Motion& after, bool bounced) noexcept {
+    Entry& one = entries_[body];
+    if (!one.open) return;
+    one.after = after;
+    if (one.body.is_led) {
+        one.before.v_W = after.v_W;
+        one.before.w_W = after.w_W;
+    }
+    one.bounced = bounced;
+    one.L_after_W = angular_momentum(one.body, after.R_WM, after.w_W);
+    const bool free = one.body.turns == Vec3::Ones() && one.body.moments.minCoeff() > 0;
+    one.w_struck_W = free && !one.body.is_outside
+                         ? turning_by(one.L_after_W, one.body, one.before.R_WM)
+                         : after.w_W;
+}
+
+Books::Velocities Books::velocities_at(int body, const Vec3& p_W) const noexcept {
+    if (body < 0 || !entries_[static_cast<size_t>(body)].open) return {};
+    const Entry& one = entries_[static_cast<size_t>(body)];
+    const Vec3 arm = p_W - one.before.p_WM;
+    return {one.before.v_W + one.before.w_W.cross(arm), one.after.v_W + one.w_struck_W.cross(arm),
+            one.before.w_W, one.w_struck_W};
+}
+
+Vec3 Books::way_of(int body, const Vec3& p_W) const noexcept {
+    if (body < 0 || !entries_[static_cast<size_t>(body)].open) return Vec3::Zero();
+    const Entry& one = entries_[static_cast<size_t>(body)];
+    const Quat turn = one.after.R_WM * one.before.R_WM.conjugate();
+    return one.after.p_WM + turn * (p_W - one.before.p_WM) - p_W;
+}
+
+void Books::check_gap(int a, int b, const Vec3& p_W, const Vec3& n_W, double gap) noexcept {
+    constexpr double kLeast = 1e-4;      // [m]
+    constexpr double kShareOfWay = 0.1;  // surfaces curve, and turn
+    const auto enters = [&](const Vec3& way) {
+        return std::max(gap, 0.0) + way.dot(n_W) < -kLeast - kShareOfWay * way.norm();
+    };
+    // the velocities tell well enough that nothing is wrong
+    const Vec3 about = h_ * (velocities_at(b, p_W).v_after - velocities_at(a, p_W).v_after);
+    if (enters(about) && enters(way_of(b, p_W) - way_of(a, p_W))) balance_.unbalanced = true;
+}
+
+void Books::take(const Exchange& exchange) noexcept {
+    before_ += exchange.stored_before;
+    springs_ += exchange.stored_after;
+    double work = 0;     // on both bodies
+    double outside = 0;  // on the one that is inside, by the one that is not
+    bool within = false;
+    const auto act = [&](int body, double sign) {
+        if (body < 0 || !entries_[static_cast<size_t>(body)].open) return;
+        Entry& one = entries_[static_cast<size_t>(body)];
+        const Vec3 impulse = sign * exchange.impulse_W;
+        const Vec3 arm = exchange.p_W - one.before.p_WM;
+        const Vec3 moment = arm.cross(impulse) + sign * exchange.moment_W;
+        one.impulse_W += impulse;
+        one.moment_W += moment;
+        one.size += impulse.norm();
+        one.turning_size += arm.norm() * impulse.norm() + exchange.moment_W.norm();
+        const double done = (impulse.dot(one.before.v_W + one.after.v_W) +
+                             moment.dot(one.before.w_W + one.w_struck_W)) /
+                            2;
+        work += done;
+        outside -= one.body.is_outside ? done : 0;
+        within = within || !one.body.is_outside;
+    };
+    act(exchange.a, -1);
+    act(exchange.b, 1);
+    if (!within) return;
+    // what the exchange gave away, of itself and of its springs
+    const double passive = work - exchange.given + exchange.stored_after - exchange.stored_before;
+    const double found = exchange.joint < 0 ? exchange.found : owe(exchange.joint, passive);
+    gains_ += found;
+    balance_.dissipated += found - passive;
+    balance_.work += outside + exchange.given;
+    exchanged_ += std::abs(outside + exchange.given) + std::abs(passive);
+}
+
+double Books::owe(int joint, double passive) noexcept {
+    double& owed = owed_[static_cast<size_t>(joint)];
+    const double before = std::max(0.0, owed);
+    owed += passive;
+    return std::max(0.0, owed) - before;
+}
+
+void Books::check_momentum(const Entry& one) noexcept {
+    const Body& body = one.body;
+    const Vec3 change = body.masses.cwiseProduct(one.after.v_W - one.before.v_W);
+    const Vec3 load = h_ * (one.load_W.force + (one.late ? Vec3(Vec3::Zero()) : body.weight_W));
+    // where it got is where its velocity leads
+    const Vec3 moved = body.masses.cwiseProduct((one.after.p_WM - one.before.p_WM) / h_);
+    const Vec3 leads = body.masses.cwiseProduct(one.after.v_W);
+    const double off = (change - load - one.impulse_W).cwiseProduct(body.moves).norm();
+    const double lost = one.bounced ? 0 : (moved - leads).norm();
+    const double size = leads.norm() + change.norm() + load.norm() + one.size +
+                        (body.masses.cwiseProduct(one.after.p_WM) / h_).norm() * 1e-6;
+    balance_.momentum_imbalance = std::max({balance_.momentum_imbalance, off, lost});
+    if (std::max(off, lost) > kRounding * size + kLeastMomentum) balance_.unbalanced = true;
+
+    if (!one.bounced && !body.is_outside) check_turn(one);
+    // a body that can turn about two axes is pressed by its guides about all
+    if (body.turns.sum() == 0 || body.turns.sum() == 2) return;
+    const Vec3 torque = h_ * one.load_W.torque;
+    const double turning =
+        (one.L_after_W - one.L_before_W - torque - one.moment_W).cwiseProduct(body.turns).norm();
+    const double turning_size =
+        one.L_after_W.norm() + one.L_before_W.norm() + torque.norm() + one.turning_size;
+    balance_.angular_imbalance = std::max(balance_.angular_imbalance, turning);
+    if (turning > kRounding * turning_size + kLeastTurning) balance_.unbalanced = true;
+}
+
+void Books::check_turn(const Entry& one) noexcept {
+    // the trapezoidal rule gives the mean of its angular velocity up to the square of the turn
+    const Vec3 mean = (one.w_struck_W + one.after.w_W) / 2;
+    const Vec3 turned = rotation_vector(one.after.R_WM * one.before.R_WM.conjugate()) / h_;
+    const double off = (turned - mean).norm();
+    const double speed = mean.norm();
+    // how a body turns freely is guessed until guesses are about this far apart
+    constexpr double kLeast = 1e-4;  // [rad/s]
+    if (off <= kLeast * (1 + speed) + speed * h_ * speed * h_ * speed) return;
+    balance_.unbalanced = true;
+    balance_.angular_imbalance =
+        std::max(balance_.angular_imbalance, one.body.moments.maxCoeff() * off);
+}
+
+void Books::count_energy(Entry& one) noexcept {
+    one.kinetic = one.potential = 0;
+    const Body& body = one.body;
+    if (body.is_outside) return;
+    one.kinetic = kinetic_of(body, one.after.v_W, one.after.w_W, one.L_after_W);
+    one.potential = potential_of(body, one.after, h_);
+    const Vec3 v_mean = (one.before.v_W + one.after.v_W) / 2;
+    const Vec3 w_mean = (one.before.w_W + one.w_struck_W) / 2;
+    const double by_load = h_ * (one.load_W.force.dot(v_mean) + one.load_W.torque.dot(w_mean));
+    const double by_weight = h_ * body.weight_W.dot(v_mean);
+    exchanged_ += std::abs(by_load) + std::abs(by_weight);
+    balance_.work += by_load;
+    if (one.late) balance_.work -= by_weight;
+    // at what moment of a step bodies meet is an impact's own affair
+    if (one.bounced)
+        balance_.dissipated -= one.potential - potential_of(body, one.before, h_) + by_weight;
+}
+
+void Books::balance() noexcept {
+    for (const size_t i : open_) {
+        if (!entries_[i].body.is_led) check_momentum(entries_[i]);
+        count_energy(entries_[i]);
+    }
+    double after = springs_;
+    for (const size_t i : open_) after += entries_[i].kinetic + entries_[i].potential;
+    balance_.energy_imbalance = after - before_ - balance_.work + balance_.dissipated;
+    if (has_last_) balance_.work += before_ - last_energy_ - last_springs_;
+    has_last_ = true;
+    balance_.potential = springs_;
+    for (const Entry& one : entries_) {
+        balance_.kinetic += one.kinetic;
+        balance_.potential += one.potential;
+    }
+    judge();
+}
+
+void Books::judge() noexcept {
+    const double kept = std::exp(-h_ / kMemory);
+    const double residual = std::abs(balance_.energy_imbalance - gains_);
+    found_ = std::max(0.0, kept * found_ + gains_ + residual);
+    const double there = balance_.kinetic + exchanged_;
+    if (found_ > kMostShare * there + kLeastEnergy) balance_.unbalanced = true;
+    exchanged_ *= kept;
+    for (double& owed : owed_) owed *= kept;
+}
+
+void Books::rest(size_t body) noexcept {
+    balance_.kinetic -= entries_[body].kinetic;
+    balance_.dissipated += entries_[body].kinetic;
+    entries_[body].kinetic = 0;
+}
+
+}  // namespace dihaptic::dynamics

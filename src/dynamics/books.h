@@ -1,0 +1,142 @@
+// Books keeps the account of a step: by what the momentum and the energy of bodies changed, against
+// what acted on them. It reads what a step publishes - motions, contacts, forces of joints - with
+// the masses of the scene and the loads that were asked for, and shares no sum with the solvers, so
+// that a fault in either shows.
+//
+// Velocities are those of the middle of a step (README.md), half a step before the positions. So an
+// impulse J on a point does work with the mean of the point's velocities before and after it,
+//
+//     W = J . (u- + u+) / 2
+//
+// whose sum over all impulses on a body is exactly the change of its kinetic energy; and the
+// potential energy of a weight is that of where the body was half a step ago, -m g . (x - h v / 2),
+// which a free fall exchanges for kinetic energy to the last digit. A body that turns freely keeps
+// its angular momentum L once the impulses have acted (free_turn.h): they act at the pose at which
+// the step begins, where they leave it with w = I^-1 L.
+#pragma once
+
+#include <vector>
+
+#include "base/geometry.h"
+#include "dynamics/balance.h"
+
+namespace dihaptic::dynamics {
+
+class Books {
+  public:
+    /// How a body's centre of mass moves, and its principal axes M.
+    struct Motion {
+        Vec3 p_WM = Vec3::Zero();
+        Quat R_WM = Quat::Identity();
+        Vec3 v_W = Vec3::Zero();
+        Vec3 w_W = Vec3::Zero();
+    };
+    struct Body {
+        Vec3 masses = Vec3::Zero();    ///< along the world's axes [kg]
+        Vec3 moments = Vec3::Zero();   ///< about M's axes [kg*m^2]
+        Vec3 weight_W = Vec3::Zero();  ///< [N]
+        Vec3 moves = Vec3::Ones();     ///< 1 for each axis along which it can move, otherwise 0
+        Vec3 turns = Vec3::Ones();     ///< the same for axes about which it can turn
+        /// Something else decides where it goes, as with fingers and what is driven: its energy is
+        /// not counted, and what it does to others is work.
+        bool is_outside = false;
+        bool is_led = false;  ///< its velocities follow from no impulse
+    };
+
+    void reserve(size_t bodies, size_t joints);
+
+    /// Begins the account of a step of h [s].
+    void begin(double h) noexcept;
+    bool is_open(size_t body) const noexcept { return entries_[body].open; }
+    /// Call before the step changes a body's velocities. The load acts at its centre of mass, its
+    /// weight apart. A body that is `late` woke after loads had acted, so none does.
+    void open(size_t body, const Body& what, const Motion& before, const Wrench& load_W,
+              bool late) noexcept;
+    /// Call after the step. A body that bounced moved at other velocities than it leaves with.
+    void close(size_t body, const Motion& after, bool bounced) noexcept;
+
+    /// An impulse on b at p_W, and a moment, with their opposites on a. A body that is not open, or
+    /// -1, does not move.
+    struct Exchange {
+        int a = -1;
+        int b = -1;
+        Vec3 p_W = Vec3::Zero();
+        Vec3 impulse_W = Vec3::Zero();  ///< [N*s]
+        Vec3 moment_W = Vec3::Zero();   ///< [N*m*s]
+        double given = 0;               ///< work of a motor in it [J]
+        double stored_before = 0;       ///< in its springs [J]
+        double stored_after = 0;
+        double found = 0;  ///< of its work, what it cannot have done: a contact gives nothing [J]
+        /// Index of the joint that it is of, whose springs may owe energy from one step to the
+        /// next; -1: of a contact.
+        int joint = -1;
+    };
+    /// A contact of rigid surfaces that were `gap` apart along n_W, from a to b, when the step
+    /// began: tells if they enter each other all the same. Call once all bodies are closed.
+    void check_gap(int a, int b, const Vec3& p_W, const Vec3& n_W, double gap) noexcept;
+    /// Call once all bodies are closed.
+    void take(const Exchange& exchange) noexcept;
+
+    /// Velocities of a body's point at p_W, and its angular velocities, before and after the
+    /// impulses.
+    struct Velocities {
+        Vec3 v_before = Vec3::Zero();
+        Vec3 v_after = Vec3::Zero();
+        Vec3 w_before = Vec3::Zero();
+        Vec3 w_after = Vec3::Zero();
+    };
+    Velocities velocities_at(int body, const Vec3& p_W) const noexcept;
+
+    /// Call once all is dissipated.
+    void balance() noexcept;
+    const Balance& last() const noexcept { return balance_; }
+    /// A body fell asleep: what it still moved by is lost.
+    void rest(size_t body) noexcept;
+    /// Forgets what was, as after a divergence.
+    void forget() noexcept;
+
+  private:
+    struct Entry {
+        bool open = false;
+        bool late = false;
+        bool bounced = false;
+        Body body;
+        Motion before;
+        Motion after;
+        Wrench load_W;
+        Vec3 L_before_W = Vec3::Zero();
+        Vec3 L_after_W = Vec3::Zero();
+        Vec3 w_struck_W = Vec3::Zero();  ///< once impulses acted, before the body turns on
+        Vec3 impulse_W = Vec3::Zero();
+        Vec3 moment_W = Vec3::Zero();  ///< about its centre of mass as the step begins
+        double size = 0;               ///< of all impulses together [N*s]
+        double turning_size = 0;       ///< of all moments [N*m*s]
+        double kinetic = 0;            ///< after the last step of which it was part
+        double potential = 0;
+    };
+    /// What of the energy that a joint gives away came from nowhere.
+    double owe(int joint, double passive) noexcept;
+    void check_momentum(const Entry& one) noexcept;
+    /// By how much a body's point at p_W as the step begins moves in it.
+    Vec3 way_of(int body, const Vec3& p_W) const noexcept;
+    /// Whether a body turned as its angular velocity says.
+    void check_turn(const Entry& one) noexcept;
+    void count_energy(Entry& one) noexcept;
+    void judge() noexcept;
+
+    std::vector<Entry> entries_;
+    std::vector<size_t> open_;
+    std::vector<double> owed_;  // by joints, with a memory of kMemory [J]
+    double h_ = 0;
+    bool has_last_ = false;
+    double before_ = 0;        // energy of what is open as the step begins
+    double last_energy_ = 0;   // of the same bodies, and all springs, after the step before
+    double springs_ = 0;       // after the step
+    double last_springs_ = 0;  // after the step before
+    double gains_ = 0;         // in the step, of contacts and joints
+    double found_ = 0;         // from nowhere, with a memory of kMemory
+    double exchanged_ = 0;     // of all work, likewise
+    Balance balance_;
+};
+
+}  // namespace dihaptic::dynamics

@@ -1,0 +1,101 @@
+// What a step tells its Books.
+#include <algorithm>
+#include <cmath>
+
+#include "dynamics/world_impl.h"
+
+namespace dihaptic::dynamics {
+
+Books::Motion World::Impl::motion_of(const Item& item) {
+    const Pose X_WM = from_bullet(item.body->getWorldTransform());
+    return {X_WM.p, X_WM.R, from_bullet(item.body->getLinearVelocity()),
+            from_bullet(item.body->getAngularVelocity())};
+}
+
+Books::Body World::Impl::account_of(const Item& item, const Vec3& gravity) {
+    Books::Body out;
+    out.moves = item.moves;
+    out.turns = item.turns;
+    out.is_led = item.is_point || item.is_driven || item.drive_to;
+    out.is_outside = item.is_proxy || out.is_led;
+    if (item.is_proxy) {  // its mass changes with its coupling
+        out.masses.setConstant(item.body->getMass());
+        out.moments = from_bullet(item.body->getLocalInertia());
+        return out;
+    }
+    out.masses = item.mass * item.properties.mass;
+    out.moments = item.properties.turning * item.inertia;
+    out.weight_W = item.properties.weight * item.mass * gravity;
+    return out;
+}
+
+void World::Impl::open_books(const Vec3& gravity, bool late) {
+    for (const size_t i : awake) {
+        if (late && books.is_open(i)) continue;
+        books.open(i, account_of(items[i], gravity), motion_of(items[i]),
+                   {items[i].force, items[i].torque}, late);
+    }
+}
+
+void World::Impl::close_books() {
+    for (const size_t i : awake) books.close(i, motion_of(items[i]), items[i].bounces);
+}
+
+void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& point, double h) {
+    const ContactLaw& law = carried(point).law;
+    const Vec3& n_W = contact.n_W;
+    Books::Exchange exchange{.a = contact.a.value,
+                             .b = contact.b.value,
+                             .p_W = carried(point).acts_at_W,
+                             .impulse_W = h * contact.f_B_W,
+                             .moment_W = h * contact.moment * n_W};
+    const Books::Velocities a = books.velocities_at(exchange.a, exchange.p_W);
+    const Books::Velocities b = books.velocities_at(exchange.b, exchange.p_W);
+    const Vec3 u_before = b.v_before - a.v_before;
+    const Vec3 u_after = b.v_after - a.v_after;
+    const double normal = h * contact.normal_force;
+    const double mean_work = normal * n_W.dot(u_before + u_after) / 2;
+    // bodies neither part, nor slide on, by what presses and rubs them
+    double pressing = normal * n_W.dot(u_after);
+    const double rubbing =
+        exchange.impulse_W.dot(u_after) - pressing + exchange.moment_W.dot(b.w_after - a.w_after);
+    if (law.stiffness > 0) {
+        const auto stored = [&](double gap) {
+            const double k = law.stiffness / law.sharing;
+            return gap < 0 ? k * gap * gap / 2 : 0;
+        };
+        // velocities are those of the middle of steps
+        exchange.stored_before = stored(contact.gap - h / 2 * n_W.dot(u_before));
+        exchange.stored_after = stored(contact.gap + h / 2 * n_W.dot(u_after));
+        pressing = mean_work + exchange.stored_after - exchange.stored_before;
+    } else if (law.restitution > 0) {
+        // at what moment they meet is open within the step, and so what its loads do until then
+        pressing = mean_work - std::abs(loads_at(contact, point) * h);
+    }
+    if (law.stiffness == 0 && law.compliance == 0)
+        books.check_gap(exchange.a, exchange.b, exchange.p_W, n_W, contact.gap);
+    exchange.found = std::max(0.0, pressing) + std::max(0.0, rubbing);
+    books.take(exchange);
+}
+
+double World::Impl::loads_at(const contact::Contact& contact, const btManifoldPoint& point) const {
+    const auto along = [&](contact::BodyIndex body) {
+        const auto i = static_cast<size_t>(body.value);
+        const Vec3 arm =
+            carried(point).acts_at_W - from_bullet(items[i].body->getCenterOfMassPosition());
+        const contact::Vec6& change = by_loads[i];
+        return contact.n_W.dot(change.head<3>() + change.tail<3>().cross(arm));
+    };
+    return contact.normal_force * (along(contact.b) - along(contact.a));
+}
+
+void World::Impl::take_joints(double h) {
+    for (size_t i = 0; i < joints.size(); ++i) {
+        const Vec3 p_W = joints.acts_at(i);
+        const Books::Velocities a = books.velocities_at(joints.a(i).item, p_W);
+        const Books::Velocities b = books.velocities_at(joints.b(i).item, p_W);
+        books.take(joints.exchange(i, h, a, b));
+    }
+}
+
+}  // namespace dihaptic::dynamics
