@@ -397,6 +397,9 @@ void World::carry(BodyIndex proxy, const Quat& R_WP, const Vec3& w_WP) noexcept 
 void World::set_pose(BodyIndex body, const Pose& X_WB) noexcept {
     const auto i = static_cast<size_t>(body.value);
     Impl::Item& item = impl_->items[i];
+    if (item.can_move && !impl_->is_awake(i)) {  // what lies on it falls now
+        for (const size_t k : impl_->can_move) impl_->wake(k, states_);
+    }
     item.body->setWorldTransform(to_bullet(X_WB * item.X_BM));
     item.body->updateInertiaTensor();
     item.body->setLinearVelocity({0, 0, 0});

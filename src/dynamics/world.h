@@ -162,7 +162,7 @@ class World {
     /// Turns a proxy that cannot turn by itself: sets its orientation, and the angular velocity at
     /// which it keeps turning, whatever it touches. P keeps its velocity.
     void carry(BodyIndex proxy, const Quat& R_WP, const Vec3& w_WP) noexcept;
-    /// Puts a body somewhere else, at rest. If it is fixed, all others wake.
+    /// Puts a body somewhere else, at rest. If it is fixed or asleep, all others wake.
     void set_pose(BodyIndex body, const Pose& X_WB) noexcept;
     /// Moves a body that is not fixed to a pose within the next step, whatever presses on it; it
     /// keeps the velocity that takes it there. A body that is driven in the scene stays where no

@@ -197,5 +197,28 @@ class Impacts(unittest.TestCase):
                 self.assertAlmostEqual(w.bodies["heavy"].position[0], 0.006, delta=1e-6)
 
 
+class Rest(unittest.TestCase):
+    def test_what_lost_its_support_while_it_slept_falls(self):
+        for solver in SOLVERS:
+            with self.subTest(solver=solver):
+                w = world([PLANE, dh.Part(name="below", shape="box", size_mm=[100, 100, 40], mass_g=500, position_mm=[0, 0, 20]),
+                           dh.Part(name="above", shape="box", size_mm=[40, 40, 40], mass_g=100, position_mm=[0, 0, 60])], solver)
+                w.step(2000)
+                w.bodies["below"].place((0.5, 0, 0.02))
+                w.step(50)
+                self.assertAlmostEqual(w.bodies["above"].position[2], 0.06 - G / 2 * 0.05**2, delta=3e-4)
+
+    def test_a_pan_rises_when_its_load_is_taken_away(self):
+        w = world([dh.Part(name="pan", shape="box", size_mm=[100, 100, 20], mass_g=100, position_mm=[0, 0, 500]),
+                   dh.Part(name="load", shape="box", size_mm=[40, 40, 40], mass_g=200, position_mm=[0, 0, 530])],
+                  joints=[dh.Part(name="spring", kind="slider", between=["pan"], position_mm=[0, 0, 500], axis=[0, 0, 1], stiffness_N_m=200,
+                                  damping_Ns_m=5)])
+        for mass, load_at in ((0.3, None), (0.1, (0.5, 0, 0.5))):
+            if load_at:
+                w.bodies["load"].place(load_at)
+            w.step(10000 if not load_at else 3000)
+            self.assertAlmostEqual(w.bodies["pan"].position[2], 0.5 - mass * G / 200, delta=1e-6)
+
+
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
