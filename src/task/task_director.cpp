@@ -252,6 +252,7 @@ void TaskDirector::enter(int state, double now, servo::Commands& commands) noexc
     sounder_.enter(plan_.stages[static_cast<size_t>(state)]);
     state_ = state;
     entered_ = now;
+    numbers_.quantities().set(Quantities::kTimeInState, 0);  // drives ask for it in this tick
     rating_.begin();
     std::fill(judged_.begin(), judged_.end(), Judged{});
     std::fill(is_put_.begin(), is_put_.end(), 0);

@@ -4,13 +4,18 @@ Usage: outside/mechanics_test.py PROGRAM, from the project's folder.
 """
 import math
 import os
+import pathlib
 import sys
+import tempfile
 import unittest
 
 import numpy as np
 
-sys.path.append(os.path.join(os.path.dirname(os.path.abspath(sys.argv[1])), "python"))
-import dihaptic as dh
+sys.path.append("test/cli")
+from program import PROGRAM, dihaptic, session_of
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(PROGRAM)), "python"))
+import dihaptic as dh  # noqa: E402
 
 SOLVERS = ("newton", "staggered_projections", "stewart_trinkle", "sequential_impulse")
 G = 9.81
@@ -218,6 +223,36 @@ class Rest(unittest.TestCase):
                 w.bodies["load"].place(load_at)
             w.step(10000 if not load_at else 3000)
             self.assertAlmostEqual(w.bodies["pan"].position[2], 0.5 - mass * G / 200, delta=1e-6)
+
+
+class Drives(unittest.TestCase):
+    def test_that_follow_the_time_in_a_state_begin_at_its_beginning(self):
+        """What lies on the plate is carried along without a slip: it needs less than friction gives."""
+        with tempfile.TemporaryDirectory() as name:
+            file = pathlib.Path(name, "shaken.yaml")
+            file.with_name("scene.yaml").write_text("""object: block
+bodies:
+  - { name: plate, shape: box, size_mm: [500, 500, 20], position_mm: [0, 0, -10], driven: yes, friction: 0.5 }
+  - { name: block, shape: box, size_mm: [40, 40, 40], mass_g: 100, position_mm: [100, 0, 20], friction: 0.5 }
+hand: { centre_mm: [0, 0, 1500], aperture_mm: 400, script: [{ name: wait, duration_s: 1 }] }
+""")
+            file.write_text("""title: shaken
+scene: scene.yaml
+task:
+  states:
+    - { name: rest, exits: [{ when: time, after_s: 1, to: shake }] }
+    - name: shake
+      drive: [{ body: plate, along: [30 mm * (1 - cos(11.3 * time_in_state / (1 s))), 0 mm, 0 mm] }]
+      exits: [{ when: time, after_s: 1, outcome: done }]
+  blocks: [{ name: b, kind: baseline, repeats: 1 }]
+""")
+            result = dihaptic("run", str(file), "--out", name)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            session = dh.load(session_of(name))
+            plate, block = session["plate.position"][:-1, 0], session["block.position"][:-1, 0] - 0.1
+            self.assertLess(np.abs(np.diff(plate)).max(), 1.01e-3 * 0.03 * 11.3)
+            self.assertGreater(plate.max(), 0.0599)
+            self.assertLess(np.abs(plate - block).max(), 1e-7)
 
 
 if __name__ == "__main__":
