@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "base/diagnostics.h"
 #include "base/given_table.h"
@@ -193,6 +194,21 @@ CsvFile::CsvFile(const std::string& file) : file_(file), rows_(read_csv(file)) {
     rows_.erase(rows_.begin());
 }
 
+namespace {
+
+/// One of two columns of a name would be left out, and nobody could say which.
+void check_names(const CsvFile& table) {
+    std::set<std::string> seen;
+    for (size_t i = 0; i < table.columns().size(); ++i) {
+        const std::string& name = table.columns()[i];
+        if (name.empty() || seen.insert(name).second) continue;
+        throw Error(table.head(), shortened(name),
+                    fmt::format("column {} repeats an earlier one", i + 1), "Keep one of the two.");
+    }
+}
+
+}  // namespace
+
 CsvFile CsvFile::given(const std::string& file, Diagnostics& diagnostics,
                        const std::function<void(const CsvFile&)>& check_columns) {
     const std::string text = read_text_file(file, kMostTable);
@@ -207,6 +223,7 @@ CsvFile CsvFile::given(const std::string& file, Diagnostics& diagnostics,
     out.head_ = table.place().line;
     out.header_ = std::move(*cells);
     check_columns(out);
+    check_names(out);
     size_t read = 0;
     while ((cells = table.next())) {
         if (cells->size() != out.header_.size())

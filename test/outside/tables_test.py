@@ -154,6 +154,18 @@ class Movements(unittest.TestCase):
         said = self.hand(joined([HEAD, *rows]))[1]
         self.assertEqual(said.count("missing marker"), 1)  # as in the shipped one
 
+    def test_with_a_column_twice_or_times_that_go_back_are_told(self):
+        midnight = [[f"{(float(row[0]) + 86399000) % 86400000:.3f}", *row[1:]] for row in ROWS]
+        for text, said in ((joined([[*row, row[1]] for row in [HEAD, *ROWS]]), "movement.csv:1: error: thumb_x_mm: column 8 repeats an earlier one"),
+                           (joined([[*row, "0"] if row is not HEAD else [*row, "thumb_x_m"] for row in [HEAD, *ROWS]]),
+                            "movement.csv:1: error: thumb_x_m: column 8 repeats an earlier one"),
+                           (joined([HEAD, *midnight]), "error: time_ms: time goes from 86399999."),
+                           (joined([HEAD, *ROWS[:50], ROWS[49], *ROWS[50:]]), "movement.csv:52: error: time_ms: twice the same time")):
+            with self.subTest(said):
+                found, told = self.hand(text)
+                self.assertIsNone(found)
+                self.assertIn(said, told)
+
     def test_exported_by_motive(self):
         for unit, scale in (("Meters", 1e-3), ("Centimeters", 0.1), ("Millimeters", 1)):
             with self.subTest(unit):
@@ -206,6 +218,12 @@ PATHS = {
     "other names": ("t,z\n0,0\n0.4,30\n", "path.csv:1: error: time_s: no column has this name, but t, z"),
     "no names": ("0,0\n0.4,30\n", "path.csv:1: error: time_s: no column has this name"),
     "another unit": ("time_s,z_m\n0,0\n0.4,0.03\n", "path.csv:1: error: z_mm: no column has this name, but time_s, z_m"),
+    "a column twice": ("time_s,z_mm,z_mm\n0,0,0\n0.4,30,60\n", "path.csv:1: error: z_mm: column 3 repeats an earlier one"),
+    "columns without a name": ("time_s,z_mm,,\n0,0,,\n0.4,30,,\n,,,\n", ""),
+    "no last line end": (GOOD.strip(), ""),
+    "exponents of FORTRAN": ("time_s,z_mm\n0.0D+00,0\n4.0D-01,30\n", "path.csv:2: error: time_s: '0.0D+00' is no number"),
+    "a blank between thousands": ("time_s;z_mm\n0;0\n0,4;1\u202f000,5\n", "path.csv:3: error: z_mm: '1\u202f000,5' is no number"),
+    "another minus": ("time_s,z_mm\n0,0\n0.4,\u221230\n", "path.csv:3: error: z_mm: '\u221230' is no number"),
     "one row": ("time_s,z_mm\n0,0\n", "path.csv:1: error: time_s: there are fewer than two times"),
     "an open quote": ('time_s,z_mm\n0,0\n"0.4,30\n', "path.csv:3: error: has a quote"),
     "nothing": ("", "path.csv' is empty, or cannot be read"),
@@ -248,6 +266,10 @@ class Fits(unittest.TestCase):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 said.append(result.stdout)
             self.assertEqual(said, [said[0]] * 3)
+            file.write_text(joined([[*row, row[2]] for row in rows]))
+            result = dihaptic("fit", "single_rate", str(file))
+            self.assertEqual(result.returncode, 2, result.stdout)
+            self.assertIn("trials.csv:1: error: compensation: column 4 repeats an earlier one", result.stderr)
 
 
 if __name__ == "__main__":
