@@ -124,8 +124,10 @@ bool read_colours(Reader& in, uint64_t count, MeshParts& out) {
     return left == 0 && in.left() == 0;
 }
 
-/// The mesh that dihaptic-mesh has written (app/mesh/main.cpp); nullopt if the bytes are not one.
-std::optional<MeshParts> mesh_of(const std::string& bytes, double unit) {
+/// The mesh that dihaptic-mesh has written (app/mesh/main.cpp), whose coordinates are counted from
+/// `from`; nullopt if the bytes are not one.
+std::optional<MeshParts> mesh_of(const std::string& bytes, double unit,
+                                 const std::array<double, 3>& from) {
     using Vertex = std::array<double, 3>;
     using Face = std::array<uint32_t, 3>;
     Reader in(bytes);
@@ -142,7 +144,7 @@ std::optional<MeshParts> mesh_of(const std::string& bytes, double unit) {
     mesh.vertices.reserve(vertices);
     mesh.faces.reserve(faces);
     for (Vertex v; mesh.vertices.size() < vertices && in.next(v);)
-        mesh.vertices.push_back(unit * Vec3(v[0], v[1], v[2]));
+        mesh.vertices.push_back(unit * Vec3(from[0] + v[0], from[1] + v[1], from[2] + v[2]));
     for (Face f; mesh.faces.size() < faces && in.next(f);) {
         for (const uint32_t index : f) {
             if (index >= vertices) return std::nullopt;
@@ -206,7 +208,7 @@ Mesh read_mesh(const std::string& file, double unit, const Place& asked_at,
         kReader, {format}, limits_for(bytes.size()), "reading the mesh " + file, kRemedy, asked_at,
         "file",  stop};
     const std::optional<std::string> answer = run_companion(task, bytes);
-    std::optional<MeshParts> read = answer ? mesh_of(*answer, unit) : std::nullopt;
+    std::optional<MeshParts> read = answer ? mesh_of(*answer, unit, text.from) : std::nullopt;
     const bool none = !read || read->mesh.faces.empty();
     if (const std::string missing = none ? missing_in(bytes, format) : ""; !missing.empty())
         throw refused(missing, kRemedy);

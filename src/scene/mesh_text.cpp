@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "scene/mesh_numbers.h"
+
 namespace dihaptic::scene {
 namespace {
 
@@ -23,6 +25,36 @@ void end_lines(std::string& bytes, size_t end) {
     for (size_t i = 0; i < end; ++i) {
         if (bytes[i] == '\r' && (i + 1 == bytes.size() || bytes[i + 1] != '\n')) bytes[i] = '\n';
     }
+}
+
+/// Blanks out what follows a # in the lines of OBJ that have numbers: names may have one.
+void blank_comments(std::string& text) {
+    constexpr std::string_view kOfNumbers = "vflp0123456789+-.";
+    for (size_t begin = 0; begin < text.size();) {
+        const size_t end = std::min(text.find('\n', begin), text.size());
+        const std::string_view line = std::string_view(text).substr(begin, end - begin);
+        const size_t first = line.find_first_not_of(" \t");
+        const size_t comment = line.find('#');
+        if (comment != std::string_view::npos &&
+            kOfNumbers.find(line[first]) != std::string_view::npos)
+            std::fill_n(text.begin() + static_cast<std::ptrdiff_t>(begin + comment),
+                        line.size() - comment, ' ');
+        begin = end + 1;
+    }
+}
+
+/// The lines of OFF that have more than a comment.
+std::string without_comments(std::string_view text) {
+    std::string out;
+    out.reserve(text.size());
+    for (size_t begin = 0; begin < text.size();) {
+        const size_t end = std::min(text.find('\n', begin), text.size());
+        std::string_view line = text.substr(begin, end - begin);
+        line = line.substr(0, line.find('#'));
+        if (line.find_first_not_of(" \t\r") != std::string_view::npos) out.append(line) += '\n';
+        begin = end + 1;
+    }
+    return out;
 }
 
 /// Where the text of a PLY file ends.
@@ -83,6 +115,11 @@ MeshText tidy_binary_stl(std::string bytes) {
     return {bytes, ""};
 }
 
+MeshText with_numbers(std::string text, const std::string& format) {
+    MeshNumbers numbers = look_at_numbers(text, format);
+    return {std::move(text), std::move(numbers.fault), numbers.from};
+}
+
 MeshText tidy_stl(std::string bytes) {
     const bool is_whole =
         bytes.size() >= kHead && bytes.size() == kHead + kTriangle * size_t{count_of(bytes)};
@@ -92,7 +129,7 @@ MeshText tidy_stl(std::string bytes) {
     if (!is_text_stl(text)) return tidy_binary_stl(std::move(bytes));
     end_lines(text, text.size());
     std::transform(text.begin(), text.end(), text.begin(), lower);
-    return {std::move(text), ""};
+    return with_numbers(std::move(text), "stl");
 }
 
 }  // namespace
@@ -103,7 +140,10 @@ MeshText tidy(std::string bytes, const std::string& format) {
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.erase(0, 3);
     if (format == "stl") return tidy_stl(std::move(bytes));
     end_lines(bytes, format == "ply" ? end_of_text(bytes) : bytes.size());
-    return {std::move(bytes), ""};
+    MeshText out = with_numbers(std::move(bytes), format);
+    if (format == "obj") blank_comments(out.bytes);
+    if (format == "off") out.bytes = without_comments(out.bytes);
+    return out;
 }
 
 }  // namespace dihaptic::scene

@@ -1,7 +1,9 @@
-// Mesh files as they are found: with byte order marks, old line ends, capitals, spare bytes, or
-// without a count. The reader of meshes knows none of these, and does not say what it lacks.
+// Mesh files as they are found: with byte order marks, old line ends, capitals, comments behind
+// numbers, spare bytes, or without a count. The reader of meshes knows none of these, and does not
+// say what it lacks.
 #pragma once
 
+#include <array>
 #include <string>
 
 namespace dihaptic::scene {
@@ -9,6 +11,7 @@ namespace dihaptic::scene {
 struct MeshText {
     std::string bytes;  ///< as the reader knows them
     std::string fault;  ///< what is wrong with the file, after its name; "": nothing that is seen
+    std::array<double, 3> from{};  ///< where the origin of their coordinates is in the file's
 };
 
 /// `format`: obj, stl, ply or off.

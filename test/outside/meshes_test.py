@@ -206,6 +206,70 @@ class Meshes(unittest.TestCase):
         faces = [[(x + 50000, y + 30000, z + 20000) for x, y, z in face] for face in CUBE]
         self.felt("far.obj", made.obj(faces), 64000)
 
+    def test_far_from_the_origin_with_all_digits(self):
+        """As maps have them: 5400 m away a step of single precision is half a millimetre."""
+        cube = made.box((0, 0, 0), (40.3, 40.3, 40.3))
+        for away in ((5000.3, 3000.1, 200.7), (500000.3, 5400000.1, 100.2)):
+            faces = made.triangles([[tuple(c + a for c, a in zip(p, away)) for p in face] for face in cube])
+            corners = [p for face in faces for p in face]
+            lists = "".join(f"3 {i} {i + 1} {i + 2}\n" for i in range(0, len(corners), 3))
+            rows = "".join("%.12g %.12g %.12g\n" % p for p in corners)
+            stl = "".join("facet normal 0 0 0\nouter loop\n" + "".join("vertex %.12g %.12g %.12g\n" % p for p in face)
+                          + "endloop\nendfacet\n" for face in faces)
+            head = (f"ply\nformat %s 1.0\nelement vertex {len(corners)}\nproperty double z\nproperty double y\nproperty double x\n"
+                    f"element face {len(faces)}\nproperty list uchar int vertex_indices\nend_header\n")
+            obj = "".join(f"v {row}\n" for row in rows.splitlines()) + "".join(f"f {i} {i + 1} {i + 2}\n" for i in range(1, len(corners), 3))
+            turned = "".join(" ".join(row.split()[::-1]) + "\n" for row in rows.splitlines())
+            binary = {order: b"".join(struct.pack(f"{sign}3d", *p[::-1]) for p in corners)
+                      + b"".join(struct.pack(f"{sign}B3i", 3, i, i + 1, i + 2) for i in range(0, len(corners), 3))
+                      for order, sign in (("little", "<"), ("big", ">"))}
+            for name, content in (("far.obj", obj.encode()), ("far.stl", f"solid\n{stl}endsolid\n".encode()),
+                                  ("far.off", f"OFF\n{len(corners)} {len(faces)} 0\n{rows}{lists}".encode()),
+                                  ("far.ply", (head % "ascii" + turned + lists).encode()),
+                                  *((f"{order}.ply", (head % f"binary_{order}_endian").encode() + data) for order, data in binary.items())):
+                with self.subTest(name, away=away):
+                    self.felt(name, content, 40.3**3)
+
+    def texts(self):
+        """The cube as text of each kind, with one coordinate of each corner as {}."""
+        corners = sorted({p for face in CUBE for p in face})
+        faces = [[corners.index(p) for p in face] for face in CUBE]
+        rows = "".join("{} %g %g\n" % p[1:] for p in corners)
+        lists = "".join(f"4 {' '.join(map(str, face))}\n" for face in faces)
+        numbers = ["%g" % p[0] for p in corners]
+        stl = made.triangles(CUBE)
+        return {
+            "obj": ("".join(f"v {row}\n" for row in rows.splitlines())
+                    + "".join("f " + " ".join(str(i + 1) for i in face) + "\n" for face in faces), numbers),
+            "off": (f"OFF\n8 6 12\n{rows}{lists}", numbers),
+            "ply": ("ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\nelement face 6\n"
+                    f"property list uchar int vertex_indices\nend_header\n{rows}{lists}", numbers),
+            "stl": ("solid\n" + "".join("facet normal 0 0 0\nouter loop\n" + "".join("vertex {} %g %g\n" % p[1:] for p in face)
+                                        + "endloop\nendfacet\n" for face in stl) + "endsolid\n", ["%g" % p[0] for f in stl for p in f]),
+        }
+
+    def test_what_is_no_number_is_refused_with_its_line(self):
+        for ending, (text, numbers) in self.texts().items():
+            self.felt(f"cube.{ending}", text.format(*numbers).encode(), 64000)
+            self.felt(f"cube.{ending}", text.format(*(f"{float(n):+.3E}" for n in numbers)).encode(), 64000)
+            line = text[:text.index("{}")].count("\n") + 1
+            for written in ("{:.2f}D+00", "{:.1f}mm", "0x{:.0f}", "{:.0f},5", "{:.0f},000", "1.#QNAN", "nan", "2_{:.0f}", "\u2212{:.0f}"):
+                with self.subTest(ending, written=written):
+                    words = [written.format(abs(float(n))) for n in numbers]
+                    said = f"has a vertex that is no number in line {line}: '{words[0].lower() if ending == 'stl' else words[0]}'"
+                    self.refused(f"cube.{ending}", text.format(*words).encode(), said)
+            self.refused(f"short.{ending}", text.format("", *numbers[1:]).encode(), f"has 2 of the 3 numbers of a vertex in line {line}")
+
+    def test_comments_and_blank_lines(self):
+        texts = {ending: text.format(*numbers) for ending, (text, numbers) in self.texts().items()}
+        for comment in (" # corner 2", " #2", " # 1 2 3", "\t# a \\"):
+            lines = texts["obj"].splitlines()
+            self.felt("cube.obj", "".join(f"{line}{comment}\n" for line in lines).encode(), 64000)
+            lines = texts["off"].splitlines()
+            self.felt("cube.off", "".join(f"{line}{comment}\n\n# 4 0 1 2 3\n" for line in lines).encode(), 64000)
+        self.felt("cube.obj", ("# 3 \\\nusemtl red#1\n" + texts["obj"].replace(" ", " \\\n", 1)).encode(), 64000)
+        self.felt("glued.off", texts["off"].replace("OFF\n", "OFF").encode(), 64000)
+
     def test_decimal_commas_of_the_locale_change_nothing(self):
         self.felt("cube.obj", made.obj([[(x / 3, y / 3, z / 3) for x, y, z in f] for f in CUBE]), 64000 / 27,
                   locale="de_DE.UTF-8")
