@@ -202,6 +202,82 @@ class Impacts(unittest.TestCase):
                 self.assertAlmostEqual(w.bodies["heavy"].position[0], 0.006, delta=1e-6)
 
 
+    def test_a_box_bounces_as_high_from_a_smaller_one(self):
+        small = dh.Part(name="small", shape="box", size_mm=[75, 75, 20], position_mm=[0, 0, -10], fixed=True, friction=0)
+        for solver in SOLVERS:
+            for restitution in (1, 0.5):
+                with self.subTest(solver=solver, restitution=restitution):
+                    w = world([small, dh.Part(name="box", shape="box", size_mm=[100, 100, 100], mass_g=500, friction=0,
+                                              position_mm=[0, 0, 150], surface=dh.Part(restitution=restitution))], solver)
+                    w.step(145)
+                    height = []
+                    for _ in range(290):
+                        w.step(1)
+                        height.append(w.bodies["box"].position[2] - 0.05)
+                    self.assertAlmostEqual(max(height), 0.1 * restitution**2, delta=2e-5)
+                    self.assertLess(np.abs(w.bodies["box"].angular_velocity).max(), 1e-3)
+
+    def test_a_body_that_may_go_one_way_is_hit_obliquely(self):
+        normal = np.array([math.cos(math.radians(35)), math.sin(math.radians(35)), 0])
+        for solver in SOLVERS:
+            for restitution in (0, 0.5, 1):
+                with self.subTest(solver=solver, restitution=restitution):
+                    w = world([dh.Part(name="carriage", shape="sphere", radius_mm=30, mass_g=300, position_mm=[0, 0, 500], moves="x",
+                                       turns="none", friction=0),
+                               dh.Part(name="ball", shape="sphere", radius_mm=10, mass_g=100, position_mm=[-200, 0, 500], friction=0,
+                                       surface=dh.Part(restitution=restitution))], solver, gravity=(0, 0, 0))
+                    ball = w.bodies["ball"]
+                    ball.place(tuple(np.array([0, 0, 0.5]) - 0.041 * normal), UPRIGHT, tuple(normal))
+                    w.step(30)
+                    impulse = (1 + restitution) / (1 / 0.1 + normal[0]**2 / 0.3)
+                    self.assertLess(abs(w.bodies["carriage"].velocity - [impulse * normal[0] / 0.3, 0, 0]).max(), 1e-6)
+                    self.assertLess(abs(ball.velocity - (1 - impulse / 0.1) * normal).max(), 1e-6)
+
+
+class Friction(unittest.TestCase):
+    def test_stops_a_block_after_the_same_way_in_every_direction(self):
+        wanted = 1 / (2 * 0.5 * G) - 0.5e-3  # less half of what it goes in a tick
+        for solver in SOLVERS:
+            for direction in (0, 15, 45, 70):
+                for yaw in (0, 0.5):
+                    with self.subTest(solver=solver, direction=direction, yaw=yaw):
+                        way = np.array([math.cos(math.radians(direction)), math.sin(math.radians(direction)), 0])
+                        w = world([dh.Part(name="table", shape="plane", fixed=True, friction=0.5),
+                                   dh.Part(name="block", shape="box", size_mm=[80, 20, 20], mass_g=100, position_mm=[0, 0, 10],
+                                           friction=0.5)], solver)
+                        block = w.bodies["block"]
+                        block.place((0, 0, 0.01), about([0, 0, 1], yaw), tuple(way))
+                        w.step(400)
+                        self.assertAlmostEqual(block.position @ way, wanted, delta=1e-5)
+                        self.assertLess(abs(np.cross(way, block.position)[2]), 1e-7)
+
+    def test_holds_up_to_its_limit_and_no_further(self):
+        for solver in SOLVERS:
+            for ratio in (0.95, 0.999, 1.001):
+                with self.subTest(solver=solver, ratio=ratio):
+                    slope = math.atan(0.8 * ratio)
+                    down = G * math.sin(slope) * np.array([math.cos(1), math.sin(1), 0])
+                    w = world([PLANE, dh.Part(name="block", shape="box", size_mm=[80, 80, 10], mass_g=100, position_mm=[0, 0, 5],
+                                              friction=0.8)], solver, gravity=(down[0], down[1], -G * math.cos(slope)))
+                    w.step(3000)
+                    speed = max(0, 3 * G * (math.sin(slope) - 0.8 * math.cos(slope)))
+                    self.assertLess(abs(w.bodies["block"].velocity - speed * down / np.linalg.norm(down)).max(), 1e-5)
+                    if ratio < 1:
+                        self.assertLess(abs(w.bodies["block"].position - [0, 0, 0.005]).max(), 1e-6)
+
+    def test_holds_a_drawer_on_a_slanting_rail(self):
+        for solver in SOLVERS:
+            for axis in ([0, 0, 1], [1, 2, 3]):
+                for stop, friction in ((-100, 1 / 0.97), (0, 0)):
+                    with self.subTest(solver=solver, axis=axis, stop=stop):
+                        load = 0.1 * G * axis[2] / np.linalg.norm(axis)
+                        w = world([dh.Part(name="drawer", shape="box", size_mm=[40, 40, 20], mass_g=100, position_mm=[0, 0, 500])], solver,
+                                  joints=[dh.Part(name="rail", kind="slider", between=["drawer"], position_mm=[30, 10, 500], axis=axis,
+                                                  friction_N=friction * load, low_mm=stop, high_mm=100)])
+                        w.step(10000)
+                        self.assertLess(abs(w.bodies["drawer"].position - [0, 0, 0.5]).max(), 1e-8)
+
+
 class Rest(unittest.TestCase):
     def test_what_lost_its_support_while_it_slept_falls(self):
         for solver in SOLVERS:
@@ -223,6 +299,19 @@ class Rest(unittest.TestCase):
                 w.bodies["load"].place(load_at)
             w.step(10000 if not load_at else 3000)
             self.assertAlmostEqual(w.bodies["pan"].position[2], 0.5 - mass * G / 200, delta=1e-6)
+
+    def test_small_cylinders_neither_roll_nor_sink(self):
+        for solver in SOLVERS:
+            for radius, length in ((7.5, 20), (0.5, 1.3)):
+                for far in (0, 95000):
+                    with self.subTest(solver=solver, radius=radius, far=far):
+                        ground = dh.Part(name="table", shape="box", size_mm=[2500, 2500, 50], position_mm=[far, 0, -25], fixed=True)
+                        w = world([ground, dh.Part(name="pin", shape="cylinder", radius_mm=radius, length_mm=length, density_g_cm3=1,
+                                                   position_mm=[far, 0, radius])], solver)
+                        begins = (far / 1e3, 0, radius / 1e3)
+                        w.bodies["pin"].place(begins, SIDEWAYS)
+                        w.step(3000)
+                        self.assertLess(abs(w.bodies["pin"].position - begins).max(), 1e-9)
 
 
 class Drives(unittest.TestCase):
