@@ -36,7 +36,9 @@ struct Placed {
     /// How far it extends from its centre along the unit vector u.
     double extent(const Vec3& u) const {
         const double along = axis.dot(u);
-        const double side = shape.is_cylinder ? std::sqrt(std::max(0.0, 1 - along * along)) : 1;
+        const double side = shape.has_rim() ? std::sqrt(std::max(0.0, 1 - along * along)) : 1;
+        if (shape.is_cone())
+            return std::max(shape.half * along, shape.radius * side - shape.half * along);
         return shape.half * std::abs(along) + shape.radius * side;
     }
     /// The direction across the axis that is nearest to d.
@@ -59,29 +61,56 @@ std::pair<Vec3, Vec3> closest(const Vec3& p, const Vec3& d, const Vec3& q, const
     return {p + s * d, q + t * e};
 }
 
-/// A cylinder without its rim: its points are this far from those of the cylinder. Between touching
-/// shapes the direction of closest points is undefined; between a core and a shape it is not.
+/// A cylinder or a cone without its rim: its points are this far from those of the shape. Between
+/// touching shapes the direction of closest points is undefined; between a core and a shape it is
+/// not.
 struct Core {
     double radius = 0;
-    double half = 0;
+    double low = 0, high = 0;  // along the axis
+    bool has_tip = false;
 
     /// That of a shape which has a round surface, or is to get one of the given radius.
     static Core of(const Round& shape, double rounding) {
-        if (!shape.is_cylinder) return {0, shape.half};
-        return {shape.radius - rounding, shape.half - rounding};
+        if (!shape.has_rim()) return {0, -shape.half, shape.half};
+        const double half = shape.half - rounding;
+        if (!shape.is_cone()) return {shape.radius - rounding, -half, half};
+        // all of it is scaled about the middle of the largest ball inside
+        const double scale = 1 - rounding / inner_radius(shape);
+        return {scale * shape.radius, -half, 2 * scale * shape.half - half, true};
+    }
+    /// Of the largest ball inside a shape with a rim.
+    static double inner_radius(const Round& shape) {
+        if (!shape.is_cone()) return std::min(shape.radius, shape.half);
+        const double height = 2 * shape.half;
+        return shape.radius * height / (shape.radius + std::hypot(shape.radius, height));
     }
     Vec3 nearest(const Placed& at, const Vec3& p) const {
         const Vec3 r = p - at.centre;
-        const double z = std::clamp(r.dot(at.axis), -half, half);
-        Vec3 off = r - r.dot(at.axis) * at.axis;
+        const double along = r.dot(at.axis);
+        Vec3 off = r - along * at.axis;
+        if (has_tip && beyond_side(off.norm(), along)) return nearest_on_side(at, off, along);
+        const double z = std::clamp(along, low, high);
         if (off.norm() > radius) off *= radius / off.norm();
         return at.centre + z * at.axis + off;
+    }
+
+  private:
+    bool beyond_side(double across, double along) const {
+        return (high - low) * across > radius * (high - along);
+    }
+    Vec3 nearest_on_side(const Placed& at, const Vec3& off, double along) const {
+        const double height = high - low;
+        const double across = off.norm();
+        const double up = std::clamp((radius * (radius - across) + height * (along - low)) /
+                                         (radius * radius + height * height),
+                                     0.0, 1.0);
+        return at.centre + (low + up * height) * at.axis + (1 - up) * radius * at.radial(off);
     }
 };
 
 double rounding_of(const Round& shape) {
     constexpr double kShare = 0.2;
-    return shape.is_cylinder ? kShare * std::min(shape.radius, shape.half) : 0;
+    return shape.has_rim() ? kShare * Core::inner_radius(shape) : 0;
 }
 
 /// The closest points of two convex sets, by projection onto one and the other in turn (Cheney and
@@ -100,7 +129,7 @@ std::pair<Vec3, Vec3> closest_by_turns(Vec3 p, int times, const NearestOfA& of_a
     return {p, q};
 }
 
-/// The polygon in a cylinder's cap that looks along d.
+/// The polygon in the cap that looks along d.
 void cap(const Placed& at, const Vec3& d, Polygon& out) {
     const double sign = at.axis.dot(d) < 0 ? -1 : 1;
     const Vec3 second = sign * at.axis.cross(at.across);
@@ -116,7 +145,7 @@ void cap(const Placed& at, const Vec3& d, Polygon& out) {
 void feature(const Placed& at, const Vec3& d, bool whole, Polygon& out) {
     const Round& shape = at.shape;
     out.count = 0;
-    if (!shape.is_cylinder) {
+    if (!shape.has_rim()) {
         out.add(at.end(1) + shape.radius * d);
         if (shape.half > 0) out.add(at.end(-1) + shape.radius * d);
         return;
@@ -125,8 +154,8 @@ void feature(const Placed& at, const Vec3& d, bool whole, Polygon& out) {
     const double sign = along < 0 ? -1 : 1;
     const Vec3 first = at.radial(d);
     const Vec3 lowest = shape.radius * first;
-    if (std::abs(along) < kCap) {
-        out.add(at.end(1) + lowest);
+    if (shape.is_cone() ? along > -kCap : std::abs(along) < kCap) {
+        out.add(shape.is_cone() ? at.end(1) : Vec3(at.end(1) + lowest));
         out.add(at.end(-1) + lowest);
         return;
     }
@@ -262,14 +291,72 @@ bool is_line(const Best& best, const ContactPatch& patch) {
     return missed(patch, best.separation) > best.separation - best.line_separation;
 }
 
+/// The directions in which the side of a cylinder or a cone looks: all around, and up by as much as
+/// the side leans.
+struct SideNormals {
+    Vec3 first, second, up;
+
+    explicit SideNormals(const Placed& of) {
+        const double height = 2 * of.shape.half;
+        const double lean = of.shape.is_cone() ? std::atan2(of.shape.radius, height) : 0;
+        first = std::cos(lean) * of.across;
+        second = std::cos(lean) * of.axis.cross(of.across);
+        up = std::sin(lean) * of.axis;
+    }
+    Vec3 at(double angle) const { return std::cos(angle) * first + std::sin(angle) * second + up; }
+    /// The angle of the one that is nearest to u.
+    double nearest(const Vec3& u) const { return std::atan2(second.dot(u), first.dot(u)); }
+};
+
+/// Tries the directions in which the side of a shape looks, times `sign`. How far apart shapes are
+/// has a ridge there, which climb() does not follow to its top.
+template <class Separation>
+void walk_around(const Placed& of, double sign, const Separation& along, Best& best) {
+    constexpr int kWays = 16;
+    constexpr int kMostTries = 80;
+    constexpr double kShortest = 1e-9;  // [rad]
+    if (!of.shape.has_rim()) return;
+    const SideNormals normals(of);
+    const auto there = [&](double angle) { return along(sign * normals.at(angle)); };
+    const double start = normals.nearest(sign * best.line_axis);
+    double stride = 2 * std::numbers::pi / kWays;
+    double angle = start;
+    double most = there(start);
+    const auto look = [&](double other) {
+        const double found = there(other);
+        if (!(found > most)) return false;
+        most = found;
+        angle = other;
+        return true;
+    };
+    for (int i = 1; i < kWays; ++i) look(start + i * stride);
+    for (int n = 0; n < kMostTries && stride > kShortest; ++n)
+        if (!look(angle + stride) && !look(angle - stride)) stride /= 2;
+    best.take(most, sign * normals.at(angle), Best::line);
+}
+
+/// How far two round shapes are apart along the unit vector u.
+double apart_along(const Placed& a, const Placed& b, const Vec3& u) {
+    return u.dot(b.centre - a.centre) - a.extent(u) - b.extent(-u);
+}
+
 /// Two round shapes along a direction, either way.
 void try_axis(const Placed& a, const Placed& b, Vec3 u, Best::Kind kind, Best& best) {
     const double size = u.norm();
     if (!(size > kTogether)) return;
     u /= size;
-    const Vec3 between = b.centre - a.centre;
-    if (u.dot(between) < 0) u = -u;
-    best.take(u.dot(between) - a.extent(u) - b.extent(u), u, kind);
+    if (u.dot(b.centre - a.centre) < 0) u = -u;
+    best.take(apart_along(a, b, u), u, kind);
+}
+
+/// Tries the normals of the caps of one of two round shapes, if it has some.
+void try_caps(const Placed& a, const Placed& b, Best::Kind kind, Best& best) {
+    const bool of_b = kind == Best::cap_of_b;
+    const Placed& of = of_b ? b : a;
+    if (!of.shape.has_rim()) return;
+    if (!of.shape.is_cone()) return try_axis(a, b, of.axis, kind, best);
+    const Vec3 u = of_b ? of.axis : Vec3(-of.axis);  // of its base
+    best.take(apart_along(a, b, u), u, kind);
 }
 
 /// Climbs from the best line's axis to the best one near it, by strides in all directions that get
@@ -377,10 +464,13 @@ void try_edges(const Corners& a, const Placed& b, Best& best) {
     if (core.radius > 0)
         look(a.vertex(nearest->from), a.vertex(nearest->to) - a.vertex(nearest->from), kMostTurns);
     if (!(least > kTogether)) return;
-    const auto along = [&](const Vec3& u) { return u.dot(b.centre) - b.extent(u) - a.furthest(u); };
+    const auto along = [&](const Vec3& u) {
+        return u.dot(b.centre) - b.extent(-u) - a.furthest(u);
+    };
     const Vec3 u = (on_b - on_a) / least;
     best.take(along(u), u, Best::line);
     if (core.radius > 0) climb(along, best);
+    if (b.shape.is_cone()) walk_around(b, -1, along, best);
 }
 
 /// What a cap meets, if the best axis is a cap's.
@@ -401,19 +491,21 @@ void try_lines(const Placed& a, const Placed& b, Best& best) {
     const auto [on_a, on_b] =
         closest(a.end(-1), a.end(1) - a.end(-1), b.end(-1), b.end(1) - b.end(-1));
     try_axis(a, b, on_b - on_a, Best::line, best);
-    if (a.shape.is_cylinder || b.shape.is_cylinder) {
+    if (a.shape.has_rim() || b.shape.has_rim()) {
         try_axis(a, b, a.axis.cross(b.axis), Best::line, best);
-        const bool sharp = !(a.shape.is_cylinder && b.shape.is_cylinder);
+        const bool sharp = !(a.shape.has_rim() && b.shape.has_rim());
         const Core core_a = Core::of(a.shape, sharp ? 0 : rounding_of(a.shape));
         const Core core_b = Core::of(b.shape, sharp ? 0 : rounding_of(b.shape));
         const auto [p, q] = closest_by_turns(
             on_a, kMostTurns, [&](const Vec3& x) { return core_a.nearest(a, x); },
             [&](const Vec3& x) { return core_b.nearest(b, x); });
         try_axis(a, b, q - p, Best::line, best);
-        const auto along = [&](const Vec3& u) {
-            return u.dot(b.centre - a.centre) - a.extent(u) - b.extent(u);
-        };
+        const auto along = [&](const Vec3& u) { return apart_along(a, b, u); };
         if (!best.line_axis.isZero(0)) climb(along, best);
+        if (a.shape.is_cone() || b.shape.is_cone()) {
+            walk_around(a, 1, along, best);
+            walk_around(b, -1, along, best);
+        }
     }
     if (best.axis.isZero(0))  // one inside the other
         best.take(-a.extent(a.across) - b.extent(a.across), a.across, Best::line);
@@ -426,13 +518,15 @@ Best best_face(const Corners& a, const Placed& b, double margin, const Vec3& way
     flush = -1;
     for (size_t f = 0; f < a.shape.faces.size(); ++f) {
         const Vec3 n = a.X_W.R * a.shape.faces[f].normal;
-        const double separation = n.dot(b.centre - a.X_W.p) - b.extent(n) - a.shape.faces[f].offset;
+        const double separation =
+            n.dot(b.centre - a.X_W.p) - b.extent(-n) - a.shape.faces[f].offset;
         best.take(separation, n, Best::face, static_cast<int>(f));
         if (separation > margin) return best;
         if (is_flush(separation, n, way_W)) flush = static_cast<int>(f);
     }
-    if (!b.shape.is_cylinder) return best;
+    if (!b.shape.has_rim()) return best;
     for (const double sign : {1.0, -1.0}) {
+        if (b.shape.is_cone() && sign < 0) break;  // there is its tip
         const Vec3 u = sign * b.axis;
         best.take(u.dot(b.centre) - b.shape.half - a.furthest(u), u, Best::cap_of_b);
     }
@@ -476,8 +570,8 @@ ContactPatch collide(const Round& shape_a, const Pose& X_WA, const Round& shape_
     const Placed a(shape_a, X_WA);
     const Placed b(shape_b, X_WB);
     Best best;
-    if (shape_a.is_cylinder) try_axis(a, b, a.axis, Best::cap_of_a, best);
-    if (shape_b.is_cylinder) try_axis(a, b, b.axis, Best::cap_of_b, best);
+    try_caps(a, b, Best::cap_of_a, best);
+    try_caps(a, b, Best::cap_of_b, best);
     if (best.separation > margin) return patch;
     if (best.kind != Best::line) cap_contact(a, b, best, margin, patch);
     if (settles(patch, best.separation)) return patch;

@@ -268,10 +268,10 @@ Vec3 GodObject::straightened(const Vec3& way) const noexcept {
     const PointContact& c = contacts_[0];
     const Surface& surface = parts_[c.surface].surface;
     const Quat& R_WS = X_WS_[c.surface].R;
-    const Vec3 bent =
-        R_WS * surface.bent_part(c.face, in_surface(c.surface, p_), R_WS.conjugate() * way);
+    const Vec3 p_S = in_surface(c.surface, p_);
+    const Vec3 bent = R_WS * surface.bent_part(c.face, p_S, R_WS.conjugate() * way);
     if (bent.isZero(0)) return way;
-    const double rest = std::max(0.5, 1 - c.depth / surface.bend_radius());
+    const double rest = std::max(0.5, 1 - c.depth / surface.bend_radius(p_S));
     return way + (1 / rest - 1) * bent;
 }
 

@@ -31,6 +31,40 @@ Roots ball_roots(const Vector& p, const Vector& d, double r) {
     return {(-b - root) / a, root + b > 0 ? -c / (b + root) : 0.0};
 }
 
+/// Where a straight path is inside a cone that goes on without end below its tip: where the length
+/// of q + s e is at most l - s k. Either root may be infinite.
+Roots cone_roots(const Eigen::Vector2d& q, const Eigen::Vector2d& e, double l, double k) {
+    const double a = e.squaredNorm() - k * k;
+    const double b = q.dot(e) + l * k;
+    const double c = q.squaredNorm() - l * l;
+    const double inside = b * b - a * c;
+    if (a > 0 && inside < 0) return {};
+    const double root = std::sqrt(std::max(0.0, inside));
+    const double sum = b < 0 ? -b + root : -b - root;
+    const double near = sum != 0 ? c / sum : 0.0;
+    if (a == 0) {  // along a line of the side: the other root is at infinity
+        if (k < 0 && b < 0) return {near, kInfinity};
+        if (k > 0 && b > 0) return {-kInfinity, near};
+        return {};
+    }
+    const double far = sum / a;
+    const double first = std::min(near, far);
+    const double last = std::max(near, far);
+    if (a < 0) return k < 0 ? Roots{last, kInfinity} : Roots{-kInfinity, first};
+    // between the roots; of the cone's image above its tip, these are where l - s k is negative
+    return l + b / a * k < 0 ? Roots{} : Roots{first, last};
+}
+
+/// Where p + s d is inside of c r + s z = radius, with r the distance from the z axis, of which a
+/// cylinder has s = 0.
+Roots side_roots(const Vec3& p, const Vec3& d, double c, double s, double radius) {
+    const Eigen::Vector2d q = p.head<2>();
+    const Eigen::Vector2d e = d.head<2>();
+    if (s > 0) return cone_roots(c * q, c * e, radius - s * p.z(), s * d.z());
+    if (e.squaredNorm() > 0) return ball_roots(q, e, radius);
+    return q.norm() > radius ? Roots{} : Roots{-kInfinity, kInfinity};
+}
+
 }  // namespace
 
 Surface::Surface(const scene::Shape& shape, double skin, bool has_seams)
@@ -68,12 +102,22 @@ Surface::Surface(const scene::Shape& shape, double skin, bool has_seams)
             reach_ = radius_ + half_;
             break;
         case ShapeKind::cylinder:
-            radius_ = shape.radius + skin;
+            radius_ = base_radius_ = shape.radius + skin;
             half_ = shape.length / 2 + skin;
             reach_ = std::hypot(radius_, half_);
             flats_.push_back({Vec3::UnitZ(), half_});
             flats_.push_back({-Vec3::UnitZ(), half_});
             break;
+        case ShapeKind::cone: {
+            const double slope = std::hypot(shape.radius, shape.length);
+            lean_ = {shape.length / slope, shape.radius / slope};
+            half_ = shape.length / 2 + skin;
+            radius_ = lean_.s * shape.length / 2 + skin;
+            base_radius_ = (radius_ + lean_.s * half_) / lean_.c;
+            reach_ = std::max(radius_ / lean_.s, std::hypot(base_radius_, half_));
+            flats_.push_back({-Vec3::UnitZ(), half_});
+            break;
+        }
         case ShapeKind::compound:
             break;  // surfaces exist for its parts only
     }
@@ -84,12 +128,16 @@ Vec3 Surface::axis_point(const Vec3& p) const noexcept {
                                        : Vec3(Vec3::Zero());
 }
 
+double Surface::side_distance(const Vec3& p) const noexcept {
+    return lean_.c * p.head<2>().norm() + lean_.s * p.z() - radius_;
+}
+
 double Surface::distance(int face, const Vec3& p) const noexcept {
     if (is_flat(face)) {
         const Flat& flat = flats_[static_cast<size_t>(face)];
         return flat.n.dot(p) - flat.offset;
     }
-    if (has_side()) return p.head<2>().norm() - radius_;
+    if (has_side()) return side_distance(p);
     return (p - axis_point(p)).norm() - radius_;
 }
 
@@ -98,12 +146,13 @@ Vec3 Surface::normal(int face, const Vec3& p) const noexcept {
     const Vec3 from_axis = has_side() ? Vec3(p.x(), p.y(), 0) : Vec3(p - axis_point(p));
     const double size = from_axis.norm();
     // on the axis any direction is as good
-    return size > 0 ? Vec3(from_axis / size) : Vec3(Vec3::UnitX());
+    const Vec3 away = size > 0 ? Vec3(from_axis / size) : Vec3(Vec3::UnitX());
+    return is_cone() ? Vec3(lean_.c * away + lean_.s * Vec3::UnitZ()) : away;
 }
 
 double Surface::separation(const Vec3& p) const noexcept {
     if (flats_.empty()) return distance(0, p);
-    double out = has_side() ? p.head<2>().norm() - radius_ : -kInfinity;
+    double out = has_side() ? side_distance(p) : -kInfinity;
     for (const Flat& flat : flats_) out = std::max(out, flat.n.dot(p) - flat.offset);
     return out;
 }
@@ -181,15 +230,9 @@ std::optional<Surface::Entry> Surface::enter_faces(const Vec3& p, const Vec3& d)
         }
     }
     if (has_side()) {
-        const Eigen::Vector2d q = p.head<2>();
-        const Eigen::Vector2d e = d.head<2>();
-        if (e.squaredNorm() > 0) {
-            const Roots s = ball_roots(q, e, radius_);
-            if (s.first > entry.share) entry = {s.first, static_cast<int>(flats_.size())};
-            exit = std::min(exit, s.last);
-        } else if (q.norm() > radius_) {
-            return {};
-        }
+        const Roots s = side_roots(p, d, lean_.c, lean_.s, radius_);
+        if (s.first > entry.share) entry = {s.first, static_cast<int>(flats_.size())};
+        exit = std::min(exit, s.last);
     }
     if (entry.face < 0 || entry.share > exit || entry.share < 0 || entry.share > 1) return {};
     return entry;
@@ -226,10 +269,11 @@ Surface::Crossing Surface::cross(int face, const Vec3& p, const Vec3& d) const n
         const Eigen::Vector2d q = p.head<2>();
         const Eigen::Vector2d e = d.head<2>();
         if (e.squaredNorm() > 0 && q.dot(e) > 0) {
-            const double past = q.squaredNorm() - radius_ * radius_;
-            at(past >= 0 ? 0 : ball_roots(q, e, radius_).last, static_cast<int>(flats_.size()));
+            const double past = q.squaredNorm() - base_radius_ * base_radius_;
+            at(past >= 0 ? 0 : ball_roots(q, e, base_radius_).last,
+               static_cast<int>(flats_.size()));
         } else if (e.squaredNorm() > 0) {
-            const double last = ball_roots(q, e, radius_).last;
+            const double last = ball_roots(q, e, base_radius_).last;
             if (last > 0) at(last, static_cast<int>(flats_.size()));
         }
     }
@@ -238,9 +282,18 @@ Surface::Crossing Surface::cross(int face, const Vec3& p, const Vec3& d) const n
 
 Vec3 Surface::bent_part(int face, const Vec3& p, const Vec3& d) const noexcept {
     if (is_flat(face)) return Vec3::Zero();
+    if (is_cone()) {
+        const Vec3 around(-p.y(), p.x(), 0);
+        const double squared = around.squaredNorm();
+        return squared > 0 ? Vec3(around.dot(d) / squared * around) : Vec3(Vec3::Zero());
+    }
     const bool straight_along_z =
         has_side() || (kind_ == ShapeKind::capsule && std::abs(p.z()) < half_);
     return straight_along_z ? Vec3(d.x(), d.y(), 0) : d;
+}
+
+double Surface::bend_radius(const Vec3& p) const noexcept {
+    return is_cone() ? p.head<2>().norm() / lean_.c : radius_;
 }
 
 }  // namespace dihaptic::haptics

@@ -1,8 +1,9 @@
 // Surface is the surface of a convex shape as a point feels it: where a straight path enters the
 // solid, which face keeps the point out there, and where a path along that face leaves it.
 //
-// A polyhedron has the faces of its hull; a cylinder has its side and two ends; sphere, capsule and
-// plane have one face. Everything is in the frame of the shape's body B.
+// A polyhedron has the faces of its hull; a cylinder has its side and two ends, and a cone its side
+// and its base; sphere, capsule and plane have one face. Everything is in the frame of the shape's
+// body B.
 #pragma once
 
 #include <optional>
@@ -55,7 +56,9 @@ class Surface {
     /// The part of a tangent d along which a face is curved at p; zero where it is flat.
     /// bend_radius() is the radius of that curve [m].
     Vec3 bent_part(int face, const Vec3& p_B, const Vec3& d_B) const noexcept;
-    double bend_radius() const noexcept { return radius_; }
+    double bend_radius(const Vec3& p_B) const noexcept;
+    /// Whether no face is curved.
+    bool is_polyhedron() const noexcept { return !has_side() && !flats_.empty(); }
 
     /// Largest distance of any point of the shape from B's origin; infinite for a plane [m].
     double reach() const noexcept { return reach_; }
@@ -65,7 +68,14 @@ class Surface {
         Vec3 n;         // outward, unit
         double offset;  // n . x on the face [m]
     };
-    bool has_side() const { return kind_ == scene::ShapeKind::cylinder; }
+    /// The side of a cylinder or a cone is where c r + s z = radius_, with r the distance from the
+    /// axis, and c and s cosine and sine of the angle by which the side leans: 0 of a cylinder.
+    struct Lean {
+        double c = 1, s = 0;
+    };
+    bool is_cone() const { return kind_ == scene::ShapeKind::cone; }
+    bool has_side() const { return kind_ == scene::ShapeKind::cylinder || is_cone(); }
+    double side_distance(const Vec3& p_B) const noexcept;
     int faces() const { return static_cast<int>(flats_.size()) + (has_side() ? 1 : 0); }
     bool is_flat(int face) const { return face < static_cast<int>(flats_.size()); }
     Vec3 axis_point(const Vec3& p_B) const noexcept;
@@ -77,9 +87,11 @@ class Surface {
 
     scene::ShapeKind kind_;
     bool has_seams_;
-    std::vector<Flat> flats_;  // of polyhedra, ends of a cylinder, the plane
-    double radius_ = 0;        // sphere, capsule, cylinder
-    double half_ = 0;          // half the length of capsule and cylinder
+    std::vector<Flat> flats_;  // of polyhedra, ends of a cylinder, base of a cone, the plane
+    Lean lean_;                // of a side
+    double radius_ = 0;        // sphere, capsule, cylinder; cone: see Lean
+    double base_radius_ = 0;   // of the ends of cylinder and cone
+    double half_ = 0;          // half the length of capsule, cylinder and cone
     double reach_ = 0;
 };
 

@@ -146,7 +146,7 @@ void check_parts(const Shape& shape, const Place& place, Diagnostics& diagnostic
         if (part.shape.kind != ShapeKind::plane && part.shape.kind != ShapeKind::compound) continue;
         diagnostics.error(part.place, "shape",
                           fmt::format("a part cannot be a {}", enum_name(part.shape.kind)),
-                          "Use a box, sphere, capsule, cylinder or mesh.");
+                          "Use a box, sphere, capsule, cylinder, cone or mesh.");
     }
 }
 

@@ -99,6 +99,14 @@ VolumeIntegrals integrate(const Shape& shape) {
             const double across = volume * (3 * r * r + l * l) / 12;
             return symmetric(volume, {across, across, volume * r * r / 2});
         }
+        case ShapeKind::cone: {
+            // its centre of volume is a quarter of its height above its base
+            const double volume = kPi * r * r * l / 3;
+            const double across = 3.0 / 80 * volume * (4 * r * r + l * l);
+            VolumeIntegrals out = symmetric(volume, {across, across, 0.3 * volume * r * r});
+            out.centre.z() = -l / 4;
+            return out;
+        }
         case ShapeKind::capsule: {
             // the cylinder between the caps, and two half spheres, whose centres of volume are 3/8
             // r beyond the cylinder's ends
@@ -132,6 +140,12 @@ double depth(const Shape& shape, const Vec3& p_B) {
             return shape.radius - p_B.norm();
         case ShapeKind::cylinder:
             return std::min(shape.radius - across, shape.length / 2 - std::abs(p_B.z()));
+        case ShapeKind::cone: {
+            const double below_tip = shape.length / 2 - p_B.z();
+            const double to_side = (shape.radius * below_tip - shape.length * across) /
+                                   std::hypot(shape.radius, shape.length);
+            return std::min(to_side, p_B.z() + shape.length / 2);
+        }
         case ShapeKind::capsule:
             return shape.radius -
                    std::hypot(across, std::max(0.0, std::abs(p_B.z()) - shape.length / 2));
@@ -180,9 +194,10 @@ std::vector<Vec3> marks(const Shape& shape) {
     const double along = shape.kind == ShapeKind::sphere    ? shape.radius
                          : shape.kind == ShapeKind::capsule ? shape.length / 2 + shape.radius
                                                             : shape.length / 2;
+    const double widest = shape.kind == ShapeKind::cone ? -along : 0;
     for (const double side : {-1.0, 1.0}) {
-        out.emplace_back(side * shape.radius, 0, 0);
-        out.emplace_back(0, side * shape.radius, 0);
+        out.emplace_back(side * shape.radius, 0, widest);
+        out.emplace_back(0, side * shape.radius, widest);
         out.emplace_back(0, 0, side * along);
     }
     return out;
@@ -197,6 +212,7 @@ Bounds bounds(const Shape& shape) {
         case ShapeKind::sphere:
             return about_origin(Vec3::Constant(r));
         case ShapeKind::cylinder:
+        case ShapeKind::cone:
             return about_origin({r, r, shape.length / 2});
         case ShapeKind::capsule:
             return about_origin({r, r, r + shape.length / 2});

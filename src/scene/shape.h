@@ -14,9 +14,9 @@
 
 namespace dihaptic::scene {
 
-enum class ShapeKind { box, sphere, capsule, cylinder, plane, mesh, compound };
+enum class ShapeKind { box, sphere, capsule, cylinder, cone, plane, mesh, compound };
 constexpr auto enum_names(ShapeKind) {
-    return std::array{"box", "sphere", "capsule", "cylinder", "plane", "mesh", "compound"};
+    return std::array{"box", "sphere", "capsule", "cylinder", "cone", "plane", "mesh", "compound"};
 }
 
 /// The unit of a mesh file's coordinates, which the file itself does not give.
@@ -37,13 +37,14 @@ constexpr double kMostTurn = 100;
 struct Part;
 
 /// A shape in the frame of its body B. Boxes, spheres, capsules and cylinders are centred on B's
-/// origin; capsules and cylinders lie along z; a plane is z = 0, solid below; a mesh is placed by
-/// its file's coordinates; a compound is the union of its parts.
+/// origin, and so is a cone's height; capsules and cylinders lie along z, and a cone's tip is at
+/// its top; a plane is z = 0, solid below; a mesh is placed by its file's coordinates; a compound
+/// is the union of its parts.
 struct Shape {
     ShapeKind kind = ShapeKind::box;
     Vec3 size = Vec3::Zero();  ///< box: lengths of the edges [m]
-    double radius = 0;         ///< sphere, capsule, cylinder [m]
-    double length = 0;         ///< cylinder: height; capsule: between the centres of its caps [m]
+    double radius = 0;         ///< sphere, capsule, cylinder; cone: of its base [m]
+    double length = 0;         ///< cylinder, cone: height; capsule: between its caps' centres [m]
     std::string file;          ///< mesh: OBJ, STL, PLY or OFF, relative to the scene file
     std::string checksum;      ///< mesh: of its file, as it was read (base/checksum.h)
     MeshUnit unit = MeshUnit::m;
@@ -61,7 +62,8 @@ struct Shape {
     void visit(Visitor& v) {
         v("shape", kind,
           Field::text().required().says(
-              "Shape; capsules and cylinders lie along z, and a plane is z = 0, solid below."));
+              "Shape; capsules and cylinders lie along z, a cone's tip is at the top of z and its "
+              "origin in the middle of its height, and a plane is z = 0, solid below."));
         switch (kind) {
             case ShapeKind::box:
                 v("size", size,
@@ -76,14 +78,15 @@ struct Shape {
                 break;
             case ShapeKind::capsule:
             case ShapeKind::cylinder:
+            case ShapeKind::cone:
                 v("radius", radius,
                   Field::length().within(kSmallest, kLargest).required().says("Radius."));
                 v("length", length,
                   Field::length()
                       .within(kSmallest, kLargest)
                       .required()
-                      .says("Height of a cylinder; distance between the centres of a capsule's "
-                            "caps."));
+                      .says("Height of a cylinder or a cone; distance between the centres of a "
+                            "capsule's caps."));
                 break;
             case ShapeKind::plane:
                 break;

@@ -132,6 +132,17 @@ Triangles cylinder(double radius, double length) {
     return lathe(profile);
 }
 
+Triangles cone(double radius, double length) {
+    const double b = bevel(std::min(2 * radius, length));
+    const double lean = std::atan2(radius, length);
+    // where the edge's round is as far from the side as from the base
+    const double r = ((length - b) * std::sin(lean) - b) / std::cos(lean);
+    std::vector<Profile> profile{{0, -length / 2, 0, -1}};
+    add_arc(profile, r, -length / 2 + b, b, -pi / 2, lean, 2 * kBevel);
+    profile.push_back({0, length / 2, std::cos(lean), std::sin(lean)});
+    return lathe(profile);
+}
+
 /// Each face's corner gets the mean normal, weighted by area, of the faces there that are nearly
 /// parallel to the corner's own.
 Triangles polyhedron(std::span<const Vec3> vertices, std::span<const std::vector<int>> faces) {
@@ -215,6 +226,8 @@ Triangles triangles(const scene::Shape& shape, double plane_size) {
             return capsule(shape.radius, shape.length);
         case scene::ShapeKind::cylinder:
             return cylinder(shape.radius, shape.length);
+        case scene::ShapeKind::cone:
+            return cone(shape.radius, shape.length);
         case scene::ShapeKind::plane:
             return square(plane_size);
         case scene::ShapeKind::mesh:

@@ -24,10 +24,10 @@ struct Triangles {
     void append(const Triangles& other, const Pose& X);
 };
 
-/// The surface of a shape in its body's frame. Edges of boxes and cylinders are rounded inward, by
-/// 1.2 mm at most, so that they catch light. A concave mesh is drawn as it is, any other as its
-/// convex hull: what is seen is what is felt. A mesh whose colours are drawn is drawn as its file
-/// has it. A plane is a square of `plane_size` [m].
+/// The surface of a shape in its body's frame. Edges of boxes, cylinders and cones are rounded
+/// inward, by 1.2 mm at most, so that they catch light. A concave mesh is drawn as it is, any other
+/// as its convex hull: what is seen is what is felt. A mesh whose colours are drawn is drawn as its
+/// file has it. A plane is a square of `plane_size` [m].
 Triangles triangles(const scene::Shape& shape, double plane_size = 8);
 /// What is seen of a body: its shape, or a mesh in its place.
 Triangles triangles(const scene::Body& body, double plane_size = 8);

@@ -122,7 +122,9 @@ class RoundShapes(unittest.TestCase):
 
     def test_small_fast_things_do_not_pass_through_thin_plates(self):
         shapes = {"capsule": dict(shape="capsule", radius_mm=0.5, length_mm=2), "pen": dict(shape="cylinder", radius_mm=4, length_mm=100),
-                  "ball": dict(shape="sphere", radius_mm=0.3), "cube": dict(shape="box", size_mm=[2, 2, 2])}
+                  "ball": dict(shape="sphere", radius_mm=0.3), "cube": dict(shape="box", size_mm=[2, 2, 2]),
+                  "cone": dict(shape="cone", radius_mm=1, length_mm=3), "needle": dict(shape="cone", radius_mm=2, length_mm=100),
+                  "disc": dict(shape="cone", radius_mm=10, length_mm=1)}
         random = np.random.default_rng(1)
         for name, shape in shapes.items():
             for speed in (5, 20, 60, 99):
@@ -139,7 +141,8 @@ class RoundShapes(unittest.TestCase):
                             self.assertLess(thing.position[0], 0)
 
     def test_two_that_meet_at_fifty_metres_a_second_do_not_pass_through_each_other(self):
-        for shape in (dict(shape="sphere", radius_mm=1), dict(shape="box", size_mm=[2, 2, 2]), dict(shape="capsule", radius_mm=1, length_mm=3)):
+        for shape in (dict(shape="sphere", radius_mm=1), dict(shape="box", size_mm=[2, 2, 2]), dict(shape="capsule", radius_mm=1, length_mm=3),
+                      dict(shape="cone", radius_mm=1, length_mm=3)):
             with self.subTest(shape["shape"]):
                 w = world([dh.Part(name=name, mass_g=1, position_mm=[x, 0, 500], **shape) for name, x in (("a", -90), ("b", 90))],
                           gravity=(0, 0, 0))
@@ -153,13 +156,14 @@ class RoundShapes(unittest.TestCase):
                  for i in range(10)]
         rollers = {"block": dict(shape="box", size_mm=[40, 40, 40], friction=0), "ball": dict(shape="sphere", radius_mm=20),
                    "capsule": dict(shape="capsule", radius_mm=20, length_mm=60),
-                   "can": dict(shape="cylinder", radius_mm=20, length_mm=60)}
+                   "can": dict(shape="cylinder", radius_mm=20, length_mm=60),
+                   "cone": dict(shape="cone", radius_mm=20, length_mm=40, friction=0)}
         for name, roller in rollers.items():
             with self.subTest(name):
                 w = world([*tiles, dh.Part(name=name, mass_g=100, position_mm=[0, 0, 20], **{"friction": 0.8, **roller})])
                 body = w.bodies[name]
                 turned = SIDEWAYS if name in ("capsule", "can") else UPRIGHT
-                body.place((0, 0, 0.02), turned, (0.35, 0, 0), (0, 0 if name == "block" else 0.35 / 0.02, 0))
+                body.place((0, 0, 0.02), turned, (0.35, 0, 0), (0, 0 if name in ("block", "cone") else 0.35 / 0.02, 0))
                 for _ in range(95):
                     w.step(10)
                     self.assertAlmostEqual(body.velocity[0], 0.35, delta=3.5e-4)

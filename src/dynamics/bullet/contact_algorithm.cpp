@@ -159,7 +159,8 @@ struct ContactAlgorithms::Create final : btCollisionAlgorithmCreateFunc {
 ContactAlgorithms::ContactAlgorithms(btCollisionDispatcher& dispatcher, const double& step) {
     constexpr std::array kTypes{BOX_SHAPE_PROXYTYPE,     CONVEX_HULL_SHAPE_PROXYTYPE,
                                 STATIC_PLANE_PROXYTYPE,  SPHERE_SHAPE_PROXYTYPE,
-                                CAPSULE_SHAPE_PROXYTYPE, CYLINDER_SHAPE_PROXYTYPE};
+                                CAPSULE_SHAPE_PROXYTYPE, CYLINDER_SHAPE_PROXYTYPE,
+                                CONE_SHAPE_PROXYTYPE};
     for (const int a : kTypes) {
         for (const int b : kTypes) {
             if (a == STATIC_PLANE_PROXYTYPE && b == STATIC_PLANE_PROXYTYPE) continue;

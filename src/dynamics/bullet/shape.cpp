@@ -7,8 +7,8 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Hulls and cylinders carry a thin skin, without which Bullet's distance algorithm loses the
-/// normal at zero depth. Cylinders and boxes are shrunk by as much and their edges rounded
+/// Hulls, cylinders and cones carry a thin skin, without which Bullet's distance algorithm loses
+/// the normal at zero depth. Cylinders and boxes are shrunk by as much and their edges rounded
 /// (Bullet's own skin would round a box by a tenth of its half edge); a sphere or a capsule meets a
 /// hull this far outside its surface.
 constexpr double kSkin = 5e-5;  // [m]
@@ -36,6 +36,11 @@ std::unique_ptr<btCollisionShape> bullet_shape(const scene::Shape& shape) {
         case ShapeKind::cylinder: {
             auto out = std::make_unique<btCylinderShapeZ>(
                 btVector3(shape.radius, shape.radius, shape.length / 2));
+            out->setMargin(kSkin);
+            return out;
+        }
+        case ShapeKind::cone: {
+            auto out = std::make_unique<btConeShapeZ>(shape.radius, shape.length);
             out->setMargin(kSkin);
             return out;
         }
@@ -70,7 +75,9 @@ std::optional<Round> round(const scene::Shape& shape) {
         case ShapeKind::capsule:
             return Round{shape.radius, shape.length / 2};
         case ShapeKind::cylinder:
-            return Round{shape.radius, shape.length / 2, true};
+            return Round{shape.radius, shape.length / 2, Round::Ends::flat};
+        case ShapeKind::cone:
+            return Round{shape.radius, shape.length / 2, Round::Ends::tip};
         default:
             return std::nullopt;
     }

@@ -17,13 +17,18 @@ const Polyhedron kBox = Polyhedron::box({0.04, 0.06, 0.03});
 const std::vector<Round> kRounds{{0.01},
                                  {0.012, 0.02},
                                  {0.004, 0.05},
-                                 {0.02, 0.03, true},
-                                 {0.03, 0.004, true},
-                                 {0.003, 0.06, true}};
+                                 {0.02, 0.03, Round::Ends::flat},
+                                 {0.03, 0.004, Round::Ends::flat},
+                                 {0.003, 0.06, Round::Ends::flat},
+                                 {0.02, 0.03, Round::Ends::tip},
+                                 {0.03, 0.004, Round::Ends::tip},
+                                 {0.003, 0.06, Round::Ends::tip}};
 
 double extent(const Round& shape, const Pose& X_W, const Vec3& u) {
     const double along = (X_W.R * Vec3::UnitZ()).dot(u);
-    const double side = shape.is_cylinder ? std::sqrt(1 - std::min(1.0, along * along)) : 1;
+    const double side = shape.has_rim() ? std::sqrt(1 - std::min(1.0, along * along)) : 1;
+    if (shape.is_cone())
+        return std::max(shape.half * along, shape.radius * side - shape.half * along);
     return shape.half * std::abs(along) + shape.radius * side;
 }
 
@@ -104,7 +109,7 @@ TEST(Round, ShapesAreAsFarApartAsAlongTheBestOfAllDirections) {
     for (const Round& a : kRounds) {
         for (const Round& b : kRounds) {
             // rims of cylinders have kinks on which a better direction is not always found
-            const double off = a.is_cylinder || b.is_cylinder ? 3e-4 : 2e-5;
+            const double off = a.has_rim() || b.has_rim() ? 3e-4 : 2e-5;
             for (int i = 0; i < 20; ++i) compare(a, b, off, random);
         }
     }
@@ -117,7 +122,7 @@ TEST(Round, ShapesAreAsFarFromABoxAsAlongTheBestOfAllDirections) {
 }
 
 TEST(Round, LiesOnALineAndStandsOnItsRim) {
-    const Round can{0.02, 0.03, true};
+    const Round can{0.02, 0.03, Round::Ends::flat};
     const Pose lies{rotation_by(std::numbers::pi / 2 * Vec3::UnitX()), {0, 0, 0.02}};
     ContactPatch patch = collide_half_space({}, can, lies, 5e-4);
     ASSERT_EQ(patch.count, 2);

@@ -400,12 +400,12 @@ TEST(World, StepsWithoutAllocatingFromTheFirstStepOn) {
 TEST(World, StepsWithoutAllocatingWithRoundShapesToo) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     std::vector<scene::Body> bodies{table()};
-    for (int i = 0; i < 12; ++i) {
+    for (int i = 0; i < 15; ++i) {
         scene::Body b = block({0.03 * (i % 3), 0.02 * (i % 2), 0.05 + 0.05 * i});
         b.name = "thing " + number_text(i);
         b.shape.kind = std::array{scene::ShapeKind::sphere, scene::ShapeKind::capsule,
-                                  scene::ShapeKind::cylinder,
-                                  scene::ShapeKind::box}[static_cast<size_t>(i % 4)];
+                                  scene::ShapeKind::cylinder, scene::ShapeKind::cone,
+                                  scene::ShapeKind::box}[static_cast<size_t>(i % 5)];
         b.shape.radius = 0.015;
         b.shape.length = 0.03;
         bodies.push_back(b);

@@ -58,7 +58,7 @@ inline Press random_press(Random& random, scene::ShapeKind kind) {
 }
 
 /// Number of test shapes; shape(i) is one of them.
-constexpr int kShapes = 7;
+constexpr int kShapes = 8;
 inline scene::Shape shape(int i) {
     Random random(77, "test");
     switch (i) {
@@ -71,8 +71,10 @@ inline scene::Shape shape(int i) {
         case 3:
             return round(scene::ShapeKind::cylinder, 0.02, 0.03);
         case 4:
-            return round(scene::ShapeKind::plane, 0, 0);
+            return round(scene::ShapeKind::cone, 0.02, 0.03);
         case 5:
+            return round(scene::ShapeKind::plane, 0, 0);
+        case 6:
             return thin_wedge();
         default: {
             std::vector<Vec3> points;
@@ -84,7 +86,8 @@ inline scene::Shape shape(int i) {
 }
 
 inline std::string shape_name(const ::testing::TestParamInfo<int>& instance) {
-    constexpr std::array kNames{"box", "sphere", "capsule", "cylinder", "plane", "wedge", "hull"};
+    constexpr std::array kNames{"box",  "sphere", "capsule", "cylinder",
+                                "cone", "plane",  "wedge",   "hull"};
     return kNames[static_cast<size_t>(instance.param)];
 }
 

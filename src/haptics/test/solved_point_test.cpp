@@ -155,7 +155,7 @@ TEST_P(EveryShapeSolved, PressesAreFeltOutOfTheFaceThatWasEntered) {
     EXPECT_EQ(free_force, 0);
     EXPECT_LT(furthest_from_foot, 1e-8);
     EXPECT_GT(pressed, 20000);
-    if (surface.bend_radius() == 0) {
+    if (surface.is_polyhedron()) {
         EXPECT_GT(kept, 10000);
     }
     RecordProperty("deepest_um", number_text(deepest * 1e6));

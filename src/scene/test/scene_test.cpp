@@ -121,6 +121,49 @@ TEST(Integrals, OfSphereAndCylinder) {
     EXPECT_NEAR(c.inertia(0, 0) / c.volume, (3e-4 + 25e-4) / 12, 1e-18);
 }
 
+Shape cone(double radius, double height) {
+    Shape out;
+    out.kind = ShapeKind::cone;
+    out.radius = radius;
+    out.length = height;
+    return out;
+}
+
+TEST(Integrals, OfAConeAreThoseOfItsClosedFormAndOfItsFinePolyhedron) {
+    const double r = 0.02, h = 0.06;
+    const VolumeIntegrals exact = integrate(cone(r, h));
+    EXPECT_NEAR(exact.volume, kPi * r * r * h / 3, 1e-18);
+    EXPECT_NEAR(exact.centre.z(), h / 4 - h / 2, 1e-15);
+    EXPECT_NEAR(exact.inertia(2, 2) / exact.volume, 0.3 * r * r, 1e-18);
+    EXPECT_NEAR(exact.inertia(0, 0) / exact.volume, 0.15 * r * r + 3.0 / 80 * h * h, 1e-18);
+    std::vector<Vec3> points{{0, 0, h / 2}};
+    constexpr int kSides = 400;
+    for (int i = 0; i < kSides; ++i) {
+        const double angle = 2 * kPi * i / kSides;
+        points.emplace_back(r * std::cos(angle), r * std::sin(angle), -h / 2);
+    }
+    const Hull hull = convex_hull(points);
+    const VolumeIntegrals fine = integrate(hull.vertices, hull.faces);
+    EXPECT_NEAR(fine.volume / exact.volume, 1, 2e-4);
+    EXPECT_LT((fine.centre - exact.centre).norm(), 1e-6);
+    EXPECT_LT((fine.inertia - exact.inertia).norm(), 5e-4 * exact.inertia.norm());
+}
+
+TEST(Depth, OfAConeIsFromTheNearestOfSideAndBase) {
+    // a cone of 3, 4 and 5: how far points are from its side is whole
+    const Shape shape = cone(0.03, 0.04);
+    EXPECT_NEAR(depth(shape, {0, 0, 0.02}), 0, 1e-15);
+    EXPECT_NEAR(depth(shape, {0.03, 0, -0.02}), 0, 1e-15);
+    EXPECT_NEAR(depth(shape, {0, 0, 0}), 0.012, 1e-15);
+    EXPECT_NEAR(depth(shape, {0, 0, -0.019}), 0.001, 1e-15);
+    EXPECT_NEAR(depth(shape, {0, 0, -0.025}), -0.005, 1e-15);
+    EXPECT_NEAR(depth(shape, Vec3(0, 0.015, 0) + 0.01 * Vec3(0, 0.8, 0.6)), -0.01, 1e-15);
+    const Bounds box = bounds(shape);
+    EXPECT_EQ(box.low, Vec3(-0.03, -0.03, -0.02));
+    EXPECT_EQ(box.high, Vec3(0.03, 0.03, 0.02));
+    for (const Vec3& p : marks(shape)) EXPECT_GT(depth(shape, p), -1e-15);
+}
+
 TEST(PairFriction, IsWhatTheFileSaysOfThePairOrElseTheGeometricMean) {
     Scene scene;
     scene.pairs = {{{"thumb", "block"}, 0.35, {}, {}}};
@@ -491,7 +534,8 @@ TEST(SceneFile, WarnsOfABodyInsideAFixedOne) {
         for (const char* sunk :
              {"shape: box, size_mm: [40, 40, 40]", "shape: sphere, radius_mm: 20",
               "shape: box, size_mm: [90, 9, 40]", "shape: capsule, radius_mm: 10, length_mm: 20",
-              "shape: cylinder, radius_mm: 10, length_mm: 40"}) {
+              "shape: cylinder, radius_mm: 10, length_mm: 40",
+              "shape: cone, radius_mm: 10, length_mm: 40"}) {
             EXPECT_NE(said_at(sunk).find("3: warning: block: starts 20 mm deep inside"),
                       std::string::npos)
                 << sunk << said_at(sunk);

@@ -286,7 +286,8 @@ TEST(SceneView, PicturesAreLikeStoredOnes) {
 TEST(SceneView, EveryShapeIsDrawn) {
     for (const auto& [kind, name] : {std::pair{scene::ShapeKind::sphere, "sphere"},
                                      {scene::ShapeKind::capsule, "capsule"},
-                                     {scene::ShapeKind::cylinder, "cylinder"}}) {
+                                     {scene::ShapeKind::cylinder, "cylinder"},
+                                     {scene::ShapeKind::cone, "cone"}}) {
         scene::Scene scene = on_table({box(name, {0.04, 0.04, 0.04}, {0, 0, 0.05})});
         scene.bodies[1].shape = scene::Shape::sphere(0.02);
         scene.bodies[1].shape.kind = kind;

@@ -47,7 +47,8 @@ void expect_normals_outward(const Triangles& t) {
 TEST(Triangles, EncloseNearlyTheVolumeOfEachShapeAndNoneOutside) {
     for (const scene::Shape& shape :
          {scene::Shape::box({0.04, 0.06, 0.08}), scene::Shape::sphere(0.03),
-          lying(scene::ShapeKind::capsule), lying(scene::ShapeKind::cylinder)}) {
+          lying(scene::ShapeKind::capsule), lying(scene::ShapeKind::cylinder),
+          lying(scene::ShapeKind::cone)}) {
         EXPECT_GT(share(shape), 0.985) << static_cast<int>(shape.kind);
         EXPECT_LT(share(shape), 1) << static_cast<int>(shape.kind);
         const Triangles all = triangles(shape);
