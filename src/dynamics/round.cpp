@@ -311,11 +311,12 @@ struct SideNormals {
 /// Tries the directions in which the side of a shape looks, times `sign`. How far apart shapes are
 /// has a ridge there, which climb() does not follow to its top.
 template <class Separation>
-void walk_around(const Placed& of, double sign, const Separation& along, Best& best) {
+void walk_around(const Placed& of, double sign, const Separation& along, double margin,
+                 Best& best) {
     constexpr int kWays = 16;
     constexpr int kMostTries = 80;
     constexpr double kShortest = 1e-9;  // [rad]
-    if (!of.shape.has_rim()) return;
+    if (!of.shape.has_rim() || best.separation > margin) return;
     const SideNormals normals(of);
     const auto there = [&](double angle) { return along(sign * normals.at(angle)); };
     const double start = normals.nearest(sign * best.line_axis);
@@ -360,17 +361,19 @@ void try_caps(const Placed& a, const Placed& b, Best::Kind kind, Best& best) {
 }
 
 /// Climbs from the best line's axis to the best one near it, by strides in all directions that get
-/// shorter: how far convex shapes are apart has one peak, which may be a ridge.
+/// shorter: how far convex shapes are apart has one peak, which may be a ridge. Shapes that are
+/// further apart than the margin need no better one.
 template <class Separation>
-void climb(const Separation& along, Best& best) {
+void climb(const Separation& along, double margin, Best& best) {
     constexpr int kWays = 7;
     constexpr int kMostTries = 60;
     constexpr double kLongest = 0.2, kShortest = 1e-6;
+    const double enough = margin + kFacePreference;
     Vec3 u = best.line_axis;
     double most = best.line_separation;
     double turned = 0;
     double stride = kLongest;
-    for (int n = 0; n < kMostTries && stride > kShortest; ++n) {
+    for (int n = 0; n < kMostTries && stride > kShortest && most <= enough; ++n) {
         const Vec3 e = u.unitOrthogonal();
         const Vec3 f = u.cross(e);
         Vec3 better = u;
@@ -434,7 +437,7 @@ struct Corners {
 };
 
 /// Tries the direction between the edges of `a` and the axis or the rim of `b`.
-void try_edges(const Corners& a, const Placed& b, Best& best) {
+void try_edges(const Corners& a, const Placed& b, double margin, Best& best) {
     const double rounding = rounding_of(b.shape);
     const Core core = Core::of(b.shape, rounding);
     const auto of_core = [&](const Vec3& p) { return core.nearest(b, p); };
@@ -469,8 +472,8 @@ void try_edges(const Corners& a, const Placed& b, Best& best) {
     };
     const Vec3 u = (on_b - on_a) / least;
     best.take(along(u), u, Best::line);
-    if (core.radius > 0) climb(along, best);
-    if (b.shape.is_cone()) walk_around(b, -1, along, best);
+    if (core.radius > 0) climb(along, margin, best);
+    if (b.shape.is_cone()) walk_around(b, -1, along, margin, best);
 }
 
 /// What a cap meets, if the best axis is a cap's.
@@ -487,12 +490,13 @@ void cap_contact(const Placed& a, const Placed& b, const Best& best, double marg
 }
 
 /// Tries the directions between two round shapes that are no cap's.
-void try_lines(const Placed& a, const Placed& b, Best& best) {
+void try_lines(const Placed& a, const Placed& b, double margin, Best& best) {
     const auto [on_a, on_b] =
         closest(a.end(-1), a.end(1) - a.end(-1), b.end(-1), b.end(1) - b.end(-1));
     try_axis(a, b, on_b - on_a, Best::line, best);
     if (a.shape.has_rim() || b.shape.has_rim()) {
         try_axis(a, b, a.axis.cross(b.axis), Best::line, best);
+        if (best.separation > margin) return;
         const bool sharp = !(a.shape.has_rim() && b.shape.has_rim());
         const Core core_a = Core::of(a.shape, sharp ? 0 : rounding_of(a.shape));
         const Core core_b = Core::of(b.shape, sharp ? 0 : rounding_of(b.shape));
@@ -501,10 +505,10 @@ void try_lines(const Placed& a, const Placed& b, Best& best) {
             [&](const Vec3& x) { return core_b.nearest(b, x); });
         try_axis(a, b, q - p, Best::line, best);
         const auto along = [&](const Vec3& u) { return apart_along(a, b, u); };
-        if (!best.line_axis.isZero(0)) climb(along, best);
+        if (!best.line_axis.isZero(0)) climb(along, margin, best);
         if (a.shape.is_cone() || b.shape.is_cone()) {
-            walk_around(a, 1, along, best);
-            walk_around(b, -1, along, best);
+            walk_around(a, 1, along, margin, best);
+            walk_around(b, -1, along, margin, best);
         }
     }
     if (best.axis.isZero(0))  // one inside the other
@@ -575,7 +579,7 @@ ContactPatch collide(const Round& shape_a, const Pose& X_WA, const Round& shape_
     if (best.separation > margin) return patch;
     if (best.kind != Best::line) cap_contact(a, b, best, margin, patch);
     if (settles(patch, best.separation)) return patch;
-    try_lines(a, b, best);
+    try_lines(a, b, margin, best);
     if (best.separation > margin) return {};
     if (!is_line(best, patch)) return patch;
     Polygon of_a;
@@ -606,7 +610,7 @@ ContactPatch collide(const Polyhedron& shape_a, const Pose& X_WA, const Round& s
     }
     face_contact(a, b, best, margin, patch);
     if (!settles(patch, best.separation)) {
-        try_edges(a, b, best);
+        try_edges(a, b, margin, best);
         if (best.separation > margin) return {};
         if (flush >= 0 && best.kind == Best::line) return {};
         if (is_line(best, patch)) {

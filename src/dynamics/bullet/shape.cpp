@@ -9,8 +9,8 @@ namespace {
 
 /// Hulls, cylinders and cones carry a thin skin, without which Bullet's distance algorithm loses
 /// the normal at zero depth. Cylinders and boxes are shrunk by as much and their edges rounded
-/// (Bullet's own skin would round a box by a tenth of its half edge); a sphere or a capsule meets a
-/// hull this far outside its surface.
+/// (Bullet's own skin would round a box by a tenth of its half edge); a sphere, a capsule or a
+/// cone meets a hull this far outside its surface.
 constexpr double kSkin = 5e-5;  // [m]
 
 std::unique_ptr<btCollisionShape> bullet_hull(const scene::Hull& hull) {

@@ -172,6 +172,28 @@ TEST(Cone, StandsOnItsBaseWhichCarriesItsWeight) {
     }
 }
 
+TEST(Cone, StandsAndLiesOnAHullOfManyEdges) {
+    std::vector<Vec3> corners;
+    for (int i = 0; i < 40; ++i) {
+        const double angle = 2 * std::numbers::pi * i / 40;
+        for (const double z : {-0.02, 0.0})
+            corners.emplace_back(0.1 * std::cos(angle), 0.1 * std::sin(angle), z);
+    }
+    scene::Body drum = table();
+    drum.shape.kind = scene::ShapeKind::mesh;
+    drum.shape.hull = scene::convex_hull(corners);
+    drum.position.setZero();
+    const Size size{0.02, 0.05};
+    const Pose stands{Quat::Identity(), {0, 0, size.height / 2}};
+    for (const Pose& X : {stands, on_its_side(size)}) {
+        World world = make({drum, cone(size)}, awake());
+        world.set_pose({1}, X);
+        for (int i = 0; i < 2000; ++i) world.step(kStep);
+        const BodyState now = world.state({1});
+        EXPECT_NEAR(now.X_WB.p.z(), X.p.z(), 2e-4);
+    }
+}
+
 TEST(Cone, ThatIsTiltedFallsBackOrOverByWhereItsCentreIs) {
     // its centre is a quarter of its height above its base
     for (const Size& size : {Size{0.02, 0.06}, {0.03, 0.06}, {0.01, 0.06}}) {
