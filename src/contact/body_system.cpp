@@ -111,6 +111,7 @@ void BodySystem<Dim>::assemble_row(const ContactProblem& problem, const ProblemC
     fill(row.Ht_a, contact.a, contact.p_AC_W, -1);
     fill(row.Ht_b, contact.b, contact.p_BC_W, 1);
     row.q[0] += contact.bias;
+    row.q.template segment<2>(1) += contact.slip;
     // what no impulse can push apart is no contact: on rails, deep inside what is fixed
     if (diagonal[0] == 0 && contact.compliance == 0) row.q[0] = std::max(row.q[0], 0.0);
     const int rows = D == 4 && diagonal[D - 1] > 0 ? 4 : 3;

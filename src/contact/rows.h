@@ -42,6 +42,7 @@ Eigen::Matrix<double, D, 1> free_velocity(const ContactProblem& problem,
     add(contact.b, contact.p_BC_W, 1);
     add(contact.a, contact.p_AC_W, -1);
     u[0] += contact.bias;
+    u.template segment<2>(1) += contact.slip;
     return u;
 }
 

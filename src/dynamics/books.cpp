@@ -13,8 +13,8 @@ constexpr double kLeastTurning = 1e-11;  // [N*m*s]
 /// Energy that came from nowhere within this time is compared with what there is, and what was
 /// exchanged [s].
 constexpr double kMemory = 0.5;
-constexpr double kMostShare = 0.05;
-constexpr double kLeastEnergy = 1e-3;  // [J]
+constexpr double kMostShare = 0.03;
+constexpr double kLeastEnergy = 5e-4;  // [J]
 
 Vec3 angular_momentum(const Books::Body& body, const Quat& R_WM, const Vec3& w_W) {
     return R_WM * Vec3(body.moments.cwiseProduct(R_WM.conjugate() * w_W));
@@ -46,7 +46,7 @@ void Books::forget() noexcept {
     open_.clear();
     std::fill(owed_.begin(), owed_.end(), 0);
     has_last_ = false;
-    found_ = exchanged_ = 0;
+    found_ = exchanged_ = owed_by_contacts_ = 0;
     balance_ = {};
 }
 
@@ -54,7 +54,7 @@ void Books::begin(double h) noexcept {
     for (const size_t i : open_) entries_[i].open = false;
     open_.clear();
     h_ = h;
-    before_ = last_energy_ = gains_ = 0;
+    before_ = last_energy_ = gains_ = by_contacts_ = 0;
     last_springs_ = springs_;
     springs_ = 0;
     balance_ = {};
@@ -149,15 +149,20 @@ void Books::take(const Exchange& exchange) noexcept {
     if (!within) return;
     // what the exchange gave away, of itself and of its springs
     const double passive = work - exchange.given + exchange.stored_after - exchange.stored_before;
-    const double found = exchange.joint < 0 ? exchange.found : owe(exchange.joint, passive);
-    gains_ += found;
-    balance_.dissipated += found - passive;
+    if (exchange.joint < 0) {
+        by_contacts_ += passive;
+        gains_ += exchange.found;
+        balance_.dissipated += exchange.found - passive;
+    } else {
+        const double found = owe(owed_[static_cast<size_t>(exchange.joint)], passive);
+        gains_ += found;
+        balance_.dissipated += found - passive;
+    }
     balance_.work += outside + exchange.given;
     exchanged_ += std::abs(outside + exchange.given) + std::abs(passive);
 }
 
-double Books::owe(int joint, double passive) noexcept {
-    double& owed = owed_[static_cast<size_t>(joint)];
+double Books::owe(double& owed, double passive) noexcept {
     const double before = std::max(0.0, owed);
     owed += passive;
     return std::max(0.0, owed) - before;
@@ -226,6 +231,10 @@ void Books::balance() noexcept {
         if (!entries_[i].body.is_led) check_momentum(entries_[i]);
         count_energy(entries_[i]);
     }
+    // what one contact gives another may take within the step: all together give nothing
+    const double found = owe(owed_by_contacts_, by_contacts_);
+    gains_ += found;
+    balance_.dissipated += found;
     double after = springs_;
     for (const size_t i : open_) after += entries_[i].kinetic + entries_[i].potential;
     balance_.energy_imbalance = after - before_ - balance_.work + balance_.dissipated;
@@ -247,6 +256,7 @@ void Books::judge() noexcept {
     if (found_ > kMostShare * there + kLeastEnergy) balance_.unbalanced = true;
     exchanged_ *= kept;
     for (double& owed : owed_) owed *= kept;
+    owed_by_contacts_ *= kept;
 }
 
 void Books::rest(size_t body) noexcept {

@@ -87,6 +87,9 @@ class Books {
     };
     Velocities velocities_at(int body, const Vec3& p_W) const noexcept;
 
+    /// By how much a body's point at p_W as the step begins moves in it.
+    Vec3 way_of(int body, const Vec3& p_W) const noexcept;
+
     /// Call once all is dissipated.
     void balance() noexcept;
     const Balance& last() const noexcept { return balance_; }
@@ -114,11 +117,9 @@ class Books {
         double kinetic = 0;            ///< after the last step of which it was part
         double potential = 0;
     };
-    /// What of the energy that a joint gives away came from nowhere.
-    double owe(int joint, double passive) noexcept;
+    /// What came from nowhere of the energy that something gives away, which owes some already.
+    static double owe(double& owed, double passive) noexcept;
     void check_momentum(const Entry& one) noexcept;
-    /// By how much a body's point at p_W as the step begins moves in it.
-    Vec3 way_of(int body, const Vec3& p_W) const noexcept;
     /// Whether a body turned as its angular velocity says.
     void check_turn(const Entry& one) noexcept;
     void count_energy(Entry& one) noexcept;
@@ -134,8 +135,10 @@ class Books {
     double springs_ = 0;       // after the step
     double last_springs_ = 0;  // after the step before
     double gains_ = 0;         // in the step, of contacts and joints
-    double found_ = 0;         // from nowhere, with a memory of kMemory
-    double exchanged_ = 0;     // of all work, likewise
+    double by_contacts_ = 0;   // what all contacts together gave away in it
+    double owed_by_contacts_ = 0;
+    double found_ = 0;      // from nowhere, with a memory of kMemory
+    double exchanged_ = 0;  // of all work, likewise
     Balance balance_;
 };
 

@@ -57,8 +57,14 @@ void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& p
     const double mean_work = normal * n_W.dot(u_before + u_after) / 2;
     // bodies neither part, nor slide on, by what presses and rubs them
     double pressing = normal * n_W.dot(u_after);
-    const double rubbing =
-        exchange.impulse_W.dot(u_after) - pressing + exchange.moment_W.dot(b.w_after - a.w_after);
+    const Vec3 friction_W = exchange.impulse_W - normal * n_W;
+    const double twisting = exchange.moment_W.dot(b.w_after - a.w_after);
+    double rubbing = friction_W.dot(u_after) + twisting;
+    if (rubbing > 0) {  // velocities are tangents of the arcs on which points go
+        const Vec3 way =
+            books.way_of(exchange.b, exchange.p_W) - books.way_of(exchange.a, exchange.p_W);
+        rubbing = friction_W.dot(way) / h + twisting;
+    }
     if (law.stiffness > 0) {
         const auto stored = [&](double gap) {
             const double k = law.stiffness / law.sharing;

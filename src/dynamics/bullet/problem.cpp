@@ -13,6 +13,8 @@ using contact::kFixed;
 /// What has not touched in a step may be met at any speed after it [m/s].
 constexpr double kFarApart = 1e6;
 
+const contact::ProblemBody kRests;
+
 /// Columns: the normal and two tangents, which depend on the normal only.
 Mat3 contact_frame(const Vec3& normal) {
     btVector3 first;
@@ -58,6 +60,33 @@ void soften(contact::ProblemContact& contact, const contact::ContactProblem& pro
     const double c = law.damping / law.sharing;
     contact.compliance = 1 / (h * (c + theta * h * k));
     contact.bias = h * k * gap * contact.compliance;
+}
+
+/// What turns together, or about the contact's normal, goes on arcs, and stays together if points
+/// get to the ends of the same chord: by how much the points of both bodies move in the step
+/// otherwise than their velocities say, along the tangents. Velocities alone let a block on a
+/// turntable creep outward by w^2 r h / 2, and what swings between two fingers slip. Zero for
+/// bodies that roll on each other, whose points do not stay together.
+Eigen::Vector2d along_arcs(const contact::ContactProblem& problem,
+                           const contact::ProblemContact& contact, double h) {
+    constexpr double kRolls = 0.01;  // as a share of the angular velocity
+    constexpr double kLeast = 1e-6;  // [m/s]
+    const auto body = [&](int i) -> const contact::ProblemBody& {
+        return i == kFixed ? kRests : problem.bodies[static_cast<size_t>(i)];
+    };
+    const contact::ProblemBody& a = body(contact.a);
+    const contact::ProblemBody& b = body(contact.b);
+    const double speed = std::max(a.w_W.norm(), b.w_W.norm());
+    const double arm = std::max(contact.p_AC_W.norm(), contact.p_BC_W.norm());
+    if (speed * speed * arm * h < kLeast) return Eigen::Vector2d::Zero();
+    const Mat3& R = contact.R_WC;
+    const double most = kRolls * speed;
+    if ((R.transpose() * (b.w_W - a.w_W)).tail<2>().norm() > most) return Eigen::Vector2d::Zero();
+    const auto off = [&](const contact::ProblemBody& one, const Vec3& r) {
+        return Vec3((rotation_by(h * one.w_W) * r - r) / h - one.w_W.cross(r));
+    };
+    const Vec3 apart = off(b, contact.p_BC_W) - off(a, contact.p_AC_W);
+    return (R.transpose() * apart).tail<2>();
 }
 
 /// Velocity along the normal with which bodies leave, by Newton's law e u for the speed u at which
@@ -128,6 +157,7 @@ void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
             out.friction = point.m_combinedFriction;
             out.torsion_radius = torsion;
             out.compliance = carried(point).law.compliance;
+            out.slip = along_arcs(problem_, out, h);
             if (carried(point).law.stiffness > 0) soften(out, problem_, carried(point).law, gap, h);
         }
     }

@@ -63,6 +63,7 @@ struct Spun {
     double tilted = 0;  ///< most that its tilt changes, as a share
     double gained = 0;  ///< of its energy
     double rise = 0;    ///< most of its energy in a step
+    bool told = false;  ///< that its energy comes from nowhere
 };
 
 Spun roll(double tilt, double time, double step) {
@@ -82,6 +83,7 @@ Spun roll(double tilt, double time, double step) {
         out.tilted = std::max(out.tilted, std::abs(tilt_of(now) / tilt - 1));
         out.rise = std::max(out.rise, energy(now) / last - 1);
         last = energy(now);
+        out.told = out.told || world.balance().unbalanced;
     }
     out.rate = turned / (steady(tilt) * time);
     out.gained = last / first - 1;
@@ -108,6 +110,7 @@ TEST(EulersDisc, GainsLittleEnergyAndLessInSmallerSteps) {
         const Spun coarse = roll(tilt, 1, kStep);
         EXPECT_LT(coarse.rise, 1e-4) << tilt;
         EXPECT_LT(coarse.gained, 0.06) << tilt;
+        EXPECT_TRUE(coarse.told) << tilt;
         const Spun fine = roll(tilt, 1, kStep / 4);
         EXPECT_LT(fine.rise, 5e-6) << tilt;
         EXPECT_LT(fine.gained, 0.01) << tilt;

@@ -113,6 +113,32 @@ TEST(Driven, CarriesRound) {
     EXPECT_NEAR(std::atan2(p.y(), p.x()), kSpeed * (0.3 + 0.1), 2e-3);
 }
 
+TEST(Driven, KeepsWhatLiesOnATurntableWhereItIs) {
+    // with another one on top, held by a sixth of the friction that there is
+    for (size_t i = 0; i < enum_names(Solver{}).size(); ++i) {
+        Settings settings = awake();
+        settings.solver = static_cast<Solver>(i);
+        SCOPED_TRACE(std::string(enum_name(settings.solver)));
+        scene::Body top = block({0.05, 0.01, 0.06}, 0.5);
+        top.name = "top";
+        World world = make({platform(), block({0.05, 0, 0.02}, 0.5), top}, settings);
+        constexpr double kRate = 4;    // [rad/s]
+        constexpr double kRise = 0.5;  // [s]
+        double angle = 0;
+        int unbalanced = 0;
+        for (int step = 0; step < 10'000; ++step) {
+            angle += kStep * kRate * std::min(1.0, step * kStep / kRise);
+            world.drive(kPlatform, {Quat(Eigen::AngleAxisd(angle, Vec3::UnitZ())), {0, 0, -0.02}});
+            world.step(kStep);
+            unbalanced += world.balance().unbalanced;
+        }
+        EXPECT_EQ(unbalanced, 0);
+        const Quat back(Eigen::AngleAxisd(-angle, Vec3::UnitZ()));
+        EXPECT_LT((back * world.state(kBlock).X_WB.p - Vec3(0.05, 0, 0.02)).norm(), 1e-5);
+        EXPECT_LT((back * world.states()[2].X_WB.p - Vec3(0.05, 0.01, 0.06)).norm(), 1e-5);
+    }
+}
+
 TEST(Driven, IsHandedOverAndFliesOnWhenItIsLetGo) {
     World world = make({table(), block({0, 0, 0.3})}, awake());
     for (int i = 1; i <= 100; ++i) {
