@@ -42,8 +42,8 @@ struct ProblemContact {
     Mat3 R_WC = Mat3::Identity();  ///< columns: unit normal from a to b, two tangents
     double bias = 0;               ///< added to the normal velocity: gap over time step [m/s]
     Eigen::Vector2d slip = Eigen::Vector2d::Zero();  ///< added to the tangential velocities [m/s]
-    double compliance = 0;         ///< of a soft contact, along the normal [m/s per N*s]
-    double friction = 0;           ///< coefficient mu
+    double compliance = 0;      ///< of a soft contact, along the normal [m/s per N*s]
+    double friction = 0;        ///< coefficient mu
     double torsion_radius = 0;  ///< allows a moment about the normal of up to mu r N; 0: none [m]
 };
 
@@ -74,9 +74,9 @@ struct ProblemJoint {
 };
 
 /// Bodies, contacts and joints of one step. Find impulses r so that for each contact, with u the
-/// velocity of b relative to a plus slip and, along the normal, bias and compliance r_N, at the end of
-/// the step: r_N >= 0, u_N >= 0, r_N u_N = 0, |r_T| <= mu r_N, and r_T opposite to u_T where it slides;
-/// and for each joint what its rows ask for.
+/// velocity of b relative to a plus slip and, along the normal, bias and compliance r_N, at the end
+/// of the step: r_N >= 0, u_N >= 0, r_N u_N = 0, |r_T| <= mu r_N, and r_T opposite to u_T where it
+/// slides; and for each joint what its rows ask for.
 struct ContactProblem {
     std::vector<ProblemBody> bodies;
     std::vector<ProblemContact> contacts;

@@ -16,13 +16,13 @@ constexpr double kMemory = 0.5;
 constexpr double kMostShare = 0.03;
 constexpr double kLeastEnergy = 5e-4;  // [J]
 
-Vec3 angular_momentum(const Books::Body& body, const Quat& R_WM, const Vec3& w_W) {
-    return R_WM * Vec3(body.moments.cwiseProduct(R_WM.conjugate() * w_W));
+Vec3 angular_momentum(const Books::Body& body, const Mat3& R_WM, const Vec3& w_W) {
+    return R_WM * Vec3(body.moments.cwiseProduct(R_WM.transpose() * w_W));
 }
 
 /// Angular velocity of a body that turns freely, of its momentum.
-Vec3 turning_by(const Vec3& L_W, const Books::Body& body, const Quat& R_WM) {
-    return R_WM * Vec3((R_WM.conjugate() * L_W).cwiseQuotient(body.moments));
+Vec3 turning_by(const Vec3& L_W, const Books::Body& body, const Mat3& R_WM) {
+    return R_WM * Vec3(Vec3(R_WM.transpose() * L_W).cwiseQuotient(body.moments));
 }
 
 double kinetic_of(const Books::Body& body, const Vec3& v_W, const Vec3& w_W, const Vec3& L_W) {
@@ -93,60 +93,79 @@ void Books::close(size_t body, const Motion& after, bool bounced) noexcept {
     one.w_struck_W = free && !one.body.is_outside
                          ? turning_by(one.L_after_W, one.body, one.before.R_WM)
                          : after.w_W;
+    one.v_mean_W = (one.before.v_W + after.v_W) / 2;
+    one.w_mean_W = (one.before.w_W + one.w_struck_W) / 2;
 }
 
-Books::Velocities Books::velocities_at(int body, const Vec3& p_W) const noexcept {
-    if (body < 0 || !entries_[static_cast<size_t>(body)].open) return {};
-    const Entry& one = entries_[static_cast<size_t>(body)];
-    const Vec3 arm = p_W - one.before.p_WM;
-    return {one.before.v_W + one.before.w_W.cross(arm), one.after.v_W + one.w_struck_W.cross(arm),
-            one.before.w_W, one.w_struck_W};
+const Books::Entry* Books::entry(int body) const noexcept {
+    if (body < 0 || !entries_[static_cast<size_t>(body)].open) return nullptr;
+    return &entries_[static_cast<size_t>(body)];
 }
 
-Vec3 Books::way_of(int body, const Vec3& p_W) const noexcept {
-    if (body < 0 || !entries_[static_cast<size_t>(body)].open) return Vec3::Zero();
-    const Entry& one = entries_[static_cast<size_t>(body)];
-    const Quat turn = one.after.R_WM * one.before.R_WM.conjugate();
-    return one.after.p_WM + turn * (p_W - one.before.p_WM) - p_W;
+Books::Meeting Books::meet(int a, int b, const Vec3& p_W) const noexcept {
+    Meeting out;
+    const auto add = [&](const Entry* one, double sign) {
+        if (one == nullptr) return;
+        const Vec3 arm = p_W - one->before.p_WM;
+        out.v_mean += sign * (one->v_mean_W + one->w_mean_W.cross(arm));
+        out.v_after += sign * (one->after.v_W + one->w_struck_W.cross(arm));
+        out.w_mean += sign * one->w_mean_W;
+        out.w_after += sign * one->w_struck_W;
+    };
+    add(entry(a), -1);
+    add(entry(b), 1);
+    return out;
 }
 
-void Books::check_gap(int a, int b, const Vec3& p_W, const Vec3& n_W, double gap) noexcept {
+Vec3 Books::way(int a, int b, const Vec3& p_W) const noexcept {
+    const auto of = [&](const Entry* one) -> Vec3 {
+        if (one == nullptr) return Vec3::Zero();
+        const Vec3 arm = one->before.R_WM.transpose() * (p_W - one->before.p_WM);
+        return one->after.p_WM + one->after.R_WM * arm - p_W;
+    };
+    return of(entry(b)) - of(entry(a));
+}
+
+void Books::check_gap(const Exchange& exchange, const Meeting& meeting, const Vec3& n_W,
+                      double gap) noexcept {
     constexpr double kLeast = 1e-4;      // [m]
     constexpr double kShareOfWay = 0.1;  // surfaces curve, and turn
     const auto enters = [&](const Vec3& way) {
-        return std::max(gap, 0.0) + way.dot(n_W) < -kLeast - kShareOfWay * way.norm();
+        const double inside = -std::max(gap, 0.0) - way.dot(n_W);
+        return inside > kLeast && inside > kLeast + kShareOfWay * way.norm();
     };
     // the velocities tell well enough that nothing is wrong
-    const Vec3 about = h_ * (velocities_at(b, p_W).v_after - velocities_at(a, p_W).v_after);
-    if (enters(about) && enters(way_of(b, p_W) - way_of(a, p_W))) balance_.unbalanced = true;
+    if (enters(h_ * meeting.v_after) && enters(way(exchange.a, exchange.b, exchange.p_W)))
+        balance_.unbalanced = true;
 }
 
-void Books::take(const Exchange& exchange) noexcept {
+void Books::act(Entry& one, const Vec3& p_W, const Vec3& impulse_W, const Vec3& moment_W) noexcept {
+    const Vec3 arm = p_W - one.before.p_WM;
+    one.impulse_W += impulse_W;
+    one.moment_W += arm.cross(impulse_W) + moment_W;
+    const double size = impulse_W.lpNorm<1>();
+    one.size += size;
+    one.turning_size += arm.lpNorm<1>() * size + moment_W.lpNorm<1>();
+}
+
+void Books::take(const Exchange& exchange, const Meeting& meeting) noexcept {
     before_ += exchange.stored_before;
     springs_ += exchange.stored_after;
-    double work = 0;     // on both bodies
-    double outside = 0;  // on the one that is inside, by the one that is not
+    double outside = 0;  // work on the one that is inside, by the one that is not
     bool within = false;
-    const auto act = [&](int body, double sign) {
-        if (body < 0 || !entries_[static_cast<size_t>(body)].open) return;
+    for (const double sign : {-1.0, 1.0}) {
+        const int body = sign < 0 ? exchange.a : exchange.b;
+        if (entry(body) == nullptr) continue;
         Entry& one = entries_[static_cast<size_t>(body)];
-        const Vec3 impulse = sign * exchange.impulse_W;
-        const Vec3 arm = exchange.p_W - one.before.p_WM;
-        const Vec3 moment = arm.cross(impulse) + sign * exchange.moment_W;
-        one.impulse_W += impulse;
-        one.moment_W += moment;
-        one.size += impulse.norm();
-        one.turning_size += arm.norm() * impulse.norm() + exchange.moment_W.norm();
-        const double done = (impulse.dot(one.before.v_W + one.after.v_W) +
-                             moment.dot(one.before.w_W + one.w_struck_W)) /
-                            2;
-        work += done;
-        outside -= one.body.is_outside ? done : 0;
+        act(one, exchange.p_W, sign * exchange.impulse_W, sign * exchange.moment_W);
         within = within || !one.body.is_outside;
-    };
-    act(exchange.a, -1);
-    act(exchange.b, 1);
+        if (!one.body.is_outside) continue;
+        const Vec3 v = one.v_mean_W + one.w_mean_W.cross(exchange.p_W - one.before.p_WM);
+        outside -= sign * (exchange.impulse_W.dot(v) + exchange.moment_W.dot(one.w_mean_W));
+    }
     if (!within) return;
+    const double work =
+        exchange.impulse_W.dot(meeting.v_mean) + exchange.moment_W.dot(meeting.w_mean);
     // what the exchange gave away, of itself and of its springs
     const double passive = work - exchange.given + exchange.stored_after - exchange.stored_before;
     if (exchange.joint < 0) {
@@ -197,7 +216,10 @@ void Books::check_momentum(const Entry& one) noexcept {
 void Books::check_turn(const Entry& one) noexcept {
     // the trapezoidal rule gives the mean of its angular velocity up to the square of the turn
     const Vec3 mean = (one.w_struck_W + one.after.w_W) / 2;
-    const Vec3 turned = rotation_vector(one.after.R_WM * one.before.R_WM.conjugate()) / h_;
+    const Mat3 R = one.after.R_WM * one.before.R_WM.transpose();
+    const Vec3 sine = Vec3(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1)) / 2;
+    const double size = sine.norm();  // of an angle that is below a right one
+    const Vec3 turned = (size > 1e-6 ? std::asin(std::min(1.0, size)) / size : 1) * sine / h_;
     const double off = (turned - mean).norm();
     const double speed = mean.norm();
     // how a body turns freely is guessed until guesses are about this far apart
@@ -214,10 +236,9 @@ void Books::count_energy(Entry& one) noexcept {
     if (body.is_outside) return;
     one.kinetic = kinetic_of(body, one.after.v_W, one.after.w_W, one.L_after_W);
     one.potential = potential_of(body, one.after, h_);
-    const Vec3 v_mean = (one.before.v_W + one.after.v_W) / 2;
-    const Vec3 w_mean = (one.before.w_W + one.w_struck_W) / 2;
-    const double by_load = h_ * (one.load_W.force.dot(v_mean) + one.load_W.torque.dot(w_mean));
-    const double by_weight = h_ * body.weight_W.dot(v_mean);
+    const double by_load =
+        h_ * (one.load_W.force.dot(one.v_mean_W) + one.load_W.torque.dot(one.w_mean_W));
+    const double by_weight = h_ * body.weight_W.dot(one.v_mean_W);
     exchanged_ += std::abs(by_load) + std::abs(by_weight);
     balance_.work += by_load;
     if (one.late) balance_.work -= by_weight;

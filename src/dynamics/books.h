@@ -27,7 +27,7 @@ class Books {
     /// How a body's centre of mass moves, and its principal axes M.
     struct Motion {
         Vec3 p_WM = Vec3::Zero();
-        Quat R_WM = Quat::Identity();
+        Mat3 R_WM = Mat3::Identity();
         Vec3 v_W = Vec3::Zero();
         Vec3 w_W = Vec3::Zero();
     };
@@ -71,26 +71,26 @@ class Books {
         /// next; -1: of a contact.
         int joint = -1;
     };
-    /// A contact of rigid surfaces that were `gap` apart along n_W, from a to b, when the step
-    /// began: tells if they enter each other all the same. Call once all bodies are closed.
-    void check_gap(int a, int b, const Vec3& p_W, const Vec3& n_W, double gap) noexcept;
-    /// Call once all bodies are closed.
-    void take(const Exchange& exchange) noexcept;
-
-    /// Velocities of a body's point at p_W, and its angular velocities, before and after the
-    /// impulses.
-    struct Velocities {
-        Vec3 v_before = Vec3::Zero();
+    /// How b moves against a at a point: after the impulses, and the mean of before and after.
+    struct Meeting {
+        Vec3 v_mean = Vec3::Zero();
+        Vec3 w_mean = Vec3::Zero();
         Vec3 v_after = Vec3::Zero();
-        Vec3 w_before = Vec3::Zero();
         Vec3 w_after = Vec3::Zero();
+        Vec3 v_before() const { return 2 * v_mean - v_after; }
+        Vec3 w_before() const { return 2 * w_mean - w_after; }
     };
-    Velocities velocities_at(int body, const Vec3& p_W) const noexcept;
+    /// Call once all bodies are closed, as all that follows.
+    Meeting meet(int a, int b, const Vec3& p_W) const noexcept;
+    /// By how much b's point at p_W as the step begins moves in it against a's.
+    Vec3 way(int a, int b, const Vec3& p_W) const noexcept;
+    /// A contact of rigid surfaces that were `gap` apart along n_W, from a to b, when the step
+    /// began: tells if they enter each other all the same.
+    void check_gap(const Exchange& exchange, const Meeting& meeting, const Vec3& n_W,
+                   double gap) noexcept;
+    void take(const Exchange& exchange, const Meeting& meeting) noexcept;
 
-    /// By how much a body's point at p_W as the step begins moves in it.
-    Vec3 way_of(int body, const Vec3& p_W) const noexcept;
-
-    /// Call once all is dissipated.
+    /// Call once all is taken.
     void balance() noexcept;
     const Balance& last() const noexcept { return balance_; }
     /// A body fell asleep: what it still moved by is lost.
@@ -110,13 +110,19 @@ class Books {
         Vec3 L_before_W = Vec3::Zero();
         Vec3 L_after_W = Vec3::Zero();
         Vec3 w_struck_W = Vec3::Zero();  ///< once impulses acted, before the body turns on
+        Vec3 v_mean_W = Vec3::Zero();
+        Vec3 w_mean_W = Vec3::Zero();
         Vec3 impulse_W = Vec3::Zero();
         Vec3 moment_W = Vec3::Zero();  ///< about its centre of mass as the step begins
-        double size = 0;               ///< of all impulses together [N*s]
-        double turning_size = 0;       ///< of all moments [N*m*s]
+        double size = 0;               ///< of all impulses together, by their components [N*s]
+        double turning_size = 0;       ///< of all moments, likewise [N*m*s]
         double kinetic = 0;            ///< after the last step of which it was part
         double potential = 0;
     };
+    const Entry* entry(int body) const noexcept;
+    /// An impulse on a body, and a moment.
+    static void act(Entry& one, const Vec3& p_W, const Vec3& impulse_W,
+                    const Vec3& moment_W) noexcept;
     /// What came from nowhere of the energy that something gives away, which owes some already.
     static double owe(double& owed, double passive) noexcept;
     void check_momentum(const Entry& one) noexcept;

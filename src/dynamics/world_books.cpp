@@ -7,8 +7,9 @@
 namespace dihaptic::dynamics {
 
 Books::Motion World::Impl::motion_of(const Item& item) {
-    const Pose X_WM = from_bullet(item.body->getWorldTransform());
-    return {X_WM.p, X_WM.R, from_bullet(item.body->getLinearVelocity()),
+    const btTransform& X_WM = item.body->getWorldTransform();
+    return {from_bullet(X_WM.getOrigin()), from_bullet(X_WM.getBasis()),
+            from_bullet(item.body->getLinearVelocity()),
             from_bullet(item.body->getAngularVelocity())};
 }
 
@@ -49,21 +50,16 @@ void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& p
                              .p_W = carried(point).acts_at_W,
                              .impulse_W = h * contact.f_B_W,
                              .moment_W = h * contact.moment * n_W};
-    const Books::Velocities a = books.velocities_at(exchange.a, exchange.p_W);
-    const Books::Velocities b = books.velocities_at(exchange.b, exchange.p_W);
-    const Vec3 u_before = b.v_before - a.v_before;
-    const Vec3 u_after = b.v_after - a.v_after;
+    const Books::Meeting meeting = books.meet(exchange.a, exchange.b, exchange.p_W);
     const double normal = h * contact.normal_force;
-    const double mean_work = normal * n_W.dot(u_before + u_after) / 2;
+    const double mean_work = normal * n_W.dot(meeting.v_mean);
     // bodies neither part, nor slide on, by what presses and rubs them
-    double pressing = normal * n_W.dot(u_after);
+    double pressing = normal * n_W.dot(meeting.v_after);
     const Vec3 friction_W = exchange.impulse_W - normal * n_W;
-    const double twisting = exchange.moment_W.dot(b.w_after - a.w_after);
-    double rubbing = friction_W.dot(u_after) + twisting;
+    const double twisting = exchange.moment_W.dot(meeting.w_after);
+    double rubbing = friction_W.dot(meeting.v_after) + twisting;
     if (rubbing > 0) {  // velocities are tangents of the arcs on which points go
-        const Vec3 way =
-            books.way_of(exchange.b, exchange.p_W) - books.way_of(exchange.a, exchange.p_W);
-        rubbing = friction_W.dot(way) / h + twisting;
+        rubbing = friction_W.dot(books.way(exchange.a, exchange.b, exchange.p_W)) / h + twisting;
     }
     if (law.stiffness > 0) {
         const auto stored = [&](double gap) {
@@ -71,17 +67,17 @@ void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& p
             return gap < 0 ? k * gap * gap / 2 : 0;
         };
         // velocities are those of the middle of steps
-        exchange.stored_before = stored(contact.gap - h / 2 * n_W.dot(u_before));
-        exchange.stored_after = stored(contact.gap + h / 2 * n_W.dot(u_after));
+        exchange.stored_before = stored(contact.gap - h / 2 * n_W.dot(meeting.v_before()));
+        exchange.stored_after = stored(contact.gap + h / 2 * n_W.dot(meeting.v_after));
         pressing = mean_work + exchange.stored_after - exchange.stored_before;
     } else if (law.restitution > 0) {
         // at what moment they meet is open within the step, and so what its loads do until then
         pressing = mean_work - std::abs(loads_at(contact, point) * h);
     }
     if (law.stiffness == 0 && law.compliance == 0)
-        books.check_gap(exchange.a, exchange.b, exchange.p_W, n_W, contact.gap);
+        books.check_gap(exchange, meeting, n_W, contact.gap);
     exchange.found = std::max(0.0, pressing) + std::max(0.0, rubbing);
-    books.take(exchange);
+    books.take(exchange, meeting);
 }
 
 double World::Impl::loads_at(const contact::Contact& contact, const btManifoldPoint& point) const {
@@ -97,10 +93,9 @@ double World::Impl::loads_at(const contact::Contact& contact, const btManifoldPo
 
 void World::Impl::take_joints(double h) {
     for (size_t i = 0; i < joints.size(); ++i) {
-        const Vec3 p_W = joints.acts_at(i);
-        const Books::Velocities a = books.velocities_at(joints.a(i).item, p_W);
-        const Books::Velocities b = books.velocities_at(joints.b(i).item, p_W);
-        books.take(joints.exchange(i, h, a, b));
+        const Books::Meeting meeting =
+            books.meet(joints.a(i).item, joints.b(i).item, joints.acts_at(i));
+        books.take(joints.exchange(i, h, meeting), meeting);
     }
 }
 

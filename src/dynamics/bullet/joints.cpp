@@ -286,8 +286,7 @@ double Joints::stored(const Joint& joint, double h, const Vec3& v_W, const Vec3&
                                              : spec.curve.energy(stretch));
 }
 
-Books::Exchange Joints::exchange(size_t i, double h, const Books::Velocities& a,
-                                 const Books::Velocities& b) const noexcept {
+Books::Exchange Joints::exchange(size_t i, double h, const Books::Meeting& meeting) const noexcept {
     const Joint& joint = joints_[i];
     const JointState& state = states_[i];
     Books::Exchange out{.a = joint.a.item,
@@ -296,17 +295,13 @@ Books::Exchange Joints::exchange(size_t i, double h, const Books::Velocities& a,
                         .impulse_W = h * state.force_W,
                         .moment_W = h * state.torque_W,
                         .joint = static_cast<int>(i)};
-    const Vec3 v_before = b.v_before - a.v_before;
-    const Vec3 v_after = b.v_after - a.v_after;
-    const Vec3 w_before = b.w_before - a.w_before;
-    const Vec3 w_after = b.w_after - a.w_after;
-    out.stored_before = stored(joint, -h, v_before, w_before);
-    out.stored_after = stored(joint, h, v_after, w_after);
+    out.stored_before = stored(joint, -h, meeting.v_before(), meeting.w_before());
+    out.stored_after = stored(joint, h, meeting.v_after, meeting.w_after);
     if (!joint.led_from) return out;
     const auto& axis = joint.rows[2].J_b.row(0);
-    const double way = joint.spec.slides() ? axis.head<3>().dot(v_before + v_after)
-                                           : axis.tail<3>().dot(w_before + w_after);
-    out.given = joint.impulses[2][1] * way / 2;
+    const double rate = joint.spec.slides() ? axis.head<3>().dot(meeting.v_mean)
+                                            : axis.tail<3>().dot(meeting.w_mean);
+    out.given = joint.impulses[2][1] * rate;
     return out;
 }
 

@@ -88,9 +88,8 @@ class Joints {
     /// Where a joint's force acts on both bodies in the step: the second body's point at its
     /// beginning.
     const Vec3& acts_at(size_t i) const noexcept { return joints_[i].acts_at_W; }
-    /// What a joint did in a step of h, of which its bodies have these velocities at acts_at().
-    Books::Exchange exchange(size_t i, double h, const Books::Velocities& a,
-                             const Books::Velocities& b) const noexcept;
+    /// What a joint did in a step of h, whose bodies meet like this at acts_at().
+    Books::Exchange exchange(size_t i, double h, const Books::Meeting& meeting) const noexcept;
     /// Forgets the impulses.
     void forget() noexcept;
 

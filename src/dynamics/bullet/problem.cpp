@@ -65,8 +65,8 @@ void soften(contact::ProblemContact& contact, const contact::ContactProblem& pro
 /// What turns together, or about the contact's normal, goes on arcs, and stays together if points
 /// get to the ends of the same chord: by how much the points of both bodies move in the step
 /// otherwise than their velocities say, along the tangents. Velocities alone let a block on a
-/// turntable creep outward by w^2 r h / 2, and what swings between two fingers slip. Zero for
-/// bodies that roll on each other, whose points do not stay together.
+/// turntable creep outward by w^2 r h / 2, and what swings between two pads slip. Zero for bodies
+/// that roll on each other, whose points do not stay together; call for patches of contacts.
 Eigen::Vector2d along_arcs(const contact::ContactProblem& problem,
                            const contact::ProblemContact& contact, double h) {
     constexpr double kRolls = 0.01;  // as a share of the angular velocity
@@ -157,7 +157,7 @@ void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
             out.friction = point.m_combinedFriction;
             out.torsion_radius = torsion;
             out.compliance = carried(point).law.compliance;
-            out.slip = along_arcs(problem_, out, h);
+            if (manifold->getNumContacts() > 1) out.slip = along_arcs(problem_, out, h);
             if (carried(point).law.stiffness > 0) soften(out, problem_, carried(point).law, gap, h);
         }
     }
