@@ -39,6 +39,16 @@ def ring(sides, inner, outer, height):
     return faces
 
 
+def torus(radius, thickness, around, across):
+    def corner(i, j):
+        a, b = 2 * math.pi * (i % around) / around, 2 * math.pi * (j % across) / across
+        r = radius + thickness * math.cos(b)
+        return r * math.cos(a), r * math.sin(a), thickness * math.sin(b)
+
+    return [[corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)]
+            for i in range(around) for j in range(across)]
+
+
 def area(outline):
     return sum(a[0] * b[1] - b[0] * a[1] for a, b in zip(outline, outline[1:] + outline[:1])) / 2
 

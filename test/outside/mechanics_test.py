@@ -9,6 +9,7 @@ import sys
 import tempfile
 import unittest
 
+import made_meshes as made
 import numpy as np
 
 sys.path.append("test/cli")
@@ -378,6 +379,33 @@ class Rest(unittest.TestCase):
 
 
 class Drives(unittest.TestCase):
+    def test_a_block_stays_where_it_lies_on_a_turntable(self):
+        """With another one on top; the plate speeds up and slows down so gently that friction holds both."""
+        with tempfile.TemporaryDirectory() as name:
+            file = pathlib.Path(name, "turned.yaml")
+            file.with_name("scene.yaml").write_text("""object: block
+bodies:
+  - { name: plate, shape: box, size_mm: [500, 500, 20], position_mm: [0, 0, -10], driven: yes, friction: 0.5 }
+  - { name: block, shape: box, size_mm: [40, 40, 40], mass_g: 100, position_mm: [50, 0, 20], friction: 0.5 }
+  - { name: above, shape: box, size_mm: [40, 40, 40], mass_g: 100, position_mm: [60, 10, 60], friction: 0.5 }
+hand: { centre_mm: [0, 0, 1500], aperture_mm: 400, script: [{ name: wait, duration_s: 1 }] }
+""")
+            file.write_text("""title: turned
+scene: scene.yaml
+task:
+  states:
+    - { name: turn, drive: [{ body: plate, axis: [0, 0, 1], angle_deg: 720, duration_s: 6 }],
+        exits: [{ when: time, after_s: 7, outcome: done }] }
+  blocks: [{ name: b, kind: baseline, repeats: 1 }]
+""")
+            for solver in SOLVERS:
+                with self.subTest(solver=solver):
+                    result = dihaptic("run", str(file), "--out", name + "/" + solver, "--solver", solver)
+                    self.assertEqual(result.returncode, 0, result.stderr)
+                    session = dh.load(session_of(name + "/" + solver))
+                    for body, at in (("block", (0.05, 0, 0.02)), ("above", (0.06, 0.01, 0.06))):
+                        self.assertLess(abs(session[body + ".position"][-2] - at).max(), 1e-5)
+
     def test_that_follow_the_time_in_a_state_begin_at_its_beginning(self):
         """What lies on the plate is carried along without a slip: it needs less than friction gives."""
         with tempfile.TemporaryDirectory() as name:
@@ -405,6 +433,20 @@ task:
             self.assertLess(np.abs(np.diff(plate)).max(), 1.01e-3 * 0.03 * 11.3)
             self.assertGreater(plate.max(), 0.0599)
             self.assertLess(np.abs(plate - block).max(), 1e-7)
+
+
+class Concave(unittest.TestCase):
+    def test_a_ring_lies_flat_on_a_table(self):
+        """Its pieces have corners in line and faces that are hardly as thick as rounding."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "ring.obj")
+            file.write_bytes(made.obj(made.torus(30, 8, 16, 8)))
+            for solver in SOLVERS:
+                with self.subTest(solver=solver):
+                    w = world([TABLE, dh.Part(name="ring", shape="mesh", file=str(file), unit="mm", concave=True, mass_g=100,
+                                              position_mm=[0, 0, 9])], solver)
+                    w.step(500)
+                    self.assertLess(abs(w.bodies["ring"].position - (0, 0, 0.008)).max(), 1e-5)
 
 
 if __name__ == "__main__":
