@@ -212,6 +212,7 @@ class Nwb(unittest.TestCase):
 
     def test_who_did_it_and_where(self):
         general = self.file["general"]
+        self.assertEqual(self.text("general/session_id"), pathlib.Path(self.file.filename).parent.name)
         self.assertEqual(list(general["experimenter"].asstr()), ["Doe, J.", "Roe, R."])
         self.assertEqual(self.text("general/institution"), "University")
         self.assertEqual(self.text("general/lab"), "Hands")

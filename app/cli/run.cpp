@@ -299,11 +299,11 @@ MovementFigures run_movement(const SessionOptions& options, const std::string& n
 std::vector<std::string> movements_in(const std::string& folder) {
     std::vector<std::string> files;
     for (const auto& entry : fs::directory_iterator(folder)) {
-        if (entry.path().extension() == ".csv") files.push_back(entry.path().string());
+        if (task::is_movement(entry.path().string())) files.push_back(entry.path().string());
     }
     std::sort(files.begin(), files.end());
     if (files.empty()) {
-        throw Error({folder, 0}, "", "this folder has no .csv file",
+        throw Error({folder, 0}, "", "this folder has no .csv or .tsv file",
                     "Name a movement, or a folder of them.");
     }
     return files;

@@ -121,13 +121,15 @@ void measure_flight(const GraspTrace& trace, const ObjectFacts& object, Episode&
     const Vec3 p0 = samples[first].X_WB.p;
     // initial velocity of the parabola through the first two positions
     const Vec3 v0 = (samples[first + 1].X_WB.p - p0) / h - object.gravity * h / 2;
+    // in its first tick in the air it is on its way already
+    const double let_go_at = samples[first > 0 ? first - 1 : 0].X_WB.p.z();
     out.rise = out.off_path = 0;
     for (size_t i = first; i < out.range.last; ++i) {
         const double t = static_cast<double>(i - first) * h;
         const Vec3 path = p0 + t * v0 + t * t / 2 * object.gravity;
         const double off = (samples[i].X_WB.p - path).norm();
         out.off_path = std::isnan(off) ? off : std::max(out.off_path, off);
-        out.rise = std::max(out.rise, samples[i].X_WB.p.z() - p0.z());
+        out.rise = std::max(out.rise, samples[i].X_WB.p.z() - let_go_at);
     }
     if (first == 0) return;
     const Sample& release = samples[first - 1];

@@ -339,9 +339,9 @@ void write_study(hid_t general, const Study& study) {
     if (!study.keywords.empty()) write_dataset(general, "keywords", study.keywords);
 }
 
-void write_general(hid_t file, const SessionInfo& info) {
+void write_general(hid_t file, const SessionInfo& info, const std::string& session) {
     const Id general = create_group(file, "general");
-    write_dataset(general, "session_id", info.title);
+    write_dataset(general, "session_id", session);
     write_dataset(general, "experiment_description", info.title);
     write_study(general, info.study);
     if (!info.notes.empty()) {
@@ -381,15 +381,15 @@ void write_head(hid_t file, const SessionInfo& info) {
 }
 
 /// The whole file, under any name.
-void write_file(const std::string& name, RawLogReader& log, const NwbContent& content,
-                const std::function<void(double)>& progress) {
+void write_file(const std::string& name, const std::string& session, RawLogReader& log,
+                const NwbContent& content, const std::function<void(double)>& progress) {
     Id file = hdf5::create_file(name);
     {
         write_head(file, content.info);
         for (const char* group : {"analysis", "processing"}) create_group(file, group);
         const Id stimulus = create_group(file, "stimulus");
         for (const char* group : {"presentation", "templates"}) create_group(stimulus, group);
-        write_general(file, content.info);
+        write_general(file, content.info, session);
 
         const Id acquisition = create_group(file, "acquisition");
         FrameExporter exporter(acquisition, log);
@@ -438,7 +438,9 @@ void write_nwb(const SessionFolder& folder, const NwbContent& content,
                          shell_file(folder.path()));
     };
     try {
-        write_file(output.path(), log, content, progress);
+        const std::string session =
+            std::filesystem::path(folder.path()).lexically_normal().filename();
+        write_file(output.path(), session, log, content, progress);
     } catch (const hdf5::WriteFailure& e) {
         throw failed(e.what());
     }

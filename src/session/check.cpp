@@ -103,9 +103,10 @@ Checked check_file(const std::string& file, Diagnostics& diagnostics, const std:
                 person::read_population(file);
                 return {"population", {}};
             case task::FileKind::unknown:
-                diagnostics.error({file, 0}, "", "is no file that Dihaptic knows",
-                                  "A scene has 'bodies:', a rig 'devices:', an experiment "
-                                  "'scene:', a population 'traits:'; a movement ends in .csv.");
+                diagnostics.error(
+                    {file, 0}, "", "is no file that Dihaptic knows",
+                    "A scene has 'bodies:', a rig 'devices:', an experiment "
+                    "'scene:', a population 'traits:'; a movement ends in .csv or .tsv.");
                 return {"unknown", {}};
         }
     } catch (const Error& e) {

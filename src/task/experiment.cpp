@@ -29,8 +29,12 @@ Experiment read_experiment(const std::string& file, Diagnostics& diagnostics) {
     return experiment;
 }
 
+bool is_movement(const std::string& file) {
+    return file.ends_with(".csv") || file.ends_with(".tsv");
+}
+
 FileKind kind_of(const std::string& file) {
-    if (file.ends_with(".csv")) return FileKind::movement;
+    if (is_movement(file)) return FileKind::movement;
     const Node root = read_yaml(file);
     if (root.find("scene") != nullptr) return FileKind::experiment;
     if (root.find("bodies") != nullptr) return FileKind::scene;

@@ -90,5 +90,7 @@ Experiment read_experiment(const std::string& file, Diagnostics& diagnostics);
 enum class FileKind { scene, rig, experiment, movement, population, unknown };
 /// Tells the kind of a file from its name and its keys. Throws Error when it cannot be read.
 FileKind kind_of(const std::string& file);
+/// Whether a file is a movement by its name: tables of systems for capturing motion end in either.
+bool is_movement(const std::string& file);
 
 }  // namespace dihaptic::task

@@ -75,16 +75,16 @@ class Commands(unittest.TestCase):
             # b: the index was seen in one line of twelve
             thin = [line if i % 12 < 2 else ",".join(line.split(",")[:4] + [""] * 3 + ["0"]) for i, line in enumerate(lines)]
             late = lines[:-1] + ["1e303" + lines[-1][lines[-1].index(","):]]
-            for name, content in [("a", text), ("b", "\n".join(thin)), ("broken", text.replace("0.000,", "x,", 1)),
-                                  ("late", "\n".join(late))]:
-                pathlib.Path(f"{folder}/{name}.csv").write_text(content)
+            for name, content in [("a.csv", text), ("b.tsv", "\n".join(thin)), ("broken.csv", text.replace("0.000,", "x,", 1)),
+                                  ("late.csv", "\n".join(late))]:
+                pathlib.Path(folder, name).write_text(content)
             out = folder + "/out"
             result = dihaptic("run", "experiments/reach-to-grasp.yaml", "--movement", folder, "--out", out)
             self.assertEqual(result.returncode, 1)
             self.assertIn("broken.csv:2: error: time_ms: 'x' is not a number", result.stderr)
             self.assertRegex(result.stderr, r"late.csv:\d+: error: time_ms: time jumps from")
             self.assertIn("4 movements, 2 refused", result.stdout)
-            self.assertRegex(result.stdout, r"b.csv +[\d.]+ +[\d.]+ %! ")
+            self.assertRegex(result.stdout, r"b.tsv +[\d.]+ +[\d.]+ %! ")
             with open(out + "/summary.csv") as file:
                 rows = list(csv.DictReader(file))
             self.assertEqual([row["outcome"] for row in rows], ["done", "done", "refused", "refused"])
