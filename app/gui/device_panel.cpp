@@ -91,10 +91,11 @@ void DevicePanel::show_frame(const servo::Frame& frame) {
             .arg(overruns_)
             .arg((frame.status & servo::kForceOff) != 0 ? tr("Force is off.") : "") +
         (unbalanced_ > 0
-             ? tr("\nIn %1 of the frames shown %2.")
-                   .arg(unbalanced_)
-                   .arg(QString::fromStdString(std::string(describe(servo::kUnbalanced).what)))
+             ? tr("\nEnergy or momentum unbalanced in %1 of the frames shown.").arg(unbalanced_)
              : QString()));
+    const StatusRow& why = describe(servo::kUnbalanced);
+    const std::string text = std::string(why.what) + ": " + std::string(why.remedy);
+    loop_->setToolTip(unbalanced_ > 0 ? QString::fromStdString(text) : QString());
 }
 
 }  // namespace dihaptic::gui

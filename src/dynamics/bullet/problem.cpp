@@ -2,6 +2,8 @@
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
 
+#include <algorithm>
+
 #include "dynamics/bullet/carried.h"
 #include "dynamics/bullet/shape.h"
 
@@ -12,6 +14,9 @@ using contact::kFixed;
 
 /// What has not touched in a step may be met at any speed after it [m/s].
 constexpr double kFarApart = 1e6;
+
+/// What begins within something else is pushed out no faster than this [m/s]: it is not thrown.
+constexpr double kMostRecovery = 0.5;
 
 const contact::ProblemBody kRests;
 
@@ -153,7 +158,7 @@ void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
             out.p_BC_W = p_WC - from_bullet(b.getWorldTransform().getOrigin());
             out.R_WC = contact_frame(normal_of(point));
             const double gap = gap_of(point);
-            out.bias = (gap > 0 ? 1 : recovery) * gap / h;
+            out.bias = gap > 0 ? gap / h : std::max(recovery * gap / h, -kMostRecovery);
             out.friction = point.m_combinedFriction;
             out.torsion_radius = torsion;
             out.compliance = carried(point).law.compliance;
