@@ -11,10 +11,9 @@ struct Balance {
     double work = 0;              ///< in the step, by fingers, loads, motors, and what was set [J]
     double dissipated = 0;        ///< in the step, by friction, dampers and impacts [J]
     double energy_imbalance = 0;  ///< in the step, that came from nowhere [J]
-    double momentum_imbalance =
-        0;  ///< in the step, the largest of a body that no force explains [N*s]
-    double angular_imbalance = 0;  ///< likewise, of its angular momentum [N*m*s]
-    bool unbalanced = false;       ///< one of these is more than rounding, and the step, explain
+    double momentum_imbalance = 0;  ///< in the step, the largest that no force explains [N*s]
+    double angular_imbalance = 0;   ///< likewise, of its angular momentum [N*m*s]
+    bool unbalanced = false;        ///< one of these is more than rounding, and the step, explain
 
     double energy() const noexcept { return kinetic + potential; }
 };

@@ -379,24 +379,31 @@ class Rest(unittest.TestCase):
 
 
 class Drives(unittest.TestCase):
-    def test_a_block_stays_where_it_lies_on_a_turntable(self):
-        """With another one on top; the plate speeds up and slows down so gently that friction holds both."""
-        with tempfile.TemporaryDirectory() as name:
-            file = pathlib.Path(name, "turned.yaml")
-            file.with_name("scene.yaml").write_text("""object: block
+    def on_a_plate(self, folder, bodies, states):
+        """An experiment whose states drive a plate with bodies on it."""
+        pathlib.Path(folder, "scene.yaml").write_text(f"""object: block
 bodies:
-  - { name: plate, shape: box, size_mm: [500, 500, 20], position_mm: [0, 0, -10], driven: yes, friction: 0.5 }
-  - { name: block, shape: box, size_mm: [40, 40, 40], mass_g: 100, position_mm: [50, 0, 20], friction: 0.5 }
-  - { name: above, shape: box, size_mm: [40, 40, 40], mass_g: 100, position_mm: [60, 10, 60], friction: 0.5 }
-hand: { centre_mm: [0, 0, 1500], aperture_mm: 400, script: [{ name: wait, duration_s: 1 }] }
+  - {{ name: plate, shape: box, size_mm: [500, 500, 20], position_mm: [0, 0, -10], driven: yes, friction: 0.5 }}
+{bodies}hand: {{ centre_mm: [0, 0, 1500], aperture_mm: 400, script: [{{ name: wait, duration_s: 1 }}] }}
 """)
-            file.write_text("""title: turned
+        file = pathlib.Path(folder, "driven.yaml")
+        file.write_text(f"""title: driven
 scene: scene.yaml
 task:
   states:
+{states}  blocks: [{{ name: b, kind: baseline, repeats: 1 }}]
+""")
+        return file
+
+    def test_a_block_stays_where_it_lies_on_a_turntable(self):
+        """With another one on top; the plate speeds up and slows down so gently that friction holds both."""
+        with tempfile.TemporaryDirectory() as name:
+            file = self.on_a_plate(name, """\
+  - { name: block, shape: box, size_mm: [40, 40, 40], mass_g: 100, position_mm: [50, 0, 20], friction: 0.5 }
+  - { name: above, shape: box, size_mm: [40, 40, 40], mass_g: 100, position_mm: [60, 10, 60], friction: 0.5 }
+""", """\
     - { name: turn, drive: [{ body: plate, axis: [0, 0, 1], angle_deg: 720, duration_s: 6 }],
         exits: [{ when: time, after_s: 7, outcome: done }] }
-  blocks: [{ name: b, kind: baseline, repeats: 1 }]
 """)
             for solver in SOLVERS:
                 with self.subTest(solver=solver):
@@ -409,22 +416,13 @@ task:
     def test_that_follow_the_time_in_a_state_begin_at_its_beginning(self):
         """What lies on the plate is carried along without a slip: it needs less than friction gives."""
         with tempfile.TemporaryDirectory() as name:
-            file = pathlib.Path(name, "shaken.yaml")
-            file.with_name("scene.yaml").write_text("""object: block
-bodies:
-  - { name: plate, shape: box, size_mm: [500, 500, 20], position_mm: [0, 0, -10], driven: yes, friction: 0.5 }
+            file = self.on_a_plate(name, """\
   - { name: block, shape: box, size_mm: [40, 40, 40], mass_g: 100, position_mm: [100, 0, 20], friction: 0.5 }
-hand: { centre_mm: [0, 0, 1500], aperture_mm: 400, script: [{ name: wait, duration_s: 1 }] }
-""")
-            file.write_text("""title: shaken
-scene: scene.yaml
-task:
-  states:
+""", """\
     - { name: rest, exits: [{ when: time, after_s: 1, to: shake }] }
     - name: shake
       drive: [{ body: plate, along: [30 mm * (1 - cos(11.3 * time_in_state / (1 s))), 0 mm, 0 mm] }]
       exits: [{ when: time, after_s: 1, outcome: done }]
-  blocks: [{ name: b, kind: baseline, repeats: 1 }]
 """)
             result = dihaptic("run", str(file), "--out", name)
             self.assertEqual(result.returncode, 0, result.stderr)

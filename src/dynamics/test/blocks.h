@@ -28,6 +28,14 @@ inline scene::Body box(const std::string& name, const Vec3& size, const Vec3& po
 inline scene::Body table(double friction = 0.8) {
     return box("table", {2, 2, 0.1}, {0, 0, -0.05}, 0, friction);
 }
+inline scene::Body plane(double friction = 0.8) {
+    scene::Body body;
+    body.name = "plane";
+    body.shape.kind = scene::ShapeKind::plane;
+    body.fixed = true;
+    body.friction = friction;
+    return body;
+}
 inline scene::Body block(const Vec3& position, double friction = 0.8) {
     return box("block", Vec3::Constant(0.04), position, 0.1, friction);
 }

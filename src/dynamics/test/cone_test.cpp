@@ -25,15 +25,6 @@ scene::Body cone(const Size& size, double friction = 0.8) {
     return out;
 }
 
-scene::Body plane() {
-    scene::Body out;
-    out.name = "plane";
-    out.shape.kind = scene::ShapeKind::plane;
-    out.fixed = true;
-    out.friction = 0.8;
-    return out;
-}
-
 /// A cone that lies on its side with its tip at the origin, its base toward x.
 Pose on_its_side(const Size& size) {
     Pose out;

@@ -34,12 +34,7 @@ World spun(double tilt) {
     disc.shape.length = kThickness;
     disc.mass = 0.1;
     disc.friction = 1;
-    scene::Body plane;
-    plane.name = "plane";
-    plane.shape.kind = scene::ShapeKind::plane;
-    plane.fixed = true;
-    plane.friction = 1;
-    World world = make({plane, disc}, awake());
+    World world = make({plane(1), disc}, awake());
     const Quat R = rotation_by(tilt * Vec3::UnitX());
     world.set_pose({1}, {R, {0, 0, kRadius * std::sin(tilt) + kHalf * std::cos(tilt)}});
     const Vec3 along_radius = R * Vec3(0, 1, kHalf / kRadius);

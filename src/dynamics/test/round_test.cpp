@@ -156,14 +156,6 @@ scene::Body lying(scene::ShapeKind kind, double radius, double length) {
     return out;
 }
 
-scene::Body plane() {
-    scene::Body out;
-    out.name = "plane";
-    out.shape.kind = scene::ShapeKind::plane;
-    out.fixed = true;
-    return out;
-}
-
 TEST(Round, WhatRollsOnALevelGoesOnAsItWas) {
     struct Size {
         double radius, length;
@@ -182,7 +174,7 @@ TEST(Round, WhatRollsOnALevelGoesOnAsItWas) {
                                  {0.1, 0.2}}) {
             for (const auto kind : {scene::ShapeKind::cylinder, scene::ShapeKind::capsule}) {
                 for (const scene::Body& ground :
-                     {plane(), box("plane", {9, 2, 0.1}, {0, 0, -0.05}, 0)}) {
+                     {plane(scene::Body{}.friction), box("plane", {9, 2, 0.1}, {0, 0, -0.05}, 0)}) {
                     Settings settings = awake();
                     settings.solver = solver;
                     World world = make({ground, lying(kind, size.radius, size.length)}, settings);
@@ -212,7 +204,7 @@ TEST(Round, ACanThatIsTiltedFallsBackOrOverByWhereItsCentreIs) {
             can.rotation = angles_xyz(R);
             const double low = std::cos(share * limit) * 0.03 + std::sin(share * limit) * 0.02;
             can.position = {0, 0, low};
-            World world = make({plane(), can}, awake());
+            World world = make({plane(scene::Body{}.friction), can}, awake());
             for (int i = 0; i < 3000; ++i) world.step(kStep);
             const double upright = (world.state({1}).X_WB.R * Vec3::UnitZ()).z();
             EXPECT_EQ(upright > 0.99, share < 1) << share << " " << upright;

@@ -23,15 +23,6 @@ scene::Body top() {
     return out;
 }
 
-scene::Body floor() {
-    scene::Body out;
-    out.name = "plane";
-    out.shape.kind = scene::ShapeKind::plane;
-    out.fixed = true;
-    out.friction = 0.3;
-    return out;
-}
-
 /// What the top has, per mass.
 struct Has {
     double up;       ///< cosine of its tilt
@@ -53,7 +44,7 @@ Has look(const BodyState& now) {
 World spinning(double rate, Solver solver) {
     Settings settings = awake();
     settings.solver = solver;
-    World world = make({floor(), top()}, settings);
+    World world = make({plane(0.3), top()}, settings);
     world.set_pose({1}, {rotation_by(0.1 * Vec3::UnitX()), {0, 0, kRadius}});
     world.set_motion({1}, Vec3::Zero(), {0, 0, rate});
     return world;
