@@ -466,11 +466,11 @@ void try_edges(const Corners& a, const Placed& b, double margin, Best& best) {
     if (nearest == nullptr) return;
     if (core.radius > 0)
         look(a.vertex(nearest->from), a.vertex(nearest->to) - a.vertex(nearest->from), kMostTurns);
-    if (!(least > kTogether)) return;
     const auto along = [&](const Vec3& u) {
         return u.dot(b.centre) - b.extent(-u) - a.furthest(u);
     };
-    const Vec3 u = (on_b - on_a) / least;
+    // an edge that is within the core leaves the best axis so far to climb from
+    const Vec3 u = least > kTogether ? Vec3((on_b - on_a) / least) : best.axis;
     best.take(along(u), u, Best::line);
     if (core.radius > 0) climb(along, margin, best);
     if (b.shape.is_cone()) walk_around(b, -1, along, margin, best);

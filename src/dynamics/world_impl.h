@@ -58,6 +58,7 @@ struct World::Impl {
         Vec3 L_W = Vec3::Zero();      // angular momentum about its centre of mass, after the step
         btVector3 v_before{0, 0, 0};  // before contacts acted
         btVector3 w_before{0, 0, 0};
+        int stood = 0;                // steps for which it waited where it was
         bool bounces = false;         // in this step
         btVector3 v_leaves{0, 0, 0};  // if so: velocities after it
         btVector3 w_leaves{0, 0, 0};
@@ -167,6 +168,12 @@ struct World::Impl {
     contact::SolveStats solve(double h);
     contact::SolveStats solve_with_entered(double h, const Vec3& gravity,
                                            std::vector<BodyState>& states);
+    /// Bounds what moves by its present velocities, where contacts changed them by much.
+    void widen_bounds(double h);
+    /// Lets bodies that would still enter others wait in front of them.
+    void hold_back(double h, contact::Work& search);
+    /// Has both bodies of a joint wait if one does, or the joint would tear. False if all do.
+    bool wait_together();
     contact::SolveStats solve_island(double h, bool held);
     /// Solves the island again for the velocities after the step, where something bounces.
     void let_bounce(const contact::SolveSettings& how, double h, contact::SolveStats& stats);

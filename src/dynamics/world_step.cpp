@@ -274,17 +274,11 @@ contact::SolveStats World::Impl::solve_with_entered(double h, const Vec3& gravit
     work = has_fingers ? contact::Work(kMostSolveWork) : contact::Work();
     contact::Work search = has_fingers ? contact::Work(kMostSearchWork) : contact::Work();
     contact::SolveStats stats = solve(h);
+    bool clear = false;
     for (int pass = 0; pass < kMostPasses && all_sound(); ++pass) {
-        for (const size_t i : awake) {
-            if (items[i].is_point) continue;
-            btRigidBody& body = *items[i].body;
-            body.setInterpolationLinearVelocity(body.getLinearVelocity());
-            body.setInterpolationAngularVelocity(body.getAngularVelocity());
-            const btVector3 change = body.getLinearVelocity() - items[i].v_before;
-            if (h * change.length() <= kKnocked) continue;
-            for (const auto& part : items[i].parts) collision->widen_bounds(*part, h);
-        }
-        if (!collision->find_entered(h, settings.penetration_recovery, search)) break;
+        widen_bounds(h);
+        clear = !collision->find_entered(h, settings.penetration_recovery, search);
+        if (clear) break;
         collect_awake(states);
         open_books(gravity, true);
         prepare_contacts(collision->entered(), h);
@@ -299,12 +293,57 @@ contact::SolveStats World::Impl::solve_with_entered(double h, const Vec3& gravit
         stats.iterations += before.iterations;
         stats.work += before.work;
     }
+    if (!clear || collision->is_unsure()) hold_back(h, search);
     stats.work += search.spent();
     if (collision->search_was_cut()) {
         stats.missed = stats.ended = true;
         stats.route = contact::Route::out_of_work;
     }
     return stats;
+}
+
+void World::Impl::widen_bounds(double h) {
+    for (const size_t i : awake) {
+        if (items[i].is_point) continue;
+        btRigidBody& body = *items[i].body;
+        body.setInterpolationLinearVelocity(body.getLinearVelocity());
+        body.setInterpolationAngularVelocity(body.getAngularVelocity());
+        const btVector3 change = body.getLinearVelocity() - items[i].v_before;
+        if (h * change.length() <= kKnocked) continue;
+        for (const auto& part : items[i].parts) collision->widen_bounds(*part, h);
+    }
+}
+
+void World::Impl::hold_back(double h, contact::Work& search) {
+    constexpr int kMostRounds = 8;  // what waits may be run into
+    widen_bounds(h);
+    for (int round = 0; round < kMostRounds && all_sound(); ++round) {
+        if (!collision->hold_back(h, search)) break;
+        while (wait_together()) continue;
+    }
+    for (const size_t i : awake) {
+        constexpr double kStands = 0.01;
+        constexpr int kMostStood = 2;  // [steps]: by then contacts had their chance
+        Item& item = items[i];
+        if (item.body->getHitFraction() >= kStands || ++item.stood <= kMostStood) continue;
+        item.body->setHitFraction(1);
+    }
+}
+
+bool World::Impl::wait_together() {
+    bool found = false;
+    for (size_t i = 0; i < joints.size(); ++i) {
+        const Joints::Side& a = joints.a(i);
+        const Joints::Side& b = joints.b(i);
+        if (a.fixed || b.fixed) continue;
+        btRigidBody& one = *items[a.at()].body;
+        btRigidBody& other = *items[b.at()].body;
+        const double share = std::min(one.getHitFraction(), other.getHitFraction());
+        found = found || one.getHitFraction() != other.getHitFraction();
+        one.setHitFraction(share);
+        other.setHitFraction(share);
+    }
+    return found;
 }
 
 void World::Impl::prepare_contacts(std::span<btPersistentManifold* const> manifolds, double h) {
@@ -602,8 +641,12 @@ void World::Impl::integrate_positions(double h) {
             item.L_W = momentum(item, limited(from_bullet(item.w_start + change), h));
         }
         btTransform next;
+        const bool is_led = item.is_driven || item.drive_to;
         btTransformUtil::integrateTransform(body.getWorldTransform(), body.getLinearVelocity(),
-                                            body.getAngularVelocity(), h, next);
+                                            body.getAngularVelocity(),
+                                            is_led ? h : h * body.getHitFraction(), next);
+        if (body.getHitFraction() == 1) item.stood = 0;
+        body.setHitFraction(1);
         body.setWorldTransform(next);
         body.updateInertiaTensor();
         if (!item.bounces) continue;

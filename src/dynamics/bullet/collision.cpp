@@ -20,9 +20,10 @@ constexpr double kApproach = 3e-3;  // [m]
 constexpr double kHullMargin = 2e-3;      // [m]
 constexpr double kMostHullMargin = 5e-2;  // [m]
 
-/// Bodies that enter each other are searched at least once in this distance along their way [m].
+/// Bodies that enter each other are searched at least once in this distance along their way, and in
+/// half of what both together are thick, so that what comes in is seen before it leaves [m].
 constexpr double kStride = 2e-3;
-constexpr double kMostStrides = 64;
+constexpr double kMostStrides = 256;
 
 /// What a stride of two shapes counts as [visits]: the axes that may part polyhedra, times
 /// vertices.
@@ -94,6 +95,14 @@ bool look_back(const btPersistentManifold& manifold, btManifoldPoint& point,
     point.m_positionWorldOnB = where;
     const double share = point.m_distance1 < 0 ? recovery : 1;
     return entered && share * point.m_distance1 + h * apart < -kEntered;
+}
+
+/// The least gap of a manifold's contacts, none above zero [m].
+double depth_of(const btPersistentManifold& manifold) {
+    double least = 0;
+    for (int i = 0; i < manifold.getNumContacts(); ++i)
+        least = std::min<double>(least, manifold.getContactPoint(i).m_distance1);
+    return least;
 }
 
 /// Whether bodies that touch are soft there.
@@ -220,7 +229,7 @@ void Collision::forget() {
 }
 
 void Collision::find_contacts(double h) {
-    search_was_cut_ = false;
+    search_was_cut_ = is_unsure_ = false;
     step_ = h;
     btDispatcherInfo info;
     info.m_timeStep = h;
@@ -361,8 +370,9 @@ bool Collision::affords(contact::Work& work, int64_t visits) {
     return !search_was_cut_;
 }
 
-bool Collision::enters(btBroadphasePair& pair, double h, double recovery, btPersistentManifold& out,
-                       contact::Work& work) {
+template <class Visit>
+double Collision::walk(btBroadphasePair& pair, double h, int first, btPersistentManifold& out,
+                       contact::Work& work, const Visit& visit) {
     const CollisionPart& part_a = part(pair.m_pProxy0);
     const CollisionPart& part_b = part(pair.m_pProxy1);
     btRigidBody& a = *btRigidBody::upcast(part_a.body);
@@ -374,38 +384,79 @@ bool Collision::enters(btBroadphasePair& pair, double h, double recovery, btPers
     const btCollisionObjectWrapper a_wrap(nullptr, part_a.shape.get(), &a, X_WA, -1, -1);
     const btCollisionObjectWrapper b_wrap(nullptr, part_b.shape.get(), &b, X_WB, -1, -1);
     const double way = approach(a_wrap, b_wrap, h);
-    if (!(way > kEntered)) return false;  // also false if it is not a number
+    if (!(way > kEntered)) return 1;  // also if it is not a number
     scratch_.resizeNoInitialize(0);
     if (pair.m_algorithm != nullptr) pair.m_algorithm->getAllContactManifolds(scratch_);
     // bodies enter soft ones, as far as their contact lets them
-    if (scratch_.size() > 0 && is_soft(*scratch_[0])) return false;
+    if (scratch_.size() > 0 && is_soft(*scratch_[0])) return 1;
     const bool swapped = scratch_.size() > 0 && scratch_[0]->getBody0() != &a;
     out.setBodies(swapped ? &b : &a, swapped ? &a : &b);
-    const auto strides = static_cast<int>(std::clamp(std::ceil(way / kStride), 1.0, kMostStrides));
+    const double stride = std::min(kStride, (part_a.thickness + part_b.thickness) / 2);
+    const auto strides = static_cast<int>(std::clamp(std::ceil(way / stride), 1.0, kMostStrides));
     const int64_t visits = stride_visits(part_a, part_b);
-    bool found = false;
-    for (int stride = 1; stride <= strides && !found && affords(work, visits); ++stride) {
-        const double t = h * stride / strides;
-        move_on(a, from_a, t);
-        move_on(b, from_b, t);
+    const auto found_at = [&](double share) {
+        move_on(a, from_a, share * h * a.getHitFraction());
+        move_on(b, from_b, share * h * b.getHitFraction());
         out.clearManifold();
         X_WA = part_a.X_WS();
         X_WB = part_b.X_WS();
         btCollisionAlgorithm* algorithm =
             dispatcher_.findAlgorithm(&a_wrap, &b_wrap, &out, BT_CONTACT_POINT_ALGORITHMS);
-        if (algorithm == nullptr) break;
+        if (algorithm == nullptr) return false;
         btManifoldResult result(&a_wrap, &b_wrap);
         result.m_closestPointDistanceThreshold = kHullMargin;
         algorithm->processCollision(&a_wrap, &b_wrap, btDispatcherInfo(), &result);
         algorithm->~btCollisionAlgorithm();
         dispatcher_.freeCollisionAlgorithm(algorithm);
-        const btTransform& from_0 = swapped ? from_b : from_a;
-        const btTransform& from_1 = swapped ? from_a : from_b;
-        for (int i = 0; i < out.getNumContacts(); ++i)
-            found |= look_back(out, out.getContactPoint(i), from_0, from_1, t, h, recovery);
+        return visit(swapped ? from_b : from_a, swapped ? from_a : from_b, share * h);
+    };
+    double free = 0;
+    double met = 2;
+    for (int k = first; k <= strides && met > 1 && affords(work, visits); ++k) {
+        const double share = static_cast<double>(k) / strides;
+        (found_at(share) ? met : free) = share;
     }
     a.setWorldTransform(from_a);
     b.setWorldTransform(from_b);
+    return met <= 1 ? free : 1;
+}
+
+bool Collision::enters(btBroadphasePair& pair, double h, double recovery, btPersistentManifold& out,
+                       contact::Work& work) {
+    return walk(pair, h, 1, out, work,
+                [&](const btTransform& from_0, const btTransform& from_1, double t) {
+                    bool found = false;
+                    const bool is_in = depth_of(out) < -kEntered;
+                    for (int i = 0; i < out.getNumContacts(); ++i)
+                        found |=
+                            look_back(out, out.getContactPoint(i), from_0, from_1, t, h, recovery);
+                    is_unsure_ = is_unsure_ || (is_in && !found);
+                    return found;
+                }) < 1;
+}
+
+bool Collision::hold_back(double h, contact::Work& work) {
+    if (live_is_stale_ || live_version_ != pairs_.version) list_live_pairs();
+    btPersistentManifold& out = waiting_;
+    const auto keep_out = [&](btBroadphasePair& pair) {
+        double at_first = 0;
+        const double share =
+            walk(pair, h, 0, out, work, [&](const btTransform&, const btTransform&, double t) {
+                const double now = depth_of(out);
+                if (t == 0) at_first = now;
+                return now < at_first - kEntered;
+            });
+        const bool is_in = at_first < -kEntered;
+        if (share == 1 || (is_in && share == 0)) return false;
+        for (const btBroadphaseProxy* proxy : {pair.m_pProxy0, pair.m_pProxy1})
+            part(proxy).body->setHitFraction(share * part(proxy).body->getHitFraction());
+        return true;
+    };
+    bool found = false;
+    for (const int i : live_) {
+        if (keep_out(pairs_.getOverlappingPairArray()[i])) found = true;
+        if (search_was_cut_) break;
+    }
     return found;
 }
 

@@ -52,6 +52,13 @@ class Collision {
     /// does. Strides along the way are counted in `work`, and the search ends where they are used
     /// up: search_was_cut().
     bool find_entered(double h, double recovery, contact::Work& work);
+    /// The last resort against what find_entered() has no answer to: bodies that would still enter
+    /// each other go only a share of their way in the step, their hit fraction, which is 1 before
+    /// the first call. False if there are none.
+    bool hold_back(double h, contact::Work& work);
+    /// Whether find_entered() may have left something since the last find_contacts(): it had no
+    /// room for more, or took bodies for leaving each other where they are within.
+    bool is_unsure() const { return is_unsure_ || entered_count_ == kMostEntered; }
     /// Whether find_entered() left out strides since the last find_contacts().
     bool search_was_cut() const { return search_was_cut_; }
 
@@ -113,6 +120,13 @@ class Collision {
     bool look_at(btBroadphasePair& pair, const btDispatcherInfo& info);
     /// Whether there is work for another stride, which it spends; notes if there is none.
     bool affords(contact::Work& work, int64_t visits);
+    /// Goes along the way of two parts in a step, from its stride `first` on, as far as their
+    /// bodies' hit fractions let them, and calls `visit` with where both bodies began and the time
+    /// since [s], once `out` has their contacts there. Returns the share of the way up to which it
+    /// did not return true.
+    template <class Visit>
+    double walk(btBroadphasePair& pair, double h, int first, btPersistentManifold& out,
+                contact::Work& work, const Visit& visit);
     bool enters(btBroadphasePair& pair, double h, double recovery, btPersistentManifold& out,
                 contact::Work& work);
 
@@ -150,6 +164,7 @@ class Collision {
     btManifoldArray scratch_;
     std::vector<std::unique_ptr<btPersistentManifold>> entered_;  // room for what is found late
     size_t entered_count_ = 0;
+    btPersistentManifold waiting_;            // of two bodies, in hold_back()
     std::vector<btPersistentManifold*> new_;  // of the last find_entered()
     std::vector<int> live_;                   // pairs with an awake body, by index into the cache
     int64_t live_version_ = -1;               // of the pairs that live_ was made from
@@ -157,6 +172,7 @@ class Collision {
     std::vector<char> looked_at_;  // by pair
     bool overflowed_ = false;
     bool search_was_cut_ = false;
+    bool is_unsure_ = false;
 };
 
 constexpr int kAwake = 1;

@@ -83,6 +83,23 @@ std::optional<Round> round(const scene::Shape& shape) {
     }
 }
 
+double thickness_of(const btCollisionShape& shape, const Polyhedron* polyhedron) {
+    double least = BT_LARGE_FLOAT;
+    if (polyhedron == nullptr) {
+        btVector3 low;
+        btVector3 high;
+        shape.getAabb(btTransform::getIdentity(), low, high);
+        const btVector3 extent = high - low;
+        return extent[extent.minAxis()];
+    }
+    for (const Polyhedron::Face& face : polyhedron->faces) {
+        double low = face.offset;
+        for (const Vec3& v : polyhedron->vertices) low = std::min(low, face.normal.dot(v));
+        least = std::min(least, face.offset - low);
+    }
+    return least;
+}
+
 /// Outward normals of the faces of part `of` that the other parts cover.
 std::vector<Vec3> covered_faces(const std::vector<scene::ConvexPart>& parts, size_t of,
                                 const Polyhedron& polyhedron) {
@@ -138,6 +155,7 @@ std::vector<std::unique_ptr<CollisionPart>> collision_parts(const scene::Shape& 
         if (part->polyhedron)
             part->polyhedron->covered = covered_faces(parts, i, *part->polyhedron);
         part->round = round(convex.shape);
+        part->thickness = thickness_of(*part->shape, part->polyhedron.get());
         part->shape->setUserPointer(part.get());
         part->X_MS = to_bullet(X_MS);
         part->moved = !X_MS.p.isZero(0) || !X_MS.R.vec().isZero(0);

@@ -51,6 +51,16 @@ inline scene::Joint joint(scene::JointKind kind, std::vector<std::string> betwee
     return out;
 }
 
+/// A body as a scene file in scenes/ has it.
+inline scene::Body body_from(const std::string& yaml) {
+    scene::Scene scene;
+    Diagnostics diagnostics;
+    read_fields(scene, parse_yaml("bodies:\n  - " + yaml, "test"), diagnostics);
+    scene::complete(scene, "scenes", diagnostics);
+    diagnostics.throw_if_errors();
+    return scene.bodies.at(0);
+}
+
 /// Settings with which nothing sleeps.
 inline Settings awake() {
     Settings settings;

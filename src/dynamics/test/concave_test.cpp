@@ -15,18 +15,9 @@ namespace {
 
 constexpr int kSeconds = 1000;  // steps
 
-scene::Body body(const std::string& yaml) {
-    scene::Scene scene;
-    Diagnostics diagnostics;
-    read_fields(scene, parse_yaml("bodies:\n  - " + yaml, "test"), diagnostics);
-    scene::complete(scene, "scenes", diagnostics);
-    diagnostics.throw_if_errors();
-    return scene.bodies.at(0);
-}
-
 scene::Body cup(const std::string& rest) {
-    return body("{name: cup, shape: mesh, file: ../meshes/cup.obj, unit: mm, concave: yes, " +
-                rest + "}");
+    return body_from("{name: cup, shape: mesh, file: ../meshes/cup.obj, unit: mm, concave: yes, " +
+                     rest + "}");
 }
 
 void run(World& world, int steps) {
@@ -34,10 +25,11 @@ void run(World& world, int steps) {
 }
 
 TEST(Concave, ABallFallsIntoACupAndRestsOnItsBottom) {
-    World world = make({table(), cup("mass_g: 100"),
-                        body("{name: ball, shape: sphere, radius_mm: 10, mass_g: 20, position_mm: "
-                             "[5, 3, 60]}")},
-                       awake());
+    World world =
+        make({table(), cup("mass_g: 100"),
+              body_from("{name: ball, shape: sphere, radius_mm: 10, mass_g: 20, position_mm: "
+                        "[5, 3, 60]}")},
+             awake());
     run(world, kSeconds);
     const Vec3 ball = world.states()[2].X_WB.p;
     EXPECT_NEAR(ball.z(), 0.004 + 0.010, 2e-4);
@@ -52,8 +44,8 @@ TEST(Concave, ABallFallsIntoACupAndRestsOnItsBottom) {
 
 TEST(Concave, ACupStandsOverABallThatItWouldCrushWereItSolid) {
     World world = make({table(),
-                        body("{name: ball, shape: sphere, radius_mm: 10, mass_g: 20, "
-                             "position_mm: [0, 0, 10]}"),
+                        body_from("{name: ball, shape: sphere, radius_mm: 10, mass_g: 20, "
+                                  "position_mm: [0, 0, 10]}"),
                         cup("mass_g: 100, rotation_deg: [180, 0, 0], position_mm: [0, 0, 80.5]")},
                        awake());
     run(world, 300);
@@ -63,16 +55,16 @@ TEST(Concave, ACupStandsOverABallThatItWouldCrushWereItSolid) {
 
 TEST(Concave, AMugHangsOnAHookBelowWhereItsHandleRests) {
     // the handle's bar rests across the hook's bend; friction lets the mug swing to rest below it
-    const scene::Body mug_body = body(
+    const scene::Body mug_body = body_from(
         "{name: mug, shape: compound, mass_g: 150, friction: 0.3, rotation_deg: [0, 0, 90], "
         "position_mm: [16, 45, -61.7], parts: ["
         "{shape: mesh, file: ../meshes/cup.obj, unit: mm, concave: yes}, "
         "{shape: box, size_mm: [24, 8, 6], position_mm: [-42, 0, 65]}, "
         "{shape: box, size_mm: [24, 8, 6], position_mm: [-42, 0, 21]}, "
         "{shape: box, size_mm: [6, 8, 50], position_mm: [-57, 0, 43]}]}");
-    World world = make({body("{name: hook, shape: mesh, file: ../meshes/hook.obj, unit: mm, "
-                             "concave: yes, fixed: yes, "
-                             "friction: 0.3}"),
+    World world = make({body_from("{name: hook, shape: mesh, file: ../meshes/hook.obj, unit: mm, "
+                                  "concave: yes, fixed: yes, "
+                                  "friction: 0.3}"),
                         mug_body});
     run(world, 4 * kSeconds);
     const BodyState& mug = world.states()[1];
@@ -124,10 +116,11 @@ TEST(Concave, RingsLieOnATableAsTheyFall) {
         SCOPED_TRACE(around);
         const testing::TemporaryFolder folder;
         const std::string file = folder.write("ring.obj", ring(30, 8, around, across));
-        World world = make({table(), body("{name: ring, shape: mesh, file: " + file +
-                                          ", unit: mm, concave: yes, mass_g: 100, position_mm: "
-                                          "[0, 0, 9]}")},
-                           awake());
+        World world =
+            make({table(), body_from("{name: ring, shape: mesh, file: " + file +
+                                     ", unit: mm, concave: yes, mass_g: 100, position_mm: "
+                                     "[0, 0, 9]}")},
+                 awake());
         bool balanced = true;
         for (int i = 0; i < 500; ++i) {
             ASSERT_EQ(world.step(kStep), StepStatus::ok) << i;
@@ -146,9 +139,10 @@ TEST(Concave, ABallInABowlLosesLessThanItsFacetsTake) {
     const std::string bowl =
         "{name: bowl, shape: mesh, file: ../meshes/bowl.obj, unit: mm, concave: yes, fixed: yes, "
         "friction: 0}";
-    World world = make({body(bowl), body("{name: ball, shape: sphere, radius_mm: 10, mass_g: 20, "
+    World world =
+        make({body_from(bowl), body_from("{name: ball, shape: sphere, radius_mm: 10, mass_g: 20, "
                                          "friction: 0, position_mm: [60, 3, -79]}")},
-                       awake());
+             awake());
     world.step(kStep);
     const double before = world.balance().energy();
     run(world, kSeconds);
@@ -157,7 +151,7 @@ TEST(Concave, ABallInABowlLosesLessThanItsFacetsTake) {
 
 TEST(Concave, ACompoundTurnsAboutItsCentreOfMass) {
     // a dumbbell of unequal boxes in free flight: its centre falls, its momentum stays
-    const scene::Body dumbbell = body(
+    const scene::Body dumbbell = body_from(
         "{name: d, shape: compound, mass_g: 300, position_mm: [0, 0, 500], parts: ["
         "{shape: box, size_mm: [20, 20, 20], position_mm: [50, 0, 0]}, "
         "{shape: box, size_mm: [20, 20, 10], position_mm: [-50, 0, 0]}]}");
@@ -175,7 +169,7 @@ TEST(Concave, ACompoundTurnsAboutItsCentreOfMass) {
 }
 
 TEST(Concave, ACompoundTakesTheSamePlaceAsTheBoxThatItMakesUp) {
-    const scene::Body halves = body(
+    const scene::Body halves = body_from(
         "{name: halves, shape: compound, mass_g: 100, position_mm: [0, 0, 20], parts: ["
         "{shape: box, size_mm: [20, 40, 40], position_mm: [10, 0, 0]}, "
         "{shape: box, size_mm: [20, 40, 40], position_mm: [-10, 0, 0]}]}");
@@ -193,7 +187,7 @@ TEST(Concave, ACompoundTakesTheSamePlaceAsTheBoxThatItMakesUp) {
 }
 
 TEST(Concave, ABlockSlidesOverTheSeamOfTwoParts) {
-    const scene::Body boards = body(
+    const scene::Body boards = body_from(
         "{name: boards, shape: compound, fixed: yes, friction: 0.2, parts: ["
         "{shape: box, size_mm: [200, 100, 20], position_mm: [-100, 0, -10]}, "
         "{shape: box, size_mm: [200, 100, 20], position_mm: [100, 0, -10]}]}");
@@ -209,10 +203,11 @@ TEST(Concave, ABlockSlidesOverTheSeamOfTwoParts) {
 TEST(Concave, StepsAllocateNothingAndRepeatToTheBit) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     const auto fill = [] {
-        return make({table(), cup("mass_g: 100"),
-                     body("{name: ball, shape: sphere, radius_mm: 10, mass_g: 20, position_mm: [5, "
-                          "3, 60]}")},
-                    awake());
+        return make(
+            {table(), cup("mass_g: 100"),
+             body_from("{name: ball, shape: sphere, radius_mm: 10, mass_g: 20, position_mm: [5, "
+                       "3, 60]}")},
+            awake());
     };
     World first = fill();
     World second = fill();
