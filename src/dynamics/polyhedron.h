@@ -54,6 +54,9 @@ struct ContactPoint {
     Vec3 p_WA;   ///< on A's surface [m]
     Vec3 p_WB;   ///< on B's surface [m]
     double gap;  ///< from A to B along the normal; negative: overlap [m]
+    /// From here to where a rim that rolls will touch in the middle of the step, but for how its
+    /// body moves on [m].
+    Vec3 ahead_W = Vec3::Zero();
 };
 
 /// Up to four contact points with a common normal.

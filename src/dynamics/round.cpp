@@ -22,6 +22,13 @@ constexpr int kMostTurns = 60;
 /// Closest points nearer than this tell no direction [m].
 constexpr double kTogether = 1e-9;
 
+/// The direction across an axis that is nearest to d, or `otherwise` if they are parallel.
+Vec3 radial(const Vec3& axis, const Vec3& d, const Vec3& otherwise) {
+    constexpr double kUpright = 1e-7;  // [rad]: nanometres between the sides of a cap
+    const Vec3 out = d - d.dot(axis) * axis;
+    return out.norm() > kUpright ? Vec3(out.normalized()) : otherwise;
+}
+
 /// A round shape in the world.
 struct Placed {
     const Round& shape;
@@ -42,11 +49,7 @@ struct Placed {
         return shape.half * std::abs(along) + shape.radius * side;
     }
     /// The direction across the axis that is nearest to d.
-    Vec3 radial(const Vec3& d) const {
-        constexpr double kUpright = 1e-7;  // [rad]: nanometres between the sides of a cap
-        const Vec3 out = d - d.dot(axis) * axis;
-        return out.norm() > kUpright ? Vec3(out.normalized()) : across;
-    }
+    Vec3 radial(const Vec3& d) const { return dynamics::radial(axis, d, across); }
 };
 
 /// The closest points of two lines p + s d and q + t e, with s and t from 0 to 1 (Ericson 2005).
@@ -164,6 +167,27 @@ void feature(const Placed& at, const Vec3& d, bool whole, Polygon& out) {
         const double angle = 2 * std::numbers::pi * i / kRim;
         out.add(at.end(sign) + shape.radius * (std::cos(angle) * first + std::sin(angle) * second));
     }
+}
+
+/// Tells the nearest point of a patch where a rim that has it will touch in the middle of a step in
+/// which it turns by turn_W. The patch's normal points to it.
+void look_ahead(const Placed& at, const Vec3& turn_W, ContactPatch& patch) {
+    constexpr double kRolls = 0.9;  // cosine of how far the point of the rim goes at most
+    constexpr double kLies = 1e-5;  // [m]: with its side, by a line that rolls along
+    if (!at.shape.has_rim() || patch.count == 0) return;
+    if (patch.count == 2 && std::abs(patch.points[0].gap - patch.points[1].gap) < kLies) return;
+    const Quat half_way = rotation_by(turn_W / 2);
+    const Vec3 d = -patch.n_W;
+    const Vec3 now = at.radial(d);
+    const Vec3 then = radial(half_way * at.axis, d, half_way * now);
+    if ((half_way.conjugate() * then).dot(now) < kRolls) return;
+    const auto nearest = std::min_element(
+        patch.points.begin(), patch.points.begin() + patch.count,
+        [](const ContactPoint& one, const ContactPoint& other) { return one.gap < other.gap; });
+    const double along = at.axis.dot(nearest->p_WB - at.centre) > 0 ? 1 : -1;
+    if (at.shape.is_cone() && along > 0) return;  // its tip
+    nearest->ahead_W =
+        at.shape.radius * (then - now) + along * at.shape.half * (half_way * at.axis - at.axis);
 }
 
 /// The part of a line from p to q with n . x <= offset.
@@ -558,13 +582,15 @@ void face_contact(const Corners& a, const Placed& b, const Best& best, double ma
 
 }  // namespace
 
-ContactPatch collide_half_space(const Pose& X_WA, const Round& b, const Pose& X_WB,
-                                double margin) noexcept {
+ContactPatch collide_half_space(const Pose& X_WA, const Round& shape_b, const Pose& X_WB,
+                                double margin, const Vec3& turn_W) noexcept {
     ContactPatch patch;
     patch.n_W = X_WA.R * Vec3::UnitZ();
+    const Placed b(shape_b, X_WB);
     Polygon of_b;
-    feature(Placed(b, X_WB), -patch.n_W, true, of_b);
+    feature(b, -patch.n_W, true, of_b);
     keep_near(of_b, patch.n_W.dot(X_WA.p), margin, patch);
+    look_ahead(b, turn_W, patch);
     return patch;
 }
 
@@ -592,7 +618,8 @@ ContactPatch collide(const Round& shape_a, const Pose& X_WA, const Round& shape_
 }
 
 ContactPatch collide(const Polyhedron& shape_a, const Pose& X_WA, const Round& shape_b,
-                     const Pose& X_WB, double margin, const Vec3& way_W) noexcept {
+                     const Pose& X_WB, double margin, const Vec3& way_W,
+                     const Vec3& turn_W) noexcept {
     ContactPatch patch;
     const Corners a{shape_a, X_WA};
     const Placed b(shape_b, X_WB);
@@ -605,10 +632,13 @@ ContactPatch collide(const Polyhedron& shape_a, const Pose& X_WA, const Round& s
         best.kind = Best::face;
         best.at = flush;
         best.axis = n_flush;
-        if (!is_covered(shape_a, X_WA, n_flush)) face_contact(a, b, best, margin, patch);
+        if (is_covered(shape_a, X_WA, n_flush)) return patch;
+        face_contact(a, b, best, margin, patch);
+        look_ahead(b, turn_W, patch);
         return patch;
     }
     face_contact(a, b, best, margin, patch);
+    if (best.kind == Best::face) look_ahead(b, turn_W, patch);
     if (!settles(patch, best.separation)) {
         try_edges(a, b, margin, best);
         if (best.separation > margin) return {};

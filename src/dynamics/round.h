@@ -25,14 +25,14 @@ struct Round {
     bool is_cone() const { return ends == Ends::tip; }
 };
 
-/// As collide() of polyhedra.
+/// As collide() of polyhedra. `turn_W` is by how much B turns against A in the coming step [rad].
 ContactPatch collide(const Polyhedron& a, const Pose& X_WA, const Round& b, const Pose& X_WB,
-                     double margin, const Vec3& way_W) noexcept;
+                     double margin, const Vec3& way_W, const Vec3& turn_W = Vec3::Zero()) noexcept;
 ContactPatch collide(const Round& a, const Pose& X_WA, const Round& b, const Pose& X_WB,
                      double margin) noexcept;
 
 /// As collide_half_space() of a polyhedron.
-ContactPatch collide_half_space(const Pose& X_WA, const Round& b, const Pose& X_WB,
-                                double margin) noexcept;
+ContactPatch collide_half_space(const Pose& X_WA, const Round& b, const Pose& X_WB, double margin,
+                                const Vec3& turn_W = Vec3::Zero()) noexcept;
 
 }  // namespace dihaptic::dynamics

@@ -61,6 +61,11 @@ void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& p
     if (rubbing > 0) {  // velocities are tangents of the arcs on which points go
         rubbing = friction_W.dot(books.way(exchange.a, exchange.b, exchange.p_W)) / h + twisting;
     }
+    if (!ahead_of(point).isZero(0)) {
+        // a rim that rolls touches with this point in the middle of before and after
+        pressing = mean_work;
+        rubbing = friction_W.dot(meeting.v_mean) + exchange.moment_W.dot(meeting.w_mean);
+    }
     if (law.stiffness > 0) {
         const auto stored = [&](double gap) {
             const double k = law.stiffness / law.sharing;

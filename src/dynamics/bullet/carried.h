@@ -52,6 +52,20 @@ inline double gap_of(const btManifoldPoint& point) {
     return (point.getDistance() - law.height) / std::sqrt(1 + law.slope_W.squaredNorm());
 }
 
+/// Points of rims that roll have where they will touch (ContactPoint::ahead_W), in a field that
+/// Bullet's own points use for something else.
+constexpr int kRolls = 1 << 16;
+inline void roll_ahead(btManifoldPoint& point, const Vec3& ahead_W) {
+    if (ahead_W.isZero(0)) return;
+    point.m_contactPointFlags |= kRolls;
+    point.m_lateralFrictionDir1 = btVector3(ahead_W.x(), ahead_W.y(), ahead_W.z());
+}
+inline Vec3 ahead_of(const btManifoldPoint& point) {
+    if ((point.m_contactPointFlags & kRolls) == 0) return Vec3::Zero();
+    const btVector3& ahead = point.m_lateralFrictionDir1;
+    return {ahead.x(), ahead.y(), ahead.z()};
+}
+
 /// Memory for what points carry. Bullet does not tell when a point ends, so what no point refers to
 /// any more is looked for once there is none left to give.
 class CarriedPool {

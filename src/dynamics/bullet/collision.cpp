@@ -370,6 +370,26 @@ bool Collision::affords(contact::Work& work, int64_t visits) {
     return !search_was_cut_;
 }
 
+const btPersistentManifold* Collision::manifold_of(const btBroadphasePair& pair) {
+    scratch_.resizeNoInitialize(0);
+    if (pair.m_algorithm != nullptr) pair.m_algorithm->getAllContactManifolds(scratch_);
+    return scratch_.size() > 0 ? scratch_[0] : nullptr;
+}
+
+bool Collision::meet(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
+                     btPersistentManifold& out) {
+    out.clearManifold();
+    btCollisionAlgorithm* algorithm =
+        dispatcher_.findAlgorithm(&a, &b, &out, BT_CONTACT_POINT_ALGORITHMS);
+    if (algorithm == nullptr) return false;
+    btManifoldResult result(&a, &b);
+    result.m_closestPointDistanceThreshold = kHullMargin;
+    algorithm->processCollision(&a, &b, btDispatcherInfo(), &result);
+    algorithm->~btCollisionAlgorithm();
+    dispatcher_.freeCollisionAlgorithm(algorithm);
+    return true;
+}
+
 template <class Visit>
 double Collision::walk(btBroadphasePair& pair, double h, int first, btPersistentManifold& out,
                        contact::Work& work, const Visit& visit) {
@@ -385,11 +405,10 @@ double Collision::walk(btBroadphasePair& pair, double h, int first, btPersistent
     const btCollisionObjectWrapper b_wrap(nullptr, part_b.shape.get(), &b, X_WB, -1, -1);
     const double way = approach(a_wrap, b_wrap, h);
     if (!(way > kEntered)) return 1;  // also if it is not a number
-    scratch_.resizeNoInitialize(0);
-    if (pair.m_algorithm != nullptr) pair.m_algorithm->getAllContactManifolds(scratch_);
+    const btPersistentManifold* known = manifold_of(pair);
     // bodies enter soft ones, as far as their contact lets them
-    if (scratch_.size() > 0 && is_soft(*scratch_[0])) return 1;
-    const bool swapped = scratch_.size() > 0 && scratch_[0]->getBody0() != &a;
+    if (known != nullptr && is_soft(*known)) return 1;
+    const bool swapped = known != nullptr && known->getBody0() != &a;
     out.setBodies(swapped ? &b : &a, swapped ? &a : &b);
     const double stride = std::min(kStride, (part_a.thickness + part_b.thickness) / 2);
     const auto strides = static_cast<int>(std::clamp(std::ceil(way / stride), 1.0, kMostStrides));
@@ -397,17 +416,9 @@ double Collision::walk(btBroadphasePair& pair, double h, int first, btPersistent
     const auto found_at = [&](double share) {
         move_on(a, from_a, share * h * a.getHitFraction());
         move_on(b, from_b, share * h * b.getHitFraction());
-        out.clearManifold();
         X_WA = part_a.X_WS();
         X_WB = part_b.X_WS();
-        btCollisionAlgorithm* algorithm =
-            dispatcher_.findAlgorithm(&a_wrap, &b_wrap, &out, BT_CONTACT_POINT_ALGORITHMS);
-        if (algorithm == nullptr) return false;
-        btManifoldResult result(&a_wrap, &b_wrap);
-        result.m_closestPointDistanceThreshold = kHullMargin;
-        algorithm->processCollision(&a_wrap, &b_wrap, btDispatcherInfo(), &result);
-        algorithm->~btCollisionAlgorithm();
-        dispatcher_.freeCollisionAlgorithm(algorithm);
+        if (!meet(a_wrap, b_wrap, out)) return false;
         return visit(swapped ? from_b : from_a, swapped ? from_a : from_b, share * h);
     };
     double free = 0;

@@ -127,6 +127,11 @@ class Collision {
     template <class Visit>
     double walk(btBroadphasePair& pair, double h, int first, btPersistentManifold& out,
                 contact::Work& work, const Visit& visit);
+    /// The first that a pair has, or null.
+    const btPersistentManifold* manifold_of(const btBroadphasePair& pair);
+    /// Finds the contacts of two parts where they are. False if nobody knows how.
+    bool meet(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
+              btPersistentManifold& out);
     bool enters(btBroadphasePair& pair, double h, double recovery, btPersistentManifold& out,
                 contact::Work& work);
 

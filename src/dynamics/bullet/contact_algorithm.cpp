@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "dynamics/bullet/carried.h"
 #include "dynamics/bullet/collision.h"
 #include "dynamics/bullet/shape.h"
 #include "dynamics/patch.h"
@@ -50,10 +51,12 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
         const Pose X_WA = from_bullet(a_wrap->getWorldTransform());
         const Pose X_WB = from_bullet(b_wrap->getWorldTransform());
         const double margin = std::min(kMostMargin, kMargin + approach(*a_wrap, *b_wrap, step_));
-        const btVector3 way =
-            step_ * (b_wrap->getCollisionObject()->getInterpolationLinearVelocity() -
-                     a.getInterpolationLinearVelocity());
-        ContactPatch patch = meet(*a_wrap, X_WA, *b_wrap, X_WB, margin, from_bullet(way));
+        const Move move = {
+            step_ * from_bullet(b_wrap->getCollisionObject()->getInterpolationLinearVelocity() -
+                                a.getInterpolationLinearVelocity()),
+            step_ * from_bullet(b_wrap->getCollisionObject()->getInterpolationAngularVelocity() -
+                                a.getInterpolationAngularVelocity())};
+        ContactPatch patch = meet(*a_wrap, X_WA, *b_wrap, X_WB, margin, move);
         result->setPersistentManifold(manifold_);
         store(patch, X_WA, X_WB, manifold_->getBody0() == &a);
     }
@@ -72,21 +75,28 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
         return patch;
     }
 
-    /// `way_W` is how b moves against a in the step.
+    /// How b moves against a in the step.
+    struct Move {
+        Vec3 way_W;
+        Vec3 turn_W;
+        Move operator-() const { return {-way_W, -turn_W}; }
+    };
+
     static ContactPatch meet(const btCollisionObjectWrapper& a_wrap, const Pose& X_WA,
                              const btCollisionObjectWrapper& b_wrap, const Pose& X_WB,
-                             double margin, const Vec3& way_W) {
+                             double margin, const Move& move) {
         const CollisionPart& a = part_of(a_wrap);
         const CollisionPart& b = part_of(b_wrap);
-        if (is_plane(b_wrap)) return flipped(meet(b_wrap, X_WB, a_wrap, X_WA, margin, -way_W));
+        if (is_plane(b_wrap)) return flipped(meet(b_wrap, X_WB, a_wrap, X_WA, margin, -move));
         if (is_plane(a_wrap)) {
             return b.polyhedron ? collide_half_space(X_WA, *b.polyhedron, X_WB, margin)
-                                : collide_half_space(X_WA, *b.round, X_WB, margin);
+                                : collide_half_space(X_WA, *b.round, X_WB, margin, move.turn_W);
         }
         if (a.round && b.round) return collide(*a.round, X_WA, *b.round, X_WB, margin);
-        if (a.round) return flipped(meet(b_wrap, X_WB, a_wrap, X_WA, margin, -way_W));
-        return b.round ? collide(*a.polyhedron, X_WA, *b.round, X_WB, margin, way_W)
-                       : collide(*a.polyhedron, X_WA, *b.polyhedron, X_WB, margin, way_W);
+        if (a.round) return flipped(meet(b_wrap, X_WB, a_wrap, X_WA, margin, -move));
+        return b.round
+                   ? collide(*a.polyhedron, X_WA, *b.round, X_WB, margin, move.way_W, move.turn_W)
+                   : collide(*a.polyhedron, X_WA, *b.polyhedron, X_WB, margin, move.way_W);
     }
 
     /// Replaces the manifold's points. Bullet's normal points from its body 1 to its body 0.
@@ -108,6 +118,7 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
                                 to_bullet(Vec3(-patch.n_W)), point.gap);
             out.m_positionWorldOnA = to_bullet(point.p_WA);
             out.m_positionWorldOnB = to_bullet(point.p_WB);
+            roll_ahead(out, point.ahead_W);
             int nearest = -1;
             double distance = kSamePoint * kSamePoint;
             for (int j = 0; j < old_count; ++j) {

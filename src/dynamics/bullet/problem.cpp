@@ -67,6 +67,21 @@ void soften(contact::ProblemContact& contact, const contact::ContactProblem& pro
     contact.bias = h * k * gap * contact.compliance;
 }
 
+const contact::ProblemBody& body_of(const contact::ContactProblem& problem, int i) {
+    return i == kFixed ? kRests : problem.bodies[static_cast<size_t>(i)];
+}
+
+/// By how much the points of both bodies move apart in the step otherwise than their velocities
+/// say, on their arcs [m/s].
+Vec3 on_arcs(const contact::ContactProblem& problem, const contact::ProblemContact& contact,
+             double h) {
+    const auto off = [&](const contact::ProblemBody& one, const Vec3& r) {
+        return Vec3((rotation_by(h * one.w_W) * r - r) / h - one.w_W.cross(r));
+    };
+    return off(body_of(problem, contact.b), contact.p_BC_W) -
+           off(body_of(problem, contact.a), contact.p_AC_W);
+}
+
 /// What turns together, or about the contact's normal, goes on arcs, and stays together if points
 /// get to the ends of the same chord: by how much the points of both bodies move in the step
 /// otherwise than their velocities say, along the tangents. Velocities alone let a block on a
@@ -76,22 +91,28 @@ Eigen::Vector2d along_arcs(const contact::ContactProblem& problem,
                            const contact::ProblemContact& contact, double h) {
     constexpr double kRolls = 0.01;  // as a share of the angular velocity
     constexpr double kLeast = 1e-6;  // [m/s]
-    const auto body = [&](int i) -> const contact::ProblemBody& {
-        return i == kFixed ? kRests : problem.bodies[static_cast<size_t>(i)];
-    };
-    const contact::ProblemBody& a = body(contact.a);
-    const contact::ProblemBody& b = body(contact.b);
-    const double speed = std::max(a.w_W.norm(), b.w_W.norm());
+    const Vec3& w_A = body_of(problem, contact.a).w_W;
+    const Vec3& w_B = body_of(problem, contact.b).w_W;
+    const double speed = std::max(w_A.norm(), w_B.norm());
     const double arm = std::max(contact.p_AC_W.norm(), contact.p_BC_W.norm());
     if (speed * speed * arm * h < kLeast) return Eigen::Vector2d::Zero();
     const Mat3& R = contact.R_WC;
     const double most = kRolls * speed;
-    if ((R.transpose() * (b.w_W - a.w_W)).tail<2>().norm() > most) return Eigen::Vector2d::Zero();
-    const auto off = [&](const contact::ProblemBody& one, const Vec3& r) {
-        return Vec3((rotation_by(h * one.w_W) * r - r) / h - one.w_W.cross(r));
-    };
-    const Vec3 apart = off(b, contact.p_BC_W) - off(a, contact.p_AC_W);
-    return (R.transpose() * apart).tail<2>();
+    if ((R.transpose() * (w_B - w_A)).tail<2>().norm() > most) return Eigen::Vector2d::Zero();
+    return (R.transpose() * on_arcs(problem, contact, h)).tail<2>();
+}
+
+/// A rim that rolls touches with another point in the middle of the step, where velocities are
+/// those that bring its body to the step's end. The impulse acts where it touches at the beginning,
+/// and has to let that point move by as much as it does while the other one rests: by how much it
+/// moves otherwise than both would touch, in the contact's frame [m/s]. Without it Euler's disc
+/// sinks in from step to step, and is fed.
+Vec3 by_rolling(const contact::ContactProblem& problem, const contact::ProblemContact& contact,
+                const btManifoldPoint& point) {
+    const Vec3 ahead = ahead_of(point);
+    if (ahead.isZero(0) || carried(point).normal == 0) return Vec3::Zero();
+    const Vec3 turns = body_of(problem, contact.b).w_W - body_of(problem, contact.a).w_W;
+    return contact.R_WC.transpose() * turns.cross(ahead);
 }
 
 /// Velocity along the normal with which bodies leave, by Newton's law e u for the speed u at which
@@ -159,10 +180,14 @@ void ManifoldProblem::build(std::span<btCollisionObject*> bodies,
             out.R_WC = contact_frame(normal_of(point));
             const double gap = gap_of(point);
             out.bias = gap > 0 ? gap / h : std::max(recovery * gap / h, -kMostRecovery);
+
             out.friction = point.m_combinedFriction;
             out.torsion_radius = torsion;
             out.compliance = carried(point).law.compliance;
             if (manifold->getNumContacts() > 1) out.slip = along_arcs(problem_, out, h);
+            const Vec3 rolling = by_rolling(problem_, out, point);
+            out.bias += rolling[0];
+            out.slip += rolling.tail<2>();
             if (carried(point).law.stiffness > 0) soften(out, problem_, carried(point).law, gap, h);
         }
     }
