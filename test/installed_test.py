@@ -89,6 +89,15 @@ print(len(dh.run("experiments/lift-block.yaml", out="by-python").lifts))
             self.assertTrue(all(word.startswith(words[-1]) for word in said.split()))
         (self.work / "mine-too.yaml").unlink()
 
+    def test_files_of_a_new_study_name_the_schemas_that_are_installed(self):
+        self.run_here("dihaptic", "new", "study", "mine")
+        for name in ("scene", "rig", "experiment"):
+            first = (self.work / f"mine/{name}.yaml").read_text().splitlines()[0]
+            schema = self.prefix / f"share/dihaptic/schema/{name}.json"
+            self.assertEqual(first, f"# yaml-language-server: $schema={schema}")
+            self.assertEqual(schema.read_text(), self.run_here("dihaptic", "schema", name))
+            self.run_here("dihaptic", "check", f"mine/{name}.yaml")
+
     def test_another_project_builds_against_the_library_and_lifts_a_block(self):
         source = SOURCE / "packaging/example"
         self.assertLessEqual(len((source / "lift.cpp").read_text().splitlines()), 60)

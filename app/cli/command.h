@@ -27,6 +27,7 @@ void add_workspace(CLI::App& app);
 void add_calibrate(CLI::App& app);
 void add_register(CLI::App& app);
 void add_new(CLI::App& app);
+void add_schema(CLI::App& app);
 void add_doctor(CLI::App& app);
 
 /// The command line as it was typed.

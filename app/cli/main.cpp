@@ -87,6 +87,7 @@ int main(int argc, char** argv) {
     cli::add_calibrate(app);
     cli::add_register(app);
     cli::add_new(app);
+    cli::add_schema(app);
     cli::add_doctor(app);
     return cli::run_program(app, argc, argv);
 }

@@ -15,6 +15,7 @@
 #include "command.h"
 #include "common/on_path.h"
 #include "new_study.h"
+#include "session/file_schemas.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -24,12 +25,13 @@ namespace fs = std::filesystem;
 struct StudyFile {
     const char* name;
     std::string_view text;
+    const char* schema = nullptr;  ///< by which editors complete and check it
 };
 
 std::array<StudyFile, 4> study_files() {
-    return {{{"scene.yaml", kStudyScene},
-             {"rig.yaml", kStudyRig},
-             {"experiment.yaml", kStudyExperiment},
+    return {{{"scene.yaml", kStudyScene, "scene"},
+             {"rig.yaml", kStudyRig, "rig"},
+             {"experiment.yaml", kStudyExperiment, "experiment"},
              {"README.md", kStudyReadme}}};
 }
 
@@ -79,8 +81,10 @@ void make_study(const fs::path& folder) {
                     "~/my-study.");
     }
     fs::create_directory(study->path());
-    for (const StudyFile& file : study_files())
-        write_file(std::string(file.text), fmt::format("{}/{}", study->path(), file.name));
+    for (const StudyFile& file : study_files()) {
+        const std::string line = file.schema == nullptr ? "" : session::schema_line(file.schema);
+        write_file(line + std::string(file.text), fmt::format("{}/{}", study->path(), file.name));
+    }
     study->keep();
 }
 

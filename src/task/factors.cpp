@@ -51,6 +51,15 @@ std::vector<Condition> crossed(const Task& task) {
     return out;
 }
 
+void check_named(const Task& task, Diagnostics& diagnostics) {
+    for (const Condition& condition : task.conditions) {
+        const Node& levels = condition.factors;
+        if (levels.kind == Node::Kind::mapping || levels.kind == Node::Kind::null) continue;
+        diagnostics.error(levels.place, "factors", "must have a key for each factor",
+                          "Write e.g. factors: { mass_g: 100 }.");
+    }
+}
+
 bool check_cross(const Task& task, Diagnostics& diagnostics) {
     size_t conditions = 1;
     bool good = true;
@@ -76,6 +85,7 @@ bool check_cross(const Task& task, Diagnostics& diagnostics) {
 }  // namespace
 
 void cross_factors(Task& task, Diagnostics& diagnostics) {
+    check_named(task, diagnostics);
     if (task.cross.empty() || !check_cross(task, diagnostics)) return;
     check_names(task.conditions, "conditions", diagnostics);
     std::vector<Condition> made = crossed(task);

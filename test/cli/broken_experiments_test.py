@@ -125,6 +125,7 @@ MISTAKES = [
     ("levels: [suede, silk]", "levels: [suede, suede]", "levels", "List each level of surface once"),
     ("factor: surface", "factor: side", "factor", "Use another name, of letters, digits and _, e.g. wait_s"),
     ("name: 200 silk", "name: 300 silk", "name", "Did you mean 100 silk?"),
+    ("name: 200 silk", "name: 200 silk, factors: 200", "factors", "Write e.g. factors: { mass_g: 100 }."),
     # variables and rules
     ("- { name: score }", "- { name: score, start: none }", "start", "Write a number"),
     ("- { name: score }", "- { start: 0 }", "name", "Add name"),

@@ -15,8 +15,10 @@
 #include "base/number.h"
 #include "person/population.h"
 #include "rig/rig.h"
+#include "scene/kinds.h"
 #include "servo/settings.h"
 #include "task/experiment.h"
+#include "task/kinds.h"
 #include "testing/files.h"
 
 namespace dihaptic::task::reference_test {
@@ -62,34 +64,17 @@ std::string link_to(const std::string& heading) {
     return fmt::format("[{}](#{})", heading.substr(heading.rfind('.') + 1), anchor);
 }
 
-/// A struct once for each of its kinds, which have different keys.
+/// A struct once for each of its kinds, with the kind in words.
 template <class Struct>
-std::vector<std::pair<std::string, Struct>> kinds_of(const Struct& value) {
-    return {{"", value}};
-}
-template <NamedEnum E, class Struct, class Set>
-std::vector<std::pair<std::string, Struct>> each_kind(const Struct& value, const Set& set) {
+std::vector<std::pair<std::string, Struct>> each_kind_of(const Struct& value) {
     std::vector<std::pair<std::string, Struct>> out;
-    for (size_t i = 0; i < enum_names(E{}).size(); ++i) {
-        const std::string name = enum_names(E{})[i];
-        set(out.emplace_back(name.empty() ? "an expression" : "`" + name + "`", value).second,
-            static_cast<E>(i));
+    if constexpr (HasKinds<Struct>) {
+        for (const auto& [word, one] : kinds_of(value).each)
+            out.emplace_back(word.empty() ? "an expression" : fmt::format("`{}`", word), one);
+    } else {
+        out.emplace_back("", value);
     }
     return out;
-}
-std::vector<std::pair<std::string, Exit>> kinds_of(const Exit& value) {
-    return each_kind<When>(value, [](Exit& exit, When when) { exit.when = when; });
-}
-std::vector<std::pair<std::string, LoadSpec>> kinds_of(const LoadSpec& value) {
-    return each_kind<LoadKind>(value, [](LoadSpec& load, LoadKind kind) { load.kind = kind; });
-}
-template <class Struct>
-requires requires(Struct& s) {
-    s.shape.kind = scene::ShapeKind::box;
-}
-std::vector<std::pair<std::string, Struct>> kinds_of(const Struct& value) {
-    return each_kind<scene::ShapeKind>(
-        value, [](Struct& s, scene::ShapeKind kind) { s.shape.kind = kind; });
 }
 
 /// The page: a section for each struct, which those that have it link to.
@@ -270,7 +255,7 @@ void Page::write(const Struct& value, const std::string& heading) {
     std::vector<Key> all;
     size_t kinds = 0;
     waiting_.clear();
-    for (auto& [kind, one] : kinds_of(value)) {
+    for (auto& [kind, one] : each_kind_of(value)) {
         ++kinds;
         Lister lister(*this, heading);
         one.visit(lister);

@@ -1,0 +1,199 @@
+// Makes JSON Schemas, draft 7, of configuration structs (base/field.h). An editor that has the
+// schema of a file completes its keys, says what each means, and marks mistakes while it is typed.
+//
+// A schema refuses nothing that FieldReader reads; it is for YAML 1.2, in which yes and no are
+// words. What no schema can say is left to `dihaptic check`: names of things that are not there,
+// expressions with mistakes, keys that do not go together.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <typeindex>
+#include <vector>
+
+#include "base/field.h"
+#include "base/field_writer.h"
+#include "base/formula.h"
+#include "base/geometry.h"
+#include "base/kinds.h"
+#include "base/node.h"
+
+namespace dihaptic {
+
+/// A schema, or a part of one, whose keys keep their order.
+using Json = nlohmann::ordered_json;
+
+/// The keys of a mapping.
+struct SchemaKeys {
+    struct Key {
+        std::string name;
+        Json schema;
+    };
+    std::vector<Key> keys;
+    /// Of each key that has to be there, its names with all units.
+    std::vector<std::vector<std::string>> required;
+};
+
+/// The schema of one file. Each struct in it is a definition, once, which its keys refer to.
+class JsonSchema {
+  public:
+    /// What is read elsewhere, where a visit() has a Node by this name: the keys of a struct, or
+    /// what the schema says. Call it before of(). A Node that nothing is known of is any mapping.
+    template <class Struct>
+    void part(const std::string& name, const std::string& heading, const Struct& value) {
+        parts_[name] = [this, heading, value] {
+            const Json ref = refer(value, heading);
+            // it may be left empty
+            definitions_[heading]["type"] = {"object", "null"};
+            return ref;
+        };
+    }
+    void part(const std::string& name, const Json& schema) {
+        parts_[name] = [schema] { return schema; };
+    }
+
+    /// Of a file that is read into such a struct. `heading`: what it is, in a word or two.
+    template <class Struct>
+    Json of(const Struct& value, const std::string& heading) {
+        return whole(object(value, heading), heading);
+    }
+
+    /// Of yes and no.
+    static Json yes_or_no() { return {{"enum", {"yes", "no", true, false, "true", "false"}}}; }
+    /// Of any word or text, be it a number, yes or true.
+    static Json word();
+
+  private:
+    friend class SchemaLister;
+
+    Json whole(const Json& keys, const std::string& heading) const;
+    /// A mapping with these keys.
+    static Json mapping(const SchemaKeys& keys);
+    /// A mapping with other keys for each word that `key` has.
+    static Json mapping(std::string_view key, const std::vector<std::string_view>& words,
+                        const std::vector<SchemaKeys>& each);
+    /// Keys of a mapping that are read in two ways.
+    static SchemaKeys either(SchemaKeys one, const SchemaKeys& other);
+
+    template <class Struct>
+    SchemaKeys keys_of(const Struct& value, const std::string& path);
+    template <class Struct>
+    Json object(const Struct& value, const std::string& path) {
+        if constexpr (HasKinds<Struct>) {
+            const Kinds<Struct> kinds = kinds_of(value);
+            std::vector<std::string_view> words;
+            std::vector<SchemaKeys> each;
+            for (const auto& [word, one] : kinds.each) {
+                words.push_back(word);
+                each.push_back(keys_of(one, path));
+            }
+            return mapping(kinds.key, words, each);
+        } else {
+            return mapping(keys_of(value, path));
+        }
+    }
+    /// A reference to the struct's definition, which is named after the key that has it first.
+    template <class Struct>
+    Json refer(const Struct& value, const std::string& path) {
+        const auto [name, is_new] = names_.try_emplace(typeid(Struct), path);
+        const std::string at = name->second;
+        if (is_new) definitions_[at] = object(value, at);
+        return {{"$ref", "#/definitions/" + at}};
+    }
+    Json part_of(std::string_view name) const;
+
+    std::map<std::string, std::function<Json()>, std::less<>> parts_;
+    std::map<std::type_index, std::string> names_;
+    Json definitions_ = Json::object();
+};
+
+/// Lists the keys of one struct, as a visitor of it.
+class SchemaLister {
+  public:
+    /// `as_lists`: describes what may be a list, in place of a mapping, as the list.
+    SchemaLister(JsonSchema& schema, std::string path, bool as_lists)
+        : schema_(schema), path_(std::move(path)), as_lists_(as_lists) {}
+
+    template <class T>
+    void operator()(std::string_view name, T& value, Field field = {}) {
+        FieldWriter writer;
+        writer(name, value, field);
+        const Node written = writer.take();
+        const bool has_default = !written.entries.empty() && !field.is_required;
+        const Node preset = has_default ? written.entries.front().value : Node{};
+        add(name, field, preset,
+            [&](double si) { return of(value, field, si, std::string(name)); });
+    }
+    bool is_list(std::string_view) {
+        asked_ = true;
+        return as_lists_;
+    }
+
+    bool asked() const { return asked_; }
+    SchemaKeys take() { return std::move(found_); }
+
+  private:
+    void add(std::string_view name, const Field& field, const Node& preset,
+             const std::function<Json(double si)>& schema);
+    void keep_one_default(size_t units, const Json& best);
+
+    /// `si`: the key's unit in SI units.
+    static Json of(double, const Field& field, double si, const std::string&);
+    static Json of(const Vec3&, const Field& field, double si, const std::string&);
+    static Json of(const Mat3&, const Field& field, double si, const std::string&);
+    static Json of(const Formula&, const Field& field, double si, const std::string&);
+    static Json of(const FormulaVec3&, const Field& field, double si, const std::string&);
+    static Json of(const std::vector<double>&, const Field& field, double si, const std::string&);
+    static Json of(int, const Field& field, double, const std::string&);
+    static Json of(bool, const Field&, double, const std::string&);
+    static Json of(const std::string&, const Field& field, double, const std::string&);
+    static Json of(const std::vector<std::string>&, const Field& field, double, const std::string&);
+    static Json of(const Texts&, const Field& field, double, const std::string&);
+    Json of(const Node&, const Field&, double, const std::string& name) const {
+        return schema_.part_of(name);
+    }
+    template <NamedEnum E>
+    static Json of(const E& value, const Field&, double, const std::string&) {
+        const auto names = enum_names(value);
+        return {{"enum", std::vector<std::string>(names.begin(), names.end())}};
+    }
+    template <class Struct>
+    requires Described<Struct, SchemaLister> Json of(const Struct& value, const Field&, double,
+                                                     const std::string& name) {
+        return schema_.refer(value, path_ + "." + name);
+    }
+    template <class Struct>
+    requires Described<Struct, SchemaLister> Json of(const std::vector<Struct>&, const Field&,
+                                                     double, const std::string& name) {
+        return {{"type", "array"}, {"items", schema_.refer(Struct{}, path_ + "." + name)}};
+    }
+    template <class T>
+    Json of(const std::optional<T>& value, const Field& field, double si, const std::string& name) {
+        static const T kNone{};
+        return of(value ? *value : kNone, field, si, name);
+    }
+
+    JsonSchema& schema_;
+    std::string path_;
+    bool as_lists_;
+    bool asked_ = false;
+    SchemaKeys found_;
+};
+
+template <class Struct>
+SchemaKeys JsonSchema::keys_of(const Struct& value, const std::string& path) {
+    const auto list = [&](bool as_lists) {
+        Struct one = value;
+        SchemaLister lister(*this, path, as_lists);
+        one.visit(lister);
+        return std::pair(lister.asked(), lister.take());
+    };
+    auto [asked, keys] = list(false);
+    return asked ? either(std::move(keys), list(true).second) : keys;
+}
+
+}  // namespace dihaptic

@@ -1,0 +1,42 @@
+// Structs of configuration (base/field.h) whose keys depend on their kind: a sphere has a radius,
+// and a box has a size. Such a struct is given once for each kind by a function that is found by
+// argument-dependent lookup:
+//
+//     inline Kinds<Ball> kinds_of(const Ball& ball) {
+//         return each_kind<BallKind>("kind", ball, [](Ball& b, BallKind kind) { b.kind = kind; });
+//     }
+//
+// What describes the keys of files goes by it: docs/reference.md, and the schemas for editors.
+#pragma once
+
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/field.h"
+
+namespace dihaptic {
+
+template <class Struct>
+struct Kinds {
+    std::string_view key;  ///< of the file, that names the kind
+    /// The word for each kind; "" stands for whatever is none of the other words.
+    std::vector<std::pair<std::string_view, Struct>> each;
+};
+
+template <class Struct>
+concept HasKinds = requires(const Struct& s) {
+    kinds_of(s);
+};
+
+/// One struct for each value of an enum, which `set` gives it.
+template <NamedEnum E, class Struct, class Set>
+Kinds<Struct> each_kind(std::string_view key, const Struct& value, const Set& set) {
+    static constexpr auto kNames = enum_names(E{});
+    Kinds<Struct> out{key, {}};
+    for (size_t i = 0; i < kNames.size(); ++i)
+        set(out.each.emplace_back(kNames[i], value).second, static_cast<E>(i));
+    return out;
+}
+
+}  // namespace dihaptic

@@ -1,0 +1,68 @@
+#include "session/file_schemas.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "base/choices.h"
+#include "base/installed.h"
+#include "base/json_schema.h"
+#include "person/population.h"
+#include "rig/rig.h"
+#include "scene/kinds.h"
+#include "servo/settings.h"
+#include "task/experiment.h"
+#include "task/kinds.h"
+
+namespace dihaptic::session {
+namespace {
+
+/// Mappings of a file whose keys are names that the file itself gives.
+Json by_name(const Json& value) {
+    return {{"type", {"object", "null"}}, {"additionalProperties", value}};
+}
+
+template <class Struct>
+std::string schema_of(const char* heading) {
+    JsonSchema schema;
+    schema.part("settings", "Settings", servo::Settings{});
+    schema.part("hand", "Hand", hand::HandSpec{});
+    schema.part("bodies", by_name(JsonSchema::yes_or_no()));
+    schema.part("fingers", by_name(JsonSchema::yes_or_no()));
+    schema.part("factors", by_name(JsonSchema::word()));
+    return schema.of(Struct{}, heading).dump(1) + "\n";
+}
+
+constexpr std::array kSchemas{
+    FileSchema{"scene", [] { return schema_of<scene::Scene>("Scene"); }},
+    FileSchema{"rig", [] { return schema_of<rig::Rig>("Rig"); }},
+    FileSchema{"experiment", [] { return schema_of<task::Experiment>("Experiment"); }},
+    FileSchema{"population", [] { return schema_of<person::Population>("Population"); }},
+    FileSchema{"calibration", [] { return schema_of<rig::Calibration>("Calibration"); }},
+    FileSchema{"registration", [] { return schema_of<rig::Registration>("Registration"); }},
+};
+
+}  // namespace
+
+std::span<const FileSchema> file_schemas() {
+    return kSchemas;
+}
+
+const FileSchema& file_schema(const std::string& name) {
+    const auto* const found = std::find_if(kSchemas.begin(), kSchemas.end(),
+                                           [&](const FileSchema& s) { return s.name == name; });
+    if (found != kSchemas.end()) return *found;
+    std::vector<std::string> names;
+    for (const FileSchema& schema : kSchemas) names.emplace_back(schema.name);
+    throw Error(fmt::format("'{}' is not a kind of file that has a schema", name),
+                fmt::format("Known: {}.", listed(names)));
+}
+
+std::string schema_line(const std::string& name) {
+    const std::string file = fmt::format("schema/{}.json", name);
+    const std::string found = in_or_above_program({file, "share/dihaptic/" + file});
+    return found.empty() ? "" : fmt::format("# yaml-language-server: $schema={}\n", found);
+}
+
+}  // namespace dihaptic::session
