@@ -78,6 +78,10 @@ bool has_key(const SchemaKeys& of, const SchemaKeys::Key& key) {
     });
 }
 
+bool requires_one_of(const SchemaKeys& keys, const std::vector<std::string>& names) {
+    return std::find(keys.required.begin(), keys.required.end(), names) != keys.required.end();
+}
+
 void require(Json& schema, const std::vector<std::vector<std::string>>& required) {
     for (const std::vector<std::string>& names : required) {
         if (names.size() == 1) {
@@ -99,7 +103,28 @@ Json keys_of_kind(const SchemaKeys& keys, const SchemaKeys& common) {
     Json out{{"properties", Json::object()}, {"additionalProperties", false}};
     for (const SchemaKeys::Key& key : keys.keys)
         out["properties"][key.name] = has_key(common, key) ? Json(true) : key.schema;
-    require(out, keys.required);
+    std::vector<std::vector<std::string>> own;
+    for (const auto& names : keys.required) {
+        if (!requires_one_of(common, names)) own.push_back(names);
+    }
+    require(out, own);
+    return out;
+}
+
+/// What all kinds have.
+SchemaKeys common_keys(const std::vector<SchemaKeys>& each) {
+    SchemaKeys out;
+    const auto everywhere = [&](const auto& has) {
+        return std::all_of(each.begin(), each.end(), has);
+    };
+    for (const SchemaKeys::Key& key : each.front().keys) {
+        if (everywhere([&](const SchemaKeys& kind) { return has_key(kind, key); }))
+            out.keys.push_back(key);
+    }
+    for (const auto& names : each.front().required) {
+        if (everywhere([&](const SchemaKeys& kind) { return requires_one_of(kind, names); }))
+            out.required.push_back(names);
+    }
     return out;
 }
 
@@ -125,23 +150,23 @@ Json JsonSchema::mapping(const SchemaKeys& keys) {
 
 Json JsonSchema::mapping(std::string_view key, const std::vector<std::string_view>& words,
                          const std::vector<SchemaKeys>& each) {
-    SchemaKeys common;
-    for (const SchemaKeys::Key& candidate : each.front().keys) {
-        const bool everywhere = std::all_of(each.begin(), each.end(), [&](const SchemaKeys& kind) {
-            return has_key(kind, candidate);
-        });
-        if (everywhere) common.keys.push_back(candidate);
-    }
-    common.required = {{std::string(key)}};
+    const SchemaKeys common = common_keys(each);
     Json out = mapping(common);
     out.erase("additionalProperties");  // each kind says which other keys there may be
     Json known = Json::array();
+    bool any_word = false;
     for (const std::string_view word : words) {
-        if (!word.empty()) known.push_back(word);
+        if (word.empty())
+            any_word = true;
+        else
+            known.push_back(word);
     }
     Json& of_key = out["properties"][std::string(key)];
     assert(!of_key.is_null());
-    if (!of_key.contains("enum")) of_key["examples"] = known;
+    if (any_word)
+        of_key["examples"] = known;
+    else
+        of_key.update({{"type", "string"}, {"enum", known}});
     for (size_t i = 0; i < words.size(); ++i) {
         const bool is_other = words[i].empty();
         out["allOf"].push_back(
@@ -165,8 +190,9 @@ SchemaKeys JsonSchema::either(SchemaKeys one, const SchemaKeys& other) {
     return one;
 }
 
-Json JsonSchema::part_of(std::string_view name) const {
-    const auto known = parts_.find(name);
+Json JsonSchema::part_of(const std::string& name, std::string_view word) const {
+    auto known = parts_.find({name, std::string(word)});
+    if (known == parts_.end()) known = parts_.find({name, ""});
     return known == parts_.end() ? Json{{"type", {"object", "null"}}} : known->second();
 }
 

@@ -45,15 +45,21 @@ class JsonSchema {
     /// what the schema says. Call it before of(). A Node that nothing is known of is any mapping.
     template <class Struct>
     void part(const std::string& name, const std::string& heading, const Struct& value) {
-        parts_[name] = [this, heading, value] {
+        part_of_kind(name, "", heading, value);
+    }
+    void part(const std::string& name, const Json& schema) {
+        parts_[{name, ""}] = [schema] { return schema; };
+    }
+    /// The same, for a mapping whose kind is `word` (kinds_of()).
+    template <class Struct>
+    void part_of_kind(const std::string& name, const std::string& word, const std::string& heading,
+                      const Struct& value) {
+        parts_[{name, word}] = [this, heading, value] {
             const Json ref = refer(value, heading);
             // it may be left empty
             definitions_[heading]["type"] = {"object", "null"};
             return ref;
         };
-    }
-    void part(const std::string& name, const Json& schema) {
-        parts_[name] = [schema] { return schema; };
     }
 
     /// Of a file that is read into such a struct. `heading`: what it is, in a word or two.
@@ -80,7 +86,7 @@ class JsonSchema {
     static SchemaKeys either(SchemaKeys one, const SchemaKeys& other);
 
     template <class Struct>
-    SchemaKeys keys_of(const Struct& value, const std::string& path);
+    SchemaKeys keys_of(const Struct& value, const std::string& path, std::string_view word = "");
     template <class Struct>
     Json object(const Struct& value, const std::string& path) {
         if constexpr (HasKinds<Struct>) {
@@ -89,7 +95,7 @@ class JsonSchema {
             std::vector<SchemaKeys> each;
             for (const auto& [word, one] : kinds.each) {
                 words.push_back(word);
-                each.push_back(keys_of(one, path));
+                each.push_back(keys_of(one, path, word));
             }
             return mapping(kinds.key, words, each);
         } else {
@@ -104,9 +110,10 @@ class JsonSchema {
         if (is_new) definitions_[at] = object(value, at);
         return {{"$ref", "#/definitions/" + at}};
     }
-    Json part_of(std::string_view name) const;
+    Json part_of(const std::string& name, std::string_view word) const;
 
-    std::map<std::string, std::function<Json()>, std::less<>> parts_;
+    std::map<std::pair<std::string, std::string>, std::function<Json()>>
+        parts_;  // by name and kind
     std::map<std::type_index, std::string> names_;
     Json definitions_ = Json::object();
 };
@@ -114,9 +121,10 @@ class JsonSchema {
 /// Lists the keys of one struct, as a visitor of it.
 class SchemaLister {
   public:
-    /// `as_lists`: describes what may be a list, in place of a mapping, as the list.
-    SchemaLister(JsonSchema& schema, std::string path, bool as_lists)
-        : schema_(schema), path_(std::move(path)), as_lists_(as_lists) {}
+    /// `word`: of the struct's kind, if it has kinds. `as_lists`: describes what may be a list, in
+    /// place of a mapping, as the list.
+    SchemaLister(JsonSchema& schema, std::string path, std::string_view word, bool as_lists)
+        : schema_(schema), path_(std::move(path)), word_(word), as_lists_(as_lists) {}
 
     template <class T>
     void operator()(std::string_view name, T& value, Field field = {}) {
@@ -154,12 +162,12 @@ class SchemaLister {
     static Json of(const std::vector<std::string>&, const Field& field, double, const std::string&);
     static Json of(const Texts&, const Field& field, double, const std::string&);
     Json of(const Node&, const Field&, double, const std::string& name) const {
-        return schema_.part_of(name);
+        return schema_.part_of(name, word_);
     }
     template <NamedEnum E>
     static Json of(const E& value, const Field&, double, const std::string&) {
         const auto names = enum_names(value);
-        return {{"enum", std::vector<std::string>(names.begin(), names.end())}};
+        return {{"type", "string"}, {"enum", std::vector<std::string>(names.begin(), names.end())}};
     }
     template <class Struct>
     requires Described<Struct, SchemaLister> Json of(const Struct& value, const Field&, double,
@@ -179,16 +187,18 @@ class SchemaLister {
 
     JsonSchema& schema_;
     std::string path_;
+    std::string_view word_;
     bool as_lists_;
     bool asked_ = false;
     SchemaKeys found_;
 };
 
 template <class Struct>
-SchemaKeys JsonSchema::keys_of(const Struct& value, const std::string& path) {
+SchemaKeys JsonSchema::keys_of(const Struct& value, const std::string& path,
+                               std::string_view word) {
     const auto list = [&](bool as_lists) {
         Struct one = value;
-        SchemaLister lister(*this, path, as_lists);
+        SchemaLister lister(*this, path, word, as_lists);
         one.visit(lister);
         return std::pair(lister.asked(), lister.take());
     };

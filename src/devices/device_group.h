@@ -21,6 +21,10 @@
 #include "hand/driver.h"
 #include "hand/spec.h"
 
+namespace dihaptic {
+class JsonSchema;
+}
+
 namespace dihaptic::devices {
 
 /// State of one device, in its base frame D.
@@ -171,6 +175,9 @@ struct Backend {
     bool real = false;
     /// Looks for devices without moving them; null for a backend that is always there.
     Survey (*survey)() = nullptr;
+    /// Tells the schema of rig files of its options (base/json_schema.h); null for a backend that
+    /// no rig file may name.
+    void (*options)(JsonSchema& schema) = nullptr;
 };
 
 /// All backends.

@@ -14,6 +14,10 @@
 #include "base/field_reader.h"
 #include "base/node.h"
 
+namespace dihaptic {
+class JsonSchema;
+}
+
 namespace dihaptic::outlets {
 
 using Clock = std::chrono::steady_clock;
@@ -66,6 +70,8 @@ struct Kind {
     std::unique_ptr<Outlet> (*make)(const OutletConfig& config, const About& about);
     bool samples;   ///< whether it takes samples
     bool triggers;  ///< whether triggers can come from it
+    /// Tells the schema of rig files of its options (base/json_schema.h).
+    void (*options)(JsonSchema& schema);
 };
 
 std::span<const Kind> kinds();

@@ -93,13 +93,12 @@ struct Joint {
         v("low", low,
           Field::of(slides() ? Quantity::length : Quantity::angle)
               .within(-kMostWay, kMostWay)
-              .says(
-                  "Coordinate below which a stop lets it not go; of a slider or distance low_mm."));
+              .says("Stop below which the coordinate does not go."));
         v("high", high,
           Field::of(slides() ? Quantity::length : Quantity::angle)
               .within(-kMostWay, kMostWay)
-              .says("Coordinate above which a stop lets it not go; of a slider high_mm, which of a "
-                    "distance is the length of a rope."));
+              .says("Stop above which the coordinate does not go; of a distance, the length of a "
+                    "rope."));
         visit_bushing(v);
         v("collide", collide, says("Whether the two bodies touch each other all the same."));
         v("recorded", recorded,
@@ -119,33 +118,31 @@ struct Joint {
         v("stiffness", stiffness,
           Field::of(slides() ? Quantity::stiffness : Quantity::turn_stiffness)
               .within(0, kStiffest)
-              .says("Of a spring about the axis of a hinge; of a slider or distance, along it: "
-                    "stiffness_N_m."));
+              .says("Of a spring about the axis of a hinge, along that of a slider, or along a "
+                    "distance."));
         v("curve_at", curve.stretch,
           Field::of(slides() ? Quantity::length : Quantity::angle)
               .within(-kMostWay, kMostWay)
-              .says(
-                  "Of a spring that does not obey Hooke's law: stretches from its rest, ascending; "
-                  "of a slider or distance, curve_at_mm."));
+              .says("Of a spring that does not obey Hooke's law: stretches from its rest, "
+                    "ascending."));
         v("curve", curve.resistance,
           Field::of(slides() ? Quantity::force : Quantity::torque)
               .within(-kMostForce, kMostForce)
               .says("With what it resists at these stretches, with straight lines between them and "
-                    "beyond; of a slider or distance, curve_N."));
+                    "beyond."));
         v("rest", rest,
           Field::of(slides() ? Quantity::length : Quantity::angle)
               .within(-kMostWay, kMostWay)
-              .says(
-                  "Coordinate at which the spring is relaxed, 0 at the start; of a slider, or for "
-                  "the length of a distance, rest_mm."));
+              .says("Coordinate at which the spring is relaxed, 0 at the start; of a distance, its "
+                    "length then."));
         v("damping", damping,
           Field::of(slides() ? Quantity::damping : Quantity::turn_damping)
               .within(0, kMostDamping)
-              .says("Of a damper beside the spring; of a slider or distance damping_Ns_m."));
+              .says("Of a damper beside the spring."));
         v("friction", friction,
           Field::of(slides() ? Quantity::force : Quantity::torque)
               .within(0, kMostForce)
-              .says("Dry friction about the axis; of a slider, along it: friction_N."));
+              .says("Dry friction about the axis, or along it."));
     }
     template <class Visitor>
     void visit_bushing(Visitor& v) {

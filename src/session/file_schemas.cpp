@@ -9,7 +9,7 @@
 #include "base/installed.h"
 #include "base/json_schema.h"
 #include "person/population.h"
-#include "rig/rig.h"
+#include "rig/kinds.h"
 #include "scene/kinds.h"
 #include "servo/settings.h"
 #include "task/experiment.h"
@@ -31,6 +31,10 @@ std::string schema_of(const char* heading) {
     schema.part("bodies", by_name(JsonSchema::yes_or_no()));
     schema.part("fingers", by_name(JsonSchema::yes_or_no()));
     schema.part("factors", by_name(JsonSchema::word()));
+    for (const devices::Backend& backend : devices::backends()) {
+        if (backend.options != nullptr) backend.options(schema);
+    }
+    for (const outlets::Kind& kind : outlets::kinds()) kind.options(schema);
     return schema.of(Struct{}, heading).dump(1) + "\n";
 }
 

@@ -18,12 +18,14 @@ struct Thing {
     std::string name;
     double radius = 0.006;
     Vec3 size = Vec3::Zero();
+    Node options;
 
     template <class Visitor>
     void visit(Visitor& v) {
         std::string word(enum_name(form));
         v("form", word, Field::text().required().says("What it is."));
         v("name", name, says("Its name."));
+        v("options", options);
         if (form == Form::ball)
             v("radius", radius, Field::length().within(1e-4, 0.1).says("Its radius."));
         if (form == Form::brick) v("size", size, Field::length().positive().required());
@@ -32,6 +34,15 @@ struct Thing {
 Kinds<Thing> kinds_of(const Thing& value) {
     return each_kind<Form>("form", value, [](Thing& thing, Form form) { thing.form = form; });
 }
+
+struct Options {
+    double bounce = 0.5;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("bounce", bounce);
+    }
+};
 
 struct Shelf {
     std::vector<Thing> things;
@@ -58,6 +69,7 @@ struct Shelf {
 Json schema() {
     JsonSchema made;
     made.part("colours", {{"type", "object"}});
+    made.part_of_kind("options", "ball", "Options.ball", Options{});
     return made.of(Shelf{}, "Shelf");
 }
 
@@ -99,7 +111,14 @@ TEST(JsonSchema, HasTheKeysOfEachKind) {
     EXPECT_EQ(brick["then"]["allOf"][0]["anyOf"].size(), units(Quantity::length).size());
     const Json other = thing["allOf"][2];
     EXPECT_EQ(other["if"]["properties"]["form"]["enum"], Json({"ball", "brick"}));
-    EXPECT_EQ(other["else"]["properties"].size(), 2);
+    EXPECT_EQ(other["else"]["properties"].size(), 3);
+}
+
+TEST(JsonSchema, HasTheOptionsOfTheKind) {
+    const Json kinds = schema()["definitions"]["Shelf.things"]["allOf"];
+    EXPECT_EQ(kinds[0]["then"]["properties"]["options"]["$ref"], "#/definitions/Options.ball");
+    EXPECT_EQ(kinds[1]["then"]["properties"]["options"]["type"], Json({"object", "null"}));
+    EXPECT_EQ(schema()["definitions"]["Options.ball"]["properties"]["bounce"]["default"], 0.5);
 }
 
 TEST(JsonSchema, LetsBothThroughWhatMayBeAListOrNot) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/json_schema.h"
 #include "base/number.h"
 #include "devices/claims.h"
 #include "devices/forcedimension/group.h"
@@ -185,7 +186,11 @@ Backend backend() {
             .describe = describe,
             .make = make,
             .real = true,
-            .survey = survey};
+            .survey = survey,
+            .options = [](JsonSchema& schema) {
+                schema.part_of_kind("options", "forcedimension", "Options.forcedimension",
+                                    Options{});
+            }};
 }
 
 }  // namespace dihaptic::devices::forcedimension

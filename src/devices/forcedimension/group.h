@@ -27,15 +27,29 @@ struct Options {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("serial", serial, Field::number().within(0, 65535));
-        v("library", library);
-        v("peak_force", peak_force, Field::of(Quantity::force).within(0.01, 1000));
-        v("continuous_force", continuous_force, Field::of(Quantity::force).within(0.01, 1000));
-        v("workspace", workspace, Field::length().within(1e-3, 100));
-        v("orientation", orientation);
-        v("peak_torque", peak_torque, Field::of(Quantity::torque).within(1e-4, 100));
-        v("continuous_torque", continuous_torque, Field::of(Quantity::torque).within(1e-4, 100));
-        v("watchdog", watchdog);
+        v("serial", serial,
+          Field::number().within(0, 65535).says(
+              "Serial number; left out, the only device that is connected."));
+        v("library", library, says("Path of libdhd.so, if the system finds none."));
+        v("peak_force", peak_force,
+          Field::of(Quantity::force)
+              .within(0.01, 1000)
+              .says("Largest force that the device may be asked for."));
+        v("continuous_force", continuous_force,
+          Field::of(Quantity::force).within(0.01, 1000).says("Force that it can hold for long."));
+        v("workspace", workspace,
+          Field::length().within(1e-3, 100).says(
+              "Edges of the box around its origin that it reaches."));
+        v("orientation", orientation, says("Whether its orientation is used, if it measures one."));
+        v("peak_torque", peak_torque,
+          Field::of(Quantity::torque)
+              .within(1e-4, 100)
+              .says("Largest torque that the device may be asked for."));
+        v("continuous_torque", continuous_torque,
+          Field::of(Quantity::torque).within(1e-4, 100).says("Torque that it can hold for long."));
+        v("watchdog", watchdog,
+          says("Whether to set the watchdog by which the device ends its force when it hears "
+               "nothing."));
     }
 
     static constexpr int kAny = -1;

@@ -1,5 +1,6 @@
 #include "devices/haply/backend.h"
 
+#include "base/json_schema.h"
 #include "devices/haply/group.h"
 #include "devices/haply/inventory.h"
 
@@ -17,7 +18,10 @@ Backend backend() {
             .describe = describe_group,
             .make = make_group,
             .real = true,
-            .survey = survey};
+            .survey = survey,
+            .options = [](JsonSchema& schema) {
+                schema.part_of_kind("options", "haply", "Options.haply", Options{});
+            }};
 }
 
 }  // namespace dihaptic::devices::haply

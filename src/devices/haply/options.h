@@ -26,13 +26,25 @@ struct Options {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("device_id", device_id, Field::text().required());
-        v("url", url);
-        v("force_key", force_key);
-        v("time_out", time_out, Field::of(Quantity::time).within(1e-3, 1));
-        v("peak_force", peak_force, Field::of(Quantity::force).positive().at_most(20));
-        v("verse_grip", verse_grip);
-        v("wireless_verse_grip", wireless_verse_grip);
+        v("device_id", device_id,
+          Field::text().required().says(
+              "Serial number, hexadecimal, as Haply's service lists it."));
+        v("url", url, says("Address of the service, which is on this machine."));
+        v("force_key", force_key,
+          says("How the service spells the field of a force: vector from 3.5 on, values before."));
+        v("time_out", time_out,
+          Field::of(Quantity::time)
+              .within(1e-3, 1)
+              .says("After this time without an answer the device is given up."));
+        v("peak_force", peak_force,
+          Field::of(Quantity::force)
+              .positive()
+              .at_most(20)
+              .says("Force that larger ones are reduced to."));
+        v("verse_grip", verse_grip,
+          says("Serial number of a wired VerseGrip, which measures orientation."));
+        v("wireless_verse_grip", wireless_verse_grip,
+          says("Serial number of a wireless VerseGrip, which measures orientation."));
     }
 };
 

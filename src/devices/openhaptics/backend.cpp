@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/json_schema.h"
 #include "devices/claims.h"
 #include "devices/openhaptics/group.h"
 
@@ -77,8 +78,14 @@ Survey survey() {
 }  // namespace
 
 Backend backend() {
-    return {
-        .name = "openhaptics", .describe = describe, .make = make, .real = true, .survey = survey};
+    return {.name = "openhaptics",
+            .describe = describe,
+            .make = make,
+            .real = true,
+            .survey = survey,
+            .options = [](JsonSchema& schema) {
+                schema.part_of_kind("options", "openhaptics", "Options.openhaptics", Options{});
+            }};
 }
 
 }  // namespace dihaptic::devices::openhaptics

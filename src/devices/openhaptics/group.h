@@ -31,17 +31,33 @@ struct Options {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name);
-        v("serial", serial);
-        v("library", library);
-        v("encoder_reset", encoder_reset);
-        v("orientation", orientation);
-        v("peak_torque", peak_torque, Field::of(Quantity::torque).within(1e-4, 100));
-        v("continuous_torque", continuous_torque, Field::of(Quantity::torque).within(1e-4, 100));
-        v("joint_angles", joint_angles);
+        v("name", name,
+          says("Name in the driver's configuration; left out, the first device that is found."));
+        v("serial", serial, says("Serial number that the device must have; left out, any."));
+        v("library", library, says("Path of libHD.so, if the system finds none."));
+        v("encoder_reset", encoder_reset,
+          says("Whether its encoders are reset at each start, with the arm in its neutral pose."));
+        v("orientation", orientation, says("Whether its orientation is used, if it measures one."));
+        v("peak_torque", peak_torque,
+          Field::of(Quantity::torque)
+              .within(1e-4, 100)
+              .says("Torque that larger ones are reduced to: lower than the device's own, or in "
+                    "its place."));
+        v("continuous_torque", continuous_torque,
+          Field::of(Quantity::torque)
+              .within(1e-4, 100)
+              .says("Torque that it can hold for long, in place of what it states."));
+        v("joint_angles", joint_angles,
+          says("Whether the joint angles of a Premium are read, which a calibration can use."));
         links.visit(v);
-        v("max_stiffness", max_stiffness, Field::of(Quantity::stiffness).within(1, 1e6));
-        v("max_damping", max_damping, Field::of(Quantity::damping).within(1e-3, 1e4));
+        v("max_stiffness", max_stiffness,
+          Field::of(Quantity::stiffness)
+              .within(1, 1e6)
+              .says("Largest stiffness that it renders stably, in place of what it states."));
+        v("max_damping", max_damping,
+          Field::of(Quantity::damping)
+              .within(1e-3, 1e4)
+              .says("Largest damping that it renders stably, in place of what it states."));
     }
 
     /// What they say of the device.

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <utility>
 
+#include "base/json_schema.h"
 #include "devices/simulated/plant.h"
 
 namespace dihaptic::devices::simulated {
@@ -216,7 +217,10 @@ std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs,
 }  // namespace
 
 Backend backend() {
-    return {.name = "simulated", .describe = describe, .make = make};
+    return {
+        .name = "simulated", .describe = describe, .make = make, .options = [](JsonSchema& schema) {
+            schema.part_of_kind("options", "simulated", "Options.simulated", Options{});
+        }};
 }
 
 }  // namespace dihaptic::devices::simulated

@@ -59,34 +59,39 @@ struct Options {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("serial", serial);
-        v("preset", preset);
+        v("serial", serial, says("Serial number that the device reports."));
+        v("preset", preset,
+          says("Device that is simulated; it sets all other options, whose defaults are stated of "
+               "plant."));
         if constexpr (requires { v.diagnostics(); }) {
             const std::string given = serial;
             *this = of(preset);
             serial = given;
         }
-        v("mass", mass, Field::of(Quantity::mass).within(1e-3, 100));
-        v("peak_force", peak_force, Field::of(Quantity::force).within(0.01, 1e4));
-        v("continuous_force", continuous_force, Field::of(Quantity::force).within(0.01, 1e4));
-        v("position_step", position_step, Field::length().within(0, 0.01));
-        v("friction", friction, Field::of(Quantity::force).within(0, 100));
-        v("delay_ticks", delay_ticks, Field::number().at_least(0).at_most(100));
-        v("velocity_window", velocity_window, Field::number().at_least(1).at_most(kMostWindow));
-        v("buttons", buttons, Field::number().within(0, 0x7fffffff));
-        v("workspace", workspace, Field::length().within(1e-3, 100));
-        v("max_stiffness", max_stiffness, Field::of(Quantity::stiffness).within(1, 1e6));
-        v("max_damping", max_damping, Field::of(Quantity::damping).within(1e-3, 1e4));
-        v("arm", arm);
-        links.visit(v);
-        v("joint_offset", joint_offset, Field::of(Quantity::angle).within(-0.2, 0.2));
-        v("misplaced_by", misplaced_by, Field::length().within(-0.1, 0.1));
-        v("misplaced_turn", misplaced_turn, Field::of(Quantity::angle).within(-0.5, 0.5));
-        v("orientation", orientation);
-        v("peak_torque", peak_torque, Field::of(Quantity::torque).within(0, 100));
-        v("continuous_torque", continuous_torque, Field::of(Quantity::torque).within(1e-4, 100));
-        v("inertia", inertia, Field::of(Quantity::inertia).within(1e-7, 1));
-        v("angle_step", angle_step, Field::of(Quantity::angle).within(0, 0.1));
+        v("mass", mass,
+          Field::of(Quantity::mass).within(1e-3, 100).says("Apparent mass at the endpoint."));
+        v("peak_force", peak_force,
+          Field::of(Quantity::force)
+              .within(0.01, 1e4)
+              .says("Force that larger ones are reduced to."));
+        v("continuous_force", continuous_force,
+          Field::of(Quantity::force)
+              .within(0.01, 1e4)
+              .says("Force that the motors can hold for long."));
+        visit_reading(v);
+        v("workspace", workspace,
+          Field::length().within(1e-3, 100).says(
+              "Edges of the box around its origin that it reaches."));
+        v("max_stiffness", max_stiffness,
+          Field::of(Quantity::stiffness)
+              .within(1, 1e6)
+              .says("Largest stiffness that it renders stably, as its maker states."));
+        v("max_damping", max_damping,
+          Field::of(Quantity::damping)
+              .within(1e-3, 1e4)
+              .says("Largest damping that it renders stably, as its maker states."));
+        visit_arm(v);
+        visit_turning(v);
     }
 
     /// Pose of the true D in the D of the rig file.
@@ -94,6 +99,67 @@ struct Options {
 
     static constexpr int kMostWindow = 64;
     static Options of(Preset preset);
+
+  private:
+    template <class Visitor>
+    void visit_reading(Visitor& v) {
+        v("position_step", position_step,
+          Field::length().within(0, 0.01).says(
+              "Step of the encoders, at the endpoint; 0 is exact."));
+        v("friction", friction,
+          Field::of(Quantity::force).within(0, 100).says("Coulomb friction at the endpoint."));
+        v("delay_ticks", delay_ticks,
+          Field::number().at_least(0).at_most(100).says(
+              "Number of ticks from writing a force until it acts."));
+        v("velocity_window", velocity_window,
+          Field::number()
+              .at_least(1)
+              .at_most(kMostWindow)
+              .says("Number of ticks that the velocity is taken over, if positions have steps."));
+        v("buttons", buttons,
+          Field::number()
+              .within(0, 0x7fffffff)
+              .says("Buttons that the simulated hand holds down, one bit each."));
+    }
+    template <class Visitor>
+    void visit_arm(Visitor& v) {
+        v("arm", arm,
+          says("One mass at the endpoint, equal along all axes, or the links and joints of a "
+               "Premium."));
+        links.visit(v);
+        v("joint_offset", joint_offset,
+          Field::of(Quantity::angle)
+              .within(-0.2, 0.2)
+              .says("True minus reported angles of the joints, as a bad reset leaves them."));
+        v("misplaced_by", misplaced_by,
+          Field::length().within(-0.1, 0.1).says(
+              "How far the device stands from where the rig file has it, along its own axes."));
+        v("misplaced_turn", misplaced_turn,
+          Field::of(Quantity::angle)
+              .within(-0.5, 0.5)
+              .says("How it is turned from how the rig file has it, about its x, then y, then z."));
+    }
+    template <class Visitor>
+    void visit_turning(Visitor& v) {
+        v("orientation", orientation,
+          says("Whether it measures orientation; otherwise the endpoint does not turn."));
+        v("peak_torque", peak_torque,
+          Field::of(Quantity::torque)
+              .within(0, 100)
+              .says("Torque that larger ones are reduced to; 0: it renders none."));
+        v("continuous_torque", continuous_torque,
+          Field::of(Quantity::torque)
+              .within(1e-4, 100)
+              .says("Torque that the motors can hold for long."));
+        v("inertia", inertia,
+          Field::of(Quantity::inertia)
+              .within(1e-7, 1)
+              .says("Moment of inertia of the handle about its endpoint, equal about all axes."));
+        v("angle_step", angle_step,
+          Field::of(Quantity::angle)
+              .within(0, 0.1)
+              .says("Step of the encoders of the handle's rotation; 0 is exact."));
+    }
 };
 
 }  // namespace dihaptic::devices::simulated

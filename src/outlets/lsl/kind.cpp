@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/json_schema.h"
 #include "base/number.h"
 #include "outlets/lsl/library.h"
 
@@ -14,8 +15,8 @@ struct Options {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name);
-        v("library", library);
+        v("name", name, says("Beginning of the streams' names."));
+        v("library", library, says("Path of liblsl, if it is not found automatically."));
     }
 };
 
@@ -136,7 +137,13 @@ std::unique_ptr<Outlet> make(const OutletConfig& config, const About& about) {
 }  // namespace
 
 Kind kind() {
-    return {"lsl", check, make, true, false};
+    return {"lsl",
+            check,
+            make,
+            true,
+            false,
+            [](JsonSchema& schema) {
+                schema.part_of_kind("options", "lsl", "Options.lsl", Options{}); }};
 }
 
 }  // namespace dihaptic::outlets::lsl

@@ -11,6 +11,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/json_schema.h"
+
 namespace dihaptic::outlets::serial {
 namespace {
 
@@ -37,9 +39,13 @@ struct Options {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("port", port, Field::text().required());
-        v("baud", baud, Field::number().within(50, 4e6));
-        v("hold", hold, Field::of(Quantity::time).within(0, 1));
+        v("port", port,
+          Field::text().required().says("Device file of the line, e.g. /dev/ttyUSB0."));
+        v("baud", baud, Field::number().within(50, 4e6).says("Its speed, one of the usual ones."));
+        v("hold", hold,
+          Field::of(Quantity::time)
+              .within(0, 1)
+              .says("Time after which code 0 follows a code; 0: none follows."));
     }
 };
 
@@ -155,7 +161,9 @@ std::unique_ptr<Outlet> make(const OutletConfig& config, const About&) {
 }  // namespace
 
 Kind kind() {
-    return {"serial", check, make, false, true};
+    return {"serial", check, make, false, true, [](JsonSchema& schema) {
+                schema.part_of_kind("options", "serial", "Options.serial", Options{});
+            }};
 }
 
 }  // namespace dihaptic::outlets::serial

@@ -14,7 +14,7 @@
 #include "base/field_writer.h"
 #include "base/number.h"
 #include "person/population.h"
-#include "rig/rig.h"
+#include "rig/kinds.h"
 #include "scene/kinds.h"
 #include "servo/settings.h"
 #include "task/experiment.h"
