@@ -15,6 +15,7 @@ install(DIRECTORY python/dihaptic/ DESTINATION ${python_folder} FILES_MATCHING P
     PATTERN __pycache__ EXCLUDE)
 if(TARGET dihaptic_python)
     install(TARGETS dihaptic_python LIBRARY DESTINATION ${python_folder})
+    install(FILES $<TARGET_FILE_DIR:dihaptic_python>/facts.json DESTINATION ${python_folder})
 endif()
 
 # The world and its contact solvers for other C++ programs: find_package(dihaptic), dihaptic::dynamics

@@ -7,15 +7,30 @@
     session["grip_force"], session["block.position"], session.t       # numpy arrays
     session.plot("grip_force", "load_force", align="lift_off")
 
-docs/python.md shows what can be done, and help(dh) lists it.
+docs/python.md shows what can be done, and help(dh) lists it. Reading works on any computer (dihaptic-read); what takes the
+program, or its module `_native`, raises an ImportError there that says what to do.
 """
 
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 try:
-    from . import _native
-    from . import env
-    from .between import Attempt, BetweenTrials, Next
+    from . import _facts
     from .charts import plot
     from .errors import Error, NotThere, Problem
+    from .rehearsal import Rehearsal
+    from .session import Session, load
+    from .tables import read_table
+    from .vocabulary import Quantity, quantities, quantity
+except ImportError as _why:
+    from ._remedy import explain
+
+    raise ImportError(explain(_why)) from None
+
+try:
+    from . import env
+    from .between import Attempt, BetweenTrials, Next
     from .files import Experiment, Part, Rig, Scene
     from .fits import (
         LearningCurveFit,
@@ -31,17 +46,14 @@ try:
     from .live import Live, Moment, observe
     from .person import Person, Seen
     from .program import check, recover, replay, report, resume, run, shipped
-    from .rehearsal import Rehearsal, rehearse
-    from .vocabulary import Quantity, quantities, quantity
-    from .session import Session, load
-    from .tables import read_table
+    from .rehearsing import rehearse
     from .world import Body, Finger, World, step_all
-except ImportError as _why:
-    from ._remedy import explain
+except ImportError as _why:  # all of these take the program, or its module
+    _missing: ImportError | None = _why
+else:
+    _missing = None
 
-    raise ImportError(explain(_why)) from None
-
-__version__: str = _native.version.split()[-1]
+__version__: str = _facts.version()
 
 __all__ = [
     "Attempt", "BetweenTrials", "Body", "Error", "Experiment", "Finger", "LearningCurveFit", "Live", "Moment", "Next", "NotThere",
@@ -50,3 +62,13 @@ __all__ = [
     "fit_single_rate", "fit_two_rate", "load", "observe", "plot", "quantities", "quantity", "read_table", "recover", "rehearse",
     "replay", "report", "resume", "run", "shipped", "step_all",
 ]  # fmt: skip
+
+if _missing is not None and not TYPE_CHECKING:
+    from ._remedy import needs_program
+
+    _whole, __all__ = __all__, [name for name in __all__ if name in globals()]
+
+    def __getattr__(name: str) -> object:
+        if name in _whole:
+            raise ImportError(needs_program(name, _missing))
+        raise AttributeError(f"module 'dihaptic' has no attribute '{name}'")

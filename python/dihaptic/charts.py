@@ -8,7 +8,8 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from . import _native, vocabulary
+from . import vocabulary
+from ._facts import facts
 from .errors import NotThere, error
 
 if TYPE_CHECKING:
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
 #: Moments of a lift, and the columns of lifts.csv that have their times.
 _LIFT_MOMENTS = ["touch", "load_onset", "lift_off", "replacement", "release", "first_slip"]
 #: Of quantities whose colour means the same everywhere.
-_COLOURS: dict[str, str] = _native.colours()
+_COLOURS: dict[str, str] = facts()["colours"]
 #: For all others, distinct with any kind of colour vision (Okabe and Ito, 2008).
 _OTHERS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
 
@@ -51,7 +52,10 @@ def plot(
     if by is not None and align is None:
         raise error("groups what is aligned", 'Add align="lift_off", or another moment.', key="by")
     if axes is None:
-        import matplotlib.pyplot as plt
+        try:
+            import matplotlib.pyplot as plt
+        except ImportError:
+            raise ImportError("plot needs matplotlib: python3 -m pip install matplotlib.", name="matplotlib") from None
 
         _, axes = plt.subplots(figsize=(8, 4.5), layout="constrained")
     if align is None:

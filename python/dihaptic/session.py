@@ -13,7 +13,10 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 
-from . import _native, vocabulary
+from . import vocabulary
+from ._head import Head, read_head, read_info
+from ._remedy import needs_program
+from ._seals import broken_seals
 from .errors import Error, NotThere, error
 from .tables import read_table
 
@@ -80,8 +83,7 @@ class Session:
         >>> dh.load(lift_session).info["state"]
         'complete'
         """
-        info: dict[str, Any] = _native.read_yaml(str(self.folder / "session.yaml")) or {}
-        return info
+        return read_info(self.folder / "session.yaml")
 
     @property
     def fingers(self) -> list[str]:
@@ -101,12 +103,11 @@ class Session:
     @property
     def tick(self) -> float:
         """Time from one tick to the next [s]."""
-        return float(self._head["tick"])
+        return self._head.tick
 
     @cached_property
-    def _head(self) -> dict[str, Any]:
-        head: dict[str, Any] = _native.log_head(str(self.folder / "raw.log"))
-        return head
+    def _head(self) -> Head:
+        return read_head(self.folder / "raw.log")
 
     # Tables
 
@@ -137,7 +138,11 @@ class Session:
 
     def _tell_changes(self, file: Path) -> None:
         """Warns of a table that is not what it was when the session ended."""
-        for what in _native.broken_seals(str(self.folder), file.name):
+        try:
+            info = self.info
+        except Error:  # its other readers refuse it
+            return
+        for what in broken_seals(self.folder, info, file.name):
             warnings.warn(what, stacklevel=3)
 
     @cached_property
@@ -189,14 +194,19 @@ class Session:
 
     def exact(self, name: str) -> Array:
         """A quantity with all its bits, from raw.log: session.nwb keeps numbers that are not whole
-        in 32 bits, 7 digits. Reads the whole log, about two seconds for a quarter of an hour. Raises
-        NotThere, or Error if the log is shorter than session.nwb.
+        in 32 bits, 7 digits. Reads the whole log, about two seconds for a quarter of an hour, and
+        takes the whole package. Raises NotThere, or Error if the log is shorter than session.nwb.
 
         >>> import dihaptic as dh
         >>> session = dh.load(lift_session)
         >>> bool((session.exact("grip_force").astype("f4") == session["grip_force"]).all())
         True
         """
+        try:
+            from . import _native
+        except ImportError as why:
+            raise ImportError(needs_program("Session.exact", why)) from None
+
         place = self._place_of(name)
         values = _native.log_values(str(self.folder / "raw.log"), place.of, place.item, place.quantity.name)
         out = np.array(values)
@@ -317,7 +327,7 @@ class Session:
 
     @property
     def _items(self) -> vocabulary.Items:
-        return dict(self._head["items"])
+        return self._head.items
 
     def _has(self, series: str) -> bool:
         return f"acquisition/{series}" in self._file

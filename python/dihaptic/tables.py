@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pandas as pd
 
-from . import _native
+from ._facts import facts
 from .errors import error
 
 #: Columns of names, which may look like numbers.
@@ -36,8 +36,16 @@ def read_table(file: str | Path) -> pd.DataFrame:
         raise error(f"cannot be read as a table: {why}", "Name a CSV file.", file=str(path)) from None
     if "simulated" in table:
         table["simulated"] = table["simulated"].map(_YES)
-    units = {column: _native.unit_of(column) for column in table}
+    units = {column: _unit_of(column) for column in table}
     table.attrs["units"] = {column: unit for column, unit in units.items() if unit}
-    known = _native.table_columns(path.name)
+    known = facts()["columns"].get(path.name, [])
     table.attrs["meanings"] = {c: meaning for c, meaning in known if c in table}
     return table
+
+
+def _unit_of(column: str) -> str:
+    """The unit that a column's name ends with, as people write it: "N/s" of peak_grip_rate_N_s; "": none."""
+    units: dict[str, str] = facts()["units"]
+    parts = str(column).split("_")
+    # the longest that fits: N_s, and not s
+    return next((units[end] for i in range(1, len(parts)) if (end := "_".join(parts[i:])) in units), "")

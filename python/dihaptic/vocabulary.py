@@ -6,7 +6,8 @@ from dataclasses import dataclass
 
 import pandas as pd
 
-from . import _native
+from ._facts import facts
+from .errors import NotThere
 
 #: Lists whose series are named by their items: a finger, a body or a joint.
 NAMED_LISTS = ("fingers", "turns", "bodies", "joints")
@@ -45,7 +46,7 @@ class Quantity:
         return [f"{self.name}_{c}" for c in self.components] if self.components else [self.name]
 
 
-_ALL = [Quantity(*row) for row in _native.quantities()]
+_ALL = [Quantity(*row) for row in facts()["quantities"]]
 _BY_LIST: dict[str, dict[str, Quantity]] = {}
 for _quantity in _ALL:
     _BY_LIST.setdefault(_quantity.of, {})[_quantity.name] = _quantity
@@ -116,8 +117,6 @@ def quantity(name: str) -> Quantity:
     else:
         found = next((q for q in (find(last, of) for of in NAMED_LISTS) if q is not None), None)
     if found is None:
-        from .errors import NotThere
-
         raise NotThere(name, "is no quantity", [q.name for q in _ALL], "quantities() lists them.")
     return found
 

@@ -2,7 +2,6 @@
 
 #include "base/diagnostics.h"
 #include "parts.h"
-#include "recording/session.h"
 
 namespace py = pybind11;
 
@@ -37,7 +36,6 @@ void add_errors(py::module_&) {
 
 PYBIND11_MODULE(_native, m) {
     using namespace dihaptic::python;
-    m.attr("version") = dihaptic::recording::program_version();
     add_errors(m);
     add_vocabulary(m);
     add_fits(m);

@@ -20,6 +20,7 @@
 #include "recording/raw_log.h"
 #include "recording/schema.h"
 #include "recording/seal.h"
+#include "recording/session.h"
 #include "servo/frame.h"
 #include "session/check.h"
 
@@ -65,26 +66,40 @@ std::vector<QuantityRow> quantities() {
     return lister.rows;
 }
 
-std::vector<std::pair<std::string, std::string>> table_columns(const std::string& file) {
-    std::vector<Table::Column> columns;
-    if (file == "trials.csv") columns = analysis::trial_columns();
-    if (file == "phases.csv") columns = list_figures(analysis::PhaseFigures{}).columns;
-    if (file == "events.csv") columns = list_figures(analysis::Event{}).columns;
-    if (file == "episodes.csv") columns = list_figures(analysis::Episode{}).columns;
-    if (file == "lifts.csv") columns = list_figures(analysis::Lift{}).columns;
-    std::vector<std::pair<std::string, std::string>> out;
-    for (const Table::Column& column : columns) out.emplace_back(column.name, column.description);
+/// Of a table: each column's name and meaning.
+template <class Columns>
+py::list meanings(const Columns& columns) {
+    py::list out;
+    for (const Table::Column& column : columns)
+        out.append(py::make_tuple(column.name, column.description));
     return out;
 }
 
-/// The unit that a column's name ends with, as people write it: "N/s" of peak_grip_rate_N_s.
-std::string unit_of(const std::string& column) {
-    const NameInUnit in = split_unit(column);
-    if (in.quantity == Quantity::none || in.name.size() == column.size()) return "";
-    if (in.si == 1) return std::string(si_symbol(in.quantity));
-    std::string suffix = column.substr(in.name.size() + 1);
-    std::replace(suffix.begin(), suffix.end(), '_', '/');
-    return suffix;
+py::dict table_columns() {
+    py::dict out;
+    out["trials.csv"] = meanings(analysis::trial_columns());
+    out["phases.csv"] = meanings(list_figures(analysis::PhaseFigures{}).columns);
+    out["events.csv"] = meanings(list_figures(analysis::Event{}).columns);
+    out["episodes.csv"] = meanings(list_figures(analysis::Episode{}).columns);
+    out["lifts.csv"] = meanings(list_figures(analysis::Lift{}).columns);
+    return out;
+}
+
+/// Of each unit that a name may end with, such as N_s: as people write it, "N/s".
+py::dict unit_symbols() {
+    py::dict out;
+    for (int i = 1; i <= static_cast<int>(Quantity::angular_speed); ++i) {
+        const auto quantity = static_cast<Quantity>(i);
+        for (const Unit& unit : units(quantity)) {
+            std::string symbol(unit.suffix);
+            std::replace(symbol.begin(), symbol.end(), '_', '/');
+            const py::str suffix{std::string(unit.suffix)};
+            // of two kinds with the same suffix the first counts, as in split_unit()
+            if (!out.contains(suffix))
+                out[suffix] = unit.si == 1 ? std::string(si_symbol(quantity)) : symbol;
+        }
+    }
+    return out;
 }
 
 /// dihaptic._text.Plain, a word that a file has without quotes.
@@ -134,33 +149,6 @@ Node to_node(const py::handle& value) {
     const std::string word = py::str(value);
     const bool text = py::isinstance<py::str>(value) && !py::isinstance(value, plain_type());
     return text ? Node::of(word) : Node::plain_word(word);
-}
-
-/// What a session's seals tell of one of its tables; nothing of a session whose session.yaml cannot
-/// be read, which its other readers refuse.
-std::vector<std::string> broken_seals(const std::string& session, const std::string& table) {
-    std::vector<std::string> out;
-    try {
-        const auto folder = recording::SessionFolder::open_tables(session);
-        const std::string_view names[] = {table};
-        for (const Problem& problem :
-             recording::broken_seals(folder, folder.read_info(), Severity::warning, names))
-            out.push_back(problem.text());
-    } catch (const Error&) {
-        return {};
-    }
-    return out;
-}
-
-py::dict log_head(const std::string& file) {
-    const recording::LogHead head = recording::RawLogReader(file).head();
-    py::dict out;
-    out["tick"] = head.tick;
-    out["items"] = Items{{"fingers", head.fingers},
-                         {"turns", head.turning_fingers()},
-                         {"bodies", head.bodies},
-                         {"joints", head.joints}};
-    return out;
 }
 
 using ProblemRow = std::tuple<std::string, std::string, int, std::string, std::string, std::string,
@@ -216,19 +204,27 @@ py::list log_values(const std::string& file, const std::string& list, size_t ite
     return out;
 }
 
-py::dict colours() {
+/// What the package's readers know of sessions, and have from this program: they need nothing else
+/// of it (python/write_facts.py).
+py::dict facts() {
+    py::dict colours;
+    colours["grip_force"] = palette::kGrip;
+    colours["load_force"] = palette::kLoad;
     py::dict out;
-    out["grip_force"] = palette::kGrip;
-    out["load_force"] = palette::kLoad;
+    out["version"] = recording::program_version();
+    out["quantities"] = quantities();
+    out["columns"] = table_columns();
+    out["units"] = unit_symbols();
+    out["colours"] = colours;
+    out["tables_from_log"] = recording::tables_from_log();
+    out["other_tables"] = recording::other_tables();
     return out;
 }
 
 }  // namespace
 
 void add_vocabulary(py::module_& m) {
-    m.def("quantities", &quantities);
-    m.def("table_columns", &table_columns);
-    m.def("unit_of", &unit_of);
+    m.def("facts", &facts);
     m.def("read_yaml", [](const std::string& file) { return to_python(read_yaml(file)); });
     m.def("write_yaml", [](const py::handle& value) { return to_yaml(to_node(value)); });
     m.def("check_yaml",
@@ -236,10 +232,7 @@ void add_vocabulary(py::module_& m) {
     m.def("check_file", &check_file);
     m.def("on_real_devices", &on_real_devices);
     m.def("lines_of", &lines_of);
-    m.def("log_head", &log_head);
-    m.def("broken_seals", &broken_seals);
     m.def("log_values", &log_values);
-    m.def("colours", &colours);
     m.def("program", [] { return in_or_above_program({"dihaptic", "bin/dihaptic"}); });
     m.def("kept", &kept);
 }

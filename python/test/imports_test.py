@@ -1,4 +1,4 @@
-"""The package is imported from anywhere, says in a line why it cannot be, and is typed."""
+"""The package is imported from anywhere, says in a line what it cannot do there and why, and is typed."""
 
 import importlib.util
 import os
@@ -20,9 +20,9 @@ def python(code, package, folder="/", interpreter=sys.executable):
 
 
 class Imports(unittest.TestCase):
-    def copy(self, folder, *, module=True):
+    def copy(self, folder, *without):
         copied = pathlib.Path(folder) / "dihaptic"
-        shutil.copytree(PACKAGE / "dihaptic", copied, ignore=None if module else shutil.ignore_patterns("_native*.so"))
+        shutil.copytree(PACKAGE / "dihaptic", copied, ignore=shutil.ignore_patterns(*without))
         return copied.parent
 
     def last_line(self, said):
@@ -36,19 +36,32 @@ class Imports(unittest.TestCase):
 
     def test_that_was_not_built(self):
         with tempfile.TemporaryDirectory() as folder:
-            code, said = python("import dihaptic", self.copy(folder, module=False))
+            code, said = python("import dihaptic", self.copy(folder, "_native*.so", "facts.json"))
         self.assertEqual(code, 1)
         self.assertRegex(self.last_line(said), r"^ImportError: dihaptic has not been built here. Run \./dev build")
 
+    def test_without_the_module_reads_and_says_of_all_else_what_it_takes(self):
+        with tempfile.TemporaryDirectory() as folder:
+            package = self.copy(folder, "_native*.so")
+            code, said = python("import dihaptic; print(dihaptic.__all__); dihaptic.run", package)
+            self.assertEqual(code, 1)
+            self.assertIn("'load'", said)
+            self.assertNotIn("'run'", said)
+            self.assertRegex(self.last_line(said), "^ImportError: dihaptic.run needs the module _native, .* Run ./dev build.$")
+            code, said = python("from dihaptic import load, World", package)
+            self.assertRegex(self.last_line(said), "^ImportError: dihaptic.World needs the module _native")
+            code, said = python("import dihaptic; dihaptic.runn", package)
+            self.assertEqual(self.last_line(said), "AttributeError: module 'dihaptic' has no attribute 'runn'")
+
     def test_by_another_python(self):
         with tempfile.TemporaryDirectory() as folder:
-            package = self.copy(folder, module=False)
-            code, said = python("import sys; sys.version_info = (3, 12, 1); import dihaptic", package)
+            code, said = python("import sys; sys.version_info = (3, 12, 1); import dihaptic; dihaptic.run",
+                                self.copy(folder, "_native*.so"))
         self.assertEqual(code, 1)
-        self.assertIn("is built for Python 3.11, and this is 3.12. Use Debian's", self.last_line(said))
+        self.assertIn("is built for Python 3.11, and this is 3.12, where dihaptic only reads. Use Debian's", self.last_line(said))
 
     def test_without_a_library(self):
-        for name in ("numpy", "pandas", "h5py"):
+        for name in ("numpy", "pandas", "h5py", "yaml"):
             with self.subTest(name):
                 code, said = python(f"import sys; sys.modules['{name}'] = None; import dihaptic", PACKAGE)
                 self.assertEqual(code, 1)

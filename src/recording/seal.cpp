@@ -98,6 +98,14 @@ void add_faults(std::vector<Problem>& out, const SessionFolder& folder, const Se
 
 }  // namespace
 
+std::vector<std::string> tables_from_log() {
+    return {std::begin(kMade), std::end(kMade)};
+}
+
+std::vector<std::string> other_tables() {
+    return {std::begin(kGiven), std::end(kGiven)};
+}
+
 void seal(const SessionFolder& folder, SessionInfo& info) {
     std::vector<TableSeal> tables;
     for (const std::string_view name : kMade) {

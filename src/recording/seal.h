@@ -12,12 +12,18 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "recording/session.h"
 
 namespace dihaptic::recording {
+
+/// The tables that are sealed and can be made anew from raw.log.
+std::vector<std::string> tables_from_log();
+/// Those that are sealed and were made before the first tick, or while the session ran.
+std::vector<std::string> other_tables();
 
 /// Seals a session's tables as they are now. Those that were made before its first tick, or while
 /// it ran, and are in `info.tables` already, keep their seal: nothing can make them anew.

@@ -1,0 +1,81 @@
+"""Reads what a session says of itself: session.yaml, and the head of raw.log (src/recording/chunk.h)."""
+
+from __future__ import annotations
+
+import struct
+import zlib
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, BinaryIO
+
+import yaml
+
+from .errors import error
+
+#: Every value is a text, as it stands there.
+_LOADER = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
+#: Of each version of the log: its first line, and the header of a chunk, whose last number is its checksum.
+_VERSIONS = {
+    b"DIHAPTIC LOG 3\n": struct.Struct("<4sIQII"),
+    b"DIHAPTIC LOG 2\n": struct.Struct("<4sIQII"),
+    b"DIHAPTIC LOG 1\n": struct.Struct("<4sII"),
+}
+_MOST_HEAD = 1 << 24  # bytes
+
+
+@dataclass(frozen=True)
+class Head:
+    """What a log says before its first tick."""
+
+    tick: float  #: [s]
+    items: dict[str, list[str]]  #: of each list whose items have names: these, in their order
+
+
+def read_yaml(text: str, file: Path) -> dict[str, Any]:
+    """A mapping, whose values are texts, lists and mappings. Raises Error."""
+    try:
+        read = yaml.load(text, _LOADER)
+    except (yaml.YAMLError, RecursionError) as why:
+        raise error(f"cannot be read: {why}", "Restore it from a backup.", file=str(file)) from None
+    if not isinstance(read or {}, dict):
+        raise error("has no keys", "Restore it from a backup.", file=str(file))
+    return read or {}
+
+
+def read_info(file: Path) -> dict[str, Any]:
+    """What session.yaml says. Raises Error."""
+    try:
+        text = file.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as why:
+        raise error(f"cannot be read: {why}", "Restore it from a backup.", file=str(file)) from None
+    return read_yaml(text, file)
+
+
+def read_head(file: Path) -> Head:
+    """The head of a raw.log. Raises Error."""
+    try:
+        with file.open("rb") as log:
+            text = _text_of_head(log, file)
+    except OSError as why:
+        raise error(f"cannot be read: {why}", "Copy it from where the session was recorded.", file=str(file)) from None
+    head = read_yaml(text, file)
+    turning = [device["finger"] for device in head.get("devices", []) if device.get("orientation") == "yes"]
+    items = {name: list(head.get(name) or []) for name in ("fingers", "bodies", "joints")}
+    in_order = {"fingers": items["fingers"], "turns": turning, "bodies": items["bodies"], "joints": items["joints"]}
+    return Head(float(head["tick_s"]), in_order)
+
+
+def _text_of_head(log: BinaryIO, file: Path) -> str:
+    first = log.readline(len(next(iter(_VERSIONS))))
+    if first not in _VERSIONS:
+        raise error("is not a log of Dihaptic", "Give a session's folder, or its raw.log.", file=str(file))
+    layout = _VERSIONS[first]
+    header = log.read(layout.size)
+    if len(header) == layout.size:
+        kind, size, *_, checksum = layout.unpack(header)
+        payload = log.read(min(size, _MOST_HEAD))
+        if kind == b"HEAD" and zlib.crc32(payload, zlib.crc32(header[:-4])) == checksum:
+            return payload.decode("utf-8")
+    raise error(
+        "has no readable head", "Nothing of it can be recovered: put a backup of it in its place.", file=str(file)
+    )

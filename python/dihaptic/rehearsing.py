@@ -1,0 +1,260 @@
+"""Lets a population of simulated people do an experiment, and collects their tables."""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import multiprocessing
+import os
+import pickle
+import random
+import signal
+import sys
+import traceback
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from multiprocessing.connection import Connection, wait
+from multiprocessing.context import ForkProcess
+from pathlib import Path
+from typing import TypeVar
+
+import numpy as np
+
+from . import _native
+from .between import BetweenTrials, listening
+from .errors import error
+from .files import Input, on_disk
+from .person import Ended, Person
+from .program import call, ended_of
+from .rehearsal import Rehearsal
+
+_PR_SET_PDEATHSIG = 1  # <sys/prctl.h>
+
+
+def rehearse(
+    experiment: Input,
+    people: int = 1,
+    *,
+    jobs: int = 1,
+    population: str | Path = "",
+    person: Callable[[int], Person] | None = None,
+    between: Callable[[int], BetweenTrials] | None = None,
+    seed: int = 1,
+    out: str | Path = "",
+    keep_recordings: bool = False,
+    progress: bool = True,
+) -> Rehearsal:
+    """Lets simulated people do an experiment, as `dihaptic rehearse` does, and collects their tables.
+
+    Who is in the folder already is not done again. The tables are the same whatever `jobs`.
+    `person`: makes a simulated person of your own, by number, from 1; otherwise they are drawn from
+    `population`. `between`: makes what decides between a person's trials. What these draw from
+    `random` and `numpy.random` follows `seed` and the number; a generator of your own is to be made
+    from the number too, since people may be done in processes of their own. What one of these raises
+    ends the rehearsal, and so does a decision that cannot be; those who were done before stay.
+    `keep_recordings`: with raw.log and session.nwb of each, hundreds of MB. Raises Error.
+
+    >>> import dihaptic as dh
+    >>> study = dh.rehearse("experiments/first-trials.yaml", 2, out=f"{folder}/study", progress=False)
+    >>> sorted(study.trials.ppid.unique())
+    ['sim-001', 'sim-002']
+    >>> class Idle(dh.Person):
+    ...     def __init__(self, number):
+    ...         self.group = ["patients", "controls"][number % 2]
+    ...     def act(self, seen):
+    ...         pass
+    >>> idle = dh.rehearse("experiments/first-trials.yaml", 2, person=Idle, out=f"{folder}/idle", progress=False)
+    >>> idle.people[["id", "group", "class"]].values.tolist()
+    [['sim-001', 'controls', 'Idle'], ['sim-002', 'patients', 'Idle']]
+    """
+    with on_disk(experiment) as file:
+        folder = Path(out or f"rehearsals/{Path(file).stem}_{seed}")
+        if person is None and between is None:
+            command = ["rehearse", file, "--people", str(people), "--jobs", str(jobs), "--seed", str(seed)]
+            command += ["--out", str(folder)] + (["--population", str(population)] if population else [])
+            call(command + ["--keep-recordings"] * keep_recordings, progress)
+        else:
+            study = _Study(file, folder, seed, str(population), person, between, keep_recordings)
+            study.claim(people, jobs)
+            study.run(people, jobs, progress)
+    call(["collect", str(folder), "--out", str(folder)], progress=False)
+    return Rehearsal(folder)
+
+
+@dataclass(frozen=True)
+class _Study:
+    """A rehearsal whose people are Python's, or between whose trials Python decides."""
+
+    file: str
+    folder: Path
+    seed: int
+    population: str
+    person: Callable[[int], Person] | None
+    between: Callable[[int], BetweenTrials] | None
+    keep_recordings: bool
+
+    def claim(self, people: int, jobs: int) -> None:
+        """Checks what was given, and that nothing else is in the folder. Raises Error."""
+        for name, value, least, most in (
+            ("people", people, 1, _native.most_people),
+            ("jobs", jobs, 1, 1024),
+            ("seed", self.seed, 0, 2**64 - 1),
+        ):
+            if not least <= value <= most:
+                raise error(f"is {value}", f"Give {least} to {most}.", key=name)
+        if self.person is not None and self.population:
+            raise error("are given twice", "Leave out population or person.", key="people")
+        sitting = self._sitting(1)
+        with self._drawing(1):
+            person, rules = _made(self.person, 1, Person), _made(self.between, 1, BetweenTrials)
+            if person is not None and people > 1 and _made(self.person, 2, Person) is person:
+                raise error("is one object for all", "Make a person for each number.", key="person")
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True)
+        except OSError as why:
+            raise error(f"cannot be made: {why.strerror}", "Give another `out`.", file=str(self.folder)) from None
+        names = ["" if it is None else type(it).__name__ for it in (person, rules)]
+        sitting.claim(
+            str(self.folder), names[0], self.population, names[1], people, "dihaptic.rehearse() of Python, as before"
+        )
+
+    def run(self, people: int, jobs: int, progress: bool) -> None:
+        """Lets everybody do it who has not yet."""
+        waiting = [n for n in range(1, people + 1) if not (self.folder / _native.person_id(n)).exists()]
+        done = 0
+
+        def tell() -> None:
+            nonlocal done
+            done += 1
+            if progress:
+                sys.stderr.write(f"\rrehearsing {done} of {len(waiting)}")
+                sys.stderr.flush()
+
+        if min(jobs, len(waiting)) <= 1:
+            for number in waiting:
+                self._do(number)  # here, where a debugger stops in it
+                tell()
+        else:
+            self._in_processes(waiting, jobs, tell)
+        if progress:
+            sys.stderr.write("\r" + " " * 40 + "\r")
+
+    def _in_processes(self, waiting: list[int], jobs: int, tell: Callable[[], None]) -> None:
+        """A process for each person, so many at a time; the first that fails is the last that begins."""
+        fork = multiprocessing.get_context("fork")  # classes of a notebook are there, too
+        running: dict[Connection, ForkProcess] = {}
+        failed: BaseException | None = None
+        numbers = iter(waiting)
+        try:
+            while True:
+                while len(running) < jobs and failed is None and (number := next(numbers, None)) is not None:
+                    here, there = fork.Pipe(duplex=False)
+                    process = fork.Process(target=self._child, args=(number, there))
+                    process.start()
+                    there.close()
+                    running[here] = process
+                if not running:
+                    break
+                answered = wait(list(running))
+                for here in [here for here in running if here in answered]:
+                    process = running.pop(here)
+                    try:
+                        why = here.recv()
+                    except EOFError:
+                        why = error(f"a person's process ended by itself ({process.exitcode})", "Rehearse again.")
+                    process.join()
+                    if why is None:
+                        tell()
+                    elif failed is None:
+                        failed = why
+        except BaseException:  # Ctrl-C: each ends its session in order
+            for process in running.values():
+                os.kill(process.pid or 0, signal.SIGINT)
+            for process in running.values():
+                process.join()
+            raise
+        if failed is not None:
+            raise failed
+
+    def _child(self, number: int, answer: Connection) -> None:
+        # a parent that is killed leaves nobody behind
+        ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
+        why = None
+        try:
+            self._do(number)
+        except BaseException as raised:
+            raised.add_note("".join(traceback.format_exception(raised)))
+            why = _that_travels(raised)
+        answer.send(why)
+
+    @contextlib.contextmanager
+    def _drawing(self, number: int) -> Iterator[None]:
+        """What is drawn here is a person's own; what the caller draws later is as if nothing had been."""
+        before, of_numpy = random.getstate(), np.random.get_state()
+        random.seed(f"{self.seed} {number}")
+        np.random.seed([self.seed & 0xFFFFFFFF, self.seed >> 32, number])
+        try:
+            yield
+        finally:
+            random.setstate(before)
+            np.random.set_state(of_numpy)
+
+    def _do(self, number: int) -> None:
+        ppid = _native.person_id(number)
+        place = _native.UnfinishedFolder.take(str(self.folder), ppid)
+        if place is None:
+            raise error("another program does this session now", "Wait until that has ended.", key=ppid)
+        if not place.is_done():  # another program may have done it just now
+            with self._drawing(number):
+                self._record(number, ppid, place)
+        place.remove()
+
+    def _record(self, number: int, ppid: str, place: _native.UnfinishedFolder) -> None:
+        rules = _made(self.between, number, BetweenTrials)
+        with listening(rules) as asking:
+            ended = self._session(number, ppid, Path(place.path), asking)
+        wrong = [] if rules is None else [line for line in ended.said if "decides between trials" in line]
+        if wrong or not ended.good:
+            told = "\n".join([*(rules.failures if rules else []), *(wrong or ended.said)])
+            raise error(told or "was interrupted", f"Its files are in {ended.folder}.", key=ppid)
+        if not self.keep_recordings:
+            for recording in ("raw.log", "session.nwb"):
+                (Path(ended.folder) / recording).unlink(missing_ok=True)
+        place.finish(ended.folder)
+
+    def _session(self, number: int, ppid: str, place: Path, asking: list[str]) -> Ended:
+        person = _made(self.person, number, Person)
+        if person is not None:
+            socket = asking[-1] if asking else ""
+            return person._do(self._sitting(number), place, socket, self.keep_recordings)
+        command = ["run", self.file, "--simulate", "--participant", ppid, "--seed", str(self.seed), "--out", str(place)]
+        command += ["--population", self.population] if self.population else []
+        return ended_of(call(command + asking, progress=False))
+
+    def _sitting(self, number: int) -> _native.Sitting:
+        return _native.Sitting(self.file, "", [], self.seed, _native.person_id(number))
+
+
+Made = TypeVar("Made", Person, BetweenTrials)
+
+
+def _made(make: Callable[[int], Made] | None, number: int, kind: type[Made]) -> Made | None:
+    """What a function of rehearse()'s made for a person, if there is one. Raises Error."""
+    if make is None:
+        return None
+    it = make(number)
+    if not isinstance(it, kind):
+        raise error(f"{it!r} is none", "Give a function of a number that returns one.", key=kind.__name__)
+    return it
+
+
+def _that_travels(why: BaseException) -> BaseException:
+    """An exception, or one that says the same if it cannot go from one process to another."""
+    try:
+        pickle.loads(pickle.dumps(why))
+        return why
+    except Exception:
+        told = RuntimeError(f"{type(why).__name__}: {why}")
+        for note in why.__notes__:
+            told.add_note(note)
+        return told
