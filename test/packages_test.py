@@ -1,4 +1,4 @@
-"""The packages of the last commit: two builds of them, a bare Debian that has them, and a machine that boots them.
+"""The packages of the last commit: two builds of them, bare Debians that have them, and a machine that boots them.
 
 Usage: packages_test.py [TEST ...], from the project's folder; half an hour each.
 """
@@ -6,6 +6,7 @@ import os
 import pathlib
 import shutil
 import subprocess
+import tempfile
 import unittest
 
 SPACE = 12e9  # that a live system takes while it is made [bytes]
@@ -33,6 +34,15 @@ class Packages(unittest.TestCase):
     def test_on_a_bare_debian_run_and_leave_nothing_behind(self):
         built()
         shell("packaging/chroot-test")
+
+    @unittest.skipUnless(os.geteuid() == 0 and shutil.which("debootstrap"),
+                         "wants root, and debootstrap: sudo apt install debootstrap")
+    def test_the_wheel_reads_in_debians_with_other_pythons(self):
+        built()
+        with tempfile.TemporaryDirectory() as folder:
+            shell("build/release/dihaptic", "run", "experiments/first-trials.yaml", "--simulate", "--participant", "sim-001",
+                  "--out", folder)
+            shell("packaging/reader/chroot-test", next(pathlib.Path(folder).iterdir()))
 
     @unittest.skipUnless(os.geteuid() == 0 and shutil.which("lb") and shutil.which("qemu-system-x86_64"),
                          "wants root, live-build and qemu: sudo apt install live-build qemu-system-x86")

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING, Any
 
 import h5py
 import numpy as np
-import numpy.typing as npt
 import pandas as pd
 
 from . import vocabulary
@@ -21,9 +20,10 @@ from .errors import Error, NotThere, error
 from .tables import read_table
 
 if TYPE_CHECKING:
+    import numpy.typing as npt
     from matplotlib.axes import Axes
 
-Array = npt.NDArray[Any]
+    Array = npt.NDArray[Any]
 
 
 def load(folder: str | Path) -> Session:
