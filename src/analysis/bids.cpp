@@ -9,9 +9,9 @@
 #include "analysis/bids/data_set.h"
 #include "analysis/bids/events.h"
 #include "analysis/bids/motion.h"
+#include "analysis/ended.h"
 #include "base/output.h"
 #include "base/regular_file.h"
-#include "base/shell_word.h"
 #include "base/text_file.h"
 #include "recording/raw_log.h"
 #include "recording/seal.h"
@@ -32,14 +32,7 @@ class Exporter {
           data_set_(data_set, session_, info_),
           task_(fs::path(info_.experiment).stem().string()),
           folder_((fs::path(data_set) / data_set_.subject() / "motion").string()) {
-        if (info_.state == recording::SessionState::running) {
-            throw Error({session.file("session.yaml"), 0}, "", "the session has not ended",
-                        "If it was killed, run: dihaptic recover " + shell_file(session.path()));
-        }
-        if (!is_there(session.raw_log()) && is_there(session.file("trials.csv"))) {
-            throw Error({session.path(), 0}, "", "has no recording any more, only tables",
-                        "Rehearse with --keep-recordings to have one.");
-        }
+        check_ended(session, info_);
     }
 
     Exported run(const std::function<void(double)>& progress) {
