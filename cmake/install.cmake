@@ -7,6 +7,7 @@ install(TARGETS dihaptic dihaptic-bench)
 install(TARGETS ${companions} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/dihaptic)
 install(DIRECTORY experiments meshes movements populations rigs scenes textures
     ${PROJECT_BINARY_DIR}/schema
+install(DIRECTORY experiments meshes movements octave populations rigs scenes textures
     DESTINATION ${CMAKE_INSTALL_DATADIR}/dihaptic)
 
 # Debian's Python looks there
@@ -15,7 +16,9 @@ install(DIRECTORY python/dihaptic/ DESTINATION ${python_folder} FILES_MATCHING P
     PATTERN __pycache__ EXCLUDE)
 if(TARGET dihaptic_python)
     install(TARGETS dihaptic_python LIBRARY DESTINATION ${python_folder})
-    install(FILES $<TARGET_FILE_DIR:dihaptic_python>/facts.json DESTINATION ${python_folder})
+    foreach(folder ${python_folder} ${CMAKE_INSTALL_DATADIR}/dihaptic/octave)
+        install(FILES $<TARGET_FILE_DIR:dihaptic_python>/facts.json DESTINATION ${folder})
+    endforeach()
 endif()
 
 # The world and its contact solvers for other C++ programs: find_package(dihaptic), dihaptic::dynamics

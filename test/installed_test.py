@@ -2,6 +2,7 @@
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -78,6 +79,15 @@ print(len(dh.run("experiments/lift-block.yaml", out="by-python").lifts))
 """)
         self.assertEqual(said.split(), [f"{self.prefix}/bin/dihaptic", f"{self.prefix}/share/dihaptic/scenes/block-on-table.yaml",
                                         "1"])
+
+    def test_octave_reads_a_session(self):
+        if shutil.which("octave") is None:
+            self.skipTest("Octave is not installed: ./dev build installs it")
+        self.run_here("dihaptic", "run", "experiments/lift-block.yaml", "--out", "for-octave")
+        session = next((self.work / "for-octave").iterdir())
+        said = self.run_here("octave", "--no-gui", "--quiet", "--path", f"{self.prefix}/share/dihaptic/octave", "--eval",
+                             f"s = dihaptic_load('{session}', 'grip_force'); disp(s.units.grip_force)")
+        self.assertEqual(said.split(), ["N"])
 
     def test_bash_completes_commands_options_and_files(self):
         for words, some in [(["re"], {"replay", "recover", "report"}), (["run", "--s"], {"--simulate", "--solver", "--seed"}),

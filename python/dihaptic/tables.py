@@ -9,8 +9,6 @@ import pandas as pd
 from ._facts import facts
 from .errors import error
 
-#: Columns of names, which may look like numbers.
-_TEXTS = {"ppid": str, "id": str, "group": str}
 #: Columns that stand for yes and no.
 _YES = {"yes": True, "no": False}
 
@@ -30,8 +28,9 @@ def read_table(file: str | Path) -> pd.DataFrame:
     'mean of the digits, from touch to lowering'
     """
     path = Path(file)
+    texts = dict.fromkeys(facts()["text_columns"], str)
     try:
-        table = pd.read_csv(path, keep_default_na=False, na_values=[""], dtype=_TEXTS)
+        table = pd.read_csv(path, keep_default_na=False, na_values=[""], dtype=texts)
     except (OSError, pd.errors.EmptyDataError, pd.errors.ParserError, UnicodeDecodeError) as why:
         raise error(f"cannot be read as a table: {why}", "Name a CSV file.", file=str(path)) from None
     if "simulated" in table:

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <tuple>
 
+#include "analysis/curves.h"
 #include "analysis/episodes.h"
 #include "analysis/events.h"
 #include "analysis/lifts.h"
@@ -98,6 +99,12 @@ py::dict unit_symbols() {
             if (!out.contains(suffix))
                 out[suffix] = unit.si == 1 ? std::string(si_symbol(quantity)) : symbol;
         }
+    }
+    // of curves (analysis/curves.h)
+    for (const QuantityRow& row : quantities()) {
+        const std::string& symbol = std::get<3>(row);
+        const py::str suffix(analysis::column_name("", symbol).substr(symbol == "1" ? 0 : 1));
+        if (symbol != "1" && !out.contains(suffix)) out[suffix] = symbol;
     }
     return out;
 }
@@ -216,6 +223,8 @@ py::dict facts() {
     out["columns"] = table_columns();
     out["units"] = unit_symbols();
     out["colours"] = colours;
+    // what looks like a number there is a name
+    out["text_columns"] = std::vector<std::string>{"ppid", "id", "group"};
     out["tables_from_log"] = recording::tables_from_log();
     out["other_tables"] = recording::other_tables();
     return out;

@@ -1,5 +1,7 @@
-"""What the manual shows of R and MATLAB reads what Python reads; MATLAB's is run in Octave."""
+"""What the manual shows of R and MATLAB reads what Python reads, and so do Octave's functions; MATLAB's is run in Octave."""
 
+import json
+import os
 import pathlib
 import re
 import shutil
@@ -10,7 +12,9 @@ import unittest
 import numpy as np
 
 import dihaptic as dh
+from dihaptic.program import program
 
+FUNCTIONS = pathlib.Path(os.environ["PYTHONPATH"]).absolute().parent / "octave"
 OCTAVE = pathlib.Path("python/test/octave").absolute()  # stands in for what Octave 7 has not
 
 
@@ -61,6 +65,58 @@ class OtherLanguages(unittest.TestCase):
         script += [f"fid = fopen('{name}.txt', 'w'); fprintf(fid, '%.9g\\n', {what}); fclose(fid);"
                    for name, what in keep.items()]
         self.compare(self.run_in(["octave", "--no-gui", "--quiet", "--path", str(OCTAVE)], "\n".join(script), "m"))
+
+    def octave(self, script, code=0):
+        if shutil.which("octave") is None:
+            self.skipTest("Octave is not installed")
+        here = pathlib.Path(self.folder.name)
+        (here / "read.m").write_text(script)
+        environment = {**os.environ, "PATH": f"{pathlib.Path(program()).parent}:{os.environ['PATH']}"}
+        done = subprocess.run(["octave", "--no-gui", "--quiet", "--path", FUNCTIONS, "read.m"], cwd=here, env=environment,
+                              capture_output=True, text=True)
+        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+        return done.stdout + done.stderr
+
+    def test_octave_s_curves_are_python_s(self):
+        names = [name for name in self.session if name not in dh.vocabulary.lists()]
+        said = self.octave(f"""
+            names = {{{", ".join(f"'{name}'" for name in names)}}};
+            s = dihaptic_load('lifts', names{{:}});
+            for n = 1:numel(names)
+                field = strrep(names{{n}}, '.', '_');
+                save('-ascii', '-double', [names{{n}} '.txt'], '-struct', 's', field);
+                disp([names{{n}} '=' s.units.(field)]);
+            end
+            t = s.t; save -ascii -double t.txt t""")
+        self.assertEqual(dict(re.findall(r"^(\S+)=(\S+)$", said, re.M)), {name: self.session.unit(name) for name in names})
+        here = pathlib.Path(self.folder.name)
+        np.testing.assert_allclose(np.loadtxt(here / "t.txt"), self.session.t, atol=1e-9)
+        for name in names:
+            np.testing.assert_allclose(np.loadtxt(here / f"{name}.txt"), self.session[name], rtol=1e-6, atol=1e-7, err_msg=name)
+
+    def test_octave_s_tables_are_python_s(self):
+        said = self.octave("s = dihaptic_load('lifts'); disp(jsonencode({s.tables, s.table_units}))")
+        tables, units = json.loads(next(line for line in said.splitlines() if line.startswith("[")))
+        self.assertEqual({name.replace("-", "_") for name in self.session.tables}, set(tables))
+        for name in ("trials", "lifts", "phases", "events", "episodes"):
+            table = self.session.table(name)
+            self.assertEqual(list(tables[name]), list(table.columns))
+            self.assertEqual(units[name], table.attrs["units"])
+            for column in table.select_dtypes("number"):
+                found = np.array(tables[name][column], dtype=float)
+                np.testing.assert_allclose(np.atleast_1d(found), table[column], err_msg=column)
+        self.assertEqual(tables["trials"]["outcome"], list(self.session.trials.outcome))
+
+    def test_octave_s_tables_may_have_any_text(self):
+        (pathlib.Path(self.folder.name) / "any.csv").write_text('id,what,x_mm\n007,"a ""b"", c\nd",1.5\n8,,\n')
+        said = self.octave("[t, u] = dihaptic_table('any.csv'); disp(jsonencode({t, u}))")
+        self.assertIn(json.dumps([{"id": ["007", "8"], "what": ['a "b", c\nd', ""], "x_mm": [1.5, None]}, {"x_mm": "mm"}],
+                                 separators=(",", ":")), said)
+
+    def test_octave_says_what_is_wrong(self):
+        self.assertIn("Did you mean grip_force?", self.octave("dihaptic_load('lifts', 'gripforce')", code=1))
+        self.assertIn("is no session: it has no session.yaml.", self.octave("dihaptic_load('.')", code=1))
+        self.assertIn("none.csv is not there.", self.octave("dihaptic_table('none.csv')", code=1))
 
 
 if __name__ == "__main__":

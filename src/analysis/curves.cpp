@@ -132,16 +132,6 @@ struct Column {
     size_t index = 0;  ///< in the tick's row
 };
 
-/// The name with its unit, as other tables have it: damping_Ns_m.
-std::string in_unit(const std::string& name, const std::string& unit) {
-    if (unit == "1") return name;
-    std::string suffix;
-    for (const char c : unit) {
-        if (c != '*' && c != '^') suffix += c == '/' ? '_' : c;
-    }
-    return name + "_" + suffix;
-}
-
 /// All columns that there can be, with the name by which each is asked for.
 struct Known {
     std::string asked;
@@ -152,13 +142,13 @@ std::vector<Known> known_columns(const std::vector<Curve>& curves) {
     std::vector<Known> out;
     for (const Curve& curve : curves) {
         if (curve.parts.empty()) {
-            out.push_back({curve.name, {{in_unit(curve.name, curve.unit), curve.first}}});
+            out.push_back({curve.name, {{column_name(curve.name, curve.unit), curve.first}}});
             continue;
         }
         Known whole{curve.name, {}};
         for (size_t i = 0; i < curve.parts.size(); ++i) {
             const std::string name = curve.name + "." + curve.parts[i];
-            whole.columns.push_back({in_unit(name, curve.unit), curve.first + i});
+            whole.columns.push_back({column_name(name, curve.unit), curve.first + i});
             out.push_back({name, {whole.columns.back()}});
         }
         out.push_back(whole);
@@ -225,6 +215,15 @@ void write(std::ofstream& out, recording::RawLogReader& log, const std::vector<C
 }
 
 }  // namespace
+
+std::string column_name(const std::string& quantity, const std::string& unit) {
+    if (unit == "1") return quantity;
+    std::string suffix;
+    for (const char c : unit) {
+        if (c != '*' && c != '^') suffix += c == '/' ? '_' : c;
+    }
+    return quantity + "_" + suffix;
+}
 
 std::vector<std::string> export_curves(const recording::SessionFolder& session,
                                        const std::vector<std::string>& names,

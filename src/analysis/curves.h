@@ -18,6 +18,9 @@
 
 namespace dihaptic::analysis {
 
+/// The name of a quantity's column: with its unit (as people write it) behind it, damping_Ns_m.
+std::string column_name(const std::string& quantity, const std::string& unit);
+
 /// Writes the file and returns what is wrong with raw.log, in sentences. `names`: of quantities, in
 /// the order of their columns. Throws Error when the session has not ended or has no recording,
 /// when it recorded nothing of such a name, or when the file cannot be written.
