@@ -179,6 +179,12 @@ class Nwb(unittest.TestCase):
         self.assertEqual(rows["coupling.stiffness_N_m"], ("900", "command line"))
         self.assertEqual(rows["rate_Hz"], ("1000", "default"))
 
+    def test_names_are_inside_in_order(self):
+        table = self.file["scratch/items"]
+        rows = list(zip(table["list"].asstr()[:], table["name"].asstr()[:]))
+        self.assertEqual([name for of, name in rows if of == "fingers"], ["thumb", "index"])
+        self.assertEqual([name for of, name in rows if of == "bodies"], ["table", "block"])
+
     def test_text_is_text_and_counts_are_whole_numbers(self):
         trials = self.file["intervals/trials"]
         self.assertEqual(trials["experiment"].asstr()[0], self.text("session_description"))

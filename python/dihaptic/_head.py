@@ -1,4 +1,5 @@
-"""Reads what a session says of itself: session.yaml, and the head of raw.log (src/recording/chunk.h)."""
+"""Reads what a session says of itself: session.yaml, and the head of raw.log (src/recording/chunk.h), or what session.nwb has
+of that."""
 
 from __future__ import annotations
 
@@ -8,6 +9,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, BinaryIO
 
+import h5py
+import numpy as np
 import yaml
 
 from .errors import error
@@ -63,6 +66,27 @@ def read_head(file: Path) -> Head:
     items = {name: list(head.get(name) or []) for name in ("fingers", "bodies", "joints")}
     in_order = {"fingers": items["fingers"], "turns": turning, "bodies": items["bodies"], "joints": items["joints"]}
     return Head(float(head["tick_s"]), in_order)
+
+
+def head_of_nwb(file: h5py.File) -> Head | None:
+    """The same from session.nwb, which travels lighter; None: it is of a version that did not write it."""
+    if "scratch/items" not in file:
+        return None
+    table = file["scratch/items"]
+    items: dict[str, list[str]] = {"fingers": [], "turns": [], "bodies": [], "joints": []}
+    for of, name in zip(table["list"][...], table["name"][...]):
+        items[_text(of)].append(_text(name))
+    sequence = file["acquisition/sequence"]
+    if "timestamps" in sequence:
+        tick = float(np.median(np.diff(sequence["timestamps"][...])))
+    else:
+        tick = 1 / float(sequence["starting_time"].attrs["rate"])
+    return Head(round(tick, 9), items)  # a tick has whole nanoseconds, a rate 24 bits
+
+
+def _text(value: str | bytes) -> str:
+    """A text of HDF5, which h5py gives as bytes since its version 3."""
+    return value.decode("utf-8") if isinstance(value, bytes) else value
 
 
 def _text_of_head(log: BinaryIO, file: Path) -> str:

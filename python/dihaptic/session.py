@@ -13,7 +13,7 @@ import numpy as np
 import pandas as pd
 
 from . import vocabulary
-from ._head import Head, read_head, read_info
+from ._head import Head, head_of_nwb, read_head, read_info
 from ._remedy import needs_program
 from ._seals import broken_seals
 from .errors import Error, NotThere, error
@@ -107,7 +107,11 @@ class Session:
 
     @cached_property
     def _head(self) -> Head:
-        return read_head(self.folder / "raw.log")
+        log = self.folder / "raw.log"
+        if log.exists():
+            return read_head(log)
+        # it may have stayed behind: it is the largest file
+        return head_of_nwb(self._file) or read_head(log)
 
     # Tables
 

@@ -82,6 +82,18 @@ class Sessions(unittest.TestCase):
                 self.assert_is_the_file(session)
                 self.assertGreater(len(session.trials), 0)
 
+    def test_a_session_without_its_log_is_read_all_the_same(self):
+        for kind in ("lift-block", "hand-over"):
+            with self.subTest(kind), tempfile.TemporaryDirectory() as folder:
+                session = record(kind, folder)
+                light = pathlib.Path(shutil.copytree(session.folder, f"{folder}/light", ignore=shutil.ignore_patterns("raw.log")))
+                self.assert_is_the_file(dh.load(light))
+                self.assertEqual(dh.load(light)._head, session._head)
+                with h5py.File(light / "session.nwb", "a") as nwb:
+                    del nwb["scratch/items"]
+                with self.assertRaisesRegex(dh.Error, "raw.log: error: cannot be read: .* Copy it"):
+                    dh.load(light).fingers
+
     def test_time_goes_by_ticks(self):
         np.testing.assert_allclose(np.diff(self.lift.t), self.lift.tick, atol=1e-12)
         self.assertEqual(len(self.lift.t), len(self.lift["grip_force"]))

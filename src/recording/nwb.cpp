@@ -331,6 +331,22 @@ void write_dynamic_table(hid_t parent, const std::string& name, const Table& tab
     }
 }
 
+/// Fingers, bodies and joints, so that a reader need not have the log too.
+Table items_of(const LogHead& head) {
+    Table out{
+        {{"list", "fingers, turns (fingers whose devices measure orientation), bodies, joints"},
+         {"name", "its name"}},
+        {}};
+    const auto add = [&](const std::string& list, const std::vector<std::string>& names) {
+        for (const std::string& name : names) out.rows.push_back({list, name});
+    };
+    add("fingers", head.fingers);
+    add("turns", head.turning_fingers());
+    add("bodies", head.bodies);
+    add("joints", head.joints);
+    return out;
+}
+
 /// As far as it is known.
 void write_study(hid_t general, const Study& study) {
     if (!study.experimenters.empty()) write_dataset(general, "experimenter", study.experimenters);
@@ -410,6 +426,10 @@ void write_file(const std::string& name, const std::string& session, RawLogReade
         const Id scratch = create_group(file, "scratch");
         write_dynamic_table(scratch, "settings", content.settings, "DynamicTable", "hdmf-common",
                             "Every setting of the session, and where it came from.");
+        if (const Table items = items_of(log.head()); !items.rows.empty()) {
+            write_dynamic_table(scratch, "items", items, "DynamicTable", "hdmf-common",
+                                "What has names in acquisition, in the order of its indices.");
+        }
         hdf5::flush(file);
     }
     hdf5::close(std::move(file));

@@ -5,6 +5,7 @@
 //   intervals/trials, phases, events   TimeIntervals
 //   general/subject, general/devices
 //   scratch/settings                   settings, each with its origin
+//   scratch/items                      names of fingers, bodies and joints, in order
 //
 // The schema is not within it (/specifications): readers use their own copy of that version.
 #pragma once
