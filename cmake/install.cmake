@@ -5,9 +5,8 @@ include(CMakePackageConfigHelpers)
 set(companions dihaptic-decompose dihaptic-gui dihaptic-keeper dihaptic-mesh)
 install(TARGETS dihaptic dihaptic-bench)
 install(TARGETS ${companions} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/dihaptic)
-install(DIRECTORY experiments meshes movements populations rigs scenes textures
-    ${PROJECT_BINARY_DIR}/schema
 install(DIRECTORY experiments meshes movements octave populations rigs scenes textures
+    ${PROJECT_BINARY_DIR}/schema
     DESTINATION ${CMAKE_INSTALL_DATADIR}/dihaptic)
 
 # Debian's Python looks there
