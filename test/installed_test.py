@@ -118,18 +118,24 @@ print(len(dh.run("experiments/lift-block.yaml", out="by-python").lifts))
         self.environment.pop("XDG_DATA_HOME")
 
 
+def packages():
+    """Names of the packages of packages.txt, whatever they are for."""
+    lines = (line.split("#")[0].strip() for line in (SOURCE / "packages.txt").read_text().splitlines())
+    return [line for line in lines if line and not line.startswith("[")]
+
+
 class Packages(unittest.TestCase):
     def test_are_built_with_packages_that_every_build_is_made_with(self):
         control = (SOURCE / "packaging/debian/control").read_text()
         needed = set(re.findall(r"^ ([a-z0-9.+-]+)", control.split("Build-Depends:")[1].split("\nStandards")[0], re.M))
-        known = {line.split("#")[0].strip() for line in (SOURCE / "packages.txt").read_text().splitlines()}
+        known = set(packages())
         self.assertEqual(needed - known, {"debhelper-compat", "dh-python", "help2man"})
 
     def test_have_a_licence_each_in_the_table_of_licences(self):
         rows = (SOURCE / "docs/licences.md").read_text().split("|---|---|---|")[1]
         told = re.findall(r"`([a-z0-9.+-]+-?[a-z0-9]*)`", "\n".join(line.split("|")[1] for line in rows.splitlines() if "|" in line))
-        used = [line.split("#")[0].strip() for line in (SOURCE / "packages.txt").read_text().splitlines()]
-        self.assertEqual(sorted(told), sorted(name for name in used if name))
+        used = packages()
+        self.assertEqual(sorted(told), sorted(used))
 
     def test_let_members_of_the_group_use_what_the_doctor_looks_for(self):
         doctor = (SOURCE / "app/cli/doctor/ports.cpp").read_text()

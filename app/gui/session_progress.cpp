@@ -1,5 +1,6 @@
 #include "session_progress.h"
 
+#include <QObject>
 #include <QStringList>
 #include <algorithm>
 
