@@ -2,10 +2,12 @@
 # src/base/installed.h finds these folders from the program's own.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
-set(companions dihaptic-decompose dihaptic-keeper dihaptic-mesh)
-if(TARGET dihaptic-gui)
-    list(APPEND companions dihaptic-gui)
-endif()
+set(companions dihaptic-keeper)
+foreach(companion dihaptic-decompose dihaptic-gui dihaptic-mesh)
+    if(TARGET ${companion})
+        list(APPEND companions ${companion})
+    endif()
+endforeach()
 install(TARGETS dihaptic dihaptic-bench)
 install(TARGETS ${companions} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/dihaptic)
 install(DIRECTORY experiments meshes movements octave populations rigs scenes textures

@@ -82,7 +82,7 @@ EdgeQuery query_edges(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB
 }
 
 /// The edge of a given direction that lies furthest along the axis.
-const Polyhedron::Edge& support_edge(const Polyhedron& p, int direction, const Vec3& axis) {
+Polyhedron::Edge support_edge(const Polyhedron& p, int direction, const Vec3& axis) {
     const Polyhedron::Edge* best = nullptr;
     double furthest = -kInfinity;
     for (const Polyhedron::Edge& edge : p.edges) {
@@ -142,8 +142,8 @@ void face_contact(const Polyhedron& ref, const Pose& X_WR, int face, const Polyh
 
 void edge_contact(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b, const Pose& X_AB,
                   const EdgeQuery& query, ContactPatch& patch) {
-    const Polyhedron::Edge& ea = support_edge(a, query.direction_a, query.axis);
-    const Polyhedron::Edge& eb =
+    const Polyhedron::Edge ea = support_edge(a, query.direction_a, query.axis);
+    const Polyhedron::Edge eb =
         support_edge(b, query.direction_b, X_AB.R.conjugate() * Vec3(-query.axis));
     const Vec3 pa = a.vertices[static_cast<size_t>(ea.from)];
     const Vec3 da = a.vertices[static_cast<size_t>(ea.to)] - pa;

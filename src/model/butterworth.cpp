@@ -35,7 +35,7 @@ std::vector<double> both_ways(const std::vector<double>& signal, const Biquad& f
     std::vector<double> x;
     x.reserve(signal.size() + 2 * pad);
     for (size_t i = pad; i > 0; --i) x.push_back(2 * signal.front() - signal[i]);
-    x.insert(x.end(), signal.begin(), signal.end());
+    for (const double sample : signal) x.push_back(sample);
     for (size_t i = 1; i <= pad; ++i)
         x.push_back(2 * signal.back() - signal[signal.size() - 1 - i]);
     filter.run(x, gain);

@@ -169,7 +169,7 @@ bool Lemke::try_last_basis() noexcept {
         if (sum < -small) return false;
         w_[static_cast<size_t>(i)] = sum;
     }
-    std::fill(z_.begin(), z_.begin() + n_, 0.0);
+    for (size_t i = 0; i < static_cast<size_t>(n_); ++i) z_[i] = 0;
     for (int i = 0; i < m; ++i) {
         const auto variable = static_cast<size_t>(last_basis_[static_cast<size_t>(i)]);
         z_[variable] = std::max(0.0, right_[static_cast<size_t>(i)]);
