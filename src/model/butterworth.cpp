@@ -30,7 +30,8 @@ struct Biquad {
 /// signal begins, and runs both passes.
 std::vector<double> both_ways(const std::vector<double>& signal, const Biquad& filter, double gain,
                               size_t pad) {
-    if (signal.size() < 2) return signal;
+    if (signal.empty()) return {};
+    if (signal.size() == 1) return {signal.front()};
     pad = std::min(pad, signal.size() - 1);
     std::vector<double> x;
     x.reserve(signal.size() + 2 * pad);

@@ -169,7 +169,8 @@ bool Lemke::try_last_basis() noexcept {
         if (sum < -small) return false;
         w_[static_cast<size_t>(i)] = sum;
     }
-    for (size_t i = 0; i < static_cast<size_t>(n_); ++i) z_[i] = 0;
+    const auto n = static_cast<unsigned>(n_);  // never below 0, which not every compiler sees
+    std::fill(z_.begin(), z_.begin() + n, 0.0);
     for (int i = 0; i < m; ++i) {
         const auto variable = static_cast<size_t>(last_basis_[static_cast<size_t>(i)]);
         z_[variable] = std::max(0.0, right_[static_cast<size_t>(i)]);
