@@ -139,8 +139,8 @@ struct FakeService::Impl {
         const auto json = nlohmann::json::parse(text);
         Forces these(setup.devices.size(), Vec3::Zero());
         for (const auto& device : json.value("inverse3", nlohmann::json::array())) {
-            const auto found =
-                std::find(setup.ids.begin(), setup.ids.end(), device.at("device_id"));
+            const auto found = std::find(setup.ids.begin(), setup.ids.end(),
+                                         device.at("device_id").get<std::string>());
             const auto index = static_cast<size_t>(found - setup.ids.begin());
             const auto& command = device.at("commands").at("set_cursor_force");
             for (const char* key : {"vector", "values"}) {
