@@ -63,7 +63,10 @@ class Words(unittest.TestCase):
                 unknown.setdefault(word.removesuffix("'s"), page)
         wrong = {word: page for word, page in unknown.items() if word not in words}
         self.assertEqual(wrong, {}, "correct them, or add them to docs/manual/words.txt")
-        self.assertEqual([word for word in words if word not in unknown], [], "no page needs these words of the list")
+        # another Debian's dictionary has some of them
+        told = set(re.findall(r"[^\W\d_]+", " ".join(prose(page) for page in all_pages())))
+        unused = [word for word in words if word not in unknown and not told.issuperset(re.findall(r"[^\W\d_]+", word))]
+        self.assertEqual(unused, [], "no page needs these words of the list")
 
     def test_files_that_are_named_are_there(self):
         shipped = re.search(r"install\(DIRECTORY (\w[\w ]*)\n", pathlib.Path("cmake/install.cmake").read_text())

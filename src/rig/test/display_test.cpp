@@ -36,11 +36,11 @@ TEST(Displays, MoveWithTheWorldsOrigin) {
     Diagnostics diagnostics;
     const Rig rig = read(folder, kRig, diagnostics);
     diagnostics.throw_if_errors();
-    const Display& display = display_of(rig, "");
-    EXPECT_LT((display.lower_left - Vec3(-0.25, -0.15, -0.04)).norm(), 1e-15);
-    EXPECT_LT((display.eyes.position - Vec3(0, -0.35, 0.45)).norm(), 1e-15);
-    EXPECT_LT((display.eyes.right() - display.eyes.left() - Vec3(0.063, 0, 0)).norm(), 1e-15);
-    EXPECT_EQ(&display_of(rig, "mirror"), &display);
+    const Display* const display = &display_of(rig, "");
+    EXPECT_LT((display->lower_left - Vec3(-0.25, -0.15, -0.04)).norm(), 1e-15);
+    EXPECT_LT((display->eyes.position - Vec3(0, -0.35, 0.45)).norm(), 1e-15);
+    EXPECT_LT((display->eyes.right() - display->eyes.left() - Vec3(0.063, 0, 0)).norm(), 1e-15);
+    EXPECT_EQ(&display_of(rig, "mirror"), display);
     EXPECT_THROW(display_of(rig, "wall"), Error);
 }
 
