@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import sys
 from pathlib import Path
 
 _FOLDER = Path(__file__).parent
-#: That the module was built for: Debian 12's.
-_VERSION = (3, 11)
 #: Of the libraries that reading takes: what Debian calls each, and what pip does.
 _LIBRARIES = {"numpy": "numpy", "pandas": "pandas", "h5py": "h5py", "yaml": "pyyaml"}
 
@@ -25,6 +24,12 @@ def explain(why: ImportError) -> str:
     return f"dihaptic cannot be imported: {why}."
 
 
+def _versions_of_the_module() -> list[str]:
+    """The versions of Python that the module was built for, which its files' names say."""
+    tags = (re.search(r"cpython-(\d)(\d+)", path.name) for path in _FOLDER.glob("_native*.so"))
+    return sorted(f"{tag[1]}.{tag[2]}" for tag in tags if tag)
+
+
 def needs_program(name: str, why: ImportError | None) -> str:
     """The remedy where the package reads, and `name` takes the program or its module."""
     if not (_FOLDER / "program.py").exists():
@@ -32,17 +37,18 @@ def needs_program(name: str, why: ImportError | None) -> str:
         remedy = (
             "Type pip uninstall dihaptic-read: then Python finds the whole package, python3-dihaptic"
             if there
-            else "Install Dihaptic on a Debian 12, which its README shows"
+            else "Install Dihaptic on a Debian 12 or 13, which its README shows"
         )
         return f"dihaptic.{name} needs the program, and this is dihaptic-read, which only reads. {remedy}."
-    if sys.version_info[:2] != _VERSION:
-        here = ".".join(map(str, sys.version_info[:2]))
-        return (
-            f"dihaptic.{name} is built for Python 3.11, and this is {here}, where dihaptic only reads. "
-            "Use Debian's: /usr/bin/python3."
-        )
-    if not list(_FOLDER.glob("_native*.so")):
+    built_for = _versions_of_the_module()
+    if not built_for:
         return f"dihaptic.{name} needs the module _native, which has not been built here. Run ./dev build."
+    here = ".".join(map(str, sys.version_info[:2]))
+    if here not in built_for:
+        return (
+            f"dihaptic.{name} is built for Python {' and '.join(built_for)}, and this is {here}, where dihaptic "
+            "only reads. Use Debian's: /usr/bin/python3."
+        )
     return f"dihaptic's module cannot be loaded: {why}. Install what packages.txt lists: ./dev build."
 
 

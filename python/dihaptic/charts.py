@@ -152,7 +152,7 @@ def _line(axes: Axes, x: Any, y: Any, label: str, colour: str, width: float) -> 
 
 
 def _next_colour(axes: Axes) -> str:
-    named = [line for line in axes.get_lines() if not line.get_label().startswith("_")]
+    named = [line for line in axes.get_lines() if not str(line.get_label()).startswith("_")]
     return _OTHERS[len(named) % len(_OTHERS)]
 
 
@@ -168,5 +168,5 @@ def _finish(axes: Axes, session: Session, names: tuple[str, ...]) -> None:
     axes.spines[["top", "right"]].set_visible(False)
     axes.grid(color="#eeeeee", linewidth=0.8)
     axes.set_axisbelow(True)
-    if len([line for line in axes.get_lines() if not line.get_label().startswith("_")]) > 1:
+    if len([line for line in axes.get_lines() if not str(line.get_label()).startswith("_")]) > 1:
         axes.legend(frameon=False, fontsize="small")

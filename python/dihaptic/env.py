@@ -109,7 +109,7 @@ class Grasps:
         self._targets = np.zeros((n, fingers, 6))
         self._goal = np.zeros(n)
         self._zero = np.zeros(n)  # of the object's height or angle, at the start
-        self._held = np.zeros(n)
+        self._held: Array = np.zeros(n)
         self._passed = np.zeros(n)
         self._began = np.zeros(n, dtype=bool)
 
@@ -201,7 +201,7 @@ class Grasp:
     >>> import dihaptic as dh
     >>> environment = dh.env.Grasp("turn")
     >>> seen, info = environment.reset(seed=3)
-    >>> 0.2 <= seen[-1] <= 0.8  # the goal
+    >>> bool(0.2 <= seen[-1] <= 0.8)  # the goal
     True
     """
 

@@ -42,7 +42,7 @@ def find_lift(
     forces = np.asarray(grip, dtype=float)
     if forces.ndim != 2:
         raise error("grip has no columns", "Give a row a sample and a column a digit.")
-    each = np.broadcast_to(np.asarray(friction, dtype=float), forces.shape[1:]).tolist()
+    each = [float(of_one) for of_one in np.broadcast_to(np.asarray(friction, dtype=float), forces.shape[1:])]
     figures: dict[str, Any] = _native.find_lift(
         forces, np.asarray(load, dtype=float), np.asarray(height, dtype=float), tick, each
     )

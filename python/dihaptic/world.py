@@ -31,7 +31,7 @@ class World:
     >>> import dihaptic as dh
     >>> world = dh.World("scenes/block-on-table.yaml")
     >>> world.step(1000)
-    >>> round(world.t, 3), round(world.bodies["block"].position[2], 3)
+    >>> round(world.t, 3), round(float(world.bodies["block"].position[2]), 3)
     (0.999, 0.02)
     """
 

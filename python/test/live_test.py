@@ -102,7 +102,7 @@ class Live(unittest.TestCase):
         for row, now in zip(rows, moments):
             self.assertAlmostEqual(now.time_s, session.t[row], places=9)
             self.assertAlmostEqual(now.values["grip_force"], session["grip_force"][row], places=6)
-            self.assertAlmostEqual(now.values["block.z - 20 mm"], 1e3 * session["block.position"][row, 2] - 20, places=5)
+            self.assertAlmostEqual(now.values["block.z - 20 mm"], 1e3 * float(session["block.position"][row, 2]) - 20, places=5)
         self.assertEqual([state for state in live.states if state in {now.state for now in moments}], live.states[:4])
         with self.assertRaisesRegex(dh.Error, "has no session that runs"):
             dh.observe(self.out, patience_s=0)

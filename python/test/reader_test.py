@@ -10,6 +10,8 @@ import sys
 import tempfile
 import unittest
 
+import numpy
+
 import dihaptic as dh
 from dihaptic import _native, _remedy
 
@@ -89,7 +91,7 @@ class Reader(unittest.TestCase):
         said = self.read("import dihaptic as dh; print(dh.__version__, dh.__file__); dh.run('lift.yaml')", self.here, code=1)
         self.assertIn(str(self.here / "python/lib"), said)
         self.assertEqual(said.strip().splitlines()[-1], "ImportError: dihaptic.run needs the program, and this is "
-                         "dihaptic-read, which only reads. Install Dihaptic on a Debian 12, which its README shows.")
+                         "dihaptic-read, which only reads. Install Dihaptic on a Debian 12 or 13, which its README shows.")
         folder, session = self.recorded("lift-block", "exact")
         said = self.read("import dihaptic as dh; dh.load('exact').exact('grip_force')", folder, code=1)
         self.assertIn("ImportError: dihaptic.Session.exact needs the program", said)
@@ -130,6 +132,8 @@ print(dh.load)
             import mypy  # noqa: F401
         except ImportError:
             self.skipTest("mypy is not installed: ./dev build installs it")
+        if int(numpy.__version__.split(".")[0]) > 1:
+            self.skipTest("the types of numpy 2 are written for a newer Python than 3.9; Debian 12 has numpy 1")
         done = subprocess.run([sys.executable, "-m", "mypy", "--python-version", "3.9", "--config-file", "python/mypy.ini",
                                "--cache-dir", os.devnull, "python/dihaptic"], capture_output=True, text=True)
         read = {path.name for path in (self.here / "python").glob("lib/*/site-packages/dihaptic/*.py")}
