@@ -44,6 +44,7 @@ enum Status : uint32_t {
     kAbandoned = 1u << 28,
     kPaused = 1u << 29,
     kUnbalanced = 1u << 30,
+    kHeldBack = 1u << 31,
 };
 
 /// What devices report in their readings.
@@ -195,9 +196,12 @@ constexpr StatusRow kStatusTable[] = {
      "and angular_imbalance; let nothing begin within something else, turn by an eighth of a turn "
      "in a tick, or hang on a spring too stiff for its mass; otherwise report the session's folder "
      "as a bug"},
+    {kHeldBack,
+     "an object did not move as far as its velocity says, or else it would have entered another",
+     "nothing, when it is rare; otherwise use fewer, slower or thicker objects"},
 };
 constexpr int kStatusBits = static_cast<int>(std::size(kStatusTable));
-constexpr uint32_t kAllStatus = (1u << kStatusBits) - 1;
+constexpr auto kAllStatus = static_cast<uint32_t>((uint64_t{1} << kStatusBits) - 1);
 
 /// The row of one bit.
 constexpr const StatusRow& describe(Status bit) noexcept {

@@ -310,6 +310,10 @@ const Balance& World::balance() const noexcept {
     return impl_->books.last();
 }
 
+bool World::held_back() const noexcept {
+    return impl_->held_back;
+}
+
 double World::held_residual() const noexcept {
     return impl_->held_residual;
 }

@@ -136,6 +136,9 @@ class World {
     double held_residual() const noexcept;
     /// The books of the last step.
     const Balance& balance() const noexcept;
+    /// Whether something moved less far than its velocity says in the last step, since it would
+    /// have entered something else.
+    bool held_back() const noexcept;
     /// Joints of the scene that are recorded, in its order, after the last step.
     std::span<const JointState> joints() const noexcept;
     double mass(BodyIndex body) const;

@@ -99,6 +99,7 @@ struct World::Impl {
     contact::ContactSolvers solvers;
     ProblemWatcher watcher;
     bool diverged = false;
+    bool held_back = false;  // whether anything was, in the last step
     bool has_fingers = false;
     double held_residual = 0;  // of the islands with a finger
     contact::Work work;        // of the step's solves

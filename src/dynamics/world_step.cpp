@@ -273,6 +273,7 @@ contact::SolveStats World::Impl::solve_with_entered(double h, const Vec3& gravit
     find_islands();
     work = has_fingers ? contact::Work(kMostSolveWork) : contact::Work();
     contact::Work search = has_fingers ? contact::Work(kMostSearchWork) : contact::Work();
+    held_back = false;
     contact::SolveStats stats = solve(h);
     bool clear = false;
     for (int pass = 0; pass < kMostPasses && all_sound(); ++pass) {
@@ -325,8 +326,9 @@ void World::Impl::hold_back(double h, contact::Work& search) {
         constexpr double kStands = 0.01;
         constexpr int kMostStood = 2;  // [steps]: by then contacts had their chance
         Item& item = items[i];
-        if (item.body->getHitFraction() >= kStands || ++item.stood <= kMostStood) continue;
-        item.body->setHitFraction(1);
+        if (item.body->getHitFraction() < kStands && ++item.stood > kMostStood)
+            item.body->setHitFraction(1);
+        held_back = held_back || item.body->getHitFraction() < 1;
     }
 }
 

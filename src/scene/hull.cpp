@@ -141,7 +141,7 @@ Hull convex_hull(std::span<const Vec3> points) {
     const double extent = (high - low).norm();
     Hull hull = quick_hull(points);
     // recordings are of its order of corners and faces: it goes first
-    if (!is_exact(hull, points, extent)) hull = Qhull(points).hull();
+    if (hull.faces.size() < 4 || !is_exact(hull, points, extent)) hull = Qhull(points).hull();
     if (hull.faces.size() < 4) return {};
     // neither a needle nor a leaf, whose volume and area are but rounding
     const double surface = area(hull);

@@ -14,12 +14,14 @@ uint32_t fault_status(FaultKind kind) noexcept {
     return row != nullptr ? uint32_t{row->bit} : 0;
 }
 
-uint32_t step_status(dynamics::StepStatus step, const contact::SolveStats& solve) noexcept {
+uint32_t step_status(dynamics::StepStatus step, const dynamics::World& world) noexcept {
+    const contact::SolveStats& solve = world.solve_stats();
     uint32_t status = 0;
     if (step == dynamics::StepStatus::contacts_full) status |= kContactsFull;
     if (step == dynamics::StepStatus::diverged) status |= kNotFinite;
     if (solve.fallback) status |= kSolverFallback;
     if (solve.missed) status |= kSolverMissed;
+    if (world.held_back()) status |= kHeldBack;
     return status;
 }
 
@@ -109,7 +111,7 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
     frame_.trial = commands.trial;
     frame_.phase = commands.phase;
     frame_.task = commands.task;
-    frame_.status = step_status(step, world_.solve_stats());
+    frame_.status = step_status(step, world_);
     if (overrun_) frame_.status |= kOverrun;
     if (std::exchange(resumed_, false)) frame_.status |= kResumed;
     if (commands.rest) frame_.status |= kPaused;

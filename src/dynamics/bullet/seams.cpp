@@ -34,33 +34,27 @@ bool is_inner(const btManifoldPoint& point, const OfParts& of, const OfParts& ot
     if (same_0 == same_1) return false;
     const btManifoldPoint& first = other.manifold->getContactPoint(0);
     if (point.m_normalWorldOnB.dot(first.m_normalWorldOnB) > kSameNormal) return false;
-    if (nearest(*other.manifold) > point.getDistance() - kNearer) return false;
+    if (other.nearest > point.getDistance() - kNearer) return false;
     return same_1 ? has(*other.part_0, point.getPositionWorldOnA())
                   : has(*other.part_1, point.getPositionWorldOnB());
 }
 
 }  // namespace
 
-void remove_inner_contacts(std::span<const OfParts> of_two_bodies) noexcept {
+void remove_inner_contacts(std::span<OfParts> of_two_bodies) noexcept {
     // all are judged before any is removed: what is inner itself may show that another is
-    constexpr int kMost = 4;
-    constexpr size_t kMostManifolds = 256;
-    std::array<std::array<bool, kMost>, kMostManifolds> inner{};
-    const size_t count = std::min(of_two_bodies.size(), kMostManifolds);
-    for (size_t m = 0; m < count; ++m) {
-        const OfParts& of = of_two_bodies[m];
-        const int points = std::min(kMost, of.manifold->getNumContacts());
-        for (int i = 0; i < points; ++i) {
-            inner[m][static_cast<size_t>(i)] =
+    for (OfParts& of : of_two_bodies) of.nearest = nearest(*of.manifold);
+    for (OfParts& of : of_two_bodies) {
+        for (int i = 0; i < of.manifold->getNumContacts(); ++i) {
+            of.is_inner[static_cast<size_t>(i)] =
                 std::any_of(of_two_bodies.begin(), of_two_bodies.end(), [&](const OfParts& other) {
                     return is_inner(of.manifold->getContactPoint(i), of, other);
                 });
         }
     }
-    for (size_t m = 0; m < count; ++m) {
-        btPersistentManifold& manifold = *of_two_bodies[m].manifold;
-        for (int i = std::min(kMost, manifold.getNumContacts()) - 1; i >= 0; --i) {
-            if (inner[m][static_cast<size_t>(i)]) manifold.removeContactPoint(i);
+    for (const OfParts& of : of_two_bodies) {
+        for (int i = of.manifold->getNumContacts() - 1; i >= 0; --i) {
+            if (of.is_inner[static_cast<size_t>(i)]) of.manifold->removeContactPoint(i);
         }
     }
 }

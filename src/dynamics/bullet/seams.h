@@ -9,6 +9,7 @@
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 
+#include <bitset>
 #include <span>
 
 #include "dynamics/bullet/shape.h"
@@ -20,9 +21,11 @@ struct OfParts {
     btPersistentManifold* manifold = nullptr;
     const CollisionPart* part_0 = nullptr;  ///< of its body 0
     const CollisionPart* part_1 = nullptr;
+    double nearest = 0;            ///< of its points, which remove_inner_contacts() looks for
+    std::bitset<4> is_inner = {};  ///< which of its points are; likewise
 };
 
 /// Removes such points from the manifolds of two bodies, some of which may be left without any.
-void remove_inner_contacts(std::span<const OfParts> of_two_bodies) noexcept;
+void remove_inner_contacts(std::span<OfParts> of_two_bodies) noexcept;
 
 }  // namespace dihaptic::dynamics

@@ -129,7 +129,8 @@ struct Shot {
     scene::ShapeKind shape = scene::ShapeKind::box;
     double speed = 0;  ///< [m/s]
     bool passed = false;
-    double deepest = 0;  ///< at the ends of steps [m]
+    bool silent = false;  ///< held back, without a word
+    double deepest = 0;   ///< at the ends of steps [m]
 };
 
 struct Shots {
@@ -158,6 +159,9 @@ class Shooting {
     World weightless(std::vector<scene::Body> bodies) {
         scene::Scene scene;
         scene.gravity.setZero();
+        for (const scene::Body& body : bodies)
+            is_plain_ = is_plain_ && body.shape.kind != scene::ShapeKind::cone &&
+                        body.surface.restitution.value_or(0) == 0;
         scene.bodies = std::move(bodies);
         Settings settings;
         settings.solver = solver_;
@@ -165,6 +169,17 @@ class Shooting {
         World world(scene, settings);
         world.activate();
         return world;
+    }
+    /// What is not where its velocity says has been held back. That of what bounces is the next
+    /// one, and that of a cone is of another point than it turns about.
+    void step(World& world) {
+        const std::vector<BodyState> before(world.states().begin(), world.states().end());
+        world.step(kStep);
+        for (size_t i = 0; i < before.size() && is_plain_; ++i) {
+            const BodyState& after = world.states()[i];
+            const Vec3 short_of = before[i].X_WB.p + kStep * after.v_WB - after.X_WB.p;
+            shot_.silent = shot_.silent || (short_of.norm() > 1e-9 && !world.held_back());
+        }
     }
     void at_plate(scene::Body body) {
         const double thickness = random_.uniform(5e-4, 3e-3);
@@ -176,7 +191,7 @@ class Shooting {
         world.set_velocity({1}, shot_.speed * way);
         const auto steps = static_cast<int>(0.2 / (shot_.speed * kStep)) + 20;
         for (int i = 0; i < steps; ++i) {
-            world.step(kStep);
+            step(world);
             const Pose& X_WB = world.states()[1].X_WB;
             shot_.passed = shot_.passed || X_WB.p.z() < 0;
             for (const Vec3& p : points_) shot_.deepest = std::max(shot_.deepest, -(X_WB * p).z());
@@ -199,7 +214,7 @@ class Shooting {
             {1}, shot_.speed * (Vec3(0, 0, -1) + 0.1 * any_direction(random_)).normalized());
         bool inside = false;
         for (int i = 0; i < static_cast<int>(0.2 / (shot_.speed * kStep)) + 20; ++i) {
-            world.step(kStep);
+            step(world);
             const Pose& X_WB = world.states()[1].X_WB;
             for (const Vec3& p : points_) {
                 const Vec3 at = X_WB * p;
@@ -233,7 +248,7 @@ class Shooting {
         const double passed = (thickness(points_) + thickness(of_other)) / 2;
         bool met = false;
         for (int i = 0; i < static_cast<int>(0.25 / (shot_.speed * kStep)) + 10; ++i) {
-            world.step(kStep);
+            step(world);
             const auto& states = world.states();
             met = met || (states[0].v_WB - share * v).norm() > 1e-6 * shot_.speed;
             const double deep =
@@ -269,6 +284,7 @@ class Shooting {
     Random random_;
     Solver solver_;
     Shot shot_;
+    bool is_plain_ = true;
     std::vector<Vec3> points_;
 };
 
@@ -277,6 +293,7 @@ inline Shots shots(Shot::At at, uint64_t from, uint64_t count) {
     Shots out;
     for (uint64_t seed = from; seed < from + count; ++seed) {
         const Shot shot = Shooting(seed, at, Solver(seed % contact::kSolvers)).shoot();
+        EXPECT_FALSE(shot.silent) << "seed " << seed << ": " << enum_name(shot.shape);
         EXPECT_FALSE(shot.passed) << "seed " << seed << ": " << enum_name(shot.shape) << " at "
                                   << shot.speed << " m/s, " << shot.deepest << " m deep";
         out.passed += shot.passed ? 1 : 0;
