@@ -26,7 +26,7 @@ if(TARGET dihaptic_python)
 endif()
 
 # The world and its contact solvers for other C++ programs: find_package(dihaptic), dihaptic::dynamics
-set(rooms base contact scene dynamics)
+set(rooms base model contact scene frame dynamics)
 set(cmake_folder ${CMAKE_INSTALL_LIBDIR}/cmake/dihaptic)
 foreach(room flags ${rooms})
     set_target_properties(dihaptic_${room} PROPERTIES EXPORT_NAME ${room})

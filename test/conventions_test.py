@@ -48,6 +48,19 @@ class Conventions(unittest.TestCase):
         listed = set(re.findall(r"`([\w-]+\.yaml)`", pathlib.Path("docs/experiments.md").read_text()))
         self.assertEqual(listed, {path.name for path in pathlib.Path("experiments").glob("*.yaml")})
 
+    def test_rooms_that_read_the_record_include_none_that_makes_it(self):
+        """Neither themselves nor by their CMake file: docs/adr/0028-the-record-is-a-room.md."""
+        makers = "devices|dynamics|haptics|keeper|rig|servo"
+        for room in ["analysis", "frame", "headset", "person", "recording", "sound", "task", "view"]:
+            for path in pathlib.Path("src", room).rglob("*"):
+                if path.suffix not in (".h", ".cpp") or {"test", "soak", "fuzz"} & set(path.parts):
+                    continue
+                with self.subTest(str(path)):
+                    self.assertEqual(re.findall(rf'#include "((?:{makers})/[^"]+)"', path.read_text()), [])
+            with self.subTest(room):
+                uses = re.search(r"\bUSES ((?:[a-z]+ *)+)", pathlib.Path("src", room, "CMakeLists.txt").read_text())[1]
+                self.assertEqual(set(uses.split()) & set(makers.split("|")), set())
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -43,7 +43,7 @@ void print_rows(const char* name, const std::vector<Figures>& rows, bool json) {
 }
 
 void add_settings(CLI::App& command, BenchOptions& options) {
-    servo::Settings& settings = options.setup.settings;
+    frame::Settings& settings = options.setup.settings;
     add_choice(command, "--solver", settings.dynamics.solver, "contact solver");
     add_choice(command, "--coupling", settings.coupling.kind, "coupling of handle and proxy");
     command.add_option("--rate", settings.rate, "ticks a second [Hz]")
@@ -60,12 +60,12 @@ void add_friction(CLI::App& app) {
     add_json(*command, options->json);
     command->footer("\nExample:\n  dihaptic-bench friction");
     command->callback([command, options] {
-        std::vector<dynamics::Solver> solvers{options->solver};
+        std::vector<contact::Solver> solvers{options->solver};
         std::vector<bench::Simulator> peers;
         if (command->count("--solver") == 0) {
             solvers.clear();
             for (int i = 0; i < contact::kSolvers; ++i)
-                solvers.push_back(static_cast<dynamics::Solver>(i));
+                solvers.push_back(static_cast<contact::Solver>(i));
             peers = bench::peer_simulators();
         }
         std::vector<bench::FrictionFigures> figures;
@@ -78,8 +78,8 @@ void add_friction(CLI::App& app) {
                     line.show((done + share) / all, fmt::format("{}, {}", name, what));
                 };
             };
-            for (const dynamics::Solver solver : solvers) {
-                dynamics::Settings settings;
+            for (const contact::Solver solver : solvers) {
+                frame::DynamicsSettings settings;
                 settings.solver = solver;
                 figures.push_back(bench::bench_friction(settings, say(enum_name(solver))));
             }
@@ -95,7 +95,7 @@ void add_scale(CLI::App& app) {
         app.add_subcommand("scale", "What a tick costs with 0 to 1000 more blocks on the table");
     auto options = std::make_shared<BenchOptions>();
     // the bare step that it is compared with is Bullet's
-    options->setup.settings.dynamics.solver = dynamics::Solver::sequential_impulse;
+    options->setup.settings.dynamics.solver = contact::Solver::sequential_impulse;
     auto extras = std::make_shared<std::vector<int>>(std::vector<int>{0, 10, 50, 200, 1000});
     add_settings(*command, *options);
     command->add_option("--extra", *extras, "numbers of extra blocks")->capture_default_str();
@@ -285,7 +285,7 @@ void add_mechanics(CLI::App& app) {
             const bool all = command->count("--solver") == 0;
             const int solvers = all ? contact::kSolvers : 1;
             for (int i = 0; i < solvers; ++i) {
-                const auto solver = all ? static_cast<dynamics::Solver>(i) : options->solver;
+                const auto solver = all ? static_cast<contact::Solver>(i) : options->solver;
                 figures.push_back(
                     bench::bench_mechanics(solver, [&](const std::string& what, double share) {
                         line.show((i + share) / solvers,
@@ -312,8 +312,8 @@ void add_chain(CLI::App& app) {
     command->callback([command, options, links] {
         std::vector<bench::Simulator> simulators;
         for (int i = 0; i < contact::kSolvers; ++i) {
-            dynamics::Settings settings;
-            settings.solver = static_cast<dynamics::Solver>(i);
+            frame::DynamicsSettings settings;
+            settings.solver = static_cast<contact::Solver>(i);
             if (command->count("--solver") == 0 || settings.solver == options->solver)
                 simulators.push_back(bench::world_simulator(settings));
         }

@@ -18,11 +18,11 @@ struct GraspOptions {
 /// What to measure: the setup, and for people also what it is compared with.
 std::vector<measure::BenchSetup> compared(const GraspOptions& options) {
     std::vector<measure::BenchSetup> out{options.setup};
-    const bool rigid = options.setup.settings.proxy.kind == haptics::ProxyKind::rigid;
+    const bool rigid = options.setup.settings.proxy.kind == scene::ProxyKind::rigid;
     if (options.json || (rigid && !options.any_coupling)) return out;
-    servo::Settings& other = out.emplace_back(options.setup).settings;
-    if (rigid) other.coupling.kind = haptics::CouplingKind::dual_spring;
-    if (!rigid) other.proxy.friction = haptics::PointFriction::apart;
+    frame::Settings& other = out.emplace_back(options.setup).settings;
+    if (rigid) other.coupling.kind = frame::CouplingKind::dual_spring;
+    if (!rigid) other.proxy.friction = frame::PointFriction::apart;
     return out;
 }
 
@@ -49,7 +49,7 @@ void add_grasp(CLI::App& bench) {
     auto* command = bench.add_subcommand(
         "grasp", "Two fingers lift and hold a block: how still, how true, up to which stiffness");
     auto options = std::make_shared<GraspOptions>();
-    servo::Settings& settings = options->setup.settings;
+    frame::Settings& settings = options->setup.settings;
     add_choice(*command, "--solver", settings.dynamics.solver, "contact solver");
     add_choice(*command, "--coupling", settings.coupling.kind, "coupling of handle and proxy");
     command->add_option("--rate", settings.rate, "ticks a second [Hz]")

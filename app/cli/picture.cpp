@@ -16,13 +16,13 @@ void make_picture(const PictureOptions& options) {
     // a scene is shown as it starts, a session as it ended
     const double time =
         options.time.value_or(showing.recorded ? std::numeric_limits<double>::infinity() : 0);
-    servo::Frame shown;
+    frame::Frame shown;
     double end = -1;
     {
         ProgressLine line("reading");
         const double all = std::max(std::min(time, showing.duration), 1e-3);
         int64_t count = 0;
-        while (const servo::Frame* frame = showing.next()) {
+        while (const frame::Frame* frame = showing.next()) {
             end = seconds(frame->time);
             // the newest frame at that time
             if (end > time + 1e-9 && count > 0) break;

@@ -22,8 +22,8 @@ struct RegisterOptions {
 
 /// Where a simulated finger finds the screen: beside where the file says, so that one sees what the
 /// command is for.
-rig::Display misplaced(const rig::Display& display) {
-    rig::Display out = display;
+display::Display misplaced(const display::Display& display) {
+    display::Display out = display;
     const Vec3 about = display.at({0.5, 0.5});
     const Quat R(Eigen::AngleAxisd(2 * kDegree, display.up().normalized()));
     for (Vec3* corner : {&out.lower_left, &out.lower_right, &out.upper_left})
@@ -31,9 +31,9 @@ rig::Display misplaced(const rig::Display& display) {
     return out;
 }
 
-void draw_crosses(const rig::Display& display, const RegisterOptions& options) {
+void draw_crosses(const display::Display& display, const RegisterOptions& options) {
     check_output(options.crosses, options.rig, "the rig file");
-    write_file(rig::cross_picture(display), options.crosses);
+    write_file(display::cross_picture(display), options.crosses);
     fmt::print("{}: show it on the whole of {}'s screen, then register without --crosses\n",
                options.crosses, display.name);
 }
@@ -44,7 +44,7 @@ void register_display(const RegisterOptions& options) {
         rig::read_rig_to_register(options.rig, diagnostics, rig::NamedBy::the_operator);
     diagnostics.throw_if_errors();
     print(diagnostics.problems());
-    const rig::Display& display = rig::display_of(rig, options.display);
+    const display::Display& display = rig::display_of(rig, options.display);
     if (!options.crosses.empty()) return draw_crosses(display, options);
     const std::string finger =
         options.finger.empty() ? rig::held_fingers(rig).front() : options.finger;
@@ -60,10 +60,11 @@ void register_display(const RegisterOptions& options) {
         exit_code = kFailed;
         return;
     }
-    rig::RegistrationResult result = rig::register_screen(display, touches);
+    display::RegistrationResult result = display::register_screen(display, touches);
     result.registration.date = recording::iso_now().substr(0, 10);
     rig::store_registration(rig, result.registration, out);
-    fmt::print("{}, {}\n{}registration: {}\n", rig.title, display.name, rig::describe(result), out);
+    fmt::print("{}, {}\n{}registration: {}\n", rig.title, display.name, display::describe(result),
+               out);
     if (!rig::is_real(rig))
         fmt::print("Simulated: the finger touched a screen that is 5 mm and 2 degrees off.\n");
     if (display.registration.empty())

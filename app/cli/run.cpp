@@ -280,8 +280,8 @@ MovementFigures run_movement(const SessionOptions& options, const std::string& n
         out.peak_grip = grasp->peak_grip;
     }
     out.peak_force = peak_force(figures);
-    out.force_limited = figures.ticks_with(servo::kForceLimited);
-    out.rate_limited = figures.ticks_with(servo::kRateLimited);
+    out.force_limited = figures.ticks_with(kForceLimited);
+    out.rate_limited = figures.ticks_with(kRateLimited);
     find_handling(out, figures.episodes);
     out.session = session.folder;
     if (figures.failed()) exit_code = kFailed;
@@ -414,13 +414,13 @@ void add_participant(CLI::App* command, const std::shared_ptr<SessionOptions>& o
 void add_physics(CLI::App* command, const std::shared_ptr<SessionOptions>& options) {
     command->add_option(
         "--solver", options->solver,
-        fmt::format("contact solver: {}", fmt::join(enum_names(dynamics::Solver{}), ", ")));
+        fmt::format("contact solver: {}", fmt::join(enum_names(contact::Solver{}), ", ")));
     command->add_option("--coupling", options->coupling,
                         fmt::format("coupling of handle and proxy: {}",
-                                    fmt::join(enum_names(haptics::CouplingKind{}), ", ")));
+                                    fmt::join(enum_names(frame::CouplingKind{}), ", ")));
     command->add_option("--proxy", options->proxy,
                         fmt::format("what a finger is in the world: {}",
-                                    fmt::join(enum_names(haptics::ProxyKind{}), ", ")));
+                                    fmt::join(enum_names(scene::ProxyKind{}), ", ")));
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 #include <filesystem>
 
 #include "base/text_file.h"
+#include "frame/displayed.h"
 #include "recording/log_scene.h"
 #include "recording/session.h"
-#include "servo/displayed.h"
 #include "session/phase_director.h"
 #include "session/plan.h"
 
@@ -80,7 +80,7 @@ Showing open_plan(const std::string& file) {
     for (size_t i = 0; i < out.scene.fingers.size(); ++i)
         add_workspace(out, out.scene.fingers[i].name, devices.info(static_cast<int>(i)).workspace);
     run->servo->activate();
-    out.next = [run, end = out.duration]() -> const servo::Frame* {
+    out.next = [run, end = out.duration]() -> const frame::Frame* {
         const Time now = run->ticks++ * run->servo->period();
         if (run->servo->stopped() || seconds(now) > end) return nullptr;
         return &run->servo->tick(now, *run->director);
@@ -160,15 +160,15 @@ Drawer::Drawer(const Showing& showing, const ViewOptions& options)
     view_.emplace(showing.scene);
 }
 
-void Drawer::follow(const servo::Frame& frame) {
+void Drawer::follow(const frame::Frame& frame) {
     if (!path_wanted_) return;
-    const Vec3 p = object_ < 0 ? servo::displayed_proxy(frame, 0).p
-                               : servo::displayed_body(frame, static_cast<size_t>(object_)).p;
+    const Vec3 p = object_ < 0 ? frame::displayed_proxy(frame, 0).p
+                               : frame::displayed_body(frame, static_cast<size_t>(object_)).p;
     constexpr double kStep = 5e-4;  // least distance between points of the path [m]
     if (p.allFinite() && (path_.empty() || (p - path_.back()).norm() > kStep)) path_.push_back(p);
 }
 
-Image Drawer::draw(const servo::Frame& frame) {
+Image Drawer::draw(const frame::Frame& frame) {
     overlays_.path = path_;
     const int width = offscreen_->width(), height = offscreen_->height();
     if (display_) {

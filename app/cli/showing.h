@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "command.h"
+#include "frame/frame.h"
 #include "rig/rig.h"
 #include "scene/scene.h"
-#include "servo/frame.h"
 #include "view/offscreen.h"
 #include "view/scene_view.h"
 
@@ -23,7 +23,7 @@ struct Showing {
     std::vector<view::Workspace> workspaces;    ///< of the devices whose workspace is known
     double duration = 0;                        ///< planned [s]; 0: not known
     bool recorded = false;                      ///< whether it is a session
-    std::function<const servo::Frame*()> next;  ///< the next frame; null at the end
+    std::function<const frame::Frame*()> next;  ///< the next frame; null at the end
 };
 
 /// `file`: a scene or an experiment, or a session's folder. Throws Error with what is wrong with
@@ -49,15 +49,15 @@ class Drawer {
   public:
     Drawer(const Showing& showing, const ViewOptions& options);
     /// Adds to the object's path; to be called for every frame.
-    void follow(const servo::Frame& frame);
-    Image draw(const servo::Frame& frame);
+    void follow(const frame::Frame& frame);
+    Image draw(const frame::Frame& frame);
     int width() const { return offscreen_->width(); }
     int height() const { return offscreen_->height(); }
 
   private:
     const Showing& showing_;
     view::Camera camera_;
-    std::optional<rig::Display> display_;  // in place of the camera
+    std::optional<display::Display> display_;  // in place of the camera
     view::Overlays overlays_;
     bool path_wanted_ = false;
     int object_ = -1;

@@ -17,8 +17,8 @@ void make_video(const ViewOptions& options) {
     int64_t pictures = 0;
     {
         ProgressLine line("drawing");
-        servo::Frame shown;
-        while (const servo::Frame* frame = showing.next()) {
+        frame::Frame shown;
+        while (const frame::Frame* frame = showing.next()) {
             // the newest frame at each picture's time; where a log has a gap the picture stands
             // still
             while (!shown.bodies.empty() &&

@@ -89,20 +89,20 @@ void Calibrator::register_display(const QString& rig_file, rig::NamedBy named_by
     for (const Problem& problem : diagnostics.problems())
         Q_EMIT logged(QString::fromStdString(problem.text()), true);
     if (diagnostics.has_errors() || rig.displays.empty()) return;
-    const rig::Display& display = rig.displays.front();
+    const display::Display& display = rig.displays.front();
     auto* crosses = new QSvgWidget;
     crosses->setAttribute(Qt::WA_DeleteOnClose);
     crosses->setWindowTitle(tr("Dihaptic: crosses"));
-    crosses->load(QByteArray::fromStdString(rig::cross_picture(display)));
+    crosses->load(QByteArray::fromStdString(display::cross_picture(display)));
     const QString wrong = show_on(*crosses, QString::fromStdString(display.monitor), *window_);
     if (!wrong.isEmpty()) Q_EMIT logged(wrong, true);
-    auto found = std::make_shared<rig::RegistrationResult>();
+    auto found = std::make_shared<display::RegistrationResult>();
     auto* guide = new GuideDialog(
         tr("Registration: %1").arg(QString::fromStdString(display.name)), tr("&Give up"),
         [rig, display, found](const rig::Guide& person) {
             const std::string finger = rig::held_fingers(rig).front();
-            *found =
-                rig::register_screen(display, rig::lead_registration(rig, finger, display, person));
+            *found = display::register_screen(display,
+                                              rig::lead_registration(rig, finger, display, person));
             found->registration.date = recording::iso_now().substr(0, 10);
         },
         window_);
@@ -116,10 +116,10 @@ void Calibrator::register_display(const QString& rig_file, rig::NamedBy named_by
     guide->open();
 }
 
-void Calibrator::store(const rig::Rig& rig, const rig::Display& display,
-                       const rig::RegistrationResult& result, const std::string& rig_file) {
+void Calibrator::store(const rig::Rig& rig, const display::Display& display,
+                       const display::RegistrationResult& result, const std::string& rig_file) {
     auto* question = new QMessageBox(QMessageBox::Question, tr("What the registration found"),
-                                     QString::fromStdString(rig::describe(result)),
+                                     QString::fromStdString(display::describe(result)),
                                      QMessageBox::Save | QMessageBox::Discard, window_);
     question->setAttribute(Qt::WA_DeleteOnClose);
     question->setDefaultButton(QMessageBox::Save);

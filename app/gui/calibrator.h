@@ -40,8 +40,8 @@ class Calibrator : public QObject {
   private:
     void ask_to_store(const rig::Rig& rig, const rig::CalibrationResult& result,
                       const std::string& rig_file, const std::string& file);
-    void store(const rig::Rig& rig, const rig::Display& display,
-               const rig::RegistrationResult& result, const std::string& rig_file);
+    void store(const rig::Rig& rig, const display::Display& display,
+               const display::RegistrationResult& result, const std::string& rig_file);
 
     QWidget* window_;
     QPointer<GuideDialog> check_;  // dialog of the starting session's check

@@ -39,7 +39,7 @@ void CurveReader::run(const Wanted& wanted, const std::stop_token& stop) {
     const double span = std::max(wanted.end - wanted.begin, 1e-9);
     try {
         recording::LogBrowser log(wanted.log);
-        const servo::Frame* frame = &log.at(wanted.begin);
+        const frame::Frame* frame = &log.at(wanted.begin);
         for (; frame != nullptr && !stop.stop_requested(); frame = log.next()) {
             const double share = (seconds(frame->time) - wanted.begin) / span;
             if (share > 1) break;

@@ -70,14 +70,14 @@ void DevicePanel::rest(const QString& why) {
     }
 }
 
-void DevicePanel::show_frame(const servo::Frame& frame) {
+void DevicePanel::show_frame(const frame::Frame& frame) {
     for (size_t i = 0; i < devices_.size() && i < frame.fingers.size(); ++i) {
-        const servo::FingerFrame& finger = frame.fingers[i];
+        const frame::FingerFrame& finger = frame.fingers[i];
         show_force(static_cast<int>(i), finger.f_sent_W.norm());
         table_->item(static_cast<int>(i), kStatus)->setText(words(finger.status));
     }
-    if (frame.status & servo::kOverrun) ++overruns_;
-    if (frame.status & servo::kUnbalanced) ++unbalanced_;
+    if (frame.status & kOverrun) ++overruns_;
+    if (frame.status & kUnbalanced) ++unbalanced_;
     // slow averages, because figures of single ticks would flicker
     const auto follow = [](double& value, double now) {
         if (std::isfinite(now)) value += 0.05 * (now - value);
@@ -89,11 +89,11 @@ void DevicePanel::show_frame(const servo::Frame& frame) {
             .arg(tick_ * 1e6, 0, 'f', 0)
             .arg(lateness_ * 1e6, 0, 'f', 0)
             .arg(overruns_)
-            .arg((frame.status & servo::kForceOff) != 0 ? tr("Force is off.") : "") +
+            .arg((frame.status & kForceOff) != 0 ? tr("Force is off.") : "") +
         (unbalanced_ > 0
              ? tr("\nEnergy or momentum unbalanced in %1 of the frames shown.").arg(unbalanced_)
              : QString()));
-    const StatusRow& why = describe(servo::kUnbalanced);
+    const StatusRow& why = describe(kUnbalanced);
     const std::string text = std::string(why.what) + ": " + std::string(why.remedy);
     loop_->setToolTip(unbalanced_ > 0 ? QString::fromStdString(text) : QString());
 }

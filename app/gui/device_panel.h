@@ -21,7 +21,7 @@ class DevicePanel : public QWidget {
     };
     void set_devices(const std::vector<Device>& devices);
     /// Shows a frame. The loop's figures are of the frames that were shown.
-    void show_frame(const servo::Frame& frame);
+    void show_frame(const frame::Frame& frame);
     /// Shows that no force acts, and why.
     void rest(const QString& why);
 

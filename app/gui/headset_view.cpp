@@ -12,7 +12,7 @@ using headset::Words;
 
 }  // namespace
 
-HeadsetView::HeadsetView(const rig::Headset& place)
+HeadsetView::HeadsetView(const display::Headset& place)
     : place_(place), page_(new PageView(&words_)), banner_(new QLabel(&words_)), headset_(place) {
     words_.setAttribute(Qt::WA_TranslucentBackground);
     words_.resize(Words::kWidth, Words::kHeight);
@@ -26,12 +26,12 @@ HeadsetView::HeadsetView(const rig::Headset& place)
     timer_.start(kRefresh);
 }
 
-bool HeadsetView::is_at(const rig::Headset& place) const {
+bool HeadsetView::is_at(const display::Headset& place) const {
     return place_.space == place.space && place_.position == place.position &&
            place_.rotation == place.rotation;
 }
 
-void HeadsetView::set_scene(const scene::Scene& scene, const servo::Frame& frame) {
+void HeadsetView::set_scene(const scene::Scene& scene, const frame::Frame& frame) {
     headset_.show(scene, frames_from(frame));
 }
 
@@ -40,8 +40,8 @@ void HeadsetView::follow(const scene::Scene& scene,
     headset_.show(scene, std::move(frames));
 }
 
-std::shared_ptr<headset::Headset::Frames> HeadsetView::frames_from(const servo::Frame& frame) {
-    servo::Frame of_no_tick = frame;
+std::shared_ptr<headset::Headset::Frames> HeadsetView::frames_from(const frame::Frame& frame) {
+    frame::Frame of_no_tick = frame;
     of_no_tick.sequence = -1;
     return std::make_shared<headset::Headset::Frames>(of_no_tick);
 }

@@ -13,17 +13,17 @@ class HeadsetView : public QObject {
     Q_OBJECT
 
   public:
-    explicit HeadsetView(const rig::Headset& place);
+    explicit HeadsetView(const display::Headset& place);
 
     /// Whether its space stands there.
-    bool is_at(const rig::Headset& place) const;
+    bool is_at(const display::Headset& place) const;
     /// Shows a frame that stays, of that scene.
-    void set_scene(const scene::Scene& scene, const servo::Frame& frame);
+    void set_scene(const scene::Scene& scene, const frame::Frame& frame);
     /// Shows the newest of these frames of that scene, of a session that runs. Nothing else may
     /// read them.
     void follow(const scene::Scene& scene, std::shared_ptr<headset::Headset::Frames> frames);
     /// Frames for a session; until its first, the one given.
-    static std::shared_ptr<headset::Headset::Frames> frames_from(const servo::Frame& frame);
+    static std::shared_ptr<headset::Headset::Frames> frames_from(const frame::Frame& frame);
     void set_banner(const QString& text);
     /// Sets the page in place of the scene (page_view.h); empty: none.
     void set_page(const QString& text, const QString& picture);
@@ -39,7 +39,7 @@ class HeadsetView : public QObject {
     void tend();
     void draw_words();
 
-    rig::Headset place_;
+    display::Headset place_;
     QWidget words_;
     PageView* page_;
     QLabel* banner_;

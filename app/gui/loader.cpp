@@ -11,7 +11,7 @@ namespace {
 
 void describe_devices(Opened& out, const std::vector<Pose>& X_WD) {
     for (size_t i = 0; i < out.plan.devices.size(); ++i) {
-        const devices::DeviceInfo& info = out.plan.devices[i];
+        const frame::DeviceInfo& info = out.plan.devices[i];
         out.devices.push_back({QString::fromStdString(out.plan.scene.fingers[i].name),
                                QString::fromStdString(info.model),
                                out.plan.settings.safety.largest_force(info.peak_force)});

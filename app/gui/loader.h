@@ -16,7 +16,7 @@ namespace dihaptic::gui {
 /// A file without errors, and what can be shown of it before it runs.
 struct Opened {
     session::Plan plan;
-    servo::Frame frame;  ///< the first one
+    frame::Frame frame;  ///< the first one
     std::vector<DevicePanel::Device> devices;
     std::vector<view::Workspace> workspaces;
     servo::WorkspaceTurn turn;

@@ -199,7 +199,7 @@ void OperatorWindow::opened(const Opened& opened) {
     scene_->set_scene(plan_->scene, frame_, workspaces_, opened.turn);
     subjects_.set_scene(plan_->scene, frame_, plan_->rig);
     plots_->set_scene(plan_->scene);
-    tuning_->set_knobs(servo::Knobs::of(plan_->settings));
+    tuning_->set_knobs(frame::Knobs::of(plan_->settings));
     devices_->set_devices(opened.devices);
     camera_menu_->clear();
     for (const view::Camera& camera : scene_->cameras()) {

@@ -57,7 +57,7 @@ session::Clock clock_of(const session::Plan& plan, double pace) {
 /// Peak force of the weakest device [N].
 double least_peak(const session::Plan& plan) {
     double out = std::numeric_limits<double>::infinity();
-    for (const devices::DeviceInfo& device : plan.devices)
+    for (const frame::DeviceInfo& device : plan.devices)
         out = std::min(out, plan.settings.safety.largest_force(device.peak_force));
     return out;
 }

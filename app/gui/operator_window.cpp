@@ -14,7 +14,7 @@
 #include <cstring>
 #include <utility>
 
-#include "servo/shown_texts.h"
+#include "frame/shown_texts.h"
 #include "session_progress.h"
 
 namespace dihaptic::gui {
@@ -24,17 +24,17 @@ constexpr int kPictureTime = 16;      // time between pictures [ms]: sixty a sec
 constexpr double kLongestStep = 0.1;  // of squeezing: the grip is known from the last picture [s]
 
 /// The texts that the task shows, a line each.
-QString texts_of(const session::Plan& plan, const servo::Frame& frame) {
+QString texts_of(const session::Plan& plan, const frame::Frame& frame) {
     QStringList out;
     if (plan.task) {
-        for (const std::string& text : servo::shown_texts(frame.task, plan.task->messages))
+        for (const std::string& text : frame::shown_texts(frame.task, plan.task->messages))
             out += QString::fromStdString(text);
     }
     return out.join("\n");
 }
 
 /// How the rig's patch is in a frame; nullopt: there is none.
-std::optional<view::PatchLook> patch_of(const session::Plan& plan, const servo::Frame& frame) {
+std::optional<view::PatchLook> patch_of(const session::Plan& plan, const frame::Frame& frame) {
     if (!plan.rig.patch) return {};
     const bool in_state = plan.task && frame.trial > 0 && frame.phase > 0 && frame.task.outcome < 0;
     const bool white =
@@ -194,7 +194,7 @@ void OperatorWindow::connect_session() {
 
 void OperatorWindow::connect_tuning() {
     connect(tuning_, &TuningPanel::turned, this,
-            [this](const servo::Knobs& knobs, const QString& what) {
+            [this](const frame::Knobs& knobs, const QString& what) {
                 if (!runner_.running()) return;
                 runner_.turn_knobs(knobs);
                 log(what);
@@ -317,7 +317,7 @@ void OperatorWindow::refresh() {
     while (const auto end = runner_.take_trial_end()) trials_->add(*end);
     if (const QString folder = runner_.take_folder(); !folder.isEmpty() && runner_.plan().task)
         figures_.follow(folder);
-    const servo::Frame& frame = runner_.read_frame();
+    const frame::Frame& frame = runner_.read_frame();
     if (frame.sequence >= 0) {
         if (mouse_) move_hand(h);
         show_frame(frame);
@@ -330,7 +330,7 @@ SceneWidget& OperatorWindow::first_scene() {
     return subjects_.first() == nullptr ? *scene_ : *subjects_.first();
 }
 
-void OperatorWindow::show_frame(const servo::Frame& frame) {
+void OperatorWindow::show_frame(const frame::Frame& frame) {
     first_scene().set_patch(patch_of(runner_.plan(), frame));
     scene_->show_frame(frame);
     subjects_.each([&](SceneWidget& scene) { scene.show_frame(frame); });
@@ -349,7 +349,7 @@ void OperatorWindow::show_frame(const servo::Frame& frame) {
 /// The question that a click may answer now; null: there is none.
 const task::AskSpec* OperatorWindow::asked_by_mouse() {
     if (state() != SessionPanel::State::running || !has_trials()) return nullptr;
-    const servo::Frame& frame = runner_.frame();
+    const frame::Frame& frame = runner_.frame();
     if (frame.trial < 1 || frame.phase < 1 || frame.task.outcome >= 0) return nullptr;
     const auto& ask = runner_.plan().task->task.states[static_cast<size_t>(frame.phase) - 1].ask;
     return ask && ask->by == task::AnswerBy::mouse ? &*ask : nullptr;
@@ -365,7 +365,7 @@ bool OperatorWindow::has_trials() const {
     return runner_.running() ? runner_.plan().task != nullptr : plan_ && plan_->task;
 }
 
-void OperatorWindow::show_progress(const servo::Frame& frame) {
+void OperatorWindow::show_progress(const frame::Frame& frame) {
     const SessionProgress now = progress_of(runner_.plan(), frame, runner_.done());
     if (runner_.plan().task) session_->set_trial(now.trial);
     session_->set_progress(now.share, now.text);
@@ -373,7 +373,7 @@ void OperatorWindow::show_progress(const servo::Frame& frame) {
 
 void OperatorWindow::move_hand(double h) {
     if (!mouse_ || !runner_.running()) return;
-    const servo::Frame& frame = runner_.frame();
+    const frame::Frame& frame = runner_.frame();
     if (frame.sequence < 0) return;
     mouse_->set_grip(frame.grip_force);
     mouse_->squeeze(scene_->keys(), std::min(h, kLongestStep));

@@ -129,11 +129,11 @@ class OperatorWindow : public QMainWindow {
     void session_ended(const SessionEnd& end);
     void refresh();
     SceneWidget& first_scene();
-    void show_frame(const servo::Frame& frame);
+    void show_frame(const frame::Frame& frame);
     void move_hand(double h);
     void show_subject_window(bool shown);
     void follow_in_headset();
-    void show_progress(const servo::Frame& frame);
+    void show_progress(const frame::Frame& frame);
     bool has_trials() const;
     SessionPanel::State state() const;
     /// What the task says to the person over the scene; empty: nothing.
@@ -155,7 +155,7 @@ class OperatorWindow : public QMainWindow {
     double sync_;
     QString file_;
     std::optional<session::Plan> plan_;  ///< of the last version of the file without errors
-    servo::Frame frame_;                 ///< the plan's first frame
+    frame::Frame frame_;                 ///< the plan's first frame
     std::vector<view::Workspace> workspaces_;
     QString said_;                        ///< the task's texts that are shown
     int page_ = -1;                       ///< index of the task's page that is shown; -1: none

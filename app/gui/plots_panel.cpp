@@ -21,9 +21,9 @@ QColor screen_colour(const Vec3& linear) {
 
 struct TermFinder {
     const void* member;
-    servo::Term found{};
+    frame::Term found{};
 
-    void operator()(const auto& value, const servo::Term& term) {
+    void operator()(const auto& value, const frame::Term& term) {
         if (&value == member) found = term;
     }
     void each(const auto&...) {}
@@ -32,7 +32,7 @@ struct TermFinder {
 
 /// How the record describes a member of the Frame, or of the items of one of its lists.
 template <class Item, class T>
-servo::Term term_of(T Item::*member) {
+frame::Term term_of(T Item::*member) {
     const Item item;
     TermFinder finder{&(item.*member)};
     Item::visit(item, finder);
@@ -62,10 +62,10 @@ void PlotsPanel::set_scene(const scene::Scene& scene) {
         heights.push_back({QString::fromStdString(scene.bodies[static_cast<size_t>(object)].name),
                            screen_colour(view::body_colour(scene, static_cast<size_t>(object)))});
     }
-    const servo::Term grip = term_of(&servo::Frame::grip_force);
-    const servo::Term load = term_of(&servo::Frame::load_force);
-    const servo::Term force = term_of(&servo::FingerFrame::f_sent_W);
-    const servo::Term position = term_of(&servo::FingerFrame::p_WH);
+    const frame::Term grip = term_of(&frame::Frame::grip_force);
+    const frame::Term load = term_of(&frame::Frame::load_force);
+    const frame::Term force = term_of(&frame::FingerFrame::f_sent_W);
+    const frame::Term position = term_of(&frame::FingerFrame::p_WH);
     grasp_ = new StripChart(tr("Grasp"), grip.unit,
                             {{grip.name, palette::kGrip}, {load.name, palette::kLoad}}, 1);
     fingers_ = new StripChart(QString("|%1|").arg(force.name), force.unit, fingers, 1);

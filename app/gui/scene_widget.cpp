@@ -10,8 +10,8 @@
 #include <utility>
 
 #include "base/diagnostics.h"
+#include "frame/displayed.h"
 #include "label_fit.h"
-#include "servo/displayed.h"
 
 namespace dihaptic::gui {
 namespace {
@@ -59,7 +59,7 @@ void SceneWidget::release() {
     doneCurrent();
 }
 
-void SceneWidget::set_scene(const scene::Scene& scene, const servo::Frame& frame,
+void SceneWidget::set_scene(const scene::Scene& scene, const frame::Frame& frame,
                             std::vector<view::Workspace> workspaces,
                             const servo::WorkspaceTurn& turn) {
     release();
@@ -83,13 +83,13 @@ void SceneWidget::set_scene(const scene::Scene& scene, const servo::Frame& frame
     set_camera(same ? view::Camera(camera_) : cameras_.front());
 }
 
-void SceneWidget::show_frame(const servo::Frame& frame) {
+void SceneWidget::show_frame(const frame::Frame& frame) {
     if (frame.time < frame_.time) path_.clear();
     frame_ = frame;
     turn_.set_angle(frame.workspace_turn);
     const int object = scene_.object_index();
     if (object >= 0) {
-        path_.push_back(servo::displayed_body(frame, static_cast<size_t>(object)).p);
+        path_.push_back(frame::displayed_body(frame, static_cast<size_t>(object)).p);
         while (path_.size() > kPath) path_.pop_front();
     }
     update();
@@ -167,11 +167,11 @@ void SceneWidget::set_page(const QString& text, const QString& picture) {
     page_->set_page(text, picture);
 }
 
-void SceneWidget::set_display(const std::optional<rig::Display>& display) {
+void SceneWidget::set_display(const std::optional<display::Display>& display) {
     display_ = display;
-    const bool turned = display && display->mirrored != rig::Mirrored::no;
-    const bool split = display && (display->stereo == rig::Stereo::side_by_side ||
-                                   display->stereo == rig::Stereo::top_bottom);
+    const bool turned = display && display->mirrored != display::Mirrored::no;
+    const bool split = display && (display->stereo == display::Stereo::side_by_side ||
+                                   display->stereo == display::Stereo::top_bottom);
     std::unique_ptr<QWidget> words;
     if (turned || split) {
         words = std::make_unique<QWidget>();
@@ -290,8 +290,8 @@ void SceneWidget::draw_scene() {
 
 /// The display with its eyes where they are now. A head that has come behind the screen, or nearly
 /// touches it, is left out: nothing could be drawn for it.
-rig::Display SceneWidget::seen_display() {
-    rig::Display out = *display_;
+display::Display SceneWidget::seen_display() {
+    display::Display out = *display_;
     if (out.eyes.tracked && head_) {
         out.eyes.position = head_->eyes;
         out.eyes.along = head_->along;
@@ -301,14 +301,14 @@ rig::Display SceneWidget::seen_display() {
             out.eyes = display_->eyes;
         }
     }
-    if (out.stereo == rig::Stereo::in_turn) out.eyes.position = out.eyes.of(right_eye_);
+    if (out.stereo == display::Stereo::in_turn) out.eyes.position = out.eyes.of(right_eye_);
     return out;
 }
 
 /// Glasses open for the eyes in turn though a picture is late: whose the next one is follows from
 /// how often the screen was refreshed since the last.
 void SceneWidget::take_turns() {
-    if (!display_ || display_->stereo != rig::Stereo::in_turn) return;
+    if (!display_ || display_->stereo != display::Stereo::in_turn) return;
     const double periods =
         1e-9 * static_cast<double>(since_swap_.nsecsElapsed()) * screen()->refreshRate();
     const bool timed = since_swap_.isValid() && std::isfinite(periods);
@@ -327,8 +327,8 @@ void SceneWidget::draw_words() {
     picture.setDevicePixelRatio(scale);
     picture.fill(Qt::transparent);
     words_->render(&picture, {}, {}, QWidget::DrawChildren);
-    picture = picture.mirrored(display_->mirrored == rig::Mirrored::left_right,
-                               display_->mirrored == rig::Mirrored::up_down);
+    picture = picture.mirrored(display_->mirrored == display::Mirrored::left_right,
+                               display_->mirrored == display::Mirrored::up_down);
     QPainter painter(this);
     for (const view::Pane& pane : view::panes(*display_, 1)) {
         painter.drawImage(QPointF(pane.left * width(), (1 - pane.bottom - pane.height) * height()),

@@ -28,11 +28,11 @@ class SceneWidget : public QOpenGLWidget {
     /// Sets the scene that frames belong to from now on, the first frame, the devices' workspaces,
     /// and how workspaces turn. The camera stays where it is if the scene has the same cameras as
     /// the one before.
-    void set_scene(const scene::Scene& scene, const servo::Frame& frame,
+    void set_scene(const scene::Scene& scene, const frame::Frame& frame,
                    std::vector<view::Workspace> workspaces = {},
                    const servo::WorkspaceTurn& turn = {});
     /// Sets the newest frame, which is drawn with the screen's next picture.
-    void show_frame(const servo::Frame& frame);
+    void show_frame(const frame::Frame& frame);
     /// The mouse moves this hand; if it is null, the camera. `squeezes`: whether the wheel
     /// squeezes.
     void set_hand(MouseHand* hand, bool squeezes);
@@ -49,7 +49,7 @@ class SceneWidget : public QOpenGLWidget {
     const view::Camera& camera() const { return camera_; }
     void reset_camera();
     /// Draws as the person sees it on a display, in place of the camera; nullopt: by the camera.
-    void set_display(const std::optional<rig::Display>& display);
+    void set_display(const std::optional<display::Display>& display);
     /// Where the head is from whose eyes it is drawn, if the display's eyes are tracked.
     void set_head(const outlets::HeadPose& head);
     /// The head that the last picture was drawn for; nullopt: for eyes that rest.
@@ -128,17 +128,17 @@ class SceneWidget : public QOpenGLWidget {
     void place_labels();
     void make_view();
     void draw_scene();
-    rig::Display seen_display();
+    display::Display seen_display();
     /// After a picture came to the screen: the next one is for the other eye.
     void take_turns();
     void draw_words();
 
     scene::Scene scene_;
-    servo::Frame frame_;
+    frame::Frame frame_;
     std::unique_ptr<view::SceneView> view_;
     std::vector<view::Camera> cameras_;
     view::Camera camera_;
-    std::optional<rig::Display> display_;
+    std::optional<display::Display> display_;
     std::optional<outlets::HeadPose> head_, shown_to_;
     bool right_eye_ = false;  // whose picture is next, of a display for both eyes in turn
     QElapsedTimer since_swap_;

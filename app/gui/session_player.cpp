@@ -316,7 +316,7 @@ void SessionPlayer::read_curves() {
 
 void SessionPlayer::go_to(double time) {
     time_ = std::clamp(time, log_.begin(), log_.end());
-    const servo::Frame& frame = log_.at(time_);
+    const frame::Frame& frame = log_.at(time_);
     view_->show_frame(frame);
     QStringList words;
     for (task::RecordedValue& value : values_) {

@@ -13,7 +13,7 @@ QString duration(double seconds) {
     return QObject::tr("%1 min %2 s").arg(whole / 60).arg(whole % 60);
 }
 
-QString describe_trial(const task::TaskPlan& plan, const servo::Frame& frame) {
+QString describe_trial(const task::TaskPlan& plan, const frame::Frame& frame) {
     const auto trials = static_cast<int>(plan.trials.size());
     const int n = std::clamp(frame.trial, 1, trials);
     const task::Trial& trial = plan.trials[static_cast<size_t>(n - 1)];
@@ -31,7 +31,7 @@ QString describe_trial(const task::TaskPlan& plan, const servo::Frame& frame) {
 
 }  // namespace
 
-SessionProgress progress_of(const session::Plan& plan, const servo::Frame& frame, double done) {
+SessionProgress progress_of(const session::Plan& plan, const frame::Frame& frame, double done) {
     const double now = seconds(frame.time);
     if (plan.task) {
         // assumes that the trials left take as long as those before

@@ -3,7 +3,7 @@
 
 #include <QString>
 
-#include "servo/frame.h"
+#include "frame/frame.h"
 #include "session/plan.h"
 
 namespace dihaptic::gui {
@@ -15,6 +15,6 @@ struct SessionProgress {
 };
 
 /// `done`: share of the trials that are over. Without trials or a script only the time is known.
-SessionProgress progress_of(const session::Plan& plan, const servo::Frame& frame, double done);
+SessionProgress progress_of(const session::Plan& plan, const frame::Frame& frame, double done);
 
 }  // namespace dihaptic::gui

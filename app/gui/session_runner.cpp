@@ -67,7 +67,7 @@ void SessionRunner::watch() {
 
 void SessionRunner::start(session::Plan plan, session::RunOptions options, double pace,
                           std::unique_ptr<devices::DeviceGroup> devices,
-                          std::shared_ptr<Latest<servo::Frame>> second) {
+                          std::shared_ptr<Latest<frame::Frame>> second) {
     {
         const std::lock_guard lock(coming_and_going_);
         session_ = std::make_unique<Session>();
@@ -76,7 +76,7 @@ void SessionRunner::start(session::Plan plan, session::RunOptions options, doubl
     no_suspension_.emplace();
     session_->plan = std::move(plan);
     session_->devices = std::move(devices);
-    session_->knobs = servo::Knobs::of(session_->plan.settings);
+    session_->knobs = frame::Knobs::of(session_->plan.settings);
     // if the window never beats, force goes off too
     session_->live.note_alive(kFirstBeat * 1e-3);
     first_beat_.start();

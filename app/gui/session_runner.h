@@ -38,7 +38,7 @@ class SessionRunner : public QObject {
     /// `second`: gets frames too, unless it is null.
     void start(session::Plan plan, session::RunOptions options, double pace,
                std::unique_ptr<devices::DeviceGroup> devices = nullptr,
-               std::shared_ptr<Latest<servo::Frame>> second = nullptr);
+               std::shared_ptr<Latest<frame::Frame>> second = nullptr);
     bool running() const { return session_ != nullptr; }
     /// The ticks are over, and files are being written.
     bool finishing() const { return running() && session_->finishing; }
@@ -50,15 +50,15 @@ class SessionRunner : public QObject {
     // what follows, up to end(), only while running
     const session::Plan& plan() const { return session_->plan; }
     /// The frames that start() was given to fill.
-    std::shared_ptr<Latest<servo::Frame>> second() const { return session_->live.second; }
+    std::shared_ptr<Latest<frame::Frame>> second() const { return session_->live.second; }
     /// The newest frame, which stays as it is until the next call: the servo then writes over what
     /// was returned before, so that nothing may be kept of it.
-    const servo::Frame& read_frame() {
+    const frame::Frame& read_frame() {
         session_->read = &session_->live.frame.read();
         return *session_->read;
     }
     /// What read_frame() returned last.
-    const servo::Frame& frame() const { return *session_->read; }
+    const frame::Frame& frame() const { return *session_->read; }
     std::optional<session::CurveSample> take_sample() { return session_->live.take_sample(); }
     std::optional<session::TrialEnd> take_trial_end() { return session_->live.take_trial_end(); }
     void set_paused(bool paused) { session_->live.paused = paused; }
@@ -68,7 +68,7 @@ class SessionRunner : public QObject {
     QString take_told() { return QString::fromStdString(session_->live.take_told()); }
     bool paused() const { return session_->live.paused; }
     /// Turns the knobs toward these, but for the workspaces.
-    void turn_knobs(servo::Knobs knobs) {
+    void turn_knobs(frame::Knobs knobs) {
         knobs.workspace_turn = session_->knobs.workspace_turn;
         session_->knobs = knobs;
         session_->live.knobs.publish(knobs);
@@ -129,9 +129,9 @@ class SessionRunner : public QObject {
         session::Plan plan;
         std::unique_ptr<devices::DeviceGroup> devices;
         session::Live live;
-        const servo::Frame* read = &live.frame.read();
+        const frame::Frame* read = &live.frame.read();
         session::Clock clock = session::Clock::real;
-        servo::Knobs knobs;  ///< to be reached
+        frame::Knobs knobs;  ///< to be reached
         std::atomic<char> key{0};
         std::atomic<bool> finishing{false};
     };

@@ -58,11 +58,11 @@ void SubjectWindows::show_first(qint64 tick) {
 
 void SubjectWindows::open(const rig::Rig& rig) {
     close();
-    for (const rig::Display& display : rig.displays) add(display);
+    for (const display::Display& display : rig.displays) add(display);
     if (rig.headset) {
         add(*rig.headset);
     } else {
-        if (windows_.empty()) add(std::optional<rig::Display>());
+        if (windows_.empty()) add(std::optional<display::Display>());
         connect(first(), &SceneWidget::presented, this, &SubjectWindows::show_first);
     }
     track_head_of(rig);
@@ -76,7 +76,7 @@ void SubjectWindows::close() {
     Q_EMIT changed();
 }
 
-void SubjectWindows::add(const rig::Headset& headset) {
+void SubjectWindows::add(const display::Headset& headset) {
     headset_ = std::make_unique<HeadsetView>(headset);
     connect(headset_.get(), &HeadsetView::told, this, &SubjectWindows::told);
     connect(headset_.get(), &HeadsetView::shown, this, &SubjectWindows::shown_to_head);
@@ -85,7 +85,7 @@ void SubjectWindows::add(const rig::Headset& headset) {
             Qt::QueuedConnection);
 }
 
-void SubjectWindows::add(const std::optional<rig::Display>& display) {
+void SubjectWindows::add(const std::optional<display::Display>& display) {
     SubjectWindow& window = *windows_.emplace_back(std::make_unique<SubjectWindow>());
     window.scene().set_display(display);
     connect(&window, &SubjectWindow::key_pressed, this, &SubjectWindows::key_pressed);
@@ -97,7 +97,7 @@ void SubjectWindows::add(const std::optional<rig::Display>& display) {
         Q_EMIT told(wrong, true);
 }
 
-void SubjectWindows::set_scene(const scene::Scene& scene, const servo::Frame& frame,
+void SubjectWindows::set_scene(const scene::Scene& scene, const frame::Frame& frame,
                                const rig::Rig& rig) {
     if (empty()) return;
     const bool same_headset =

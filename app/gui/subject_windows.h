@@ -28,7 +28,7 @@ class SubjectWindows : public QObject {
     SceneWidget* first() { return windows_.empty() ? nullptr : &windows_.front()->scene(); }
     HeadsetView* headset() { return headset_.get(); }
     /// Gives them a scene, and a rig that may be another one.
-    void set_scene(const scene::Scene& scene, const servo::Frame& frame, const rig::Rig& rig);
+    void set_scene(const scene::Scene& scene, const frame::Frame& frame, const rig::Rig& rig);
     /// Calls f(SceneWidget&) for each.
     template <class F>
     void each(const F& f) {
@@ -52,8 +52,8 @@ class SubjectWindows : public QObject {
     void told(const QString& what, bool problem);
 
   private:
-    void add(const std::optional<rig::Display>& display);
-    void add(const rig::Headset& headset);
+    void add(const std::optional<display::Display>& display);
+    void add(const display::Headset& headset);
     void track_head_of(const rig::Rig& rig);
     void track(const std::optional<outlets::TrackedHead>& head);
     /// Gives the windows the newest pose of the head.

@@ -10,13 +10,13 @@ namespace dihaptic::gui {
 TuningPanel::TuningPanel(QWidget* parent) : QWidget(parent) {
     setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
     auto* form = new QFormLayout(this);
-    servo::Knobs::visit([&](auto knob, const servo::Knob& is) {
+    frame::Knobs::visit([&](auto knob, const frame::Knob& is) {
         if (is.label != nullptr) add(form, knob, is);
     });
 }
 
 template <NamedEnum E>
-void TuningPanel::add(QFormLayout* form, E servo::Knobs::*knob, const servo::Knob& is) {
+void TuningPanel::add(QFormLayout* form, E frame::Knobs::*knob, const frame::Knob& is) {
     auto* box = new QComboBox;
     for (const char* name : enum_names(E{})) box->addItem(name);
     box->setToolTip(is.what);
@@ -26,7 +26,7 @@ void TuningPanel::add(QFormLayout* form, E servo::Knobs::*knob, const servo::Kno
     show_.emplace_back([this, knob, box] { box->setCurrentIndex(static_cast<int>(knobs_.*knob)); });
 }
 
-void TuningPanel::add(QFormLayout* form, double servo::Knobs::*knob, const servo::Knob& is) {
+void TuningPanel::add(QFormLayout* form, double frame::Knobs::*knob, const frame::Knob& is) {
     auto* box = new NumberBox;
     const bool may_be_unset = is.unset != nullptr;
     // below the least value, and shown in words
@@ -48,13 +48,13 @@ void TuningPanel::add(QFormLayout* form, double servo::Knobs::*knob, const servo
 
 /// Others than the one that was turned keep what they are, which a box may show rounded.
 template <class T>
-void TuningPanel::turn(T servo::Knobs::*knob, const servo::Knob& is, T value) {
+void TuningPanel::turn(T frame::Knobs::*knob, const frame::Knob& is, T value) {
     if (setting_) return;
     knobs_.*knob = value;
     Q_EMIT turned(knobs_, QString("%1: %2").arg(is.key, QString::fromStdString(words(is, value))));
 }
 
-void TuningPanel::set_knobs(const servo::Knobs& knobs) {
+void TuningPanel::set_knobs(const frame::Knobs& knobs) {
     setting_ = true;
     knobs_ = knobs;
     for (const auto& show : show_) show();

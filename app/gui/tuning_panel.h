@@ -6,7 +6,7 @@
 #include <functional>
 #include <vector>
 
-#include "servo/knobs.h"
+#include "frame/knobs.h"
 
 namespace dihaptic::gui {
 
@@ -17,21 +17,21 @@ class TuningPanel : public QWidget {
     explicit TuningPanel(QWidget* parent = nullptr);
 
     /// Shows the knobs with which the session starts.
-    void set_knobs(const servo::Knobs& knobs);
+    void set_knobs(const frame::Knobs& knobs);
 
   Q_SIGNALS:
     /// `what`: the knob that its user turned, and its value, in words.
-    void turned(const dihaptic::servo::Knobs& knobs, const QString& what);
+    void turned(const dihaptic::frame::Knobs& knobs, const QString& what);
 
   private:
     /// Adds a knob with what shows its value.
     template <NamedEnum E>
-    void add(QFormLayout* form, E servo::Knobs::*knob, const servo::Knob& is);
-    void add(QFormLayout* form, double servo::Knobs::*knob, const servo::Knob& is);
+    void add(QFormLayout* form, E frame::Knobs::*knob, const frame::Knob& is);
+    void add(QFormLayout* form, double frame::Knobs::*knob, const frame::Knob& is);
     template <class T>
-    void turn(T servo::Knobs::*knob, const servo::Knob& is, T value);
+    void turn(T frame::Knobs::*knob, const frame::Knob& is, T value);
 
-    servo::Knobs knobs_;
+    frame::Knobs knobs_;
     std::vector<std::function<void()>> show_;  // by knob: shows its value in knobs_
     bool setting_ = false;  // values are being set by the program, not by its user
 };

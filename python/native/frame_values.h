@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "frame/frame.h"
 #include "recording/frame_row.h"
-#include "servo/frame.h"
 
 namespace dihaptic::python {
 
@@ -25,16 +25,16 @@ class FrameValue {
         : list_(list), item_(item), name_(name) {}
 
     /// None if the frame has no such value.
-    pybind11::object of(const servo::Frame& frame) {
+    pybind11::object of(const frame::Frame& frame) {
         found_ = pybind11::none();
         here_ = list_.empty();
-        servo::Frame::visit(frame, *this);
+        frame::Frame::visit(frame, *this);
         return found_;
     }
 
     // as a visitor
     template <class T>
-    void operator()(const T& value, const servo::Term& term) {
+    void operator()(const T& value, const frame::Term& term) {
         if (!here_ || name_ != term.name) return;
         if constexpr (std::is_same_v<T, Vec3>) {
             found_ = pybind11::cast(value);
@@ -74,14 +74,14 @@ class FrameRows {
   public:
     explicit FrameRows(const std::string& list) : list_(list) {}
 
-    std::vector<std::vector<double>> of(const servo::Frame& frame) {
-        servo::Frame::visit(frame, *this);
+    std::vector<std::vector<double>> of(const frame::Frame& frame) {
+        frame::Frame::visit(frame, *this);
         return rows_;
     }
 
     // as a visitor
     template <class T>
-    void operator()(const T&, const servo::Term&) {}  // a tick has it once
+    void operator()(const T&, const frame::Term&) {}  // a tick has it once
     template <class T>
     void each(const char* list, const std::vector<T>& items, const char*) {
         if (list_ != list) return;

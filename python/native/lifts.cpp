@@ -26,14 +26,14 @@ class Forces {
         frame_.fingers.resize(digits);
         frame_.contacts.resize(digits);
     }
-    const servo::Frame& at(py::ssize_t i) {
+    const frame::Frame& at(py::ssize_t i) {
         frame_.time = from_seconds(static_cast<double>(i) * tick_);
-        servo::BodyFrame& object = frame_.bodies.front();
+        frame::BodyFrame& object = frame_.bodies.front();
         object.v_WB.z() = i == 0 ? 0 : (height_.at(i) - height_.at(i - 1)) / tick_;
         object.X_WB.p.z() = height_.at(i);
         for (size_t digit = 0; digit < frame_.contacts.size(); ++digit) {
             const auto f = static_cast<py::ssize_t>(digit);
-            servo::ContactFrame& contact = frame_.contacts[digit];
+            frame::ContactFrame& contact = frame_.contacts[digit];
             contact.a = 0;
             contact.b = static_cast<int32_t>(1 + digit);
             contact.n_W = Vec3::UnitX();
@@ -48,7 +48,7 @@ class Forces {
     const Array& load_;
     const Array& height_;
     double tick_;
-    servo::Frame frame_;
+    frame::Frame frame_;
 };
 
 void check_shapes(const Array& grip, const Array& load, const Array& height, size_t digits) {

@@ -8,11 +8,11 @@
 
 #include "base/field_writer.h"
 #include "base/number.h"
+#include "frame/displayed.h"
 #include "frame_values.h"
 #include "parts.h"
 #include "person/population.h"
 #include "plans.h"
-#include "servo/displayed.h"
 #include "session/decider.h"
 #include "session/record.h"
 #include "session/rehearsal.h"
@@ -49,7 +49,7 @@ class PythonHand : public task::SeeingDriver {
     }
     void forget() { act_ = py::function(); }
 
-    const servo::Frame& frame() const {
+    const frame::Frame& frame() const {
         if (frame_ != nullptr) return *frame_;
         throw Error("nothing is seen now", "Look within act().");
     }
@@ -63,7 +63,7 @@ class PythonHand : public task::SeeingDriver {
         const auto& led = led_[static_cast<size_t>(finger)];
         return led ? *led : own_->target(finger, 0);
     }
-    void do_see(const servo::Frame& frame) noexcept override {
+    void do_see(const frame::Frame& frame) noexcept override {
         if (ticks_++ % every_ != 0 || thrown_) return;
         const py::gil_scoped_acquire python;
         frame_ = &frame;
@@ -85,7 +85,7 @@ class PythonHand : public task::SeeingDriver {
     std::vector<std::optional<hand::FingerTarget>> led_;
     char key_ = '\0';
     int64_t ticks_ = 0;
-    const servo::Frame* frame_ = nullptr;
+    const frame::Frame* frame_ = nullptr;
     std::exception_ptr thrown_;
 };
 
@@ -185,18 +185,18 @@ class Sitting {
         return FrameValue(list, item, name).of(hand_->frame());
     }
     Vec3 shown_finger(size_t finger) const {
-        return servo::displayed_handle(hand_->frame(), finger).p;
+        return frame::displayed_handle(hand_->frame(), finger).p;
     }
-    Vec3 shown_body(size_t body) const { return servo::displayed_body(hand_->frame(), body).p; }
-    bool is_shown(size_t body) const { return servo::is_displayed(hand_->frame(), body); }
+    Vec3 shown_body(size_t body) const { return frame::displayed_body(hand_->frame(), body).p; }
+    bool is_shown(size_t body) const { return frame::is_displayed(hand_->frame(), body); }
     /// The targets that are shown, by the names of their regions.
     std::vector<std::pair<std::string, Vec3>> targets() const {
         std::vector<std::pair<std::string, Vec3>> out;
-        const servo::Frame& frame = hand_->frame();
+        const frame::Frame& frame = hand_->frame();
         for (size_t i = 0; i < frame.task.targets.size(); ++i) {
             const auto region = static_cast<size_t>(frame.task.targets[i].region);
             out.emplace_back(plan_.task->task.regions[region].name,
-                             servo::displayed_target(frame, i));
+                             frame::displayed_target(frame, i));
         }
         return out;
     }

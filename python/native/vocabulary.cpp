@@ -15,6 +15,7 @@
 #include "base/node.h"
 #include "base/palette.h"
 #include "base/unit.h"
+#include "frame/frame.h"
 #include "frame_values.h"
 #include "parts.h"
 #include "plans.h"
@@ -22,7 +23,6 @@
 #include "recording/schema.h"
 #include "recording/seal.h"
 #include "recording/session.h"
-#include "servo/frame.h"
 #include "session/check.h"
 
 namespace py = pybind11;
@@ -38,7 +38,7 @@ using QuantityRow =
 class QuantityLister {
   public:
     template <class T>
-    void operator()(const T&, const servo::Term& term) {
+    void operator()(const T&, const frame::Term& term) {
         rows.emplace_back(list_, term.name, recording::type_name<T>(), term.unit, term.frame,
                           term.meaning);
     }
@@ -62,8 +62,8 @@ class QuantityLister {
 
 std::vector<QuantityRow> quantities() {
     QuantityLister lister;
-    const servo::Frame frame;
-    servo::Frame::visit(frame, lister);
+    const frame::Frame frame;
+    frame::Frame::visit(frame, lister);
     return lister.rows;
 }
 
@@ -207,7 +207,7 @@ py::list log_values(const std::string& file, const std::string& list, size_t ite
     recording::RawLogReader log(file);
     FrameValue value(list, item, name);
     py::list out;
-    while (const servo::Frame* frame = log.next()) out.append(value.of(*frame));
+    while (const frame::Frame* frame = log.next()) out.append(value.of(*frame));
     return out;
 }
 

@@ -178,7 +178,7 @@ class World {
             throw Error("the push is too hard", "Give at most 10 000 N, or N*m.");
         std::erase_if(loads_, [&](const auto& load) { return load.body == body; });
         if (force == Vec3::Zero() && torque == Vec3::Zero()) return;
-        if (loads_.size() == servo::TaskFrame::kMostLoads) throw too_many("pushes");
+        if (loads_.size() == frame::TaskFrame::kMostLoads) throw too_many("pushes");
         loads_.push_back({body, force, torque});
     }
     void scale(int32_t body, const Vec3& mass, double weight, double turning, double friction) {
@@ -189,9 +189,9 @@ class World {
         check_factor("friction", friction, 0);
         std::erase_if(properties_, [&](const auto& p) { return p.body == body; });
         if (mass == Vec3::Ones() && weight == 1 && turning == 1 && friction == 1) return;
-        if (properties_.size() == servo::TaskFrame::kMostProperties)
+        if (properties_.size() == frame::TaskFrame::kMostProperties)
             throw too_many("scaled bodies");
-        servo::PropertiesFrame properties;
+        frame::PropertiesFrame properties;
         properties.body = body;
         properties.mass_scale = mass;
         properties.weight_scale = weight;
@@ -205,15 +205,15 @@ class World {
         const auto put = [&](const auto& vector) {
             for (const double value : vector) *out++ = value;
         };
-        for (const servo::FingerFrame& finger : frame().fingers) {
+        for (const frame::FingerFrame& finger : frame().fingers) {
             put(finger.p_WH);
             put(finger.v_WH);
             put(finger.f_sent_W);
             *out++ = finger.normal_force;
         }
         const int object = plan_.scene.object_index();
-        const servo::BodyFrame body =
-            object < 0 ? servo::BodyFrame{} : frame().bodies[static_cast<size_t>(object)];
+        const frame::BodyFrame body =
+            object < 0 ? frame::BodyFrame{} : frame().bodies[static_cast<size_t>(object)];
         put(body.X_WB.p);
         put(std::array{body.X_WB.R.w(), body.X_WB.R.x(), body.X_WB.R.y(), body.X_WB.R.z()});
         put(body.v_WB);
@@ -257,8 +257,8 @@ class World {
     }
 
     void tick(const std::function<void()>& call) noexcept {
-        const auto direct = [&](const servo::Frame& last, std::span<const haptics::Handle> handles,
-                                servo::Commands& commands) {
+        const auto direct = [&](const frame::Frame& last, std::span<const frame::Handle> handles,
+                                frame::Commands& commands) {
             (*phases_)(last, handles, commands);
             if (call) {
                 try {
@@ -275,7 +275,7 @@ class World {
         frame_ = &servo_->tick(now_, direct);
         now_ += servo_->period();
     }
-    const servo::Frame& frame() const {
+    const frame::Frame& frame() const {
         if (alone_) throw Error("the world is being stepped", "Read it between two steps.");
         if (frame_ != nullptr) return *frame_;
         throw Error("no tick has been done yet", "Step the world first: World.step().");
@@ -305,11 +305,11 @@ class World {
     std::shared_ptr<LedHand> hand_;
     std::unique_ptr<servo::Servo> servo_;
     std::optional<session::PhaseDirector> phases_;
-    std::vector<servo::LoadFrame> loads_;
-    std::vector<servo::PropertiesFrame> properties_;
-    std::vector<servo::PlacementFrame> placements_;
+    std::vector<frame::LoadFrame> loads_;
+    std::vector<frame::PropertiesFrame> properties_;
+    std::vector<frame::PlacementFrame> placements_;
     Time now_{0};
-    const servo::Frame* frame_ = nullptr;
+    const frame::Frame* frame_ = nullptr;
     std::exception_ptr thrown_;  // by the director, in the tick
     std::atomic<bool> used_{false};
     bool alone_ = false;  // it is stepped without Python's lock

@@ -100,7 +100,7 @@ class Exporter {
         for (const TrackingSystem& system : systems_)
             out.emplace_back(making(system, "motion.tsv"));
         std::string line;
-        while (const servo::Frame* frame = log.next()) {
+        while (const frame::Frame* frame = log.next()) {
             for (size_t i = 0; i < systems_.size(); ++i) {
                 line.clear();
                 for (const bids::Channel& channel : systems_[i].channels) {

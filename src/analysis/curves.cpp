@@ -43,35 +43,35 @@ class CurveLister {
   public:
     explicit CurveLister(const recording::LogHead& head)
         : head_(head), turning_(head.turning_fingers()) {
-        servo::Frame frame;
+        frame::Frame frame;
         frame.fingers.resize(head.fingers.size());
         frame.turns.resize(turning_.size());
         frame.bodies.resize(head.bodies.size());
         frame.joints.resize(head.joints.size());
-        servo::Frame::visit(frame, *this);
+        frame::Frame::visit(frame, *this);
     }
     std::vector<Curve> curves;
     std::vector<std::string> lists;
 
     // as a visitor
     template <class T>
-    void operator()(const T&, const servo::Term& term) {
+    void operator()(const T&, const frame::Term& term) {
         if constexpr (!std::is_same_v<T, Time>) {
             const Curve& last = curves.empty() ? Curve{} : curves.back();
             const size_t first = curves.empty() ? 0 : last.first + last.width();
             curves.push_back({item_ + term.name, term.unit, parts_of<T>(), first});
         }
     }
-    void each(const char*, const std::vector<servo::FingerFrame>& fingers, const char*) {
+    void each(const char*, const std::vector<frame::FingerFrame>& fingers, const char*) {
         each_of(head_.fingers, fingers);
     }
-    void each(const char*, const std::vector<servo::TurnFrame>& turns, const char*) {
+    void each(const char*, const std::vector<frame::TurnFrame>& turns, const char*) {
         each_of(turning_, turns);
     }
-    void each(const char*, const std::vector<servo::JointFrame>& joints, const char*) {
+    void each(const char*, const std::vector<frame::JointFrame>& joints, const char*) {
         each_of(head_.joints, joints);
     }
-    void changed(const char*, const std::vector<servo::BodyFrame>& bodies,
+    void changed(const char*, const std::vector<frame::BodyFrame>& bodies,
                  const std::vector<uint16_t>&, const char*) {
         each_of(head_.bodies, bodies);
     }
@@ -98,29 +98,29 @@ class CurveLister {
 /// All numbers of a tick that have curves.
 class TickRow {
   public:
-    const std::vector<double>& of(const servo::Frame& frame) {
+    const std::vector<double>& of(const frame::Frame& frame) {
         row_.numbers.clear();
-        servo::Frame::visit(frame, *this);
+        frame::Frame::visit(frame, *this);
         return row_.numbers;
     }
 
     // as a visitor
     template <class T>
-    void operator()(const T& value, const servo::Term& term) {
+    void operator()(const T& value, const frame::Term& term) {
         if constexpr (!std::is_same_v<T, Time>) row_(value, term);
     }
     template <class T>
     void each(const char*, const std::vector<T>& items, const char*) {
-        constexpr bool named = std::is_same_v<T, servo::FingerFrame> ||
-                               std::is_same_v<T, servo::TurnFrame> ||
-                               std::is_same_v<T, servo::JointFrame>;
+        constexpr bool named = std::is_same_v<T, frame::FingerFrame> ||
+                               std::is_same_v<T, frame::TurnFrame> ||
+                               std::is_same_v<T, frame::JointFrame>;
         if constexpr (named) {
             for (const T& item : items) T::visit(item, *this);
         }
     }
-    void changed(const char*, const std::vector<servo::BodyFrame>& bodies,
+    void changed(const char*, const std::vector<frame::BodyFrame>& bodies,
                  const std::vector<uint16_t>&, const char*) {
-        for (const servo::BodyFrame& body : bodies) servo::BodyFrame::visit(body, *this);
+        for (const frame::BodyFrame& body : bodies) frame::BodyFrame::visit(body, *this);
     }
 
   private:
@@ -204,7 +204,7 @@ void write(std::ofstream& out, recording::RawLogReader& log, const std::vector<C
     out << line << '\n';
     TickRow row;
     int64_t ticks = 0;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         const std::vector<double>& numbers = row.of(*frame);
         line = number_text(seconds(frame->time), 12);
         add_cell(line, frame->trial);

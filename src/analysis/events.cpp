@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "base/number.h"
-#include "servo/shown_texts.h"
+#include "frame/shown_texts.h"
 
 namespace dihaptic::analysis {
 namespace {
@@ -29,7 +29,7 @@ std::string EventFinder::name(int body) const {
     return i < head_.bodies.size() ? head_.bodies[i] : head_.fingers[i - head_.bodies.size()];
 }
 
-void EventFinder::add(const servo::Frame& frame) {
+void EventFinder::add(const frame::Frame& frame) {
     add_trial(frame);
     add_task(frame);
     add_phase(frame);
@@ -40,11 +40,11 @@ void EventFinder::add(const servo::Frame& frame) {
     add_status(frame);
 }
 
-void EventFinder::say(const servo::Frame& frame, const char* what, std::string detail) {
+void EventFinder::say(const frame::Frame& frame, const char* what, std::string detail) {
     events_.push_back({frame.sequence, seconds(frame.time), frame.trial, what, std::move(detail)});
 }
 
-void EventFinder::add_trial(const servo::Frame& frame) {
+void EventFinder::add_trial(const frame::Frame& frame) {
     // a task's trial begins with its first state: before it, the last trial's feedback is shown
     const bool begun = frame.phase > 0 || frame.task.attempt == 0;
     if (!begun || (frame.trial == trial_ && frame.task.attempt == attempt_)) return;
@@ -53,8 +53,8 @@ void EventFinder::add_trial(const servo::Frame& frame) {
     if (attempt_ > 0) say(frame, "trial", fmt::format("attempt {}", attempt_));
 }
 
-void EventFinder::add_task(const servo::Frame& frame) {
-    const servo::TaskFrame& task = frame.task;
+void EventFinder::add_task(const frame::Frame& frame) {
+    const frame::TaskFrame& task = frame.task;
     const bool perturbed = !(task.visual.empty() && task.properties.empty() &&
                              task.joint_properties.empty() && task.loads.empty());
     if (perturbed != perturbed_) say(frame, "perturbation", perturbed ? "on" : "off");
@@ -68,20 +68,20 @@ void EventFinder::add_task(const servo::Frame& frame) {
     if (task.outcome >= 0) say(frame, "outcome", listed(head_.outcomes, task.outcome));
 }
 
-void EventFinder::add_sounds(const servo::Frame& frame) {
-    for (const servo::SoundFrame& sound : frame.task.sounds)
+void EventFinder::add_sounds(const frame::Frame& frame) {
+    for (const frame::SoundFrame& sound : frame.task.sounds)
         say(frame, sound.on != 0 ? "sound" : "sound ends", listed(head_.sounds, sound.sound));
 }
 
-void EventFinder::add_texts(const servo::Frame& frame) {
-    const servo::TaskFrame& task = frame.task;
+void EventFinder::add_texts(const frame::Frame& frame) {
+    const frame::TaskFrame& task = frame.task;
     if (task.page != page_ && task.page >= 0) say(frame, "page", listed(head_.pages, task.page));
     page_ = task.page;
     lines_.resize(task.lines.size(), -1);
     bool changed = task.message != message_;
     for (size_t i = 0; i < lines_.size(); ++i) changed |= task.lines[i].message != lines_[i];
     if (!changed) return;
-    const std::vector<std::string> texts = servo::shown_texts(task, head_.messages);
+    const std::vector<std::string> texts = frame::shown_texts(task, head_.messages);
     const size_t first = task.message >= 0 ? 1 : 0;
     if (first > 0 && task.message != message_) say(frame, "message", texts.front());
     message_ = task.message;
@@ -93,17 +93,17 @@ void EventFinder::add_texts(const servo::Frame& frame) {
     }
 }
 
-void EventFinder::add_phase(const servo::Frame& frame) {
+void EventFinder::add_phase(const frame::Frame& frame) {
     if (frame.phase == phase_) return;
     phase_ = frame.phase;
     say(frame, "phase", listed(phases_, phase_));
 }
 
-void EventFinder::add_touches(const servo::Frame& frame) {
+void EventFinder::add_touches(const frame::Frame& frame) {
     const size_t bodies = head_.bodies.size();
     const size_t all = bodies + head_.fingers.size();
     now_touching_.assign(touching_.size(), 0);
-    for (const servo::ContactFrame& contact : frame.contacts) {
+    for (const frame::ContactFrame& contact : frame.contacts) {
         if (contact.normal_force <= 0) continue;
         const auto a = static_cast<size_t>(contact.a);
         const auto b = static_cast<size_t>(contact.b);
@@ -118,9 +118,9 @@ void EventFinder::add_touches(const servo::Frame& frame) {
     std::swap(touching_, now_touching_);
 }
 
-bool EventFinder::on_support(const servo::Frame& frame) const {
+bool EventFinder::on_support(const frame::Frame& frame) const {
     const size_t bodies = head_.bodies.size();
-    for (const servo::ContactFrame& contact : frame.contacts) {
+    for (const frame::ContactFrame& contact : frame.contacts) {
         if (contact.normal_force <= 0) continue;
         const bool of_object = contact.a == object_ || contact.b == object_;
         const bool of_bodies =
@@ -130,7 +130,7 @@ bool EventFinder::on_support(const servo::Frame& frame) const {
     return false;
 }
 
-void EventFinder::add_support(const servo::Frame& frame) {
+void EventFinder::add_support(const frame::Frame& frame) {
     // an object asleep on its support has no contacts in the frame, and has not moved either
     if (object_ < 0 || !frame.bodies[static_cast<size_t>(object_)].awake) return;
     const bool supported = on_support(frame);
@@ -139,14 +139,14 @@ void EventFinder::add_support(const servo::Frame& frame) {
     supported_ = supported;
 }
 
-void EventFinder::add_settings(const servo::Frame& frame) {
+void EventFinder::add_settings(const frame::Frame& frame) {
     if (!seen_) told_ = last_ = frame;  // the first ticks may be lost
-    servo::Knobs::visit([&](auto knob, const servo::Knob& is) {
+    frame::Knobs::visit([&](auto knob, const frame::Knob& is) {
         const auto value = frame.*knob;
         auto& told = told_.*knob;
         // a change that is eased in is reported once the value has stopped changing
-        const bool stays = servo::Knobs::same(value, last_.*knob);
-        if (is.key == nullptr || !stays || servo::Knobs::same(value, told)) return;
+        const bool stays = frame::Knobs::same(value, last_.*knob);
+        if (is.key == nullptr || !stays || frame::Knobs::same(value, told)) return;
         say(frame, "setting",
             fmt::format("{}: {} -> {}", is.key, words(is, told), words(is, value)));
         told = value;
@@ -154,10 +154,10 @@ void EventFinder::add_settings(const servo::Frame& frame) {
     last_ = frame;
 }
 
-void EventFinder::add_status(const servo::Frame& frame) {
-    if ((frame.status & servo::kPaused) != 0) say(frame, "paused", "force off");
-    if ((frame.status & servo::kResumed) != 0) say(frame, "went on", "after a pause");
-    constexpr uint32_t kLimits = ~uint32_t{servo::kPaused | servo::kResumed};
+void EventFinder::add_status(const frame::Frame& frame) {
+    if ((frame.status & kPaused) != 0) say(frame, "paused", "force off");
+    if ((frame.status & kResumed) != 0) say(frame, "went on", "after a pause");
+    constexpr uint32_t kLimits = ~uint32_t{kPaused | kResumed};
     for_each_status(frame.status & ~status_ & kLimits,
                     [&](Status bit) { say(frame, "limit", std::string(describe(bit).what)); });
     status_ = frame.status;

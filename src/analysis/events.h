@@ -42,24 +42,24 @@ class EventFinder {
         supported_ = true;
         object_ = object;
     }
-    void add(const servo::Frame& frame);
+    void add(const frame::Frame& frame);
     const std::vector<Event>& events() const { return events_; }
 
   private:
     std::string name(int body) const;
-    void say(const servo::Frame& frame, const char* what, std::string detail);
+    void say(const frame::Frame& frame, const char* what, std::string detail);
     // each adds the events of its kind that are in this frame
-    void add_trial(const servo::Frame& frame);
-    void add_task(const servo::Frame& frame);
-    void add_texts(const servo::Frame& frame);
-    void add_sounds(const servo::Frame& frame);
-    void add_phase(const servo::Frame& frame);
-    void add_touches(const servo::Frame& frame);
-    void add_support(const servo::Frame& frame);
-    void add_settings(const servo::Frame& frame);
-    void add_status(const servo::Frame& frame);
+    void add_trial(const frame::Frame& frame);
+    void add_task(const frame::Frame& frame);
+    void add_texts(const frame::Frame& frame);
+    void add_sounds(const frame::Frame& frame);
+    void add_phase(const frame::Frame& frame);
+    void add_touches(const frame::Frame& frame);
+    void add_support(const frame::Frame& frame);
+    void add_settings(const frame::Frame& frame);
+    void add_status(const frame::Frame& frame);
     /// Whether the object presses on another body than a finger.
-    bool on_support(const servo::Frame& frame) const;
+    bool on_support(const frame::Frame& frame) const;
 
     recording::LogHead head_;
     int object_;
@@ -77,8 +77,8 @@ class EventFinder {
     size_t placed_ = 0;  // number of bodies
     int phase_ = -1;
     uint32_t status_ = 0;
-    servo::Knobs told_;  // values in the last events
-    servo::Knobs last_;  // values in the last frame
+    frame::Knobs told_;  // values in the last events
+    frame::Knobs last_;  // values in the last frame
     std::vector<Event> events_;
 };
 

@@ -13,8 +13,8 @@ void add_vector(std::vector<Table::Cell>& row, const Vec3& value, double scale) 
 
 }  // namespace
 
-void FaultRecord::add(const servo::Frame& frame) {
-    if ((frame.status & servo::kResumed) != 0) ended_ = false;
+void FaultRecord::add(const frame::Frame& frame) {
+    if ((frame.status & kResumed) != 0) ended_ = false;
     if (ended_) return;
     const auto old = [&] { return last_.front().time < frame.time - kBefore; };
     if (!last_.empty() && old()) {
@@ -23,7 +23,7 @@ void FaultRecord::add(const servo::Frame& frame) {
     } else {
         last_.emplace_back();
     }
-    servo::Frame& kept = last_.back();
+    frame::Frame& kept = last_.back();
     kept.time = frame.time;
     kept.status = frame.status;
     kept.lateness = frame.lateness;
@@ -31,9 +31,9 @@ void FaultRecord::add(const servo::Frame& frame) {
     kept.fingers = frame.fingers;
     kept.turns = frame.turns;
     while (old()) last_.pop_front();
-    if ((frame.status & servo::kForceOff) == 0) return;
+    if ((frame.status & kForceOff) == 0) return;
     ended_ = true;
-    if ((frame.status & servo::kStopped) == 0) faults_.splice(faults_.end(), last_);
+    if ((frame.status & kStopped) == 0) faults_.splice(faults_.end(), last_);
     last_.clear();
 }
 
@@ -61,16 +61,16 @@ Table FaultRecord::table() const {
         add_columns(finger, {"device_rotation_%_deg", "device_angular_velocity_%_rad_s",
                              "torque_asked_%_Nm", "torque_sent_%_Nm"});
     }
-    for (const servo::Frame& frame : faults_) {
+    for (const frame::Frame& frame : faults_) {
         std::vector<Table::Cell> row{seconds(frame.time), words(frame.status), frame.lateness * 1e3,
                                      frame.tick_duration * 1e3};
-        for (const servo::FingerFrame& finger : frame.fingers) {
+        for (const frame::FingerFrame& finger : frame.fingers) {
             add_vector(row, finger.p_DH, 1e3);
             add_vector(row, finger.v_DH, 1);
             add_vector(row, finger.f_asked_W, 1);
             add_vector(row, finger.f_sent_W, 1);
         }
-        for (const servo::TurnFrame& turn : frame.turns) {
+        for (const frame::TurnFrame& turn : frame.turns) {
             add_vector(row, rotation_vector(turn.R_DH), 1 / kDegree);
             add_vector(row, turn.w_DH, 1);
             add_vector(row, turn.t_asked_W, 1);

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/table.h"
-#include "servo/frame.h"
+#include "frame/frame.h"
 
 namespace dihaptic::analysis {
 
@@ -18,7 +18,7 @@ class FaultRecord {
         : fingers_(std::move(fingers)), turning_(std::move(turning)) {}
 
     /// Takes the frames in their order.
-    void add(const servo::Frame& frame);
+    void add(const frame::Frame& frame);
     /// Rows from kBefore before each fault to its tick; empty without a fault. A stop by the
     /// operator is not a fault.
     Table table() const;
@@ -28,9 +28,9 @@ class FaultRecord {
   private:
     std::vector<std::string> fingers_;
     std::vector<std::string> turning_;
-    std::list<servo::Frame> last_;    // without bodies and contacts
+    std::list<frame::Frame> last_;    // without bodies and contacts
     bool ended_ = false;              // force is off, until the session goes on
-    std::list<servo::Frame> faults_;  // frames that led to each fault, one after the other
+    std::list<frame::Frame> faults_;  // frames that led to each fault, one after the other
 };
 
 }  // namespace dihaptic::analysis

@@ -14,18 +14,18 @@ Vec3 axis_of(const GraspTrace::Sample& sample) {
     return model::grasp_axis(sample.p_WP.size(), [&](size_t i) { return sample.p_WP[i]; });
 }
 
-Vec3 velocity_at(const servo::BodyFrame& body, const Vec3& p_W) {
+Vec3 velocity_at(const frame::BodyFrame& body, const Vec3& p_W) {
     return body.v_WB + body.w_WB.cross(p_W - body.X_WB.p);
 }
 
 /// Adds the contacts of fingers and supports with the object to the sample.
-void add_contacts(GraspTrace::Sample& sample, const servo::Frame& frame, int object) {
+void add_contacts(GraspTrace::Sample& sample, const frame::Frame& frame, int object) {
     const int first_proxy = static_cast<int>(frame.bodies.size());
-    const auto body = [&](int i) -> const servo::BodyFrame& {
+    const auto body = [&](int i) -> const frame::BodyFrame& {
         return frame.bodies[static_cast<size_t>(i)];
     };
     double pressed = 0;
-    for (const servo::ContactFrame& contact : frame.contacts) {
+    for (const frame::ContactFrame& contact : frame.contacts) {
         if (contact.normal_force <= 0 || (contact.a != object && contact.b != object)) continue;
         const int other = contact.a == object ? contact.b : contact.a;
         if (other < first_proxy) {
@@ -49,14 +49,14 @@ void add_contacts(GraspTrace::Sample& sample, const servo::Frame& frame, int obj
 
 }  // namespace
 
-void GraspTrace::add(const servo::Frame& frame) {
+void GraspTrace::add(const frame::Frame& frame) {
     const size_t n = frame.fingers.size();
     Sample sample;
     sample.time = seconds(frame.time);
     sample.phase = frame.phase;
     sample.grip = frame.grip_force;
     sample.load = frame.load_force;
-    sample.resumed = (frame.status & servo::kResumed) != 0;
+    sample.resumed = (frame.status & kResumed) != 0;
     sample.on_support = false;
     sample.support = -1;
     sample.n_support.setZero();
@@ -66,19 +66,19 @@ void GraspTrace::add(const servo::Frame& frame) {
     sample.touching.assign(n, false);
     sample.normal_force.assign(n, 0);
     sample.f_tangential_W.assign(n, Vec3::Zero());
-    for (const servo::PropertiesFrame& properties : frame.task.properties) {
+    for (const frame::PropertiesFrame& properties : frame.task.properties) {
         if (properties.body == object_) sample.friction_scale = properties.friction_scale;
     }
     sample.torque = frame.turns.empty() ? kUnmeasured : 0;
-    for (const servo::TurnFrame& turn : frame.turns)
+    for (const frame::TurnFrame& turn : frame.turns)
         sample.torque = std::max(sample.torque, turn.t_sent_W.norm());
     if (object_ >= 0) {
-        const servo::BodyFrame& object = frame.bodies[static_cast<size_t>(object_)];
+        const frame::BodyFrame& object = frame.bodies[static_cast<size_t>(object_)];
         sample.X_WB = object.X_WB;
         sample.v_WB = object.v_WB;
         sample.awake = object.awake != 0;
     }
-    for (const servo::FingerFrame& finger : frame.fingers) {
+    for (const frame::FingerFrame& finger : frame.fingers) {
         sample.p_WP.push_back(finger.p_WP);
         sample.v_WH.push_back(finger.v_WH);
         sample.f_sent_W.push_back(finger.f_sent_W);

@@ -5,7 +5,7 @@
 #include <boost/container/small_vector.hpp>
 #include <vector>
 
-#include "servo/frame.h"
+#include "frame/frame.h"
 
 namespace dihaptic::analysis {
 
@@ -26,7 +26,7 @@ class GraspTrace {
     /// `object`: index of the body that is held; `tick`: time between samples [s].
     GraspTrace(int object, double tick) : object_(object), tick_(tick) {}
 
-    void add(const servo::Frame& frame);
+    void add(const frame::Frame& frame);
     /// Removes the samples, and keeps their memory for the next trial.
     void restart() noexcept { samples_.clear(); }
 

@@ -10,9 +10,9 @@
 #include "base/regular_file.h"
 #include "base/text.h"
 #include "base/text_file.h"
+#include "frame/settings.h"
 #include "recording/raw_log.h"
 #include "recording/seal.h"
-#include "servo/settings.h"
 
 namespace dihaptic::analysis {
 namespace {
@@ -24,7 +24,7 @@ bool is_cut(const std::string& file) {
 
 /// Makes settings.csv anew from settings.yaml, with the origins that settings.csv still has.
 void mend_settings(const recording::SessionFolder& folder, Diagnostics& diagnostics) {
-    servo::Settings settings;
+    frame::Settings settings;
     try {
         Diagnostics unreadable(UnknownKeys::are_left_out);
         read_fields(settings, read_yaml(folder.file("settings.yaml")), unreadable);

@@ -17,7 +17,7 @@ void RunningTrials::look() {
     }
     while (const auto chunk = log_->following(last_ ? &*last_ : nullptr)) {
         log_->go_to(*chunk, last_.has_value());
-        while (const servo::Frame* frame = log_->next()) reader_->add(*frame);
+        while (const frame::Frame* frame = log_->next()) reader_->add(*frame);
         last_ = chunk;
     }
 }

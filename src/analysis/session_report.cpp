@@ -217,7 +217,7 @@ struct SessionReader::Pass {
         reading.figures.phases.push_back(figure);
     }
 
-    void add(const servo::Frame& frame) {
+    void add(const frame::Frame& frame) {
         // the feedback of a session's last trial is still said to be of it
         const bool next_trial = frame.trial != trial || frame.task.attempt != attempt ||
                                 (reading.trials && (phase == 0) != (frame.phase == 0));
@@ -280,7 +280,7 @@ SessionReader::SessionReader(const recording::SessionFolder& folder,
 SessionReader::SessionReader(SessionReader&&) noexcept = default;
 SessionReader::~SessionReader() = default;
 
-void SessionReader::add(const servo::Frame& frame) {
+void SessionReader::add(const frame::Frame& frame) {
     pass_->add(frame);
 }
 
@@ -460,7 +460,7 @@ std::string SessionFigures::describe_imbalance() const {
     return fmt::format(
         "in {} of {} {}: by {:.2g} J in all, and by at most {:.2g} N*s and {:.2g} N*m*s of a body "
         "in a tick",
-        ticks_with(servo::kUnbalanced), counted(frames, "tick"), describe(servo::kUnbalanced).what,
+        ticks_with(kUnbalanced), counted(frames, "tick"), describe(kUnbalanced).what,
         energy_imbalance, momentum_imbalance, angular_imbalance);
 }
 
@@ -468,7 +468,7 @@ namespace {
 
 /// Has the session, and so its report, say if its objects moved as nothing explains.
 void note_imbalance(recording::SessionInfo& info, const SessionFigures& figures) {
-    if (figures.ticks_with(servo::kUnbalanced) > 0) add_note(info, figures.describe_imbalance());
+    if (figures.ticks_with(kUnbalanced) > 0) add_note(info, figures.describe_imbalance());
 }
 
 /// Writes all tables except NWB's.
@@ -526,7 +526,7 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     SessionReader reader(folder, info, log.head());
     const auto progressed = part(0, 0.4);
     int64_t frames = 0;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         reader.add(*frame);
         if (++frames % 5000 == 0) progressed(log.share());
     }

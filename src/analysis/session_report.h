@@ -11,10 +11,10 @@
 
 #include "analysis/episodes.h"
 #include "base/table.h"
+#include "frame/frame.h"
 #include "recording/log_health.h"
 #include "recording/raw_log.h"
 #include "recording/session.h"
-#include "servo/frame.h"
 
 namespace dihaptic::analysis {
 
@@ -66,11 +66,11 @@ struct SessionFigures {
     double angular_imbalance = 0;
 
     /// Whether something was not a number, so that no figure can be trusted.
-    bool diverged() const { return (status & servo::kNotFinite) != 0; }
+    bool diverged() const { return (status & kNotFinite) != 0; }
     /// Whether the session diverged, or force was off after another fault, so that what was felt is
     /// not what was planned. A stop by the operator is an interruption, not a failure.
     bool failed() const {
-        return diverged() || ((status & servo::kForceOff) != 0 && (status & servo::kStopped) == 0);
+        return diverged() || ((status & kForceOff) != 0 && (status & kStopped) == 0);
     }
     int64_t ticks_with(Status bit) const { return status_ticks[place_of(bit)]; }
     int64_t& ticks_with(Status bit) { return status_ticks[place_of(bit)]; }
@@ -101,7 +101,7 @@ class SessionReader {
                   const recording::LogHead& head);
     SessionReader(SessionReader&&) noexcept;
     ~SessionReader();
-    void add(const servo::Frame& frame);
+    void add(const frame::Frame& frame);
     /// The attempts at a task's trials so far, as trials.csv will have them; no row without a task.
     Table trials() const;
     /// Number of these attempts that have ended.

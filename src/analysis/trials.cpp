@@ -10,7 +10,7 @@
 #include "base/regular_file.h"
 #include "base/text_file.h"
 #include "base/unmeasured.h"
-#include "servo/displayed.h"
+#include "frame/displayed.h"
 #include "task/measures.h"
 #include "task/trials.h"
 
@@ -73,9 +73,9 @@ std::vector<Table::Column> columns_of_numbers(const recording::SessionInfo& info
 
 /// Their values in the trial's first tick, and in its last one.
 std::vector<Table::Cell> cells_of_numbers(const recording::SessionInfo& info,
-                                          const std::vector<servo::VariableFrame>& first,
-                                          const std::vector<servo::VariableFrame>& last,
-                                          const std::vector<servo::VariableFrame>& decided) {
+                                          const std::vector<frame::VariableFrame>& first,
+                                          const std::vector<frame::VariableFrame>& last,
+                                          const std::vector<frame::VariableFrame>& decided) {
     std::vector<Table::Cell> out;
     size_t i = 0;
     const auto add = [&](const std::string& name, const auto& values) {
@@ -126,7 +126,7 @@ TrialFinder::TrialFinder(const recording::SessionFolder& folder,
     }
 }
 
-void TrialFinder::add(const servo::Frame& frame) {
+void TrialFinder::add(const frame::Frame& frame) {
     if (frame.trial < 1) return;
     if (frame.phase == 0) {  // between trials, where variables may be decided on
         if (!rows_.empty()) rows_.back().decided = frame.task.variables;
@@ -150,7 +150,7 @@ void TrialFinder::add(const servo::Frame& frame) {
     if (frame.task.share != 0) row.share = frame.task.share;
     TrialMeasures& m = row.measures;
     m.peak_grip = std::fmax(m.peak_grip, frame.grip_force);
-    for (const servo::FingerFrame& finger : frame.fingers)
+    for (const frame::FingerFrame& finger : frame.fingers)
         m.peak_force = std::max(m.peak_force, finger.f_sent_W.norm());
 
     const auto i = static_cast<size_t>(frame.trial - 1);
@@ -163,21 +163,21 @@ void TrialFinder::add(const servo::Frame& frame) {
     }
 }
 
-void TrialFinder::measure_angle(Row& row, const Reach& reach, const servo::Frame& frame) const {
+void TrialFinder::measure_angle(Row& row, const Reach& reach, const frame::Frame& frame) const {
     const Vec3 arm = frame.fingers[reach.finger].p_WH - reach.plan.from_W;
     if (arm.norm() < reach.plan.distance) return;
     const Vec3 way = reach.plan.to_W - reach.plan.from_W;
     row.measures.reach_time = row.end - row.start;
     row.measures.hand_angle = angle_about(reach.plan.axis_W, way, arm);
-    const Vec3 shown = servo::displayed_handle(frame, reach.finger).p - reach.plan.from_W;
+    const Vec3 shown = frame::displayed_handle(frame, reach.finger).p - reach.plan.from_W;
     row.measures.shown_angle = angle_about(reach.plan.axis_W, way, shown);
 }
 
 /// Extents are measured from where the handle set out, since a finger that holds something is not
 /// at the hand's middle. The wanted extent is what is then left of the way from region to region.
-void TrialFinder::measure_extent(Row& row, const Reach& reach, const servo::Frame& frame) const {
-    const servo::FingerFrame& finger = frame.fingers[reach.finger];
-    const Vec3 shown_W = servo::displayed_handle(frame, reach.finger).p;
+void TrialFinder::measure_extent(Row& row, const Reach& reach, const frame::Frame& frame) const {
+    const frame::FingerFrame& finger = frame.fingers[reach.finger];
+    const Vec3 shown_W = frame::displayed_handle(frame, reach.finger).p;
     if (!row.hand_start_W) {
         row.hand_start_W = finger.p_WH;
         row.shown_start_W = shown_W;

@@ -9,8 +9,8 @@
 
 #include "base/table.h"
 #include "base/unmeasured.h"
+#include "frame/frame.h"
 #include "recording/session.h"
-#include "servo/frame.h"
 #include "task/reach_plan.h"
 
 namespace dihaptic::analysis {
@@ -107,7 +107,7 @@ class TrialFinder {
     /// Throws Error when the session's list of trials cannot be read.
     TrialFinder(const recording::SessionFolder& folder, const std::vector<std::string>& fingers);
 
-    void add(const servo::Frame& frame);
+    void add(const frame::Frame& frame);
     Table table(const recording::SessionInfo& info) const;
     /// Number of attempts that have ended.
     size_t ended() const;
@@ -119,10 +119,10 @@ class TrialFinder {
         double start = 0;  ///< [s]
         double end = 0;
         double share = 0;                             ///< share of the perturbation
-        std::vector<servo::VariableFrame> variables;  ///< at its start [SI]
-        std::vector<servo::VariableFrame> last;       ///< in its last tick
+        std::vector<frame::VariableFrame> variables;  ///< at its start [SI]
+        std::vector<frame::VariableFrame> last;       ///< in its last tick
         /// At the next trial's start; they differ where something decides between trials.
-        std::vector<servo::VariableFrame> decided;
+        std::vector<frame::VariableFrame> decided;
         TrialMeasures measures;
         FirstStroke stroke;
         std::optional<Vec3> hand_start_W;
@@ -132,8 +132,8 @@ class TrialFinder {
         task::ReachPlan plan;
         size_t finger = 0;
     };
-    void measure_angle(Row& row, const Reach& reach, const servo::Frame& frame) const;
-    void measure_extent(Row& row, const Reach& reach, const servo::Frame& frame) const;
+    void measure_angle(Row& row, const Reach& reach, const frame::Frame& frame) const;
+    void measure_extent(Row& row, const Reach& reach, const frame::Frame& frame) const;
 
     std::string file_;                            // trial-list.csv
     std::vector<std::vector<std::string>> list_;  // its lines, with its header

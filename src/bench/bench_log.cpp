@@ -4,7 +4,7 @@
 
 namespace dihaptic::bench {
 
-BenchLog::BenchLog(const scene::Scene& scene, const servo::Settings& settings) {
+BenchLog::BenchLog(const scene::Scene& scene, const frame::Settings& settings) {
     head_.tick = settings.tick();
     head_.fingers = scene::finger_names(scene);
     for (const scene::Body& body : scene.bodies) head_.bodies.push_back(body.name);

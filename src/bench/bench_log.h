@@ -4,15 +4,15 @@
 #include <string>
 
 #include "base/temporary_folder.h"
+#include "frame/settings.h"
 #include "recording/recorder.h"
 #include "scene/scene.h"
-#include "servo/settings.h"
 
 namespace dihaptic::bench {
 
 class BenchLog {
   public:
-    BenchLog(const scene::Scene& scene, const servo::Settings& settings);
+    BenchLog(const scene::Scene& scene, const frame::Settings& settings);
 
     /// Makes a recorder that writes this log anew; the one before must be finished.
     recording::Recorder record(recording::Writing writing) const;

@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "servo/settings.h"
+#include "frame/settings.h"
 
 namespace dihaptic::bench {
 
@@ -27,7 +27,7 @@ class Wakeups {
 /// Options of cyclictest, which should measure as our thread did: with the same priority and locked
 /// memory, or without them if our thread was refused them.
 struct Cyclictest {
-    servo::Settings settings;
+    frame::Settings settings;
     bool priority = true;
     bool locked_memory = true;
     std::string file;  ///< file for its figures

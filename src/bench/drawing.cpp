@@ -5,7 +5,7 @@
 
 namespace dihaptic::bench {
 
-Drawing::Drawing(const scene::Scene& scene, Latest<servo::Frame>& newest)
+Drawing::Drawing(const scene::Scene& scene, Latest<frame::Frame>& newest)
     : thread_([this, &scene, &newest] {
           try {
               run(scene, newest);
@@ -20,7 +20,7 @@ Drawing::~Drawing() noexcept(false) {
     if (failure_) std::rethrow_exception(failure_);
 }
 
-void Drawing::run(const scene::Scene& scene, Latest<servo::Frame>& newest) {
+void Drawing::run(const scene::Scene& scene, Latest<frame::Frame>& newest) {
     const view::Offscreen picture(1280, 720);
     view::SceneView view(scene);
     const view::Camera camera = view::cameras(scene).front();

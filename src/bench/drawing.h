@@ -6,15 +6,15 @@
 #include <thread>
 
 #include "base/latest.h"
+#include "frame/frame.h"
 #include "scene/scene.h"
-#include "servo/frame.h"
 
 namespace dihaptic::bench {
 
 class Drawing {
   public:
     /// Draws `newest` until it is destroyed.
-    Drawing(const scene::Scene& scene, Latest<servo::Frame>& newest);
+    Drawing(const scene::Scene& scene, Latest<frame::Frame>& newest);
     /// Throws what drawing threw, e.g. Error without OpenGL.
     ~Drawing() noexcept(false);
     Drawing(const Drawing&) = delete;
@@ -23,7 +23,7 @@ class Drawing {
     int64_t pictures() const { return pictures_; }
 
   private:
-    void run(const scene::Scene& scene, Latest<servo::Frame>& newest);
+    void run(const scene::Scene& scene, Latest<frame::Frame>& newest);
 
     std::atomic<bool> stop_{false};
     std::atomic<int64_t> pictures_{0};

@@ -293,7 +293,7 @@ FrictionFigures bench_peer_friction(const Simulator& simulator, const measure::P
     return out;
 }
 
-double measure_creep(const dynamics::Settings& settings) {
+double measure_creep(const frame::DynamicsSettings& settings) {
     measure::BenchSetup setup;
     setup.settings.dynamics = settings;
     setup.settings.coupling.stiffness = 1000;
@@ -301,7 +301,7 @@ double measure_creep(const dynamics::Settings& settings) {
     return measure::measure_hold(setup).slip_mm;
 }
 
-FrictionFigures bench_friction(const dynamics::Settings& settings,
+FrictionFigures bench_friction(const frame::DynamicsSettings& settings,
                                const measure::Progress& progress) {
     FrictionFigures out = bench_peer_friction(world_simulator(settings), progress);
     if (progress) progress("creep of a held block", 8 / kParts);

@@ -45,7 +45,7 @@ struct FrictionFigures {
 };
 
 /// All figures of one solver.
-FrictionFigures bench_friction(const dynamics::Settings& settings,
+FrictionFigures bench_friction(const frame::DynamicsSettings& settings,
                                const measure::Progress& progress);
 /// All figures except the creep, which fingers alone have.
 FrictionFigures bench_peer_friction(const Simulator& simulator, const measure::Progress& progress);
@@ -53,7 +53,7 @@ FrictionFigures bench_peer_friction(const Simulator& simulator, const measure::P
 FrictionFigures bench_slides_and_piles(const Simulator& simulator,
                                        const measure::Progress& progress);
 /// Largest slip of a finger in a minute's hold [mm].
-double measure_creep(const dynamics::Settings& settings);
+double measure_creep(const frame::DynamicsSettings& settings);
 
 // Scenes of the bench, which tests use too.
 

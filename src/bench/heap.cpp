@@ -55,8 +55,8 @@ std::vector<scene::Body> loose_bodies(int count) {
 
 /// Puts the loose bodies where they come to rest.
 void let_fall(scene::Scene& scene) {
-    dynamics::Settings settings;
-    settings.solver = dynamics::Solver::sequential_impulse;
+    frame::DynamicsSettings settings;
+    settings.solver = contact::Solver::sequential_impulse;
     settings.iterations = 30;
     dynamics::World world(scene, settings);
     world.activate();
@@ -105,14 +105,14 @@ HeapFigures measure_heap(const measure::BenchSetup& base, int loose) {
     HeapFigures out;
     out.loose = loose;
     bench.run(
-        [&](const servo::Frame& frame) {
+        [&](const frame::Frame& frame) {
             recorder.record(frame);
             trace.add(frame);
             if (frame.phase != measure::kHold) return;
             out.held_residual = std::max(out.held_residual, frame.solver_held_residual);
             out.ended += world.solve_stats().ended ? 1 : 0;
         },
-        [&](const servo::Frame& last, std::span<const haptics::Handle>, servo::Commands&) {
+        [&](const frame::Frame& last, std::span<const frame::Handle>, frame::Commands&) {
             const double time = static_cast<double>(last.sequence + 1) * setup.settings.tick();
             if (time < hold.start || time >= hold.end) return;
             for (const auto& [body, shaking] : stirring)

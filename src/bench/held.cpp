@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSpringHeld = 200;  // of the spring [N/m]
 
-measure::BenchSetup setup_of(dynamics::Solver solver, double k) {
+measure::BenchSetup setup_of(contact::Solver solver, double k) {
     measure::BenchSetup out;
     out.settings.dynamics.solver = solver;
     out.settings.coupling.stiffness = k;
@@ -55,19 +55,19 @@ scene::Scene scene_of(Held held, const measure::BenchSetup& setup) {
 
 }  // namespace
 
-double calm_k(Held held, dynamics::Solver solver) {
+double calm_k(Held held, contact::Solver solver) {
     return measure::highest_calm([&](double k) {
         const measure::BenchSetup setup = setup_of(solver, k);
         return measure::calm_grasp(measure::measure_hold(setup, scene_of(held, setup)));
     });
 }
 
-double tick_p99(Held held, dynamics::Solver solver) {
+double tick_p99(Held held, contact::Solver solver) {
     const measure::BenchSetup setup = setup_of(solver, 1000);
     measure::Bench bench(scene_of(held, setup), measure::grasp_hand(setup), setup);
     servo::TickTimes times;
     times.reserve(static_cast<size_t>(bench.driver().duration() * setup.settings.rate) + 1);
-    bench.run([](const servo::Frame&) {}, {}, &times);
+    bench.run([](const frame::Frame&) {}, {}, &times);
     return times.quantile(0.99);
 }
 

@@ -18,9 +18,9 @@ enum class Held {
 };
 
 /// The highest stiffness of the list of `bench grasp` up to which it is held calmly [N/m].
-double calm_k(Held held, dynamics::Solver solver);
+double calm_k(Held held, contact::Solver solver);
 
 /// Time of a tick while it is held: the 99th percentile [us].
-double tick_p99(Held held, dynamics::Solver solver);
+double tick_p99(Held held, contact::Solver solver);
 
 }  // namespace dihaptic::bench

@@ -24,29 +24,29 @@ constexpr double kTurn = 5;
 Time lift(measure::Bench& bench) {
     const double held = bench.driver().phases()[measure::kRise].end;
     Time reached{0};
-    bench.run([&](const servo::Frame& frame) { reached = frame.time; },
-              [&](const servo::Frame& last, std::span<const haptics::Handle>,
-                  servo::Commands& commands) { commands.stop = seconds(last.time) >= held; });
+    bench.run([&](const frame::Frame& frame) { reached = frame.time; },
+              [&](const frame::Frame& last, std::span<const frame::Handle>,
+                  frame::Commands& commands) { commands.stop = seconds(last.time) >= held; });
     return reached;
 }
 
 /// A tone that begins over and over, by the ticks of a servo.
 class Tone {
   public:
-    Tone(rig::SoundTo to, const servo::Servo& servo, const recording::SessionFolder& folder)
+    Tone(display::SoundTo to, const servo::Servo& servo, const recording::SessionFolder& folder)
         : folder_(folder) {
         task::SoundSpec tone;
         tone.name = "tone";
         tone.tone = 440;
         tone.duration = 0.02;
-        rig::SoundOutput output;
+        display::SoundOutput output;
         output.to = to;
         const std::vector sounds{tone};
         player_.emplace(sound::Player::Plan{sounds, output, 1, true}, folder);
         servo.reserve(due_);
     }
 
-    void hear(const servo::Frame& frame) noexcept {
+    void hear(const frame::Frame& frame) noexcept {
         due_.sequence = frame.sequence;
         due_.time = frame.time;
         due_.task.sounds.clear();
@@ -67,7 +67,7 @@ class Tone {
     static constexpr Time kInterval = std::chrono::milliseconds(50);
 
     const recording::SessionFolder& folder_;
-    servo::Frame due_;
+    frame::Frame due_;
     Time next_{0};
     std::optional<sound::Player> player_;
 };
@@ -80,7 +80,7 @@ class HeldBlock {
           bench_(scene_, measure::grasp_hand(setup), setup),
           log_(scene_, setup.settings),
           reached_(lift(bench_)) {
-        for (servo::Frame& frame : newest_.values()) bench_.servo().reserve(frame);
+        for (frame::Frame& frame : newest_.values()) bench_.servo().reserve(frame);
     }
 
     /// Holds the block for `turn` [s]; `published`: publishes the frames for a view to draw.
@@ -92,7 +92,7 @@ class HeldBlock {
         const Time first = reached_ + period;
         servo::run_real(
             bench_.servo(), {},
-            [&](const servo::Frame& frame) {
+            [&](const frame::Frame& frame) {
                 recorder.record(frame);
                 if (published) newest_.publish(frame);
                 if (tone != nullptr) tone->hear(frame);
@@ -119,7 +119,7 @@ class HeldBlock {
 
     const scene::Scene& scene() const { return scene_; }
     const BenchLog& log() const { return log_; }
-    Latest<servo::Frame>& newest() { return newest_; }
+    Latest<frame::Frame>& newest() { return newest_; }
     bool held() const { return height_ - measure::kBlockSize / 2 >= 0.09; }
     int64_t dropped() const { return dropped_; }
 
@@ -127,7 +127,7 @@ class HeldBlock {
     scene::Scene scene_;
     measure::Bench bench_;
     BenchLog log_;
-    Latest<servo::Frame> newest_;
+    Latest<frame::Frame> newest_;
     Time reached_;
     double height_ = 0;    // [m]
     int64_t dropped_ = 0;  // number of frames that were not recorded

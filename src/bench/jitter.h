@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bench/cyclictest.h"
+#include "display/sound.h"
 #include "measure/grasp.h"
-#include "rig/sound.h"
 
 namespace dihaptic::bench {
 
@@ -91,9 +91,9 @@ struct JitterFigures {
 struct Beside {
     bool view = false;  ///< one draws as fast as it can
     /// Where a tone goes that begins twenty times a second.
-    rig::SoundTo sound = rig::SoundTo::nowhere;
+    display::SoundTo sound = display::SoundTo::nowhere;
 
-    bool sounds() const { return sound != rig::SoundTo::nowhere; }
+    bool sounds() const { return sound != display::SoundTo::nowhere; }
     bool anything() const { return view || sounds(); }
 };
 

@@ -55,7 +55,7 @@ scene::Joint slider(const std::string& body, const Vec3& position, const Vec3& a
 /// Worlds of one solver, in which nothing sleeps.
 class Bench {
   public:
-    explicit Bench(dynamics::Solver solver) {
+    explicit Bench(contact::Solver solver) {
         settings_.solver = solver;
         settings_.sleeping = false;
     }
@@ -69,10 +69,10 @@ class Bench {
         world.activate();
         return world;
     }
-    const dynamics::Settings& settings() const { return settings_; }
+    const frame::DynamicsSettings& settings() const { return settings_; }
 
   private:
-    dynamics::Settings settings_;
+    frame::DynamicsSettings settings_;
 };
 
 Vec3 hanging(double angle, double length) {
@@ -367,10 +367,10 @@ double soft_error(const Bench& bench, double stiffness) {
     World world(scene, bench.settings());
     scene::Finger pad;
     pad.shape = scene::Shape::box({2 * kPad, 0.02, 0.02});
-    haptics::CouplingSettings coupling;
+    frame::CouplingSettings coupling;
     coupling.stiffness = kCoupling;
     std::vector<haptics::Finger> fingers;
-    std::vector<haptics::Handle> handles;
+    std::vector<frame::Handle> handles;
     for (const double side : {-1.0, 1.0}) {
         pad.name = side < 0 ? "thumb" : "index";
         const Vec3 at(side * (kHalf + kPad + 0.002), 0, 0);
@@ -491,7 +491,7 @@ bool MechanicsFigures::within_bars() const {
            std::min({calm_k_hinge, calm_k_slider, calm_k_spring}) >= calm_k_rigid;
 }
 
-MechanicsFigures bench_mechanics(dynamics::Solver solver, const measure::Progress& progress) {
+MechanicsFigures bench_mechanics(contact::Solver solver, const measure::Progress& progress) {
     using namespace mechanics;
     const Bench bench(solver);
     MechanicsFigures out;

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "dynamics/settings.h"
+#include "frame/dynamics_settings.h"
 #include "measure/grasp.h"
 
 namespace dihaptic::bench {
@@ -77,6 +77,6 @@ struct MechanicsFigures {
 };
 
 /// All figures of one solver, at 1 kHz.
-MechanicsFigures bench_mechanics(dynamics::Solver solver, const measure::Progress& progress);
+MechanicsFigures bench_mechanics(contact::Solver solver, const measure::Progress& progress);
 
 }  // namespace dihaptic::bench

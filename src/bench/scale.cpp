@@ -12,7 +12,7 @@ namespace dihaptic::bench {
 namespace {
 
 /// The handles in each tick, with which the bare world is driven through the same grasp.
-using HandleTrace = std::vector<std::vector<haptics::Handle>>;
+using HandleTrace = std::vector<std::vector<frame::Handle>>;
 
 Cost measure_ticks(const measure::BenchSetup& setup, HandleTrace* trace) {
     const scene::Scene scene = measure::grasp_scene(setup);
@@ -22,11 +22,11 @@ Cost measure_ticks(const measure::BenchSetup& setup, HandleTrace* trace) {
     servo::TickTimes times;
     times.reserve(static_cast<size_t>(bench.driver().duration() / setup.settings.tick()) + 2);
     bench.run(
-        [&](const servo::Frame& frame) {
+        [&](const frame::Frame& frame) {
             recorder.record(frame);
             if (trace == nullptr) return;
             auto& handles = trace->emplace_back();
-            for (const servo::FingerFrame& finger : frame.fingers)
+            for (const frame::FingerFrame& finger : frame.fingers)
                 handles.push_back({finger.p_WH, finger.v_WH});
         },
         {}, &times);
@@ -40,14 +40,14 @@ btVector3 vector(const Vec3& v) {
 /// A plain Bullet world with the bodies, settings and fingers of a bench.
 class BareWorld {
   public:
-    BareWorld(const measure::BenchSetup& setup, const std::vector<haptics::Handle>& start)
+    BareWorld(const measure::BenchSetup& setup, const std::vector<frame::Handle>& start)
         : scene_(measure::grasp_scene(setup)),
           h_(setup.settings.step()),
           k_(setup.settings.coupling.stiffness),
           c_(haptics::damping(setup.settings.coupling, h_)) {
         world_.setGravity(vector(scene_.gravity));
         btContactSolverInfo& info = world_.getSolverInfo();
-        const dynamics::Settings& settings = setup.settings.dynamics;
+        const frame::DynamicsSettings& settings = setup.settings.dynamics;
         info.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_USE_2_FRICTION_DIRECTIONS;
         info.m_warmstartingFactor = 1;
         info.m_numIterations = settings.iterations;
@@ -64,7 +64,7 @@ class BareWorld {
     BareWorld& operator=(const BareWorld&) = delete;
 
     /// Couples the proxies to the handles.
-    void drive(const std::vector<haptics::Handle>& handles) {
+    void drive(const std::vector<frame::Handle>& handles) {
         for (size_t i = 0; i < proxies_.size(); ++i) {
             btRigidBody& proxy = *proxies_[i];
             const btVector3 stretch =

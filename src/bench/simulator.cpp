@@ -4,7 +4,7 @@
 
 namespace dihaptic::bench {
 
-Simulator world_simulator(dynamics::Settings settings) {
+Simulator world_simulator(frame::DynamicsSettings settings) {
     settings.sleeping = false;
     return {std::string(enum_name(settings.solver)),
             [settings](const Trial& trial, int steps, const Watch& watch) {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "dynamics/settings.h"
+#include "frame/dynamics_settings.h"
 #include "scene/scene.h"
 
 namespace dihaptic::bench {
@@ -36,7 +36,7 @@ struct Simulator {
 };
 
 /// Our World. Nothing sleeps.
-Simulator world_simulator(dynamics::Settings settings);
+Simulator world_simulator(frame::DynamicsSettings settings);
 
 /// Bullet's own world with all its default settings: 10 iterations, one direction of friction.
 /// Nothing sleeps.

@@ -54,8 +54,8 @@ struct Course {
 
 /// Shakes every body that can move, more and more.
 std::vector<RecordedProblem> shake(const scene::Scene& scene, int contacts, const Course& course) {
-    dynamics::Settings settings;
-    settings.solver = dynamics::Solver::sequential_impulse;
+    frame::DynamicsSettings settings;
+    settings.solver = contact::Solver::sequential_impulse;
     settings.sleeping = false;
     dynamics::World world(scene, settings);
     std::vector<RecordedProblem> out;
@@ -64,7 +64,7 @@ std::vector<RecordedProblem> shake(const scene::Scene& scene, int contacts, cons
     world.activate();
     for (double time = 0; time < course.settle; time += kStep) world.step(kStep);
 
-    world.set_solver(dynamics::Solver::newton);
+    world.set_solver(contact::Solver::newton);
     Random random(1, "shaking");
     std::vector<std::pair<dynamics::BodyIndex, Shaking>> shakings;
     for (size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -89,7 +89,7 @@ std::vector<RecordedProblem> shake(const scene::Scene& scene, int contacts, cons
 std::vector<RecordedProblem> shake_grasp(const scene::Scene& scene, const hand::HandSpec& hand,
                                          measure::BenchSetup setup, int contacts,
                                          measure::GraspPhase first, double force) {
-    setup.settings.dynamics.solver = dynamics::Solver::newton;
+    setup.settings.dynamics.solver = contact::Solver::newton;
     setup.settings.dynamics.sleeping = false;
     measure::Bench bench(scene, hand, setup);
     dynamics::World& world = bench.servo().world();
@@ -109,14 +109,14 @@ std::vector<RecordedProblem> shake_grasp(const scene::Scene& scene, const hand::
     const double begin = phases[static_cast<size_t>(first)].start;
     const double end = phases[std::min<size_t>(measure::kHold, phases.size() - 1)].end;
     bench.run(
-        [](const servo::Frame&) {},
-        [&](const servo::Frame& last, std::span<const haptics::Handle>, servo::Commands& commands) {
+        [](const frame::Frame&) {},
+        [&](const frame::Frame& last, std::span<const frame::Handle>, frame::Commands& commands) {
             const double time = static_cast<double>(last.sequence + 1) * kStep;
             recorder.on = time >= begin && time < end;
             if (!recorder.on) return;
             const double share = (time - begin) / (end - begin);
             for (const auto& [body, shaking] : shakings)
-                servo::add(commands.task.loads,
+                frame::add(commands.task.loads,
                            {body.value, share * shaking.force(time), share * shaking.torque(time)});
         });
     return out;

@@ -88,17 +88,17 @@ Cost measure_run(const measure::BenchSetup& setup, bool with_task, TaskFigures& 
     recording::Recorder recorder = log.record(recording::Writing::in_place);
     servo::TickTimes times;
     times.reserve(static_cast<size_t>(time / setup.settings.tick()) + 2);
-    servo::Director director;
+    frame::Director director;
     task::TaskPlan plan;
     std::optional<task::TaskDirector> trials;
     if (with_task) {
         plan = plan_of(scene, time);
         trials.emplace(plan, 1, setup.settings.tick());
-        director = [&](const servo::Frame& last, std::span<const haptics::Handle> handles,
-                       servo::Commands& commands) { (*trials)(last, handles, commands); };
+        director = [&](const frame::Frame& last, std::span<const frame::Handle> handles,
+                       frame::Commands& commands) { (*trials)(last, handles, commands); };
     }
     bench.run(
-        [&](const servo::Frame& frame) {
+        [&](const frame::Frame& frame) {
             recorder.record(frame);
             figures.states = std::max(figures.states, with_task ? frame.phase : 0);
             figures.loads = std::max(figures.loads, static_cast<int>(frame.task.loads.size()));
@@ -132,7 +132,7 @@ double measure_expressions() {
         all.push_back(task::Expression::compile(kTexts[static_cast<size_t>(i) % kTexts.size()],
                                                 quantities, {}, "when", diagnostics));
     diagnostics.throw_if_errors();
-    servo::Frame frame;
+    frame::Frame frame;
     frame.time = std::chrono::seconds(1);
     frame.fingers.resize(2);
     frame.bodies.resize(2);
@@ -142,7 +142,7 @@ double measure_expressions() {
         frame.contacts[i].b = 2 + static_cast<int>(i) % 2;
         frame.contacts[i].normal_force = 1;
     }
-    const std::vector<haptics::Handle> handles(2);
+    const std::vector<frame::Handle> handles(2);
     constexpr int kTicks = 1000;
     std::vector<double> us;
     volatile double kept = 0;

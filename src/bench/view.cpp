@@ -28,8 +28,8 @@ scene::Scene block_on_table() {
     return scene;
 }
 
-servo::Frame frame_at(const scene::Scene& scene, int i) {
-    servo::Frame frame;
+frame::Frame frame_at(const scene::Scene& scene, int i) {
+    frame::Frame frame;
     for (const scene::Body& body : scene.bodies) frame.bodies.push_back({body.pose()});
     const Vec3 p(0.03 * std::sin(0.1 * i), 0, 0.07 + 0.05 * std::sin(0.07 * i));
     frame.bodies[1].X_WB.p = p;

@@ -50,8 +50,8 @@ std::string owner_of(const Address& address) {
 
 }  // namespace
 
-DeviceClaim::DeviceClaim(const std::string& backend, const DeviceInfo& info, const Place& place,
-                         Time patience)
+DeviceClaim::DeviceClaim(const std::string& backend, const frame::DeviceInfo& info,
+                         const Place& place, Time patience)
     : socket_(new_socket()) {
     const std::string& which = info.serial.empty() ? info.model : info.serial;
     const Address address(fmt::format("dihaptic/device/{}/{}", backend, which));
@@ -84,7 +84,7 @@ std::vector<DeviceClaim> claim_devices(const std::string& backend, const DeviceG
                                        const std::vector<Place>& places) {
     std::vector<DeviceClaim> out;
     for (size_t i = 0; i < places.size(); ++i) {
-        const DeviceInfo& info = devices.descriptions()[i];
+        const frame::DeviceInfo& info = devices.descriptions()[i];
         if (!info.simulated) out.emplace_back(backend, info, places[i], kPatience);
     }
     return out;

@@ -19,7 +19,7 @@ class DeviceClaim {
   public:
     /// Waits for `patience`, as a session that ends may close its devices still. Throws Error for
     /// `place` when another owner has it then. `info`: of an open device.
-    DeviceClaim(const std::string& backend, const DeviceInfo& info, const Place& place,
+    DeviceClaim(const std::string& backend, const frame::DeviceInfo& info, const Place& place,
                 Time patience);
     ~DeviceClaim();
     DeviceClaim(DeviceClaim&& other) noexcept;

@@ -19,9 +19,10 @@ bool clamp(Vec3& v, double most) noexcept {
 
 }  // namespace
 
-DeviceGroup::DeviceGroup(std::vector<DeviceInfo> infos)
+DeviceGroup::DeviceGroup(std::vector<frame::DeviceInfo> infos)
     : infos_(std::move(infos)), told_(infos_.size()) {
-    for (const DeviceInfo& info : infos_) outputs_.push_back({info.peak_force, info.peak_torque});
+    for (const frame::DeviceInfo& info : infos_)
+        outputs_.push_back({info.peak_force, info.peak_torque});
 }
 
 void DeviceGroup::write(std::span<const Wrench> wrenches_D) noexcept {
@@ -36,7 +37,7 @@ void DeviceGroup::write(std::span<const Wrench> wrenches_D) noexcept {
 }
 
 void DeviceGroup::limit(int device, double force, double torque) noexcept {
-    const DeviceInfo& info = infos_[static_cast<size_t>(device)];
+    const frame::DeviceInfo& info = infos_[static_cast<size_t>(device)];
     Output& output = outputs_[static_cast<size_t>(device)];
     output.most_force = std::min(force, info.peak_force);
     output.most_torque = std::min(torque, info.peak_torque);

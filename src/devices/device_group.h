@@ -17,7 +17,7 @@
 #include "base/field_reader.h"
 #include "base/geometry.h"
 #include "base/status.h"
-#include "devices/device_info.h"
+#include "frame/device_info.h"
 #include "hand/driver.h"
 #include "hand/spec.h"
 
@@ -62,7 +62,7 @@ struct Context {
     uint64_t seed = 0;
     /// For replay: the recorded devices, and the readings of a tick; false after the last.
     struct Recording {
-        std::vector<DeviceInfo> devices;
+        std::vector<frame::DeviceInfo> devices;
         std::function<bool(Time, std::span<Reading>)> read;
     };
     Recording recording;
@@ -75,8 +75,8 @@ class DeviceGroup {
 
     bool active() const { return active_; }
     int size() const { return static_cast<int>(infos_.size()); }
-    const DeviceInfo& info(int device) const { return infos_[static_cast<size_t>(device)]; }
-    const std::vector<DeviceInfo>& descriptions() const { return infos_; }
+    const frame::DeviceInfo& info(int device) const { return infos_[static_cast<size_t>(device)]; }
+    const std::vector<frame::DeviceInfo>& descriptions() const { return infos_; }
 
     void activate() {
         assert(!active_);
@@ -124,7 +124,7 @@ class DeviceGroup {
     }
 
   protected:
-    explicit DeviceGroup(std::vector<DeviceInfo> infos);
+    explicit DeviceGroup(std::vector<frame::DeviceInfo> infos);
 
   private:
     virtual void do_activate() = 0;
@@ -142,7 +142,7 @@ class DeviceGroup {
         bool clamped = false;
     };
 
-    std::vector<DeviceInfo> infos_;
+    std::vector<frame::DeviceInfo> infos_;
     std::vector<Output> outputs_;
     std::vector<Wrench> told_;
     bool active_ = false;
@@ -167,8 +167,8 @@ struct Backend {
     const char* name;
     /// Reads and checks the options of devices, without touching hardware, and returns what these
     /// say of them. What only an open device can say keeps its default.
-    std::vector<DeviceInfo> (*describe)(const std::vector<DeviceConfig>& configs,
-                                        const Context& context, Diagnostics& diagnostics);
+    std::vector<frame::DeviceInfo> (*describe)(const std::vector<DeviceConfig>& configs,
+                                               const Context& context, Diagnostics& diagnostics);
     std::unique_ptr<DeviceGroup> (*make)(const std::vector<DeviceConfig>& configs,
                                          const Context& context);
     /// Whether its devices are real: they move a person's hand, and run only in real time.

@@ -80,7 +80,7 @@ void World::Impl::part_groups() {
     }
 }
 
-World::World(const scene::Scene& scene, const Settings& settings)
+World::World(const scene::Scene& scene, const frame::DynamicsSettings& settings)
     : impl_(std::make_unique<Impl>()), gravity_(scene.gravity) {
     impl_->scene = scene;
     impl_->settings = settings;
@@ -290,11 +290,11 @@ void World::mend() noexcept {
     w.joints.forget();
 }
 
-void World::set_solver(Solver solver) noexcept {
+void World::set_solver(contact::Solver solver) noexcept {
     impl_->settings.solver = solver;
 }
 
-Solver World::solver() const noexcept {
+contact::Solver World::solver() const noexcept {
     return impl_->settings.solver;
 }
 

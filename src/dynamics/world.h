@@ -20,7 +20,7 @@
 #include "contact/contact.h"
 #include "contact/solver.h"
 #include "dynamics/balance.h"
-#include "dynamics/settings.h"
+#include "frame/dynamics_settings.h"
 #include "scene/scene.h"
 
 namespace dihaptic::dynamics {
@@ -87,10 +87,13 @@ constexpr double kBeyond = 1e12;
 /// Largest number of contacts that a point may meet in one step.
 constexpr size_t kMostPointContacts = 6;
 
+using contact::Solver;
+using Settings = frame::DynamicsSettings;
+
 class World {
   public:
     /// A world with all bodies of the scene at their initial poses.
-    World(const scene::Scene& scene, const Settings& settings);
+    World(const scene::Scene& scene, const frame::DynamicsSettings& settings);
     ~World();
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;
@@ -197,8 +200,8 @@ class World {
     void meet(BodyIndex point, const PointContact& contact) noexcept;
 
     /// Sets the solver of the next steps; it starts from the last step's impulses.
-    void set_solver(Solver solver) noexcept;
-    Solver solver() const noexcept;
+    void set_solver(contact::Solver solver) noexcept;
+    contact::Solver solver() const noexcept;
 
     /// Called with each problem, and the impulses that its solve starts from, before it is solved.
     /// For benchmarks: the call is part of the step, and must not throw.

@@ -70,7 +70,7 @@ struct World::Impl {
     };
 
     scene::Scene scene;
-    Settings settings;
+    frame::DynamicsSettings settings;
     std::vector<Item> items;
     std::vector<size_t> awake;  // bodies that take part in the step
     std::vector<size_t> can_move;

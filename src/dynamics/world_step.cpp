@@ -576,8 +576,8 @@ void World::Impl::let_bounce(const contact::SolveSettings& how, double h,
 
 contact::Solver World::Impl::solver_of_island() const {
     // sweeps leave errors in chains of joints, which then gain energy from step to step
-    const bool sweeps = settings.solver == Solver::sequential_impulse;
-    return sweeps && !island_joints.empty() ? Solver::newton : settings.solver;
+    const bool sweeps = settings.solver == contact::Solver::sequential_impulse;
+    return sweeps && !island_joints.empty() ? contact::Solver::newton : settings.solver;
 }
 
 contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& how, double h) {
@@ -589,7 +589,7 @@ contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& ho
     /// Guesses that are still this far apart lead nowhere: the step is too long for how fast what
     /// is joined turns [m/s], [rad/s].
     constexpr double kLost = 1e-2;
-    const Solver solver = solver_of_island();
+    const contact::Solver solver = solver_of_island();
     int iterations = 0;
     int64_t work_before = 0;
     for (int guess = 1;; ++guess) {

@@ -16,21 +16,21 @@ Vec3 in_cone(const Vec3& spring, const ProxyTouch& touch) noexcept {
 
 }  // namespace
 
-double damping(const CouplingSettings& settings, double h) {
+double damping(const frame::CouplingSettings& settings, double h) {
     return settings.damping.value_or(settings.stiffness * h / 2);
 }
 
-double turn_damping(const CouplingSettings& settings, double h) {
+double turn_damping(const frame::CouplingSettings& settings, double h) {
     return settings.turn_damping.value_or(settings.turn_stiffness * h / 2);
 }
 
-void BodyCoupling::begin_step(const Handle& handle, double h) noexcept {
+void BodyCoupling::begin_step(const frame::Handle& handle, double h) noexcept {
     damping_ = damping(settings_, h);
     handle_ = handle;
 }
 
 Pull BodyCoupling::pull(const World& world, BodyIndex proxy, const ProxyTouch& touch,
-                        const Handle& handle) const noexcept {
+                        const frame::Handle& handle) const noexcept {
     const dynamics::BodyState& state = world.state(proxy);
     const double k = settings_.stiffness;
     const bool between_steps = touch.touching && !same(handle, handle_);
@@ -42,7 +42,7 @@ Pull BodyCoupling::pull(const World& world, BodyIndex proxy, const ProxyTouch& t
     return {onset_.share() * (between_steps ? in_cone(spring, touch) : spring), stored};
 }
 
-void ImplicitCoupling::before_step(World& world, BodyIndex proxy, const Handle& handle,
+void ImplicitCoupling::before_step(World& world, BodyIndex proxy, const frame::Handle& handle,
                                    double h) noexcept {
     const dynamics::BodyState& state = world.state(proxy);
     begin_step(handle, h);
@@ -56,8 +56,8 @@ void ImplicitCoupling::before_step(World& world, BodyIndex proxy, const Handle& 
                    folded_mass);
 }
 
-void VelocityImpulse::before_step(World& world, BodyIndex proxy, const Handle& handle, double h,
-                                  bool was_touching) noexcept {
+void VelocityImpulse::before_step(World& world, BodyIndex proxy, const frame::Handle& handle,
+                                  double h, bool was_touching) noexcept {
     const dynamics::BodyState& state = world.state(proxy);
     begin_step(handle, h);
     const double k = settings_.stiffness;
@@ -79,7 +79,7 @@ void VelocityImpulse::before_step(World& world, BodyIndex proxy, const Handle& h
     world.set_velocity(proxy, state.v_WB + (size > 0 ? given / size : 0) * change);
 }
 
-void DualSpring::before_step(World& world, BodyIndex proxy, const Handle& handle, double h,
+void DualSpring::before_step(World& world, BodyIndex proxy, const frame::Handle& handle, double h,
                              bool was_touching) noexcept {
     const dynamics::BodyState& state = world.state(proxy);
     double k = settings_.stiffness;
@@ -102,7 +102,7 @@ void DualSpring::before_step(World& world, BodyIndex proxy, const Handle& handle
                 Vec3::Zero());
 }
 
-void DualSpring::sample(const World& world, BodyIndex proxy, const Handle& handle,
+void DualSpring::sample(const World& world, BodyIndex proxy, const frame::Handle& handle,
                         double h) noexcept {
     const dynamics::BodyState& state = world.state(proxy);
     const Vec3 stretch = state.X_WB.p - handle.p_WH;

@@ -2,29 +2,14 @@
 #pragma once
 
 #include "dynamics/world.h"
+#include "frame/handle.h"
+#include "frame/haptics_settings.h"
 #include "haptics/onset.h"
-#include "haptics/settings.h"
 
 namespace dihaptic::haptics {
 
 using dynamics::BodyIndex;
 using dynamics::World;
-
-/// What a device measures at its endpoint, in world axes.
-struct Handle {
-    Vec3 p_WH = Vec3::Zero();  ///< [m]
-    Vec3 v_WH = Vec3::Zero();  ///< [m/s]
-    /// Rotation of the handle from the device's neutral orientation, and its angular velocity
-    /// [rad/s]; identity and zero if the device does not measure orientation.
-    Quat R_WH = Quat::Identity();
-    Vec3 w_WH = Vec3::Zero();
-};
-
-/// Whether a device reports the same as before.
-inline bool same(const Handle& a, const Handle& b) noexcept {
-    return a.p_WH == b.p_WH && a.v_WH == b.v_WH && a.R_WH.coeffs() == b.R_WH.coeffs() &&
-           a.w_WH == b.w_WH;
-}
 
 /// All contacts of a proxy in the last step, combined.
 struct ProxyTouch {
@@ -49,23 +34,23 @@ class BodyCoupling {
     /// the handle moves on between steps of the world, the force stays within the friction cone of
     /// the step's contact, and only the part of the stretch that acts counts as stored energy.
     Pull pull(const World& world, BodyIndex proxy, const ProxyTouch& touch,
-              const Handle& handle) const noexcept;
+              const frame::Handle& handle) const noexcept;
     Onset& onset() noexcept { return onset_; }
-    void retune(const CouplingSettings& settings) noexcept { settings_ = settings; }
+    void retune(const frame::CouplingSettings& settings) noexcept { settings_ = settings; }
 
   protected:
-    BodyCoupling(const CouplingSettings& settings, double mass)
+    BodyCoupling(const frame::CouplingSettings& settings, double mass)
         : settings_(settings), mass_(mass), onset_(settings.onset) {}
     /// Starts the coming step of the world, of h [s].
-    void begin_step(const Handle& handle, double h) noexcept;
+    void begin_step(const frame::Handle& handle, double h) noexcept;
 
-    CouplingSettings settings_;
+    frame::CouplingSettings settings_;
     double mass_;  // the proxy's own [kg]
     Onset onset_;
     double damping_ = 0;  // c [N*s/m]
 
   private:
-    Handle handle_;  // of the last step
+    frame::Handle handle_;  // of the last step
 };
 
 /// The spring acts as it will at the end of the step (backward Euler); the contact solver does the
@@ -73,12 +58,12 @@ class BodyCoupling {
 class ImplicitCoupling : public BodyCoupling {
   public:
     /// `mass`: the proxy's own [kg].
-    ImplicitCoupling(const CouplingSettings& settings, double mass)
+    ImplicitCoupling(const frame::CouplingSettings& settings, double mass)
         : BodyCoupling(settings, mass) {}
 
     /// Folds spring and damper into the proxy's mass and velocity. `h`: duration of the coming step
     /// of the world [s].
-    void before_step(World& world, BodyIndex proxy, const Handle& handle, double h) noexcept;
+    void before_step(World& world, BodyIndex proxy, const frame::Handle& handle, double h) noexcept;
 };
 
 /// Before each step the proxy gets the velocity that takes it to the handle within the step, by a
@@ -87,10 +72,10 @@ class ImplicitCoupling : public BodyCoupling {
 class VelocityImpulse : public BodyCoupling {
   public:
     /// `mass`: the proxy's own [kg]; `max_force`: the largest that the hand may feel [N].
-    VelocityImpulse(const CouplingSettings& settings, double mass, double max_force)
+    VelocityImpulse(const frame::CouplingSettings& settings, double mass, double max_force)
         : BodyCoupling(settings, mass), max_force_(max_force) {}
 
-    void before_step(World& world, BodyIndex proxy, const Handle& handle, double h,
+    void before_step(World& world, BodyIndex proxy, const frame::Handle& handle, double h,
                      bool was_touching) noexcept;
 
   private:
@@ -101,31 +86,32 @@ class VelocityImpulse : public BodyCoupling {
 /// Both forces follow from the positions of proxy and handle at the tick, before the world steps.
 class DualSpring {
   public:
-    explicit DualSpring(const CouplingSettings& settings)
+    explicit DualSpring(const frame::CouplingSettings& settings)
         : settings_(settings), onset_(settings.onset) {}
 
-    void before_step(World& world, BodyIndex proxy, const Handle& handle, double h,
+    void before_step(World& world, BodyIndex proxy, const frame::Handle& handle, double h,
                      bool was_touching) noexcept;
     /// Takes up the force of a tick; called in every tick, before the world steps if it does.
-    void sample(const World& world, BodyIndex proxy, const Handle& handle, double h) noexcept;
-    Pull pull(const World& world, BodyIndex proxy, const Handle& handle) const noexcept {
+    void sample(const World& world, BodyIndex proxy, const frame::Handle& handle,
+                double h) noexcept;
+    Pull pull(const World& world, BodyIndex proxy, const frame::Handle& handle) const noexcept {
         const Vec3 stretch = world.state(proxy).X_WB.p - handle.p_WH;
         return {f_H_W_, onset_.share() * settings_.stiffness / 2 * stretch.squaredNorm()};
     }
     /// Starts with the proxy at the handle, where the spring is not stretched.
     void place() noexcept { f_H_W_.setZero(); }
     Onset& onset() noexcept { return onset_; }
-    void retune(const CouplingSettings& settings) noexcept { settings_ = settings; }
+    void retune(const frame::CouplingSettings& settings) noexcept { settings_ = settings; }
 
   private:
-    CouplingSettings settings_;
+    frame::CouplingSettings settings_;
     Onset onset_;
     Vec3 f_H_W_ = Vec3::Zero();  // force on the handle, smoothed [N]
 };
 
 /// c: the setting, or else its default for a world step of h [N*s/m].
-double damping(const CouplingSettings& settings, double h);
+double damping(const frame::CouplingSettings& settings, double h);
 /// c_r of the rotational spring: the setting, or else its default [N*m*s/rad].
-double turn_damping(const CouplingSettings& settings, double h);
+double turn_damping(const frame::CouplingSettings& settings, double h);
 
 }  // namespace dihaptic::haptics

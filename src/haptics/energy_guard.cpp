@@ -40,7 +40,7 @@ void EnergyGuard::count_windows(bool stepped, double h) noexcept {
     window_ = 0;
 }
 
-Wrench EnergyGuard::watch(const Handle& handle, const Pose& X_WP, const Wrench& asked_W,
+Wrench EnergyGuard::watch(const frame::Handle& handle, const Pose& X_WP, const Wrench& asked_W,
                           double stored, bool stepped, double h, uint32_t& status) noexcept {
     const bool finite = asked_W.force.allFinite() && asked_W.torque.allFinite();
     if (!finite) return {};
@@ -75,11 +75,11 @@ Wrench EnergyGuard::watch(const Handle& handle, const Pose& X_WP, const Wrench& 
     asked_ = asked_W;
     stored_ = stored;
     damper_ = {};
-    if (mode_ == EnergyGuardMode::off) generated_ = {};  // feeding() counts on
+    if (mode_ == frame::EnergyGuardMode::off) generated_ = {};  // feeding() counts on
     const double excess = generated() - budget_;
     if (excess <= 0) return damper_;
     status |= kEnergyGenerated;
-    if (mode_ != EnergyGuardMode::act) return damper_;
+    if (mode_ != frame::EnergyGuardMode::act) return damper_;
     damper_.force = braking(handle.v_WH, excess, h, kMostEnergyDamping);
     damper_.torque = braking(handle.w_WH, excess, h, kMostEnergyTurnDamping);
     if (!damper_.is_zero()) status |= kEnergyDamped;

@@ -29,7 +29,7 @@ constexpr int kActiveWindows = 5;
 class EnergyGuard {
   public:
     /// `budget` [J].
-    explicit EnergyGuard(EnergyGuardMode mode, double budget = kEnergyBudget)
+    explicit EnergyGuard(frame::EnergyGuardMode mode, double budget = kEnergyBudget)
         : mode_(mode), budget_(budget) {}
 
     /// Called once in a tick of h [s] with the handle, the proxy after the tick's step, the wrench
@@ -37,8 +37,8 @@ class EnergyGuard {
     /// that time, acting or not [J]. `stepped`: whether the world stepped in this tick; what
     /// happens between two steps is judged as a whole. Returns the wrench to add, and adds to
     /// `status`.
-    Wrench watch(const Handle& handle, const Pose& X_WP, const Wrench& asked_W, double stored,
-                 bool stepped, double h, uint32_t& status) noexcept;
+    Wrench watch(const frame::Handle& handle, const Pose& X_WP, const Wrench& asked_W,
+                 double stored, bool stepped, double h, uint32_t& status) noexcept;
 
     /// Energy that the coupling generated in the last windows if it exceeded the budget in at least
     /// kActiveWindows in a row, else 0 [J].
@@ -52,7 +52,7 @@ class EnergyGuard {
   private:
     void count_windows(bool stepped, double h) noexcept;
 
-    EnergyGuardMode mode_;
+    frame::EnergyGuardMode mode_;
     double budget_;
     bool started_ = false;
     Pose X_WH_;          // at the last tick

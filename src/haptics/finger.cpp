@@ -2,8 +2,8 @@
 
 namespace dihaptic::haptics {
 
-Finger::Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSettings& coupling,
-               double max_force)
+Finger::Finger(const scene::Finger& finger, BodyIndex proxy,
+               const frame::CouplingSettings& coupling, double max_force)
     : proxy_(proxy),
       coupling_(ImplicitCoupling(coupling, finger.mass)),
       mass_(finger.mass),
@@ -15,12 +15,13 @@ Finger::Finger(PointProxy point, BodyIndex proxy) : proxy_(proxy), coupling_(std
 
 Finger::Finger(SolvedPoint point, BodyIndex proxy) : proxy_(proxy), coupling_(std::move(point)) {}
 
-void Finger::retune(const CouplingSettings& coupling) noexcept {
+void Finger::retune(const frame::CouplingSettings& coupling) noexcept {
     const bool is_body = mass_ > 0;
     if (is_body && coupling.kind != kind_) {
-        if (coupling.kind == CouplingKind::implicit) coupling_ = ImplicitCoupling(coupling, mass_);
-        if (coupling.kind == CouplingKind::dual_spring) coupling_ = DualSpring(coupling);
-        if (coupling.kind == CouplingKind::velocity_impulse)
+        if (coupling.kind == frame::CouplingKind::implicit)
+            coupling_ = ImplicitCoupling(coupling, mass_);
+        if (coupling.kind == frame::CouplingKind::dual_spring) coupling_ = DualSpring(coupling);
+        if (coupling.kind == frame::CouplingKind::velocity_impulse)
             coupling_ = VelocityImpulse(coupling, mass_, max_force_);
         kind_ = coupling.kind;
     } else {
@@ -34,7 +35,7 @@ std::span<const contact::Contact> Finger::contacts() const noexcept {
     return point != nullptr ? point->contacts() : std::span<const contact::Contact>();
 }
 
-void Finger::place(World& world, const Handle& handle) noexcept {
+void Finger::place(World& world, const frame::Handle& handle) noexcept {
     Pose X_WP = world.state(proxy_).X_WB;
     X_WP.p = handle.p_WH;
     if (turn_) X_WP.R = turn_->wanted(handle);
@@ -49,12 +50,12 @@ void Finger::carry(World& world, const Quat& R_WT, const Vec3& w_WT) const noexc
     if (!turn_) world.carry(proxy_, R_WT * R_TP_, w_WT);
 }
 
-void Finger::begin_tick(const World& world, const Handle& handle, double step) noexcept {
+void Finger::begin_tick(const World& world, const frame::Handle& handle, double step) noexcept {
     step_ = step;
     if (auto* dual = std::get_if<DualSpring>(&coupling_)) dual->sample(world, proxy_, handle, step);
 }
 
-void Finger::before_step(World& world, const Handle& handle, double step) noexcept {
+void Finger::before_step(World& world, const frame::Handle& handle, double step) noexcept {
     if (auto* implicit = std::get_if<ImplicitCoupling>(&coupling_)) {
         implicit->before_step(world, proxy_, handle, step);
     } else if (auto* dual = std::get_if<DualSpring>(&coupling_)) {
@@ -67,7 +68,7 @@ void Finger::before_step(World& world, const Handle& handle, double step) noexce
     if (turn_) turn_->before_step(world, proxy_, handle, onset_share(), step);
 }
 
-void Finger::after_step(World& world, const Handle& handle) noexcept {
+void Finger::after_step(World& world, const frame::Handle& handle) noexcept {
     // a point with friction "apart" feels bodies where they are now, in pull()
     if (!std::holds_alternative<PointProxy>(coupling_)) feel(world.contacts());
     if (auto* point = std::get_if<SolvedPoint>(&coupling_)) point->after_step(world, handle);
@@ -93,7 +94,7 @@ void Finger::feel(std::span<const contact::Contact> contacts) noexcept {
     touch_.friction = weighted_friction / pressed;
 }
 
-Pull Finger::pull(World& world, const Handle& handle, double tick) noexcept {
+Pull Finger::pull(World& world, const frame::Handle& handle, double tick) noexcept {
     if (auto* implicit = std::get_if<ImplicitCoupling>(&coupling_))
         return implicit->pull(world, proxy_, touch_, handle);
     if (auto* dual = std::get_if<DualSpring>(&coupling_)) return dual->pull(world, proxy_, handle);
@@ -107,7 +108,7 @@ Pull Finger::pull(World& world, const Handle& handle, double tick) noexcept {
     return pull;
 }
 
-Vec3 Finger::force(World& world, const Handle& handle, double tick) noexcept {
+Vec3 Finger::force(World& world, const frame::Handle& handle, double tick) noexcept {
     const Pull pull = this->pull(world, handle, tick);
     stored_ = pull.stored;
     if (turn_) {

@@ -16,7 +16,7 @@ class Finger {
   public:
     /// The proxy of `finger` is body `proxy` of the world. `max_force`: largest force that the hand
     /// may feel [N].
-    Finger(const scene::Finger& finger, BodyIndex proxy, const CouplingSettings& coupling,
+    Finger(const scene::Finger& finger, BodyIndex proxy, const frame::CouplingSettings& coupling,
            double max_force);
     /// A finger whose proxy is a point.
     Finger(PointProxy point, BodyIndex proxy);
@@ -33,24 +33,24 @@ class Finger {
 
     /// Sets the coupling from the coming tick on. Its kind applies to bodies only: a point has its
     /// own.
-    void retune(const CouplingSettings& coupling) noexcept;
+    void retune(const frame::CouplingSettings& coupling) noexcept;
 
     /// Puts the proxy at the handle: before the first tick, and wherever it must start anew.
-    void place(World& world, const Handle& handle) noexcept;
+    void place(World& world, const frame::Handle& handle) noexcept;
 
     /// Turns a proxy that does not turn with its handle along with the workspaces: from where it
     /// was placed by R_WT, which turns on at w_WT [rad/s].
     void carry(World& world, const Quat& R_WT, const Vec3& w_WT) const noexcept;
 
     /// First call in every tick; `step` is the world's time step [s].
-    void begin_tick(const World& world, const Handle& handle, double step) noexcept;
+    void begin_tick(const World& world, const frame::Handle& handle, double step) noexcept;
     /// Called before and after the step, in ticks in which the world steps.
-    void before_step(World& world, const Handle& handle, double step) noexcept;
-    void after_step(World& world, const Handle& handle) noexcept;
+    void before_step(World& world, const frame::Handle& handle, double step) noexcept;
+    void after_step(World& world, const frame::Handle& handle) noexcept;
 
     /// Last call in every tick: the force that the coupling wants the handle to feel as it is now
     /// [N]. `tick`: its duration [s].
-    Vec3 force(World& world, const Handle& handle, double tick) noexcept;
+    Vec3 force(World& world, const frame::Handle& handle, double tick) noexcept;
     /// Torque that goes with the last force() [N*m].
     const Vec3& torque() const noexcept { return torque_; }
     /// Energy in the coupling's springs at the last force() [J].
@@ -58,12 +58,12 @@ class Finger {
 
   private:
     void feel(std::span<const contact::Contact> contacts) noexcept;
-    Pull pull(World& world, const Handle& handle, double tick) noexcept;
+    Pull pull(World& world, const frame::Handle& handle, double tick) noexcept;
     double onset_share() noexcept;
 
     BodyIndex proxy_;
     std::variant<ImplicitCoupling, DualSpring, VelocityImpulse, PointProxy, SolvedPoint> coupling_;
-    CouplingKind kind_ = CouplingKind::implicit;
+    frame::CouplingKind kind_ = frame::CouplingKind::implicit;
     double mass_ = 0;       // of the proxy if it is a body [kg]
     double max_force_ = 0;  // that the hand may feel from a body [N]
     std::optional<RotationalCoupling> turn_;

@@ -2,7 +2,7 @@
 
 namespace dihaptic::haptics {
 
-ForceGuard::ForceGuard(const SafetySettings& settings, const devices::DeviceInfo& device,
+ForceGuard::ForceGuard(const frame::SafetySettings& settings, const frame::DeviceInfo& device,
                        const std::optional<WorkspaceBox>& box, double tick)
     : tick_(tick),
       energy_(settings.energy_guard, device.scale * device.scale * kEnergyBudget),
@@ -16,7 +16,7 @@ ForceGuard::ForceGuard(const SafetySettings& settings, const devices::DeviceInfo
         Heating(device.peak_torque, device.continuous_torque, settings.heating_time));
 }
 
-Wrench ForceGuard::shape(const Wrench& asked_W, const Handle& handle, const Pose& X_WP,
+Wrench ForceGuard::shape(const Wrench& asked_W, const frame::Handle& handle, const Pose& X_WP,
                          double stored, bool stepped, uint32_t& status) noexcept {
     const Wrench damper = energy_.watch(handle, X_WP, asked_W, stored, stepped, tick_, status);
     Wrench felt_W{asked_W.force + damper.force, Vec3::Zero()};
@@ -24,7 +24,7 @@ Wrench ForceGuard::shape(const Wrench& asked_W, const Handle& handle, const Pose
     return felt_W;
 }
 
-Vec3 ForceGuard::push(const Handle& handle, uint32_t& status) const noexcept {
+Vec3 ForceGuard::push(const frame::Handle& handle, uint32_t& status) const noexcept {
     const Vec3 push_W = wall_.force(handle.p_WH, handle.v_WH);
     if (push_W != Vec3::Zero()) status |= kPushedInward;
     return push_W;

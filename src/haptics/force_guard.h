@@ -7,7 +7,7 @@
 // the workspace turns (servo/workspace_turn.h), in those of the world without the turn.
 #pragma once
 
-#include "devices/device_info.h"
+#include "frame/device_info.h"
 #include "haptics/chatter.h"
 #include "haptics/energy_guard.h"
 #include "haptics/limiter.h"
@@ -19,16 +19,16 @@ namespace dihaptic::haptics {
 class ForceGuard {
   public:
     /// `box`: that the handle is kept in; `tick`: duration of a tick [s].
-    ForceGuard(const SafetySettings& settings, const devices::DeviceInfo& device,
+    ForceGuard(const frame::SafetySettings& settings, const frame::DeviceInfo& device,
                const std::optional<WorkspaceBox>& box, double tick);
 
     /// Wrench that the handle is to feel from its coupling, which asks for `asked_W`. `X_WP`: its
     /// proxy after the tick's step; `stored`: energy in the coupling's springs [J]; `stepped`:
     /// whether the world stepped in this tick. The torque is zero if the device renders none.
-    Wrench shape(const Wrench& asked_W, const Handle& handle, const Pose& X_WP, double stored,
-                 bool stepped, uint32_t& status) noexcept;
+    Wrench shape(const Wrench& asked_W, const frame::Handle& handle, const Pose& X_WP,
+                 double stored, bool stepped, uint32_t& status) noexcept;
     /// Force of the workspace wall on the handle [N].
-    Vec3 push(const Handle& handle, uint32_t& status) const noexcept;
+    Vec3 push(const frame::Handle& handle, uint32_t& status) const noexcept;
     /// The part of both together that the device may be sent. `allowed`: by the dead-man switch,
     /// without which it is zero at once; `share`: that of SoftStart.
     Wrench limit(const Wrench& felt, bool allowed, double share, uint32_t& status) noexcept;

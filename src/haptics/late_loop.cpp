@@ -13,7 +13,8 @@ constexpr double kTurnDamperTime = 1e-4 / (2 * kHeldShare * 0.02);
 
 }  // namespace
 
-CouplingSettings softened(CouplingSettings asked, double b, double lateness, double tick) noexcept {
+frame::CouplingSettings softened(frame::CouplingSettings asked, double b, double lateness,
+                                 double tick) noexcept {
     if (lateness <= 0) return asked;
     const double k = held_stiffness(b, lateness);
     asked.stiffness = std::min(asked.stiffness, k);

@@ -14,7 +14,7 @@
 
 #include <limits>
 
-#include "haptics/settings.h"
+#include "frame/haptics_settings.h"
 #include "model/grasp.h"
 
 namespace dihaptic::haptics {
@@ -35,7 +35,8 @@ inline double held_stiffness(double b, double lateness) noexcept {
 
 /// The settings reduced to what the loop can hold; values within that are unchanged, so that
 /// softening twice is the same as once. `tick` [s].
-CouplingSettings softened(CouplingSettings asked, double b, double lateness, double tick) noexcept;
+frame::CouplingSettings softened(frame::CouplingSettings asked, double b, double lateness,
+                                 double tick) noexcept;
 
 /// The part of a force that may follow on `last` after the handle `moved`: it may rise as that of a
 /// spring of stiffness k would, plus `creep`, and may fall freely. A stiffer spring would go on

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "haptics/settings.h"
+#include "frame/haptics_settings.h"
 
 namespace dihaptic::haptics {
 
@@ -25,7 +25,8 @@ Vec3 Limiter::limit(const Vec3& asked, double h, uint32_t& status) noexcept {
     }
     const Vec3 change = force - last_;
     const bool falls = force.squaredNorm() < last_.squaredNorm();
-    const double most = h * (falls ? std::max(max_rate_, max_force_ / kLongestFall) : max_rate_);
+    const double most =
+        h * (falls ? std::max(max_rate_, max_force_ / frame::kLongestFall) : max_rate_);
     if (const double size = change.norm(); size > most) {
         force = last_ + change * (most / size);
         status |= kRateLimited;

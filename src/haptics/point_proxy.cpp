@@ -3,8 +3,9 @@
 #include <limits>
 
 namespace dihaptic::haptics {
-PointProxy::PointProxy(const scene::Scene& scene, BodyIndex body, const CouplingSettings& coupling,
-                       const ProxySettings& settings)
+PointProxy::PointProxy(const scene::Scene& scene, BodyIndex body,
+                       const frame::CouplingSettings& coupling,
+                       const frame::ProxySettings& settings)
     : coupling_(coupling),
       shares_(scene.bodies.size(), 1),
       popthrough_(settings.popthrough.value_or(std::numeric_limits<double>::infinity())),
@@ -33,7 +34,7 @@ void PointProxy::place(World& world, const Vec3& p_WP) noexcept {
     count_ = 0;
 }
 
-Pull PointProxy::render(World& world, const Handle& handle, double h, double step) noexcept {
+Pull PointProxy::render(World& world, const frame::Handle& handle, double h, double step) noexcept {
     const Vec3 before = point_.position();
     feel_surfaces(world);
     point_.follow(handle.p_WH, world.states());
@@ -58,7 +59,7 @@ Pull PointProxy::render(World& world, const Handle& handle, double h, double ste
 }
 
 /// Energy of the spring to the point where it is now [J].
-double PointProxy::stored(const Handle& handle) const noexcept {
+double PointProxy::stored(const frame::Handle& handle) const noexcept {
     return share_ * onset_.share() * coupling_.stiffness / 2 *
            (point_.position() - handle.p_WH).squaredNorm();
 }

@@ -20,15 +20,15 @@ namespace dihaptic::haptics {
 class PointProxy {
   public:
     /// `body` represents it in the world.
-    PointProxy(const scene::Scene& scene, BodyIndex body, const CouplingSettings& coupling,
-               const ProxySettings& settings);
+    PointProxy(const scene::Scene& scene, BodyIndex body, const frame::CouplingSettings& coupling,
+               const frame::ProxySettings& settings);
 
     /// Puts the point somewhere, before the first tick.
     void place(World& world, const Vec3& p_WP) noexcept;
     /// Does one tick of h [s] in a world with a time step of `step` [s]: moves the point, applies
     /// to each body that it touches its share of the reaction in the coming step, and returns the
     /// pull on the handle.
-    Pull render(World& world, const Handle& handle, double h, double step) noexcept;
+    Pull render(World& world, const frame::Handle& handle, double h, double step) noexcept;
 
     /// Contacts of the last tick, from body to point.
     std::span<const contact::Contact> contacts() const noexcept {
@@ -36,16 +36,16 @@ class PointProxy {
     }
 
     Onset& onset() noexcept { return onset_; }
-    void retune(const CouplingSettings& settings) noexcept { coupling_ = settings; }
+    void retune(const frame::CouplingSettings& settings) noexcept { coupling_ = settings; }
 
   private:
     Vec3 surface_velocity(const World& world) const noexcept;
-    double stored(const Handle& handle) const noexcept;
+    double stored(const frame::Handle& handle) const noexcept;
     void resolve(const Vec3& f_W) noexcept;
     /// Takes up what the surfaces of the bodies are now.
     void feel_surfaces(const World& world) noexcept;
 
-    CouplingSettings coupling_;
+    frame::CouplingSettings coupling_;
     std::vector<double> shares_;  // by body, of the spring's force
     double share_ = 1;            // of what is touched now
     double popthrough_;           // [N]

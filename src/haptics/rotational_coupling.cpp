@@ -4,7 +4,7 @@
 
 namespace dihaptic::haptics {
 
-void RotationalCoupling::before_step(World& world, BodyIndex proxy, const Handle& handle,
+void RotationalCoupling::before_step(World& world, BodyIndex proxy, const frame::Handle& handle,
                                      double share, double h) noexcept {
     const dynamics::BodyState& state = world.state(proxy);
     const double k = settings_.turn_stiffness;
@@ -19,7 +19,7 @@ void RotationalCoupling::before_step(World& world, BodyIndex proxy, const Handle
 }
 
 Vec3 RotationalCoupling::torque(const World& world, BodyIndex proxy, bool touching,
-                                const Handle& handle, double share) noexcept {
+                                const frame::Handle& handle, double share) noexcept {
     const bool of_step = same(handle, handle_);
     if (of_step) along_.setZero();
     const dynamics::BodyState& state = world.state(proxy);

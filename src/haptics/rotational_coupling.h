@@ -10,30 +10,30 @@ class RotationalCoupling {
   public:
     /// `inertia`: the proxy's own, about P [kg*m^2]; `R_HP`: the proxy's canonical orientation,
     /// which it has while the device is in its neutral one.
-    RotationalCoupling(const CouplingSettings& settings, double inertia, const Quat& R_HP)
+    RotationalCoupling(const frame::CouplingSettings& settings, double inertia, const Quat& R_HP)
         : settings_(settings), inertia_(inertia), R_HP_(R_HP) {}
 
-    void retune(const CouplingSettings& settings) noexcept { settings_ = settings; }
+    void retune(const frame::CouplingSettings& settings) noexcept { settings_ = settings; }
     /// R_WP of a proxy that follows without lag.
-    Quat wanted(const Handle& handle) const noexcept { return handle.R_WH * R_HP_; }
+    Quat wanted(const frame::Handle& handle) const noexcept { return handle.R_WH * R_HP_; }
     /// Folds spring and damper into the proxy's inertia and angular velocity. `share`: that of
     /// Onset; `h`: duration of the coming step of the world [s].
-    void before_step(World& world, BodyIndex proxy, const Handle& handle, double share,
+    void before_step(World& world, BodyIndex proxy, const frame::Handle& handle, double share,
                      double h) noexcept;
     /// Torque on the handle now [N*m]: that of the spring at the end of the step while the proxy
     /// touches something, and zero in free space. When the handle turns on between steps of the
     /// world, the torque stays along that of the step, and never changes its sign.
-    Vec3 torque(const World& world, BodyIndex proxy, bool touching, const Handle& handle,
+    Vec3 torque(const World& world, BodyIndex proxy, bool touching, const frame::Handle& handle,
                 double share) noexcept;
     /// Energy of the spring; in touch, only the part that acted in the last torque() [J].
     double stored() const noexcept { return stored_; }
 
   private:
-    CouplingSettings settings_;
+    frame::CouplingSettings settings_;
     double inertia_;
     Quat R_HP_;
     double damping_ = 0;         // c_r [N*m*s/rad]
-    Handle handle_;              // of the last step
+    frame::Handle handle_;       // of the last step
     Vec3 along_ = Vec3::Zero();  // direction of the torque of the last step; zero: none
     double stored_ = 0;
 };

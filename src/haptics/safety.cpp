@@ -10,7 +10,7 @@ namespace dihaptic::haptics {
 namespace {
 
 /// Whether all values are numbers, and the orientation is one.
-bool is_sound(const Handle& read) noexcept {
+bool is_sound(const frame::Handle& read) noexcept {
     constexpr double kUnit = 1e-3;
     return read.p_WH.allFinite() && read.v_WH.allFinite() && read.w_WH.allFinite() &&
            std::abs(read.R_WH.squaredNorm() - 1) < kUnit;
@@ -18,8 +18,8 @@ bool is_sound(const Handle& read) noexcept {
 
 /// Judges a reading of a handle that was at `last` a time `elapsed` ago [s]; 0: it was not seen
 /// before.
-void judge_motion(const Handle& read, const Handle& last, double elapsed, double max_speed,
-                  Fault& fault) noexcept {
+void judge_motion(const frame::Handle& read, const frame::Handle& last, double elapsed,
+                  double max_speed, Fault& fault) noexcept {
     double speed = read.v_WH.norm();
     if (elapsed > 0) speed = std::max(speed, (read.p_WH - last.p_WH).norm() / elapsed);
     // written so that a speed that is infinite or NaN fails, too
@@ -52,8 +52,8 @@ FaultText text_of(const Fault& fault) {
 
 }  // namespace
 
-Handle HandleGuard::accept(const Handle& read, FaultKind reported, double elapsed,
-                           Fault& fault) noexcept {
+frame::Handle HandleGuard::accept(const frame::Handle& read, FaultKind reported, double elapsed,
+                                  Fault& fault) noexcept {
     if (trusted_ && reported != FaultKind::none) {
         fault.kind = reported;
     } else if (trusted_ && !is_sound(read)) {

@@ -62,11 +62,12 @@ class HandleGuard {
     /// The handle to work with. `read` is as measured, `reported` the fault that the device itself
     /// reports, `elapsed` the time since the last call [s]. If the reading cannot be used, `fault`
     /// is set to the reason.
-    Handle accept(const Handle& read, FaultKind reported, double elapsed, Fault& fault) noexcept;
+    frame::Handle accept(const frame::Handle& read, FaultKind reported, double elapsed,
+                         Fault& fault) noexcept;
 
   private:
     double max_speed_;
-    Handle last_;
+    frame::Handle last_;
     bool seen_ = false;
     bool trusted_ = true;
 };

@@ -18,7 +18,8 @@ double give(const scene::PairSurface& surface, double stiffness, double mass) {
 }  // namespace
 
 SolvedPoint::SolvedPoint(const scene::Scene& scene, BodyIndex body,
-                         const CouplingSettings& coupling, const ProxySettings& settings)
+                         const frame::CouplingSettings& coupling,
+                         const frame::ProxySettings& settings)
     : coupling_(coupling),
       onset_(coupling.onset),
       body_(body),
@@ -32,7 +33,7 @@ void SolvedPoint::place(World& world, const Vec3& p_WP) noexcept {
     world.set_point(body_, p_WP, Vec3::Zero());
 }
 
-void SolvedPoint::before_step(World& world, const Handle& handle, double h) noexcept {
+void SolvedPoint::before_step(World& world, const frame::Handle& handle, double h) noexcept {
     step_ = h;
     just_stepped_ = true;
     const double k = coupling_.stiffness;
@@ -51,7 +52,7 @@ void SolvedPoint::before_step(World& world, const Handle& handle, double h) noex
     }
 }
 
-void SolvedPoint::after_step(World& world, const Handle& handle) noexcept {
+void SolvedPoint::after_step(World& world, const frame::Handle& handle) noexcept {
     const dynamics::BodyState solved = world.state(body_);
     v_WP_ = solved.v_WB;
     press_count_ = 0;
@@ -85,7 +86,7 @@ void SolvedPoint::after_step(World& world, const Handle& handle) noexcept {
     world.set_point(body_, point_.position(), v_WP_);
 }
 
-Pull SolvedPoint::pull(World& world, const Handle& handle, double h) noexcept {
+Pull SolvedPoint::pull(World& world, const frame::Handle& handle, double h) noexcept {
     if (just_stepped_) {
         just_stepped_ = false;
         return {f_P_W_, energy(point_.position() - handle.p_WH)};
@@ -126,7 +127,7 @@ Vec3 SolvedPoint::in_cones(const Vec3& spring) const noexcept {
 }
 
 /// Until the next step, a surface that is first met between two steps has no friction.
-Vec3 SolvedPoint::meet_between_steps(World& world, const Handle& handle, double h) noexcept {
+Vec3 SolvedPoint::meet_between_steps(World& world, const frame::Handle& handle, double h) noexcept {
     point_.slide(handle.p_WH);
     world.set_point(body_, point_.position(), handle.v_WH);
     HalfSpaces walls;

@@ -14,22 +14,22 @@ namespace dihaptic::haptics {
 class SolvedPoint {
   public:
     /// The proxy of a finger of the scene; `body` represents it in the world.
-    SolvedPoint(const scene::Scene& scene, BodyIndex body, const CouplingSettings& coupling,
-                const ProxySettings& settings);
+    SolvedPoint(const scene::Scene& scene, BodyIndex body, const frame::CouplingSettings& coupling,
+                const frame::ProxySettings& settings);
 
     /// Puts the point somewhere, before the first tick.
     void place(World& world, const Vec3& p_WP) noexcept;
     /// Called before and after a step of the world of h [s].
-    void before_step(World& world, const Handle& handle, double h) noexcept;
-    void after_step(World& world, const Handle& handle) noexcept;
+    void before_step(World& world, const frame::Handle& handle, double h) noexcept;
+    void after_step(World& world, const frame::Handle& handle) noexcept;
     /// The force on the handle now: that of the step's contacts. In a tick of h [s] without a step,
     /// what the spring asks of those contacts now; a surface that is first met in this tick is felt
     /// at once, and its body gets the reaction in the next step. Between steps, only the part of
     /// the spring that acts counts as stored energy.
-    Pull pull(World& world, const Handle& handle, double h) noexcept;
+    Pull pull(World& world, const frame::Handle& handle, double h) noexcept;
 
     Onset& onset() noexcept { return onset_; }
-    void retune(const CouplingSettings& settings) noexcept { coupling_ = settings; }
+    void retune(const frame::CouplingSettings& settings) noexcept { coupling_ = settings; }
 
   private:
     struct Press {
@@ -42,9 +42,9 @@ class SolvedPoint {
     double share_of(const World& world, BodyIndex body) const noexcept;
     Vec3 in_cones(const Vec3& spring) const noexcept;
     double energy(const Vec3& stretch) const noexcept;
-    Vec3 meet_between_steps(World& world, const Handle& handle, double h) noexcept;
+    Vec3 meet_between_steps(World& world, const frame::Handle& handle, double h) noexcept;
 
-    CouplingSettings coupling_;
+    frame::CouplingSettings coupling_;
     Onset onset_;
     BodyIndex body_;
     GodObject point_;

@@ -71,7 +71,8 @@ class Taken {
 
 }  // namespace
 
-Eyes::Eyes(const rig::Headset& place, const GlxContext& gl) : place_(place), X_WS_(place.X_WS()) {
+Eyes::Eyes(const display::Headset& place, const GlxContext& gl)
+    : place_(place), X_WS_(place.X_WS()) {
     connect();
     make_session(gl);
     make_space(place.space);
@@ -161,14 +162,14 @@ void Eyes::make_session(const GlxContext& gl) {
     if (!blends.empty()) blend_ = blends.front();
 }
 
-void Eyes::make_space(rig::HeadsetSpace kind) {
+void Eyes::make_space(display::HeadsetSpace kind) {
     const auto all = listed(
         [&](uint32_t room, uint32_t* count, XrReferenceSpaceType* out) {
             xrEnumerateReferenceSpaces(session_, room, count, out);
         },
         XR_REFERENCE_SPACE_TYPE_LOCAL);
-    const auto wanted = kind == rig::HeadsetSpace::stage ? XR_REFERENCE_SPACE_TYPE_STAGE
-                                                         : XR_REFERENCE_SPACE_TYPE_LOCAL;
+    const auto wanted = kind == display::HeadsetSpace::stage ? XR_REFERENCE_SPACE_TYPE_STAGE
+                                                             : XR_REFERENCE_SPACE_TYPE_LOCAL;
     if (std::find(all.begin(), all.end(), wanted) == all.end())
         throw Error(place_.place, "space", "is 'stage', and the headset's runtime has none",
                     "Set the room up in the runtime, or write space: local.");

@@ -27,7 +27,7 @@ class Eyes {
 
     /// Throws Error when there is no runtime, no headset, or not that space. `gl` is current, and
     /// outlives this.
-    Eyes(const rig::Headset& place, const GlxContext& gl);
+    Eyes(const display::Headset& place, const GlxContext& gl);
     Eyes(const Eyes&) = delete;
     Eyes& operator=(const Eyes&) = delete;
 
@@ -62,7 +62,7 @@ class Eyes {
     void connect();
     void check_graphics() const;
     void make_session(const GlxContext& gl);
-    void make_space(rig::HeadsetSpace kind);
+    void make_space(display::HeadsetSpace kind);
     void make_pictures();
     Pictures make_pictures(int64_t format, int width, int height) const;
     void take_note_of(XrSessionState state);
@@ -72,7 +72,7 @@ class Eyes {
     Pose located(XrSpace space, XrTime time) const;
     std::chrono::steady_clock::time_point steady(XrTime time) const;
 
-    rig::Headset place_;
+    display::Headset place_;
     Pose X_WS_;
     xr::Instance instance_;
     XrSystemId system_ = XR_NULL_SYSTEM_ID;

@@ -36,7 +36,7 @@ class Drawing {
         view_ = std::make_unique<view::SceneView>(*scene);
     }
 
-    void draw(const servo::Frame& frame, Eyes& eyes, const Eyes::Look& look) {
+    void draw(const frame::Frame& frame, Eyes& eyes, const Eyes::Look& look) {
         std::array<view::Pane, Eyes::kCount> panes{view::Pane{look.eyes[0]},
                                                    view::Pane{look.eyes[1]}};
         panes[0].width = panes[1].width = panes[1].left = 0.5;
@@ -57,7 +57,7 @@ class Drawing {
 
 }  // namespace
 
-Headset::Headset(const rig::Headset& place) : place_(place), thread_([this] { run(); }) {}
+Headset::Headset(const display::Headset& place) : place_(place), thread_([this] { run(); }) {}
 
 Headset::~Headset() {
     done_ = true;
@@ -121,7 +121,7 @@ void Headset::show_until_done() {
         }
         Eyes::Look look = eyes.begin_picture();
         const Content now = content();
-        const servo::Frame* const frame = now.frames ? &now.frames->read() : nullptr;
+        const frame::Frame* const frame = now.frames ? &now.frames->read() : nullptr;
         look.drawn = look.drawn && frame != nullptr;
         Showing showing{-1, {}, {}, false};
         if (look.drawn) {

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "base/latest.h"
-#include "rig/headset.h"
+#include "display/headset.h"
+#include "frame/frame.h"
 #include "scene/scene.h"
-#include "servo/frame.h"
 
 namespace dihaptic::headset {
 
@@ -42,10 +42,10 @@ struct Note {
 
 class Headset {
   public:
-    using Frames = Latest<servo::Frame>;
+    using Frames = Latest<frame::Frame>;
 
     /// Begins to show; that it cannot is a Note.
-    explicit Headset(const rig::Headset& place);
+    explicit Headset(const display::Headset& place);
     ~Headset();
     Headset(const Headset&) = delete;
     Headset& operator=(const Headset&) = delete;
@@ -74,7 +74,7 @@ class Headset {
     void note(const std::string& text, bool problem);
     Content content();
 
-    rig::Headset place_;
+    display::Headset place_;
     std::mutex guard_;  // of what follows
     Content content_;
     std::vector<Showing> showings_;

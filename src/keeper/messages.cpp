@@ -123,13 +123,13 @@ Order order_of(const json& in) {
 
 json to_json(const devices::DeviceGroup& devices) {
     json infos = json::array();
-    for (const devices::DeviceInfo& info : devices.descriptions())
+    for (const frame::DeviceInfo& info : devices.descriptions())
         infos.push_back(tree(write_fields(info)));
     return {{"devices", infos}, {"paces", devices.paces()}};
 }
 
-std::vector<devices::DeviceInfo> infos_of(const json& in) {
-    std::vector<devices::DeviceInfo> out;
+std::vector<frame::DeviceInfo> infos_of(const json& in) {
+    std::vector<frame::DeviceInfo> out;
     Diagnostics diagnostics;
     for (const json& one : in.at("devices"))
         read_fields(out.emplace_back(), node_of(one), diagnostics);

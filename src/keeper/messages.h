@@ -14,7 +14,7 @@ nlohmann::json to_json(const Order& order);
 Order order_of(const nlohmann::json& json);
 /// The DeviceInfo of each device, and whether the devices pace.
 nlohmann::json to_json(const devices::DeviceGroup& devices);
-std::vector<devices::DeviceInfo> infos_of(const nlohmann::json& json);
+std::vector<frame::DeviceInfo> infos_of(const nlohmann::json& json);
 nlohmann::json to_json(const Error& error);
 Error error_of(const nlohmann::json& json);
 

@@ -58,7 +58,7 @@ double perfect_peak(const BenchSetup& setup, double speed) {
 /// between two points it turns until the line between the contacts is parallel to the line between
 /// the targets.
 double closed_form_grip(const BenchSetup& setup) {
-    if (setup.settings.proxy.kind == haptics::ProxyKind::rigid) return press_force(setup);
+    if (setup.settings.proxy.kind == scene::ProxyKind::rigid) return press_force(setup);
     const hand::HandSpec hand = grasp_hand(setup);
     const Vec3 off = hand.fingers[1].offset - hand.fingers[0].offset;
     const Vec3 contacts = off + Vec3(kBlockSize, 0, 0);
@@ -71,7 +71,7 @@ double closed_form_grip(const BenchSetup& setup) {
 
 /// Figures that say what is measured, and no more yet.
 GraspFigures described(const BenchSetup& base) {
-    const servo::Settings& settings = base.settings;
+    const frame::Settings& settings = base.settings;
     GraspFigures out;
     out.coupling = settings.coupling.kind;
     out.solver = settings.dynamics.solver;
@@ -94,7 +94,7 @@ HoldFigures measure_hold(const BenchSetup& setup) {
 HoldFigures measure_hold(const BenchSetup& setup, const scene::Scene& scene) {
     Bench bench(scene, grasp_hand(setup), setup);
     analysis::GraspTrace trace(1, setup.settings.tick());
-    bench.run([&](const servo::Frame& frame) { trace.add(frame); });
+    bench.run([&](const frame::Frame& frame) { trace.add(frame); });
 
     const analysis::Range lift = trace.of_phase(kRise);
     const analysis::Range hold = trace.of_phase(kHold);
@@ -129,7 +129,7 @@ bool calm_grasp(const HoldFigures& hold, double grip_slack) {
 bool calm_wall(const BenchSetup& setup) {
     Bench bench(wall_scene(setup), wall_hand(setup), setup);
     analysis::GraspTrace trace(-1, setup.settings.tick());
-    bench.run([&](const servo::Frame& frame) { trace.add(frame); });
+    bench.run([&](const frame::Frame& frame) { trace.add(frame); });
     const double end = bench.driver().duration();
     const analysis::Range settled = trace.between(end - kLastSeconds, end);
     const double expected = press_force(setup);
@@ -155,8 +155,8 @@ KickFigures measure_kick(BenchSetup setup, double speed) {
     double first_force = 0;
     double first_depth = 0;
     int ticks_since_touch = -1;
-    bench.run([&](const servo::Frame& frame) {
-        const servo::FingerFrame& finger = frame.fingers[0];
+    bench.run([&](const frame::Frame& frame) {
+        const frame::FingerFrame& finger = frame.fingers[0];
         const double push = -finger.f_sent_W.x();
         const double depth = finger.p_WH.x() + reach(setup);
         if (frame.phase < kLeave) {
@@ -188,7 +188,7 @@ double measure_drag(const BenchSetup& setup) {
                    {"rest", 0.2, {}, Vec3::Zero(), false}};
     Bench bench(scene, hand, setup);
     double peak = 0;
-    bench.run([&](const servo::Frame& frame) {
+    bench.run([&](const frame::Frame& frame) {
         peak = std::max(peak, frame.fingers[0].f_sent_W.norm());
     });
     return peak;
@@ -201,11 +201,11 @@ std::pair<double, double> measure_torque(const BenchSetup& setup) {
     const double tick = setup.settings.tick();
     const dynamics::BodyIndex block{1};
     bench.run(
-        [&](const servo::Frame& frame) { trace.add(frame); },
-        [&](const servo::Frame& last, std::span<const haptics::Handle>, servo::Commands& commands) {
+        [&](const frame::Frame& frame) { trace.add(frame); },
+        [&](const frame::Frame& last, std::span<const frame::Handle>, frame::Commands& commands) {
             const double now = static_cast<double>(last.sequence + 1) * tick;
             if (now >= begin - tick / 2 && now < begin + 0.2 - tick / 2) {
-                servo::add(commands.task.loads, {block.value, Vec3::Zero(), Vec3(0.02, 0, 0)});
+                frame::add(commands.task.loads, {block.value, Vec3::Zero(), Vec3(0.02, 0, 0)});
             }
         });
     const size_t start = trace.between(begin, begin).first - 1;
@@ -233,7 +233,7 @@ double measure_torsion_limit(const BenchSetup& base) {
     double let_go = 0;
     size_t start = 0;
     bench.run(
-        [&](const servo::Frame& frame) {
+        [&](const frame::Frame& frame) {
             trace.add(frame);
             const double now = seconds(frame.time);
             if (now < begin || let_go > 0) return;
@@ -241,10 +241,10 @@ double measure_torsion_limit(const BenchSetup& base) {
             if (start == 0) start = last;
             if (degrees(std::abs(trace.turn_at(start, last))) > 0.1) let_go = torque_at(now);
         },
-        [&](const servo::Frame& last, std::span<const haptics::Handle>, servo::Commands& commands) {
+        [&](const frame::Frame& last, std::span<const frame::Handle>, frame::Commands& commands) {
             const double now = static_cast<double>(last.sequence + 1) * setup.settings.tick();
             if (now < begin || let_go > 0) return;
-            servo::add(commands.task.loads, {1, Vec3::Zero(), Vec3(torque_at(now), 0, 0)});
+            frame::add(commands.task.loads, {1, Vec3::Zero(), Vec3(torque_at(now), 0, 0)});
         });
     return let_go / limit;
 }
@@ -255,11 +255,11 @@ double measure_soft_turn(const BenchSetup& setup, double share) {
     const double begin = bench.driver().phases()[kHold].start + 1;
     const Vec3 torque(share * torsion_limit(setup), 0, 0);
     bench.run(
-        [&](const servo::Frame& frame) { trace.add(frame); },
-        [&](const servo::Frame& last, std::span<const haptics::Handle>, servo::Commands& commands) {
+        [&](const frame::Frame& frame) { trace.add(frame); },
+        [&](const frame::Frame& last, std::span<const frame::Handle>, frame::Commands& commands) {
             const double now = static_cast<double>(last.sequence + 1) * setup.settings.tick();
             if (now >= begin && now < begin + 1)
-                servo::add(commands.task.loads, {1, Vec3::Zero(), torque});
+                frame::add(commands.task.loads, {1, Vec3::Zero(), torque});
         });
     return degrees(trace.turn(trace.between(begin, begin + 1)));
 }
@@ -313,8 +313,8 @@ GraspFigures bench_grasp(const BenchSetup& base, const Progress& progress) {
     out.wall_k_premium = wall(Row::premium);
     say("torque");
     std::tie(out.torque_turn_deg, out.torque_turn_after_deg) = measure_torque(with(base, 1000));
-    const bool apart = base.settings.proxy.kind == haptics::ProxyKind::point &&
-                       base.settings.proxy.friction == haptics::PointFriction::apart;
+    const bool apart = base.settings.proxy.kind == scene::ProxyKind::point &&
+                       base.settings.proxy.friction == frame::PointFriction::apart;
     if (!apart) {
         BenchSetup soft = with(base, 1000);
         soft.soft_radius = kSoftRadius;

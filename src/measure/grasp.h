@@ -76,10 +76,10 @@ struct KickFigures {
 
 struct GraspFigures {
     // what was measured
-    haptics::CouplingKind coupling{};
-    dynamics::Solver solver{};
-    haptics::ProxyKind proxy{};
-    haptics::PointFriction point_friction{};
+    frame::CouplingKind coupling{};
+    contact::Solver solver{};
+    scene::ProxyKind proxy{};
+    frame::PointFriction point_friction{};
     std::string damping;  ///< default damping, with its share of K
     double mass = 0;      ///< [kg]
     double friction = 0;

@@ -71,7 +71,7 @@ double press_force(const BenchSetup& setup) {
 }
 
 double reach(const BenchSetup& setup) {
-    return setup.settings.proxy.kind == haptics::ProxyKind::point ? 0 : kPadThickness / 2;
+    return setup.settings.proxy.kind == scene::ProxyKind::point ? 0 : kPadThickness / 2;
 }
 
 scene::Scene grasp_scene(const BenchSetup& setup) {
@@ -168,15 +168,15 @@ Bench::Bench(const scene::Scene& scene, const hand::HandSpec& hand, const BenchS
     servo_->activate();
 }
 
-void Bench::run(const servo::FrameSink& sink, const servo::Director& extra,
+void Bench::run(const frame::FrameSink& sink, const frame::Director& extra,
                 servo::TickTimes* times) {
     const auto& phases = driver_->phases();
     int32_t phase = 0;
     double now = 0;
     const double tick = servo_->settings().tick();
-    const servo::Director director = [&](const servo::Frame& last,
-                                         std::span<const haptics::Handle> handles,
-                                         servo::Commands& commands) {
+    const frame::Director director = [&](const frame::Frame& last,
+                                         std::span<const frame::Handle> handles,
+                                         frame::Commands& commands) {
         now = static_cast<double>(last.sequence + 1) * tick;
         while (phase + 1 < static_cast<int32_t>(phases.size()) &&
                now >= phases[static_cast<size_t>(phase)].end - tick / 2)

@@ -30,7 +30,7 @@ enum class Row { ideal, delay, premium };
 
 /// Parameters of a bench: those that `dihaptic bench` offers, and those that its rows vary.
 struct BenchSetup {
-    servo::Settings settings;
+    frame::Settings settings;
     double mass = 0.1;  ///< mass of the block [kg]
     double friction = 0.8;
     Fingering fingering = Fingering::ideal;
@@ -78,7 +78,7 @@ class Bench {
     servo::Servo& servo() { return *servo_; }
     const hand::Driver& driver() const { return *driver_; }
     /// Runs the whole script; `extra` may add loads to each tick, `sink` sees each frame.
-    void run(const servo::FrameSink& sink, const servo::Director& extra = {},
+    void run(const frame::FrameSink& sink, const frame::Director& extra = {},
              servo::TickTimes* times = nullptr);
 
   private:

@@ -30,8 +30,8 @@ constexpr std::array kAllBurdens{Burden::none, Burden::delay, Burden::light, Bur
                                  Burden::firm};
 
 bool dual(const TuneSetup& setup) {
-    return setup.settings.coupling.kind == haptics::CouplingKind::dual_spring &&
-           setup.settings.proxy.kind == haptics::ProxyKind::rigid;
+    return setup.settings.coupling.kind == frame::CouplingKind::dual_spring &&
+           setup.settings.proxy.kind == scene::ProxyKind::rigid;
 }
 
 /// Calls `work(i)` for every i below `count`, on several threads, and on this thread `done(n)` with
@@ -205,7 +205,7 @@ bool TunePoint::calm_with_margin() const {
 }
 
 TuneSetup tune_setup(const rig::Rig& rig, const std::vector<std::string>& fingers,
-                     const servo::Settings& settings, const hand::Impedance& hand) {
+                     const frame::Settings& settings, const hand::Impedance& hand) {
     if (fingers.size() < 2) {
         throw Error(fmt::format("tuning holds a block between two fingers; the scene has only {}",
                                 fingers.empty() ? "none" : fingers.front()),

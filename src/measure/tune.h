@@ -33,7 +33,7 @@ constexpr auto enum_names(Burden) {
 constexpr size_t kBurdens = 5;
 
 struct TuneSetup {
-    servo::Settings settings;
+    frame::Settings settings;
     std::vector<rig::Device> devices;  ///< simulated devices of thumb and index
     hand::Impedance hand;
     double grip = 0;  ///< grip force with which the block is held [N]
@@ -47,7 +47,7 @@ struct TuneSetup {
 /// Sets up the search for two fingers of a rig, on the usual grid. Throws Error when there are
 /// fewer than two, or when their devices are not simulated.
 TuneSetup tune_setup(const rig::Rig& rig, const std::vector<std::string>& fingers,
-                     const servo::Settings& settings, const hand::Impedance& hand);
+                     const frame::Settings& settings, const hand::Impedance& hand);
 
 /// Verdicts by burden; those beyond `none` are only measured if `none` is calm.
 struct Verdicts {

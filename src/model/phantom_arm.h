@@ -7,22 +7,10 @@
 // the endpoint in the reset pose, x right, y up, z toward the person. README.md has the equations.
 #pragma once
 
-#include "base/field.h"
 #include "base/geometry.h"
+#include "model/phantom_links.h"
 
 namespace dihaptic::model {
-
-struct PhantomLinks {
-    double thigh = 0.14;  ///< l1 [m]
-    double shin = 0.14;   ///< l2 [m]
-
-    template <class Visitor>
-    void visit(Visitor& v) {
-        v("thigh", thigh, Field::length().within(0.05, 1).says("Length of the arm's first link."));
-        v("shin", shin, Field::length().within(0.05, 1).says("Length of its second link."));
-    }
-    bool operator==(const PhantomLinks&) const = default;
-};
 
 /// Limits of the joint angles [rad]. Those of the thigh's angle less the shin's are known for a
 /// Premium 1.5; the others are guesses that are consistent with its pictures.

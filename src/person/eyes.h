@@ -4,8 +4,8 @@
 #include <array>
 
 #include "base/random.h"
+#include "frame/displayed.h"
 #include "person/past.h"
-#include "servo/displayed.h"
 
 namespace dihaptic::person {
 
@@ -16,7 +16,7 @@ struct Sight {
     Vec3 hand = Vec3::Zero();  ///< middle of the fingers, as displayed [m]
     bool hand_shown = false;   ///< one of the fingers is displayed at all
     uint32_t shown = 0;        ///< regions that are shown as targets, one bit each
-    std::array<Vec3, servo::TaskFrame::kMostTargets> target{};  ///< by region, as displayed [m]
+    std::array<Vec3, frame::TaskFrame::kMostTargets> target{};  ///< by region, as displayed [m]
 };
 
 class Eyes {
@@ -27,19 +27,19 @@ class Eyes {
 
     void restart() noexcept { past_.clear(); }
 
-    void take(const servo::Frame& frame) noexcept {
+    void take(const frame::Frame& frame) noexcept {
         Sight sight;
         sight.trial = frame.trial;
         sight.attempt = frame.task.attempt;
         sight.phase = frame.phase;
         for (size_t i = 0; i < fingers_; ++i) {
-            sight.hand += servo::displayed_proxy(frame, i).p / static_cast<double>(fingers_);
-            sight.hand_shown |= servo::is_displayed(frame, servo::proxy_of(frame, i));
+            sight.hand += frame::displayed_proxy(frame, i).p / static_cast<double>(fingers_);
+            sight.hand_shown |= frame::is_displayed(frame, frame::proxy_of(frame, i));
         }
         for (size_t i = 0; i < frame.task.targets.size(); ++i) {
             const auto region = static_cast<size_t>(frame.task.targets[i].region);
             sight.shown |= 1u << region;
-            sight.target[region] = servo::displayed_target(frame, i);
+            sight.target[region] = frame::displayed_target(frame, i);
         }
         past_.add(sight);
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <utility>
 
 #include "hand/places.h"
 
@@ -200,7 +201,7 @@ hand::FingerTarget Person::do_target(int finger, double t) const noexcept {
     return target;
 }
 
-void Person::measure(const servo::Frame& frame) noexcept {
+void Person::measure(const frame::Frame& frame) noexcept {
     const auto count = static_cast<double>(places_.size());
     centre_ = Vec3::Zero();
     double force = 0;
@@ -217,7 +218,7 @@ void Person::measure(const servo::Frame& frame) noexcept {
     }
 }
 
-void Person::do_see(const servo::Frame& frame) noexcept {
+void Person::do_see(const frame::Frame& frame) noexcept {
     if (other_) other_->see(frame);
     eyes_.take(frame);
     measure(frame);
@@ -481,17 +482,17 @@ Vec3 Person::plan_reach(const Sight& sight, const Vec3& displacement) noexcept {
 }
 
 /// Whether a force field pushes the handles, or what the hand holds.
-bool Person::pushed(const servo::Frame& frame) const noexcept {
+bool Person::pushed(const frame::Frame& frame) const noexcept {
     const auto bodies = static_cast<int>(frame.bodies.size());
     return std::any_of(
-        frame.task.loads.begin(), frame.task.loads.end(), [&](const servo::LoadFrame& load) {
+        frame.task.loads.begin(), frame.task.loads.end(), [&](const frame::LoadFrame& load) {
             return load.body >= bodies || (grip_.holds() && load.body == grip_.felt().body);
         });
 }
 
 /// What the hand's strain tells in this Frame. A hand that was never pushed in this state, and is
 /// not now, takes what little there is for its own noise.
-Strain Person::strain(const servo::Frame& frame) const noexcept {
+Strain Person::strain(const frame::Frame& frame) const noexcept {
     Strain out;
     out.hand = centre_;
     if (!reach_.going || reach_.duration == 0) return out;

@@ -46,10 +46,10 @@ class Person final : public task::SeeingDriver {
 
   private:
     hand::FingerTarget do_target(int finger, double t) const noexcept override;
-    void do_see(const servo::Frame& frame) noexcept override;
+    void do_see(const frame::Frame& frame) noexcept override;
     char do_take_key() noexcept override;
 
-    void measure(const servo::Frame& frame) noexcept;
+    void measure(const frame::Frame& frame) noexcept;
     void follow_cues(const Sight& sight) noexcept;
     void await_trial() noexcept;
     void see_targets(const Sight& sight) noexcept;
@@ -62,8 +62,8 @@ class Person final : public task::SeeingDriver {
     void move(const Aim& way, double duration, const Sight& sight) noexcept;
     void rest() noexcept;
     Vec3 plan_reach(const Sight& sight, const Vec3& displacement) noexcept;
-    bool pushed(const servo::Frame& frame) const noexcept;
-    Strain strain(const servo::Frame& frame) const noexcept;
+    bool pushed(const frame::Frame& frame) const noexcept;
+    Strain strain(const frame::Frame& frame) const noexcept;
     void feel_strain() noexcept;
     void watch_reach(const Sight& sight) noexcept;
     void end_reach() noexcept;

@@ -12,11 +12,11 @@ constexpr double kPad = 0.01;               // size of a fingertip's pad [m]
 constexpr double kAccelerationTime = 0.02;  // time constant by which accelerations are smoothed [s]
 
 /// The contact in which proxy `finger` presses a body of the scene hardest; null if there is none.
-const servo::ContactFrame* hardest(const servo::Frame& frame, size_t finger) noexcept {
+const frame::ContactFrame* hardest(const frame::Frame& frame, size_t finger) noexcept {
     const auto bodies = static_cast<int>(frame.bodies.size());
     const int proxy = bodies + static_cast<int>(finger);
-    const servo::ContactFrame* out = nullptr;
-    for (const servo::ContactFrame& contact : frame.contacts) {
+    const frame::ContactFrame* out = nullptr;
+    for (const frame::ContactFrame& contact : frame.contacts) {
         const int other = contact.a == proxy ? contact.b : contact.b == proxy ? contact.a : -1;
         if (other < 0 || other >= bodies || contact.normal_force <= kLeastForce) continue;
         if (out == nullptr || contact.normal_force > out->normal_force) out = &contact;
@@ -38,13 +38,13 @@ void Touch::restart() noexcept {
     started_ = false;
 }
 
-Feeling Touch::feel(const servo::Frame& frame) noexcept {
+Feeling Touch::feel(const frame::Frame& frame) noexcept {
     Feeling out;
     const auto count = static_cast<double>(sides_.size());
     Vec3 v_WH = Vec3::Zero();
     int pressing = 0;
     for (size_t i = 0; i < sides_.size(); ++i) {
-        const servo::FingerFrame& finger = frame.fingers[i];
+        const frame::FingerFrame& finger = frame.fingers[i];
         v_WH += finger.v_WH / count;
         out.rise += finger.v_WP.z() / count;
         out.force_W -= finger.f_sent_W;
@@ -52,14 +52,14 @@ Feeling Touch::feel(const servo::Frame& frame) noexcept {
         out.grip += inward / count;
         if (inward > kLeastForce) ++pressing;
 
-        const servo::ContactFrame* contact = hardest(frame, i);
+        const frame::ContactFrame* contact = hardest(frame, i);
         if (contact == nullptr) {
             slid_[i] = 0;
             continue;
         }
         const auto bodies = static_cast<int>(frame.bodies.size());
         out.body = contact->a < bodies ? contact->a : contact->b;
-        const servo::BodyFrame& body = frame.bodies[static_cast<size_t>(out.body)];
+        const frame::BodyFrame& body = frame.bodies[static_cast<size_t>(out.body)];
         const Vec3 v_WC = body.v_WB + body.w_WB.cross(contact->p_WC - body.X_WB.p);
         const Vec3 n_W = contact->n_W.normalized();
         Vec3 slip = finger.v_WP - v_WC;
@@ -77,7 +77,7 @@ Feeling Touch::feel(const servo::Frame& frame) noexcept {
     out.held = pressing >= 2;
     if (out.body >= 0) {
         out.friction = frictions_[static_cast<size_t>(out.body)];
-        for (const servo::PropertiesFrame& properties : frame.task.properties) {
+        for (const frame::PropertiesFrame& properties : frame.task.properties) {
             if (properties.body == out.body) out.friction *= properties.friction_scale;
         }
     }

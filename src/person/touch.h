@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "servo/frame.h"
+#include "frame/frame.h"
 
 namespace dihaptic::person {
 
@@ -27,7 +27,7 @@ class Touch {
 
     void restart() noexcept;
     /// What is felt in this Frame. Every Frame has to be given, in order.
-    Feeling feel(const servo::Frame& frame) noexcept;
+    Feeling feel(const frame::Frame& frame) noexcept;
 
   private:
     std::vector<Vec3> sides_;

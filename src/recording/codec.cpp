@@ -8,7 +8,7 @@
 namespace dihaptic::recording {
 namespace {
 
-using servo::Frame;
+using frame::Frame;
 
 static_assert(sizeof(Vec3) == 24 && sizeof(Quat) == 32 && sizeof(Time) == 8);
 
@@ -22,7 +22,7 @@ class Writer {
     Writer(std::span<std::byte> out, Bodies bodies) : out_(out), bodies_(bodies) {}
 
     template <class T>
-    void operator()(const T& value, const servo::Term&) {
+    void operator()(const T& value, const frame::Term&) {
         put(value);
     }
     template <class T>
@@ -75,19 +75,19 @@ size_t most_bytes(const Layout& layout, size_t contacts) {
     frame.joints.resize(layout.joints);
     frame.contacts.resize(contacts);
     frame.task.visual.resize(1);
-    frame.task.targets.resize(servo::TaskFrame::kMostTargets);
-    frame.task.properties.resize(servo::TaskFrame::kMostProperties);
-    frame.task.joint_properties.resize(servo::TaskFrame::kMostProperties);
-    frame.task.loads.resize(servo::TaskFrame::kMostLoads);
+    frame.task.targets.resize(frame::TaskFrame::kMostTargets);
+    frame.task.properties.resize(frame::TaskFrame::kMostProperties);
+    frame.task.joint_properties.resize(frame::TaskFrame::kMostProperties);
+    frame.task.loads.resize(frame::TaskFrame::kMostLoads);
     frame.task.placements.resize(layout.bodies);
     frame.task.drives.resize(layout.bodies);
-    frame.task.motors.resize(servo::TaskFrame::kMostMotors);
-    frame.task.variables.resize(servo::TaskFrame::kMostVariables);
+    frame.task.motors.resize(frame::TaskFrame::kMostMotors);
+    frame.task.variables.resize(frame::TaskFrame::kMostVariables);
     frame.task.looks.resize(layout.bodies + layout.fingers);
     frame.task.displaced.resize(1 + layout.fingers);
-    frame.task.sounds.resize(servo::TaskFrame::kMostSounds);
-    frame.task.lines.resize(servo::TaskFrame::kMostLines);
-    frame.task.numbers.resize(servo::TaskFrame::kMostNumbers);
+    frame.task.sounds.resize(frame::TaskFrame::kMostSounds);
+    frame.task.lines.resize(frame::TaskFrame::kMostLines);
+    frame.task.numbers.resize(frame::TaskFrame::kMostNumbers);
     std::vector<std::byte> bytes(8192 + 512 * layout.fingers + 256 * layout.turns +
                                  448 * layout.bodies + 128 * layout.joints + 256 * contacts);
     return encode(frame, bytes, Bodies::all);

@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "servo/frame.h"
+#include "frame/frame.h"
 
 namespace dihaptic::recording {
 
@@ -25,7 +25,7 @@ enum class Bodies { changed, all };
 
 /// Encodes the frame into `out`, and returns the number of bytes, or 0 if it does not fit.
 /// Allocates nothing.
-size_t encode(const servo::Frame& frame, std::span<std::byte> out,
+size_t encode(const frame::Frame& frame, std::span<std::byte> out,
               Bodies bodies = Bodies::changed) noexcept;
 
 }  // namespace dihaptic::recording

@@ -6,7 +6,7 @@
 
 #include "base/status.h"
 #include "contact/route.h"
-#include "servo/knobs.h"
+#include "frame/knobs.h"
 
 namespace dihaptic::recording {
 namespace {
@@ -59,7 +59,7 @@ constexpr Coded kCoded[] = {
 
 std::string codes_of_knob(const std::string& name) {
     std::string out;
-    servo::Knobs::visit([&]<class T>(T servo::Knobs::*, const servo::Knob& knob) {
+    frame::Knobs::visit([&]<class T>(T frame::Knobs::*, const frame::Knob& knob) {
         if constexpr (NamedEnum<T>) {
             if (name == knob.name) out = listed<T>();
         }

@@ -12,7 +12,7 @@
 namespace dihaptic::recording {
 namespace {
 
-using servo::Frame;
+using frame::Frame;
 
 /// Size of a type that a schema names, such as "float64[3]"; nullopt if it is not a type.
 std::optional<size_t> bytes_of(std::string_view type) {
@@ -72,7 +72,7 @@ class FrameDecoder::Members {
     std::vector<OfList> lists;
 
     template <class T>
-    void operator()(const T& value, const servo::Term& term) {
+    void operator()(const T& value, const frame::Term& term) {
         into_->push_back({schema_line<T>(term), offset(value)});
     }
     template <class T>
@@ -280,7 +280,7 @@ bool FrameDecoder::read_changed(const List& list, Source& source, std::byte* fra
 }
 
 bool FrameDecoder::decode(std::span<const std::byte> in, const Layout& layout,
-                          servo::Frame& frame) const {
+                          frame::Frame& frame) const {
     frame.bodies.resize(layout.bodies);
     Source source(in);
     auto* const begin = reinterpret_cast<std::byte*>(&frame);

@@ -19,7 +19,7 @@ class FrameDecoder {
     FrameDecoder(const std::string& schema, const std::string& file);
 
     /// Decodes a frame over the frame before it; false if the bytes are not a frame of this layout.
-    bool decode(std::span<const std::byte> in, const Layout& layout, servo::Frame& frame) const;
+    bool decode(std::span<const std::byte> in, const Layout& layout, frame::Frame& frame) const;
 
     /// Fields of a Frame that the log does not have, such as "force_sent of fingers".
     const std::vector<std::string>& missing() const { return missing_; }

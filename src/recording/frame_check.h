@@ -6,6 +6,6 @@
 
 namespace dihaptic::recording {
 
-bool is_possible(const servo::Frame& frame, const Layout& layout) noexcept;
+bool is_possible(const frame::Frame& frame, const Layout& layout) noexcept;
 
 }  // namespace dihaptic::recording

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "base/geometry.h"
-#include "servo/term.h"
+#include "frame/term.h"
 
 namespace dihaptic::recording {
 
 class FrameRow {
   public:
     template <class T>
-    void operator()(const T& value, const servo::Term&) {
+    void operator()(const T& value, const frame::Term&) {
         if constexpr (std::is_same_v<T, Vec3>) {
             numbers.insert(numbers.end(), value.data(), value.data() + 3);
         } else if constexpr (std::is_same_v<T, Quat>) {

@@ -27,7 +27,7 @@ LogBrowser::LogBrowser(const std::string& file)
     // a chunk that cannot be read has no last frame
     for (size_t k = chunks_.size(); k-- > 0 && end_ == begin_;) {
         scout_.go_to(chunks_[k]);
-        while (const servo::Frame* frame = scout_.next()) end_ = seconds(frame->time);
+        while (const frame::Frame* frame = scout_.next()) end_ = seconds(frame->time);
     }
 }
 
@@ -35,7 +35,7 @@ double LogBrowser::time_of(size_t chunk) {
     double& time = times_[chunk];
     if (std::isnan(time)) {
         scout_.go_to(chunks_[chunk]);
-        const servo::Frame* const frame = scout_.next();
+        const frame::Frame* const frame = scout_.next();
         time = frame == nullptr ? std::numeric_limits<double>::infinity() : seconds(frame->time);
     }
     return time;
@@ -51,8 +51,8 @@ size_t LogBrowser::chunk_at(double time) {
     return low;
 }
 
-const servo::Frame& LogBrowser::at(double time) {
-    const auto is_past = [&](const servo::Frame& frame) { return seconds(frame.time) > time; };
+const frame::Frame& LogBrowser::at(double time) {
+    const auto is_past = [&](const frame::Frame& frame) { return seconds(frame.time) > time; };
     if (is_past(now_) || time > seconds(now_.time) + kNear) {
         const size_t chunk = chunk_at(time);
         go_to(chunk - std::min(chunk, kBefore));
@@ -63,7 +63,7 @@ const servo::Frame& LogBrowser::at(double time) {
     return now_;
 }
 
-const servo::Frame* LogBrowser::next() {
+const frame::Frame* LogBrowser::next() {
     if (ahead_ == nullptr) return nullptr;
     take();
     return &now_;

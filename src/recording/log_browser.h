@@ -19,9 +19,9 @@ class LogBrowser {
     double begin() const { return begin_; }
     double end() const { return end_; }
     /// The newest frame at a time [s]; before the first frame, that one. Valid until the next call.
-    const servo::Frame& at(double time);
+    const frame::Frame& at(double time);
     /// The frame after the one that was given last; null at the end.
-    const servo::Frame* next();
+    const frame::Frame* next();
 
   private:
     double time_of(size_t chunk);
@@ -37,8 +37,8 @@ class LogBrowser {
     double begin_ = 0;
     double end_ = 0;
     size_t chunk_ = 0;                     // that reader_ reads after this one
-    servo::Frame now_;                     // what at() gave last
-    const servo::Frame* ahead_ = nullptr;  // the frame after it; null: there is none
+    frame::Frame now_;                     // what at() gave last
+    const frame::Frame* ahead_ = nullptr;  // the frame after it; null: there is none
 };
 
 }  // namespace dihaptic::recording

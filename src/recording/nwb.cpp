@@ -95,7 +95,7 @@ class Series {
 };
 
 /// What a quantity is, and in whose axes.
-std::string words_of(const servo::Term& term) {
+std::string words_of(const frame::Term& term) {
     const std::string frame = term.frame;
     const char* const axes = frame == "W"   ? " In the world's axes."
                              : frame == "D" ? " In the device's axes."
@@ -112,7 +112,7 @@ class ListColumns {
         hdf5::Numbers numbers;
     };
     template <class T>
-    void operator()(const T&, const servo::Term& term) {
+    void operator()(const T&, const frame::Term& term) {
         const std::string parts = std::is_same_v<T, Vec3>   ? "xyz"
                                   : std::is_same_v<T, Quat> ? "wxyz"
                                                             : "";
@@ -177,12 +177,12 @@ class FrameExporter {
           not_recorded_(log.health().not_recorded),
           turning_(log.head().turning_fingers()) {}
 
-    void add(const servo::Frame& frame) {
+    void add(const frame::Frame& frame) {
         next_ = 0;
         times_.push_back(seconds(frame.time));
         regular_ = regular_ && std::abs(times_.back() - static_cast<double>(times_.size() - 1) *
                                                             head_.tick) < 1e-12;
-        servo::Frame::visit(frame, *this);
+        frame::Frame::visit(frame, *this);
     }
     void close() {
         for (Series& series : series_) series.close(head_.tick, regular_ ? nullptr : &times_);
@@ -191,7 +191,7 @@ class FrameExporter {
 
     // as a visitor
     template <class T>
-    void operator()(const T& value, const servo::Term& term) {
+    void operator()(const T& value, const frame::Term& term) {
         if constexpr (!std::is_same_v<T, Time>) {
             row_.numbers.clear();
             row_(value, term);
@@ -199,16 +199,16 @@ class FrameExporter {
             put(term, whole ? hdf5::Numbers::whole : hdf5::Numbers::real);
         }
     }
-    void each(const char* name, const std::vector<servo::FingerFrame>& fingers, const char*) {
+    void each(const char* name, const std::vector<frame::FingerFrame>& fingers, const char*) {
         each_of(head_.fingers, name, fingers);
     }
-    void each(const char* name, const std::vector<servo::TurnFrame>& turns, const char*) {
+    void each(const char* name, const std::vector<frame::TurnFrame>& turns, const char*) {
         each_of(turning_, name, turns);
     }
-    void each(const char* name, const std::vector<servo::JointFrame>& joints, const char*) {
+    void each(const char* name, const std::vector<frame::JointFrame>& joints, const char*) {
         each_of(head_.joints, name, joints);
     }
-    void changed(const char* name, const std::vector<servo::BodyFrame>& bodies,
+    void changed(const char* name, const std::vector<frame::BodyFrame>& bodies,
                  const std::vector<uint16_t>&, const char*) {
         each_of(head_.bodies, name, bodies);
     }
@@ -222,7 +222,7 @@ class FrameExporter {
             if (found == lists_.end()) {
                 ListColumns columns;
                 T::visit(item, columns);
-                const bool of_contacts = std::is_same_v<T, servo::ContactFrame>;
+                const bool of_contacts = std::is_same_v<T, frame::ContactFrame>;
                 found = lists_
                             .try_emplace(name, acquisition_,
                                          of_contacts ? name : "task_" + std::string(name), meaning,
@@ -245,7 +245,7 @@ class FrameExporter {
         list_ = nullptr;
     }
     /// Adds the row to the next series.
-    void put(const servo::Term& term, hdf5::Numbers numbers) {
+    void put(const frame::Term& term, hdf5::Numbers numbers) {
         if (next_ == series_.size()) {
             const size_t columns = row_.numbers.size();
             const bool spatial = columns == 3 && term.unit == std::string("m");
@@ -262,7 +262,7 @@ class FrameExporter {
         }
         return "World: x right, y away from the person, z up; origin on the table top.";
     }
-    std::string describe(const servo::Term& term, size_t columns) const {
+    std::string describe(const frame::Term& term, size_t columns) const {
         const std::string name = term.name;
         std::string words = list_ ? *item_ + ": " : "";
         words += words_of(term);
@@ -409,7 +409,7 @@ void write_file(const std::string& name, const std::string& session, RawLogReade
 
         const Id acquisition = create_group(file, "acquisition");
         FrameExporter exporter(acquisition, log);
-        while (const servo::Frame* frame = log.next()) {
+        while (const frame::Frame* frame = log.next()) {
             exporter.add(*frame);
             if (progress && frame->sequence % 1000 == 0) progress(0.99 * log.share());
         }

@@ -237,7 +237,7 @@ void RawLogReader::forget_bodies(bool all) {
         if (!all &&
             std::find(frame_.changed.begin(), frame_.changed.end(), i) != frame_.changed.end())
             continue;
-        servo::BodyFrame& body = frame_.bodies[i];
+        frame::BodyFrame& body = frame_.bodies[i];
         body = {{Quat(Eigen::Vector4d::Constant(kUnmeasured)), unknown}, unknown, unknown};
     }
 }
@@ -281,7 +281,7 @@ bool RawLogReader::read_frame() {
     return false;
 }
 
-const servo::Frame* RawLogReader::next() {
+const frame::Frame* RawLogReader::next() {
     while (true) {
         while (rest_.empty()) {
             if (ended_ || !read_chunk()) return nullptr;

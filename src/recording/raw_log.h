@@ -99,7 +99,7 @@ class RawLogReader {
 
     const LogHead& head() const { return head_; }
     /// Returns the next frame, valid until the next call; null at the end of what can be read.
-    const servo::Frame* next();
+    const frame::Frame* next();
     /// What was found so far; what is said of the end holds once next() has returned null.
     const LogHealth& health() const { return health_; }
     /// Reads the rest of the log, and returns what was found.
@@ -135,7 +135,7 @@ class RawLogReader {
     Unpacker unpacker_;
     std::span<const std::byte> rest_;  // the records of the chunk that are left
     bool ended_ = false;
-    servo::Frame frame_;
+    frame::Frame frame_;
     LogHealth health_;
     int64_t damaged_ = 0;     // bytes since the last frame
     int64_t gone_ = 0;        // chunks since the last frame

@@ -47,7 +47,7 @@ void Recorder::join() {
     if (sync_thread_.joinable()) sync_thread_.join();
 }
 
-void Recorder::record(const servo::Frame& frame) {
+void Recorder::record(const frame::Frame& frame) {
     const bool whole = whole_next_ || frame.time - last_whole_ >= kFlushEvery;
     const size_t size = encode(frame, encoded_, whole ? Bodies::all : Bodies::changed);
     const std::span<const std::byte> bytes(encoded_.data(), size);

@@ -34,7 +34,7 @@ class Recorder {
     /// Records a frame. A frame with more contacts than there is room for is dropped and counted.
     /// With a thread, record() neither waits nor allocates, and a frame that finds the ring full is
     /// dropped and counted too; in place, it throws Error when the disk is full.
-    void record(const servo::Frame& frame);
+    void record(const frame::Frame& frame);
     /// True once writing has failed: stop the session; finish() then throws the reason.
     bool failed() const noexcept { return failed_.load(std::memory_order_relaxed); }
     /// Writes the rest, and the end mark. Throws the error that the thread met, if any.

@@ -1,6 +1,6 @@
 #include "recording/schema.h"
 
-#include "servo/frame.h"
+#include "frame/frame.h"
 
 namespace dihaptic::recording {
 namespace {
@@ -9,7 +9,7 @@ namespace {
 class Lister {
   public:
     template <class T>
-    void operator()(const T&, const servo::Term& term) {
+    void operator()(const T&, const frame::Term& term) {
         text_ += prefix_ + schema_line<T>(term) + "\n";
     }
     template <class T>
@@ -40,8 +40,8 @@ class Lister {
 
 std::string schema() {
     Lister lister;
-    const servo::Frame frame;
-    servo::Frame::visit(frame, lister);
+    const frame::Frame frame;
+    frame::Frame::visit(frame, lister);
     return lister.take();
 }
 

@@ -13,7 +13,7 @@
 
 #include "base/clock.h"
 #include "base/geometry.h"
-#include "servo/term.h"
+#include "frame/term.h"
 
 namespace dihaptic::recording {
 
@@ -37,7 +37,7 @@ constexpr const char* type_name() {
 
 /// The line of a field, and of a list, without its indentation.
 template <class T>
-std::string schema_line(const servo::Term& term) {
+std::string schema_line(const frame::Term& term) {
     return std::string(term.name) + " " + type_name<T>() + " " + term.unit;
 }
 inline std::string schema_line(const char* list, bool changed) {

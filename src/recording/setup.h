@@ -9,7 +9,7 @@
 #include "base/field.h"
 #include "base/field_reader.h"
 #include "base/study.h"
-#include "devices/device_info.h"
+#include "frame/device_info.h"
 #include "recording/moved_by.h"
 
 namespace dihaptic::recording {
@@ -29,7 +29,7 @@ struct PhaseInfo {
 };
 
 /// The device that held a finger.
-struct DeviceRecord : devices::DeviceInfo {
+struct DeviceRecord : frame::DeviceInfo {
     std::string finger;
 
     template <class Visitor>

@@ -9,6 +9,7 @@
 
 #include "base/number.h"
 #include "base/unit.h"
+#include "model/phantom_arm.h"
 #include "rig/calibration_solver.h"
 
 namespace dihaptic::rig {

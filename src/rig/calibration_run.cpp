@@ -162,7 +162,7 @@ CalibrationSampler::CalibrationSampler(const Rig& rig, const hand::Driver* drive
       claims_(claim_devices(rig, held_fingers(rig), *devices_)),
       reader_(*devices_, held_fingers(rig)) {
     for (size_t i = 0; i < rig.devices.size(); ++i) {
-        const devices::DeviceInfo& info = devices_->info(static_cast<int>(i));
+        const frame::DeviceInfo& info = devices_->info(static_cast<int>(i));
         input_.devices.push_back(
             {rig.devices[i].finger, info.serial, rig.devices[i].X_WD(), info.arm});
     }

@@ -3,9 +3,9 @@
 namespace dihaptic::rig {
 namespace {
 
-std::vector<devices::DeviceInfo> infos(const devices::DeviceGroup& devices,
-                                       const std::vector<Adjustment>& adjustments) {
-    std::vector<devices::DeviceInfo> out;
+std::vector<frame::DeviceInfo> infos(const devices::DeviceGroup& devices,
+                                     const std::vector<Adjustment>& adjustments) {
+    std::vector<frame::DeviceInfo> out;
     for (size_t i = 0; i < adjustments.size(); ++i)
         out.push_back(devices.descriptions()[i].scaled(adjustments[i].scale));
     return out;

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "devices/device_group.h"
+#include "model/phantom_arm.h"
 
 namespace dihaptic::rig {
 

@@ -41,9 +41,9 @@ class TouchingHand final : public hand::Driver {
     std::vector<Phase> phases_;
 };
 
-std::vector<Vec3> places_of(const Display& display) {
+std::vector<Vec3> places_of(const display::Display& display) {
     std::vector<Vec3> out;
-    for (const Cross& cross : crosses()) out.push_back(display.at(cross));
+    for (const display::Cross& cross : display::crosses()) out.push_back(display.at(cross));
     return out;
 }
 
@@ -98,7 +98,7 @@ struct Rested {
 
 std::vector<Vec3> lead_person(const Rig& rig, const std::string& finger, const Guide& guide) {
     Endpoint endpoint(rig, finger, nullptr);
-    const auto count = static_cast<int>(crosses().size());
+    const auto count = static_cast<int>(display::crosses().size());
     Way way(endpoint.reader(), guide, count);
     std::vector<Vec3> out;
     for (int i = 0; i < count; ++i) {
@@ -124,7 +124,7 @@ std::vector<Vec3> lead_person(const Rig& rig, const std::string& finger, const G
     return out;
 }
 
-std::vector<Vec3> simulate(const Rig& rig, const std::string& finger, const Display& seen,
+std::vector<Vec3> simulate(const Rig& rig, const std::string& finger, const display::Display& seen,
                            const Guide& guide, const SimulatedTouch& simulated) {
     Random random(simulated.seed, "registration");
     std::vector<Vec3> places = places_of(seen);
@@ -153,8 +153,9 @@ std::vector<Vec3> simulate(const Rig& rig, const std::string& finger, const Disp
 
 }  // namespace
 
-std::vector<Vec3> lead_registration(const Rig& rig, const std::string& finger, const Display& seen,
-                                    const Guide& guide, const SimulatedTouch& simulated) {
+std::vector<Vec3> lead_registration(const Rig& rig, const std::string& finger,
+                                    const display::Display& seen, const Guide& guide,
+                                    const SimulatedTouch& simulated) {
     return is_real(rig) ? lead_person(rig, finger, guide)
                         : simulate(rig, finger, seen, guide, simulated);
 }

@@ -20,7 +20,8 @@ struct SimulatedTouch {
 /// hand [m]. On simulated devices a simulated finger touches the display where `seen` says that it
 /// is. `finger`: the one that touches. Throws Error as make_devices() does, and when a device does
 /// not answer or reach; and what `guide` throws.
-std::vector<Vec3> lead_registration(const Rig& rig, const std::string& finger, const Display& seen,
-                                    const Guide& guide, const SimulatedTouch& simulated = {});
+std::vector<Vec3> lead_registration(const Rig& rig, const std::string& finger,
+                                    const display::Display& seen, const Guide& guide,
+                                    const SimulatedTouch& simulated = {});
 
 }  // namespace dihaptic::rig

@@ -37,7 +37,7 @@ devices::DeviceConfig config_of(const Device& device) {
 
 void check_displays(const Rig& rig, Diagnostics& diagnostics) {
     std::set<std::string> names;
-    for (const Display& display : rig.displays) {
+    for (const display::Display& display : rig.displays) {
         check(display, diagnostics);
         if (names.insert(display.name).second) continue;
         diagnostics.error(display.place, "name",
@@ -48,7 +48,7 @@ void check_displays(const Rig& rig, Diagnostics& diagnostics) {
 
 void check_head(const Rig& rig, Diagnostics& diagnostics) {
     const auto tracked = std::ranges::find_if(
-        rig.displays, [](const Display& display) { return display.eyes.tracked; });
+        rig.displays, [](const display::Display& display) { return display.eyes.tracked; });
     if (!rig.head && tracked != rig.displays.end())
         diagnostics.error(tracked->eyes.place, "tracked", "follows no head: the rig has none",
                           "Add e.g. head: { stream: Head } to the rig file, or leave it out.");
@@ -113,9 +113,9 @@ void check_date(const std::string& date, const Place& place, Diagnostics& diagno
                       "Write it as 2026-11-21.");
 }
 
-void read_registration(const Rig& rig, Display& display, const std::string& file,
+void read_registration(const Rig& rig, display::Display& display, const std::string& file,
                        Diagnostics& diagnostics) {
-    Registration registration;
+    display::Registration registration;
     const bool read =
         read_named(file, display.place, "registration", display.registration,
                    "Register the display (dihaptic register), or leave out registration.",
@@ -156,7 +156,7 @@ void place_world(Rig& rig) {
     for (Device& device : rig.devices) device.position -= rig.origin;
     for (JigPoint& point : rig.jig) point.position -= rig.origin;
     if (rig.wall) rig.wall->centre -= rig.origin;
-    for (Display& display : rig.displays) display.move(-rig.origin);
+    for (display::Display& display : rig.displays) display.move(-rig.origin);
     if (rig.head) rig.head->position -= rig.origin;
     if (rig.headset) rig.headset->position -= rig.origin;
     rig.moved_by = rig.origin;
@@ -165,7 +165,7 @@ void place_world(Rig& rig) {
 
 /// How a device's readings are adjusted; nullopt if they need no adjustment.
 std::optional<Adjustment> adjustment(const Rig& rig, const Device& device,
-                                     const devices::DeviceInfo& info) {
+                                     const frame::DeviceInfo& info) {
     Adjustment out;
     out.scale = device.scale;
     const DeviceCalibration* part = rig.calibrated ? rig.calibrated->find(device.finger) : nullptr;
@@ -231,7 +231,7 @@ Rig read_rig_to_register(const std::string& file, Diagnostics& diagnostics, Name
 
 Rig read_rig(const std::string& file, Diagnostics& diagnostics, NamedBy named_by) {
     Rig rig = read_rig_to_register(file, diagnostics, named_by);
-    for (Display& display : rig.displays) {
+    for (display::Display& display : rig.displays) {
         if (display.registration.empty()) continue;
         read_registration(rig, display, beside(file, display.registration), diagnostics);
     }
@@ -302,9 +302,9 @@ void check_jig(const Rig& rig) {
                 fmt::format("Give three or more, {:.0f} mm apart to two sides.", kLeastJig * 1e3));
 }
 
-const Display& display_of(const Rig& rig, const std::string& name) {
+const display::Display& display_of(const Rig& rig, const std::string& name) {
     std::vector<std::string> names;
-    for (const Display& display : rig.displays) {
+    for (const display::Display& display : rig.displays) {
         if (display.name == name || (name.empty() && rig.displays.size() == 1)) return display;
         names.push_back(display.name);
     }
@@ -316,20 +316,21 @@ const Display& display_of(const Rig& rig, const std::string& name) {
                 fmt::format("Known: {}.", fmt::join(names, ", ")));
 }
 
-std::string registration_file(const Display& display, const std::string& rig_file) {
+std::string registration_file(const display::Display& display, const std::string& rig_file) {
     if (!display.registration.empty()) return beside(rig_file, display.registration);
     return beside(rig_file, fmt::format("{}-{}-registration.yaml", stem(rig_file), display.name));
 }
 
-void store_registration(const Rig& rig, const Registration& registration, const std::string& file) {
-    Registration out = registration;
+void store_registration(const Rig& rig, const display::Registration& registration,
+                        const std::string& file) {
+    display::Registration out = registration;
     out.move(rig.moved_by);
     write_file(to_yaml(write_fields(out)), file);
 }
 
 namespace {
 void check_registrations(const Rig& rig, const std::string& today, Diagnostics& diagnostics) {
-    for (const Display& display : rig.displays) {
+    for (const display::Display& display : rig.displays) {
         if (!display.registered) {
             if (is_real(rig))
                 diagnostics.warning(display.place, "registration",
@@ -407,11 +408,11 @@ Rig simulated_rig(const std::vector<std::string>& fingers, bool orientation) {
     return rig;
 }
 
-std::vector<devices::DeviceInfo> describe(const Rig& rig, const std::vector<std::string>& fingers,
-                                          const devices::Context& context) {
+std::vector<frame::DeviceInfo> describe(const Rig& rig, const std::vector<std::string>& fingers,
+                                        const devices::Context& context) {
     const auto [backend, configs] = held_by(rig, fingers);
     Diagnostics diagnostics;
-    std::vector<devices::DeviceInfo> out = backend.describe(configs, context, diagnostics);
+    std::vector<frame::DeviceInfo> out = backend.describe(configs, context, diagnostics);
     diagnostics.throw_if_errors();
     for (size_t i = 0; i < fingers.size(); ++i) {
         const Device& device = device_of(rig, fingers[i]);

@@ -3,13 +3,13 @@
 
 #include "devices/device_claim.h"
 #include "devices/device_group.h"
+#include "display/display.h"
+#include "display/headset.h"
+#include "display/sound.h"
 #include "keeper/kept_devices.h"
 #include "outlets/head_tracker.h"
 #include "outlets/outlet.h"
 #include "rig/calibration.h"
-#include "rig/display.h"
-#include "rig/headset.h"
-#include "rig/sound.h"
 
 namespace dihaptic::rig {
 
@@ -91,12 +91,12 @@ struct Rig {
     std::vector<outlets::OutletConfig> outlets;
     std::string calibration;  ///< path of its file, from the rig file's folder; empty: none
     std::vector<JigPoint> jig;
-    std::vector<Display> displays;
+    std::vector<display::Display> displays;
     std::optional<outlets::TrackedHead> head;
-    std::optional<Headset> headset;
-    std::optional<Patch> patch;
-    std::optional<SoundOutput> sound;  ///< unset: the system's default
-    Node settings;                     ///< settings that this rig asks for (servo::Settings)
+    std::optional<display::Headset> headset;
+    std::optional<display::Patch> patch;
+    std::optional<display::SoundOutput> sound;  ///< unset: the system's default
+    Node settings;  ///< settings that this rig asks for (frame::Settings)
     Place place;
     std::optional<Calibration> calibrated;  ///< content of the file `calibration`
     Vec3 moved_by = Vec3::Zero();           ///< the file's `origin`, before it became zero [m]
@@ -176,8 +176,8 @@ Rig uncorrected(const Rig& rig);
 /// What the rig says of the devices that fingers hold, in the fingers' order and the world's
 /// measure. Touches no hardware: what only an open device can say keeps its default. Throws Error
 /// when a finger has no device, or when options or calibration are wrong.
-std::vector<devices::DeviceInfo> describe(const Rig& rig, const std::vector<std::string>& fingers,
-                                          const devices::Context& context);
+std::vector<frame::DeviceInfo> describe(const Rig& rig, const std::vector<std::string>& fingers,
+                                        const devices::Context& context);
 /// Makes the devices for the scene's fingers, in the fingers' order, corrected and scaled.
 /// `keeping`: how a keeper owns real devices; nullopt: this process owns them. Throws Error when a
 /// finger has no device, or when the calibration is of other devices.
@@ -192,13 +192,14 @@ std::vector<devices::DeviceClaim> claim_devices(const Rig& rig,
 /// The fingers that hold a device, in the file's order.
 std::vector<std::string> held_fingers(const Rig& rig);
 /// The display of that name; if it is empty, the only one. Throws Error when there is none.
-const Display& display_of(const Rig& rig, const std::string& name);
+const display::Display& display_of(const Rig& rig, const std::string& name);
 /// Path of a display's registration: the file that the rig names, or else one beside the rig file.
-std::string registration_file(const Display& display, const std::string& rig_file);
+std::string registration_file(const display::Display& display, const std::string& rig_file);
 /// The line of a display in a rig file that names its registration.
 std::string registration_line(const std::string& rig_file, const std::string& registration_file);
 /// Writes a registration of a display of this rig, in the frame of the rig's file.
-void store_registration(const Rig& rig, const Registration& registration, const std::string& file);
+void store_registration(const Rig& rig, const display::Registration& registration,
+                        const std::string& file);
 /// The device that a finger holds. Throws Error when it holds none.
 const Device& device_of(const Rig& rig, const std::string& finger);
 /// X_WD of each finger's device.

@@ -199,7 +199,7 @@ void find_box(const Grid& grid, Workspace& out) {
 
 }  // namespace
 
-Reach::Reach(const Device& device, const devices::DeviceInfo& info)
+Reach::Reach(const Device& device, const frame::DeviceInfo& info)
     : finger_(device.finger), X_DW_(device.X_WD().inverse()), scale_(info.scale), arm_(info.arm) {
     if (arm_) {
         // a cube around the shoulder that holds the arm in any direction
@@ -231,8 +231,8 @@ std::vector<Reach> reaches(const Rig& rig) {
     const StillDriver still;
     devices::Context context;
     context.driver = &still;
-    std::vector<devices::DeviceInfo> infos = describe(rig, fingers, context);
-    const auto knows = [](const devices::DeviceInfo& info) { return info.arm || info.workspace; };
+    std::vector<frame::DeviceInfo> infos = describe(rig, fingers, context);
+    const auto knows = [](const frame::DeviceInfo& info) { return info.arm || info.workspace; };
     if (!std::all_of(infos.begin(), infos.end(), knows))
         infos = make_devices(rig, fingers, context)->descriptions();
     std::vector<Reach> out;

@@ -15,7 +15,7 @@ namespace dihaptic::rig {
 class Reach {
   public:
     /// Throws Error when the device does not say where its reach ends.
-    Reach(const Device& device, const devices::DeviceInfo& info);
+    Reach(const Device& device, const frame::DeviceInfo& info);
 
     bool contains(const Vec3& p_WH) const;
     /// A box along the world's axes that holds the reach [m].

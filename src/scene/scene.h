@@ -13,6 +13,7 @@
 #include "scene/joint.h"
 #include "scene/lattice.h"
 #include "scene/look.h"
+#include "scene/proxy_kind.h"
 #include "scene/shape.h"
 #include "scene/surface.h"
 
@@ -113,12 +114,6 @@ struct Body {
     }
 };
 
-/// What a finger's proxy is: a rigid body of the finger's shape, or a point kept on surfaces.
-enum class ProxyKind { rigid, point };
-constexpr auto enum_names(ProxyKind) {
-    return std::array{"rigid", "point"};
-}
-
 /// A finger's proxy in the world. Gravity does not act on it. It keeps its canonical orientation
 /// or, with a device that measures orientation, turns from it.
 struct Finger {
@@ -188,7 +183,7 @@ struct Scene {
     std::vector<Finger> fingers;  ///< empty in a file: thumb and index, two pads for a grip along x
     std::string object;  ///< the body that summaries are about; empty: the first one that can move
     std::vector<Camera> cameras;  ///< in addition to those that every scene has (view/camera.h)
-    Node settings;                ///< settings that this scene asks for (servo::Settings)
+    Node settings;                ///< settings that this scene asks for (frame::Settings)
     Node hand;                    ///< how the simulated hand tries out the scene (hand::HandSpec)
     Place bodies_place;           ///< in the scene file
     Place object_place;

@@ -67,13 +67,13 @@ std::string describe(const Timing::Stall& stall) {
                                      : "the watchdog could not switch the devices' force off");
 }
 
-Time run_virtual(Servo& servo, const Director& director, const FrameSink& sink, Time most,
-                 const std::atomic<bool>& stop, TickTimes* times) {
+Time run_virtual(Servo& servo, const frame::Director& director, const frame::FrameSink& sink,
+                 Time most, const std::atomic<bool>& stop, TickTimes* times) {
     Time now{0};
     const auto tick = [&] {
         if (now > most || stop.load(std::memory_order_relaxed)) return false;
         const auto begin = Steady::now();
-        const Frame& frame = servo.tick(now, director);
+        const frame::Frame& frame = servo.tick(now, director);
         if (sink) sink(frame);
         if (times != nullptr) times->add(elapsed(begin));
         if (servo.stopped()) return false;
@@ -94,8 +94,8 @@ namespace {
 /// A run on the real clock, in the thread that calls the ticks.
 struct RealLoop {
     Servo& servo;
-    const Director& director;
-    const FrameSink& sink;
+    const frame::Director& director;
+    const frame::FrameSink& sink;
     const std::atomic<bool>& stop;
     Timing& timing;
     Watchdog& watchdog;
@@ -108,7 +108,7 @@ struct RealLoop {
     bool tick(Time due, Time now, Steady::time_point begin) noexcept {
         const double lateness = seconds(begin - (start + due));
         servo.note_timing(lateness, last_tick, overrun);
-        const Frame& frame = servo.tick(now, director);
+        const frame::Frame& frame = servo.tick(now, director);
         if (sink) sink(frame);
         if ((frame.status & kLate) != 0 && !servo.real()) {
             ++timing.pauses;
@@ -170,8 +170,8 @@ struct RealLoop {
 
 }  // namespace
 
-void run_real(Servo& servo, const Director& director, const FrameSink& sink, Time first, Time last,
-              const std::atomic<bool>& stop, Timing& timing,
+void run_real(Servo& servo, const frame::Director& director, const frame::FrameSink& sink,
+              Time first, Time last, const std::atomic<bool>& stop, Timing& timing,
               const std::function<void(const Timing::Stall&)>& stuck) {
     std::thread thread([&] {
         const RealTime real_time(servo.settings().real_time_priority);

@@ -11,10 +11,6 @@
 
 namespace dihaptic::servo {
 
-/// Receives each Frame. On the real clock it runs in the servo's thread: it must neither wait nor
-/// allocate.
-using FrameSink = std::function<void(const Frame&)>;
-
 /// Durations, one for each tick. Reserve before a real-time run: once full, it drops further ones.
 class TickTimes {
   public:
@@ -67,8 +63,8 @@ std::string describe(const Timing::Stall& stall);
 /// Runs ticks on the virtual clock until the director stops, `stop` becomes true, or time `most`
 /// has passed. Devices that pace call the ticks, one per period of virtual time. Returns the time
 /// reached.
-Time run_virtual(Servo& servo, const Director& director, const FrameSink& sink, Time most,
-                 const std::atomic<bool>& stop, TickTimes* times = nullptr);
+Time run_virtual(Servo& servo, const frame::Director& director, const frame::FrameSink& sink,
+                 Time most, const std::atomic<bool>& stop, TickTimes* times = nullptr);
 
 /// Runs ticks in real time, from `first` to `last`, in a thread of its own with what RealTime is
 /// granted: one at each deadline of Pace, on the monotonic clock plus the time for which the
@@ -76,8 +72,8 @@ Time run_virtual(Servo& servo, const Director& director, const FrameSink& sink, 
 /// no tick has ended for longer than `max_pause`; if the loop then goes on, the next tick finds
 /// itself late. If it never does, `stuck` is called from the watchdog's thread: this function can
 /// no longer return, and the program should end.
-void run_real(Servo& servo, const Director& director, const FrameSink& sink, Time first, Time last,
-              const std::atomic<bool>& stop, Timing& timing,
+void run_real(Servo& servo, const frame::Director& director, const frame::FrameSink& sink,
+              Time first, Time last, const std::atomic<bool>& stop, Timing& timing,
               const std::function<void(const Timing::Stall&)>& stuck = {});
 
 }  // namespace dihaptic::servo

@@ -22,7 +22,7 @@ FaultKind reported_by(const devices::Reading& reading) {
 
 /// The box that a hand is kept in: the wall or, without one, the device's workspace if it is
 /// stated.
-std::optional<haptics::WorkspaceBox> box_of(const devices::DeviceInfo& info, const Pose& X_0D,
+std::optional<haptics::WorkspaceBox> box_of(const frame::DeviceInfo& info, const Pose& X_0D,
                                             const std::optional<Eigen::AlignedBox3d>& wall) {
     if (wall) return haptics::WorkspaceBox{{Quat::Identity(), wall->center()}, wall->sizes()};
     if (info.workspace) return haptics::WorkspaceBox{X_0D, *info.workspace};
@@ -30,8 +30,8 @@ std::optional<haptics::WorkspaceBox> box_of(const devices::DeviceInfo& info, con
 }
 
 dynamics::BodyIndex add_proxy(dynamics::World& world, const scene::Finger& finger,
-                              haptics::ProxyKind kind, bool changeable, bool turns) {
-    const bool is_point = kind == haptics::ProxyKind::point;
+                              scene::ProxyKind kind, bool changeable, bool turns) {
+    const bool is_point = kind == scene::ProxyKind::point;
     if (!changeable) {
         return is_point ? world.add_point(finger, Vec3::Zero(), turns)
                         : world.add_proxy(finger, Vec3::Zero(), turns);
@@ -41,13 +41,12 @@ dynamics::BodyIndex add_proxy(dynamics::World& world, const scene::Finger& finge
     return proxy;
 }
 
-haptics::ProxyKind other_than(haptics::ProxyKind kind) {
-    return kind == haptics::ProxyKind::point ? haptics::ProxyKind::rigid
-                                             : haptics::ProxyKind::point;
+scene::ProxyKind other_than(scene::ProxyKind kind) {
+    return kind == scene::ProxyKind::point ? scene::ProxyKind::rigid : scene::ProxyKind::point;
 }
 
 void scale_friction(double scale, dynamics::World& world) noexcept {
-    if (!Knobs::same(scale, world.friction_scale())) world.set_friction_scale(scale);
+    if (!frame::Knobs::same(scale, world.friction_scale())) world.set_friction_scale(scale);
 }
 
 bool any_force_dropped(std::span<const devices::Reading> readings) noexcept {
@@ -58,7 +57,7 @@ bool any_force_dropped(std::span<const devices::Reading> readings) noexcept {
 
 }  // namespace
 
-Servo::Servo(const scene::Scene& scene, const Settings& settings,
+Servo::Servo(const scene::Scene& scene, const frame::Settings& settings,
              std::unique_ptr<devices::DeviceGroup> devices, std::vector<Pose> X_WD,
              const std::optional<Eigen::AlignedBox3d>& wall)
     : settings_(settings),
@@ -72,8 +71,8 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
       in_force_(settings.coupling),
       soft_start_(settings.safety.soft_start) {
     for (size_t i = 0; i < scene.fingers.size(); ++i) {
-        const devices::DeviceInfo& info = devices_->info(static_cast<int>(i));
-        const haptics::SafetySettings& safety = settings.safety;
+        const frame::DeviceInfo& info = devices_->info(static_cast<int>(i));
+        const frame::SafetySettings& safety = settings.safety;
         real_ = real_ || !info.simulated;
         damping_ = std::min(damping_, info.damping > 0 ? info.damping : haptics::kLooseDamping);
         if (safety.hand_damping) damping_ = *safety.hand_damping;
@@ -84,7 +83,7 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
         if (scene.fingers[i].name == settings.safety.dead_man_finger)
             dead_man_ = static_cast<int>(i);
         const scene::Finger& finger = scene.fingers[i];
-        const haptics::ProxyKind kind = settings.proxy.of(finger);
+        const scene::ProxyKind kind = settings.proxy.of(finger.proxy);
         if (info.measures_orientation) turning_.push_back(i);
         const bool changeable = settings.proxy.changeable && !finger.proxy;
         const bool turns = info.measures_orientation && (changeable || turns_with_handle(kind));
@@ -95,7 +94,7 @@ Servo::Servo(const scene::Scene& scene, const Settings& settings,
         X_D0_.push_back(X_0D_[i].inverse());
         guards_.emplace_back(settings.safety.max_speed * info.scale);
     }
-    commands_.knobs = Knobs::of(settings);
+    commands_.knobs = frame::Knobs::of(settings);
     const size_t n = fingers_.size();
     readings_.resize(n);
     handles_.resize(n);
@@ -111,21 +110,21 @@ Servo::~Servo() {
 }
 
 /// An "apart" point has nothing through which it could turn a body.
-bool Servo::turns_with_handle(haptics::ProxyKind kind) const noexcept {
-    return kind == haptics::ProxyKind::rigid ||
-           settings_.proxy.friction == haptics::PointFriction::together;
+bool Servo::turns_with_handle(scene::ProxyKind kind) const noexcept {
+    return kind == scene::ProxyKind::rigid ||
+           settings_.proxy.friction == frame::PointFriction::together;
 }
 
 haptics::Finger Servo::make_finger(const scene::Scene& scene, size_t finger,
-                                   dynamics::BodyIndex proxy, haptics::ProxyKind kind) const {
+                                   dynamics::BodyIndex proxy, scene::ProxyKind kind) const {
     const scene::Finger& of = scene.fingers[finger];
-    const devices::DeviceInfo& info = devices_->info(static_cast<int>(finger));
+    const frame::DeviceInfo& info = devices_->info(static_cast<int>(finger));
     const auto made = [&] {
-        if (kind == haptics::ProxyKind::rigid) {
+        if (kind == scene::ProxyKind::rigid) {
             return haptics::Finger(of, proxy, settings_.coupling,
                                    settings_.safety.largest_force(info.peak_force, info.scale));
         }
-        if (settings_.proxy.friction == haptics::PointFriction::together) {
+        if (settings_.proxy.friction == frame::PointFriction::together) {
             return haptics::Finger(
                 haptics::SolvedPoint(scene, proxy, settings_.coupling, settings_.proxy), proxy);
         }
@@ -134,19 +133,19 @@ haptics::Finger Servo::make_finger(const scene::Scene& scene, size_t finger,
     };
     haptics::Finger out = made();
     if (info.measures_orientation && turns_with_handle(kind)) {
-        const double inertia = kind == haptics::ProxyKind::point ? 0 : world_.inertia(proxy);
+        const double inertia = kind == scene::ProxyKind::point ? 0 : world_.inertia(proxy);
         out.turn_with_handle(
             haptics::RotationalCoupling(settings_.coupling, inertia, rotation_xyz(of.rotation)));
     }
     return out;
 }
 
-void Servo::change_proxies(haptics::ProxyKind kind) noexcept {
+void Servo::change_proxies(scene::ProxyKind kind) noexcept {
     settings_.proxy.kind = kind;
     for (size_t i = 0; i < fingers_.size(); ++i) {
         if (!spares_[i]) continue;
         std::swap(fingers_[i], *spares_[i]);
-        world_.set_point(fingers_[i].proxy(), kind == haptics::ProxyKind::point);
+        world_.set_point(fingers_[i].proxy(), kind == scene::ProxyKind::point);
         fingers_[i].retune(in_force_);
         fingers_[i].place(world_, handles_[i]);
     }
@@ -164,7 +163,7 @@ void Servo::activate() {
     stopped_ = false;
 }
 
-void Servo::reserve(Frame& frame) const {
+void Servo::reserve(frame::Frame& frame) const {
     frame.fingers.resize(fingers_.size());
     frame.turns.resize(turning_.size());
     frame.bodies.resize(static_cast<size_t>(world_.scene_size()));
@@ -223,7 +222,7 @@ void Servo::note_timing(double lateness, double last_tick, bool overrun) noexcep
     overrun_ = overrun;
 }
 
-const Frame& Servo::tick(Time now, const Director& director) noexcept {
+const frame::Frame& Servo::tick(Time now, const frame::Director& director) noexcept {
     measure(now);
     commands_.clear();
     if (director) director(frame_, handles_, commands_);
@@ -246,7 +245,7 @@ const Frame& Servo::tick(Time now, const Director& director) noexcept {
 }
 
 void Servo::turn_knobs() noexcept {
-    const Knobs& knobs = commands_.knobs;
+    const frame::Knobs& knobs = commands_.knobs;
     retune();
     if (knobs.proxy != settings_.proxy.kind) change_proxies(knobs.proxy);
     scale_friction(knobs.friction_scale, world_);
@@ -278,7 +277,7 @@ void Servo::measure(Time now) noexcept {
     if ((real_ && lateness_fault_) || faults_.tripped()) turn_.stop();
     turn_.advance(elapsed);
     for (size_t i = 0; i < fingers_.size(); ++i) {
-        haptics::Handle read{X_0D_[i] * readings_[i].p_DH, X_0D_[i].R * readings_[i].v_DH};
+        frame::Handle read{X_0D_[i] * readings_[i].p_DH, X_0D_[i].R * readings_[i].v_DH};
         const bool orientation = devices_->info(static_cast<int>(i)).measures_orientation;
         if (orientation) {
             // the same turn, expressed about the world's axes
@@ -289,7 +288,7 @@ void Servo::measure(Time now) noexcept {
         haptics::Fault fault;
         fault.device = static_cast<int>(i);
         fault.time = now;
-        const haptics::Handle before = unturned_[i];
+        const frame::Handle before = unturned_[i];
         unturned_[i] = guards_[i].accept(read, reported_by(readings_[i]), moved_for, fault);
         moves_[i] = {unturned_[i].p_WH - before.p_WH,
                      rotation_vector(unturned_[i].R_WH * before.R_WH.conjugate())};
@@ -384,17 +383,17 @@ void for_each_lapsed(const std::vector<Order>& before, const std::vector<Order>&
 }  // namespace
 
 void Servo::order_bodies() noexcept {
-    const TaskFrame& task = commands_.task;
-    for (const PlacementFrame& placement : task.placements)
+    const frame::TaskFrame& task = commands_.task;
+    for (const frame::PlacementFrame& placement : task.placements)
         world_.set_pose({placement.body}, placement.X_WB);
-    for (const PlacementFrame& placement : task.placements) {
+    for (const frame::PlacementFrame& placement : task.placements) {
         if (!placement.v_WB.isZero(0) || !placement.w_WB.isZero(0))
             world_.set_motion({placement.body}, placement.v_WB, placement.w_WB);
     }
-    for (const DriveFrame& drive : task.drives) world_.drive({drive.body}, drive.X_WB);
-    for_each_lapsed(frame_.task.properties, task.properties, &PropertiesFrame::body,
+    for (const frame::DriveFrame& drive : task.drives) world_.drive({drive.body}, drive.X_WB);
+    for_each_lapsed(frame_.task.properties, task.properties, &frame::PropertiesFrame::body,
                     [&](int32_t body) { world_.set_properties({body}, {}); });
-    for (const PropertiesFrame& now : task.properties) {
+    for (const frame::PropertiesFrame& now : task.properties) {
         world_.set_properties(
             {now.body}, {now.mass_scale, now.weight_scale, now.turning_scale, now.friction_scale,
                          now.stiffness_scale, now.restitution_scale});
@@ -402,21 +401,21 @@ void Servo::order_bodies() noexcept {
 }
 
 void Servo::order_joints() noexcept {
-    const TaskFrame& task = commands_.task;
+    const frame::TaskFrame& task = commands_.task;
     for_each_lapsed(
-        frame_.task.joint_properties, task.joint_properties, &JointPropertiesFrame::joint,
+        frame_.task.joint_properties, task.joint_properties, &frame::JointPropertiesFrame::joint,
         [&](int32_t joint) { world_.set_joint_properties(static_cast<size_t>(joint), {}); });
-    for (const JointPropertiesFrame& now : task.joint_properties) {
+    for (const frame::JointPropertiesFrame& now : task.joint_properties) {
         world_.set_joint_properties(static_cast<size_t>(now.joint),
                                     {now.stiffness_scale, now.damping_scale, now.friction_scale});
     }
 }
 
 void Servo::apply_loads() noexcept {
-    for (const LoadFrame& load : commands_.task.loads) {
+    for (const frame::LoadFrame& load : commands_.task.loads) {
         if (load.body < world_.scene_size()) world_.apply({load.body}, load.force_W, load.torque_W);
     }
-    for (const MotorFrame& ordered : commands_.task.motors) {
+    for (const frame::MotorFrame& ordered : commands_.task.motors) {
         dynamics::Motor motor{{}, ordered.most_force, ordered.push};
         if (ordered.follows != 0) motor.position = ordered.position;
         world_.drive_joint(static_cast<size_t>(ordered.joint), motor);
@@ -425,7 +424,7 @@ void Servo::apply_loads() noexcept {
 
 void Servo::add_loads(size_t finger, Wrench& felt_W) const noexcept {
     Wrench sum;
-    for (const LoadFrame& load : commands_.task.loads) {
+    for (const frame::LoadFrame& load : commands_.task.loads) {
         if (load.body != fingers_[finger].proxy().value) continue;
         sum.force += load.force_W;
         sum.torque += load.torque_W;

@@ -14,51 +14,17 @@
 #include <span>
 #include <utility>
 
+#include "frame/orders.h"
+#include "frame/settings.h"
 #include "haptics/finger.h"
 #include "haptics/force_guard.h"
 #include "haptics/safety.h"
 #include "haptics/soft_start.h"
 #include "rig/rig.h"
-#include "servo/frame.h"
 #include "servo/lateness.h"
-#include "servo/settings.h"
 #include "servo/workspace_turn.h"
 
 namespace dihaptic::servo {
-
-/// Orders that hold until the director changes them.
-struct LastingOrders {
-    int32_t trial = 0;
-    int32_t phase = 0;
-    Knobs knobs;  ///< at first those of the settings
-};
-
-/// Orders for one tick: none are given before the director is called.
-struct TickOrders {
-    bool stop = false;       ///< this tick is the last
-    bool force_off = false;  ///< from this tick on, for good, as the operator wishes
-    bool rest = false;       ///< no force in this tick, which is the last until resume(): a pause
-    /// Time for which the window that watches the session has not answered, if that is too long:
-    /// force is then off from this tick on [s].
-    double abandoned = 0;
-    TaskFrame task;
-
-    /// Resets to no orders; keeps the memory.
-    void clear() noexcept {
-        TaskFrame memory = std::move(task);
-        memory.clear();
-        *this = {};
-        task = std::move(memory);
-    }
-};
-
-/// What the director orders in a tick.
-struct Commands : LastingOrders, TickOrders {};
-
-/// Called in each tick with the last Frame and the handles as just read; fills in the commands. As
-/// part of the tick it must not allocate, lock or throw.
-using Director = std::function<void(const Frame& last, std::span<const haptics::Handle> handles,
-                                    Commands& commands)>;
 
 /// Time for which a run goes on after a fault, without force, to record what becomes of the
 /// objects.
@@ -68,7 +34,7 @@ class Servo {
   public:
     /// `X_WD` and the devices are in the order of the scene's fingers. `wall` is the box that hands
     /// are kept in; without one it is each device's workspace, if the device states that.
-    Servo(const scene::Scene& scene, const Settings& settings,
+    Servo(const scene::Scene& scene, const frame::Settings& settings,
           std::unique_ptr<devices::DeviceGroup> devices, std::vector<Pose> X_WD,
           const std::optional<Eigen::AlignedBox3d>& wall = {});
     ~Servo();
@@ -87,10 +53,10 @@ class Servo {
     void resume();
     /// Reserves memory in `frame` for any Frame of this servo, so that copying one into it
     /// allocates nothing.
-    void reserve(Frame& frame) const;
+    void reserve(frame::Frame& frame) const;
 
     /// One tick at `now`; returns its Frame, valid until the next tick.
-    const Frame& tick(Time now, const Director& director) noexcept;
+    const frame::Frame& tick(Time now, const frame::Director& director) noexcept;
     /// Whether the last tick was the final one: its director asked to stop or to rest, a recording
     /// ended, the operator switched force off, or the grace after a fault is over.
     bool stopped() const { return stopped_; }
@@ -117,7 +83,7 @@ class Servo {
     double damping() const { return damping_; }
 
     Time period() const { return period_; }
-    const Settings& settings() const { return settings_; }
+    const frame::Settings& settings() const { return settings_; }
     const dynamics::World& world() const { return world_; }
     dynamics::World& world() { return world_; }
     const devices::DeviceGroup& devices() const { return *devices_; }
@@ -138,9 +104,9 @@ class Servo {
     void turn_workspaces(double rate) noexcept;
     void make_forces(Time now) noexcept;
     haptics::Finger make_finger(const scene::Scene& scene, size_t finger, dynamics::BodyIndex proxy,
-                                haptics::ProxyKind kind) const;
-    void change_proxies(haptics::ProxyKind kind) noexcept;
-    bool turns_with_handle(haptics::ProxyKind kind) const noexcept;
+                                scene::ProxyKind kind) const;
+    void change_proxies(scene::ProxyKind kind) noexcept;
+    bool turns_with_handle(scene::ProxyKind kind) const noexcept;
     /// Puts bodies where they are ordered to be, and sets their ordered properties.
     void order_bodies() noexcept;
     void order_joints() noexcept;
@@ -153,12 +119,12 @@ class Servo {
     bool steps_now() const noexcept {
         return (frame_.sequence + 1) % settings_.dynamics.every == 0;
     }
-    void make_frame(Time now, const Commands& commands, dynamics::StepStatus step) noexcept;
+    void make_frame(Time now, const frame::Commands& commands, dynamics::StepStatus step) noexcept;
     void merge_contacts() noexcept;
     void merge_contacts(std::span<const contact::Contact> contacts) noexcept;
     void measure_grasp() noexcept;
 
-    Settings settings_;
+    frame::Settings settings_;
     Time period_;
     dynamics::World world_;
     std::vector<haptics::Finger> fingers_;
@@ -168,7 +134,7 @@ class Servo {
     std::vector<Pose> X_0D_;  // in the world before the workspaces' turn
     std::vector<Pose> X_D0_;
     WorkspaceTurn turn_;
-    std::vector<haptics::Handle> unturned_;
+    std::vector<frame::Handle> unturned_;
     struct Move {
         Vec3 way = Vec3::Zero();   // [m]
         Vec3 turn = Vec3::Zero();  // [rad]
@@ -179,9 +145,9 @@ class Servo {
     haptics::Fault lateness_fault_;  // of this tick; only reported if no device is real
     bool real_ = false;
     double damping_ = 0;
-    haptics::CouplingSettings in_force_;
+    frame::CouplingSettings in_force_;
     std::vector<devices::Reading> readings_;
-    std::vector<haptics::Handle> handles_;
+    std::vector<frame::Handle> handles_;
     std::vector<haptics::HandleGuard> guards_;
     std::vector<haptics::FaultKind> device_faults_;  // of this tick's readings
     haptics::FaultLatch faults_;
@@ -199,8 +165,8 @@ class Servo {
     };
     std::vector<Force> forces_;
     std::vector<Wrench> sent_D_;
-    Frame frame_;
-    Commands commands_;
+    frame::Frame frame_;
+    frame::Commands commands_;
     double lateness_ = kUnmeasured;
     double last_tick_ = kUnmeasured;
     bool overrun_ = false;

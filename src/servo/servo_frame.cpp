@@ -25,7 +25,7 @@ uint32_t step_status(dynamics::StepStatus step, const dynamics::World& world) no
     return status;
 }
 
-void note_solver(const dynamics::World& world, Frame& frame) noexcept {
+void note_solver(const dynamics::World& world, frame::Frame& frame) noexcept {
     const contact::SolveStats& solve = world.solve_stats();
     frame.solver = world.solver();
     frame.solver_iterations = solve.iterations;
@@ -35,7 +35,7 @@ void note_solver(const dynamics::World& world, Frame& frame) noexcept {
     frame.solver_route = static_cast<int32_t>(solve.route);
 }
 
-void note_balance(const dynamics::Balance& balance, Frame& frame) noexcept {
+void note_balance(const dynamics::Balance& balance, frame::Frame& frame) noexcept {
     frame.kinetic_energy = balance.kinetic;
     frame.potential_energy = balance.potential;
     frame.work = balance.work;
@@ -46,8 +46,8 @@ void note_balance(const dynamics::Balance& balance, Frame& frame) noexcept {
     if (balance.unbalanced) frame.status |= kUnbalanced;
 }
 
-void note_motion(const devices::Reading& reading, const haptics::Handle& handle,
-                 const dynamics::BodyState& proxy, FingerFrame& out) noexcept {
+void note_motion(const devices::Reading& reading, const frame::Handle& handle,
+                 const dynamics::BodyState& proxy, frame::FingerFrame& out) noexcept {
     out.p_DH = reading.p_DH;
     out.v_DH = reading.v_DH;
     out.p_WH = handle.p_WH;
@@ -60,8 +60,8 @@ void note_motion(const devices::Reading& reading, const haptics::Handle& handle,
     if (!finite) out.status |= kNotFinite;
 }
 
-void note_body(const dynamics::BodyState& state, uint16_t body, Frame& frame) noexcept {
-    BodyFrame& out = frame.bodies[body];
+void note_body(const dynamics::BodyState& state, uint16_t body, frame::Frame& frame) noexcept {
+    frame::BodyFrame& out = frame.bodies[body];
     out.X_WB = state.X_WB;
     out.v_WB = state.v_WB;
     out.w_WB = state.w_WB;
@@ -73,7 +73,7 @@ void note_body(const dynamics::BodyState& state, uint16_t body, Frame& frame) no
 }
 
 /// Notes the bodies that were stepped: bodies that stay asleep have not changed.
-void note_bodies(const dynamics::World& world, Frame& frame) noexcept {
+void note_bodies(const dynamics::World& world, frame::Frame& frame) noexcept {
     const auto states = world.states();
     const size_t count = frame.bodies.size();
     frame.changed.clear();
@@ -86,10 +86,10 @@ void note_bodies(const dynamics::World& world, Frame& frame) noexcept {
     }
 }
 
-void note_joints(std::span<const dynamics::JointState> states, Frame& frame) noexcept {
+void note_joints(std::span<const dynamics::JointState> states, frame::Frame& frame) noexcept {
     for (size_t i = 0; i < states.size(); ++i) {
         const dynamics::JointState& state = states[i];
-        JointFrame& out = frame.joints[i];
+        frame::JointFrame& out = frame.joints[i];
         if (state.kind == scene::JointKind::hinge) {
             out.angle = state.position;
             out.angular_velocity = state.velocity;
@@ -105,7 +105,8 @@ void note_joints(std::span<const dynamics::JointState> states, Frame& frame) noe
 
 }  // namespace
 
-void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus step) noexcept {
+void Servo::make_frame(Time now, const frame::Commands& commands,
+                       dynamics::StepStatus step) noexcept {
     ++frame_.sequence;
     frame_.time = now;
     frame_.trial = commands.trial;
@@ -119,7 +120,7 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
     if (faults_.fault().time == now) frame_.status |= fault_status(faults_.fault().kind);
     if (!real_) frame_.status |= fault_status(lateness_fault_.kind);
     if (in_force_.stiffness < commands.knobs.stiffness) frame_.status |= kSoftened;
-    static_cast<Knobs&>(frame_) = commands.knobs;  // but for those that are not in force yet
+    static_cast<frame::Knobs&>(frame_) = commands.knobs;  // but for those that are not in force yet
     frame_.set_coupling(in_force_);
     note_solver(world_, frame_);
     note_balance(world_.balance(), frame_);
@@ -128,7 +129,7 @@ void Servo::make_frame(Time now, const Commands& commands, dynamics::StepStatus 
     frame_.lateness = lateness_;
     frame_.tick_duration = last_tick_;
     for (size_t i = 0; i < fingers_.size(); ++i) {
-        FingerFrame& out = frame_.fingers[i];
+        frame::FingerFrame& out = frame_.fingers[i];
         const haptics::ProxyTouch& touch = fingers_[i].touch();
         out.buttons = readings_[i].buttons;
         out.status = readings_[i].status | forces_[i].status | fault_status(device_faults_[i]);
@@ -172,13 +173,13 @@ void Servo::merge_contacts(std::span<const contact::Contact> contacts) noexcept 
                 frame_.status |= kContactsFull;
                 break;
             }
-            ContactFrame& out = frame_.contacts.emplace_back();
+            frame::ContactFrame& out = frame_.contacts.emplace_back();
             out.a = c.a.value;
             out.b = c.b.value;
             out.gap = c.gap;
             pressed = 0;
         }
-        ContactFrame& out = frame_.contacts.back();
+        frame::ContactFrame& out = frame_.contacts.back();
         // running means, weighted by pressure; the small constant gives unloaded contacts some
         // weight
         const double weight = c.normal_force + 1e-12;

@@ -28,7 +28,7 @@ void Servo::judge_lateness(Time now, double elapsed) noexcept {
 }
 
 void Servo::retune() noexcept {
-    haptics::CouplingSettings next = commands_.knobs.coupled(settings_.coupling);
+    frame::CouplingSettings next = commands_.knobs.coupled(settings_.coupling);
     if (real_) next = haptics::softened(next, damping_, late_.sustained(), settings_.tick());
     if (next == in_force_) return;
     in_force_ = next;

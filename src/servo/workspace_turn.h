@@ -73,9 +73,9 @@ class WorkspaceTurn {
     }
     Pose turned(const Pose& X) const noexcept { return {R_ * X.R, turned(X.p)}; }
     /// `orientation`: whether the handle has an orientation and an angular velocity.
-    haptics::Handle turned(const haptics::Handle& handle, bool orientation) const noexcept {
+    frame::Handle turned(const frame::Handle& handle, bool orientation) const noexcept {
         if (angle_ == 0 && rate_ == 0) return handle;
-        haptics::Handle out;
+        frame::Handle out;
         out.p_WH = turned(handle.p_WH);
         out.v_WH = R_ * handle.v_WH + angular_velocity().cross(out.p_WH - p_WC_);
         if (!orientation) return out;

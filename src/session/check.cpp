@@ -63,7 +63,7 @@ std::vector<Problem> endless_states(const task::TaskPlan& task) {
 }
 
 void warn_of_shares(const Plan& plan, Diagnostics& diagnostics) {
-    const haptics::CouplingSettings& coupling = plan.settings.coupling;
+    const frame::CouplingSettings& coupling = plan.settings.coupling;
     if (!coupling.stiffness_share && !coupling.damping_share) return;
     diagnostics.warning(plan.rig.place, "coupling",
                         "has a share of what the devices render at most, which they say only once "

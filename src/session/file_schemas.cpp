@@ -8,10 +8,10 @@
 #include "base/choices.h"
 #include "base/installed.h"
 #include "base/json_schema.h"
+#include "frame/settings.h"
 #include "person/population.h"
 #include "rig/kinds.h"
 #include "scene/kinds.h"
-#include "servo/settings.h"
 #include "task/experiment.h"
 #include "task/kinds.h"
 
@@ -26,7 +26,7 @@ Json by_name(const Json& value) {
 template <class Struct>
 std::string schema_of(const char* heading) {
     JsonSchema schema;
-    schema.part("settings", "Settings", servo::Settings{});
+    schema.part("settings", "Settings", frame::Settings{});
     schema.part("hand", "Hand", hand::HandSpec{});
     schema.part("bodies", by_name(JsonSchema::yes_or_no()));
     schema.part("fingers", by_name(JsonSchema::yes_or_no()));
@@ -44,7 +44,7 @@ constexpr std::array kSchemas{
     FileSchema{"experiment", [] { return schema_of<task::Experiment>("Experiment"); }},
     FileSchema{"population", [] { return schema_of<person::Population>("Population"); }},
     FileSchema{"calibration", [] { return schema_of<rig::Calibration>("Calibration"); }},
-    FileSchema{"registration", [] { return schema_of<rig::Registration>("Registration"); }},
+    FileSchema{"registration", [] { return schema_of<display::Registration>("Registration"); }},
 };
 
 }  // namespace

@@ -163,7 +163,7 @@ class Freezer {
             write_file(to_yaml(write_fields(*rig.calibrated)), folder_.file(rig.calibration));
             list(rig.calibration);
         }
-        for (rig::Display& display : rig.displays) {
+        for (display::Display& display : rig.displays) {
             if (!display.registered) continue;
             display.registration = fmt::format("registration-{}.yaml", inputs_.size());
             write_file(to_yaml(write_fields(*display.registered)),

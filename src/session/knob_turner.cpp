@@ -11,12 +11,12 @@ void KnobTurner::prepare(const servo::Servo& servo, const scene::Scene& scene) {
     changeable_ = servo.settings().proxy.changeable;
 }
 
-void KnobTurner::turn(const servo::Frame& last, double h, servo::Knobs& now) noexcept {
-    using servo::Knobs;
+void KnobTurner::turn(const frame::Frame& last, double h, frame::Knobs& now) noexcept {
+    using frame::Knobs;
     const std::optional<Knobs>& wanted = wanted_.read();
     if (!wanted) return;
     bool anew = false;
-    Knobs::visit([&](auto knob, const servo::Knob& is) {
+    Knobs::visit([&](auto knob, const frame::Knob& is) {
         anew = anew || (is.eased && !Knobs::same(goal_.*knob, (*wanted).*knob));
     });
     goal_ = *wanted;
@@ -25,7 +25,7 @@ void KnobTurner::turn(const servo::Frame& last, double h, servo::Knobs& now) noe
     const double share = left_ > h ? h / left_ : 1;
     left_ = std::max(0.0, left_ - h);
     Knobs next = goal_;
-    Knobs::visit([&]<class T>(T Knobs::*knob, const servo::Knob& is) {
+    Knobs::visit([&]<class T>(T Knobs::*knob, const frame::Knob& is) {
         if constexpr (std::is_same_v<T, double>) {
             const double eased = now.*knob + share * (goal_.*knob - now.*knob);
             if (is.eased && share < 1 && !std::isnan(eased)) next.*knob = eased;

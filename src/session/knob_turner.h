@@ -16,19 +16,19 @@ class KnobTurner {
     /// settings.proxy.changeable, once all fingers are clear of all bodies, so that no finger lets
     /// go of what it holds or pushes away what it overlaps. The workspaces turn to the angle; the
     /// rate follows from it.
-    void publish(const servo::Knobs& knobs) { wanted_.publish(knobs); }
+    void publish(const frame::Knobs& knobs) { wanted_.publish(knobs); }
     static constexpr double kEase = 0.2;  // [s]
 
     /// Call before the first tick.
     void prepare(const servo::Servo& servo, const scene::Scene& scene);
     /// In the tick of h [s]: turns `now`, the knobs ordered last, toward those to reach.
-    void turn(const servo::Frame& last, double h, servo::Knobs& now) noexcept;
+    void turn(const frame::Frame& last, double h, frame::Knobs& now) noexcept;
 
   private:
-    Latest<std::optional<servo::Knobs>> wanted_;
+    Latest<std::optional<frame::Knobs>> wanted_;
     task::Clearance clearance_;
     bool changeable_ = false;  // the kind of the proxies
-    servo::Knobs goal_;        // newest of wanted_
+    frame::Knobs goal_;        // newest of wanted_
     double left_ = 0;          // time until goal_ is reached [s]
 };
 

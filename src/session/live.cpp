@@ -5,9 +5,9 @@
 namespace dihaptic::session {
 
 void Live::prepare(const servo::Servo& servo, const scene::Scene& scene) {
-    for (servo::Frame& value : frame.values()) servo.reserve(value);
+    for (frame::Frame& value : frame.values()) servo.reserve(value);
     if (second) {
-        for (servo::Frame& value : second->values()) servo.reserve(value);
+        for (frame::Frame& value : second->values()) servo.reserve(value);
     }
     object_ = scene.object_index();
     knobs.prepare(servo, scene);
@@ -40,7 +40,7 @@ void Live::note_shown(int64_t tick, Clock::time_point at, const Pose& X_WV, bool
 }
 
 /// Hands over an attempt in its last tick, the only one that has its outcome.
-void Live::note_trial(const servo::Frame& now) noexcept {
+void Live::note_trial(const frame::Frame& now) noexcept {
     if (now.trial < 1) return;
     if (now.trial != trial_.trial || now.task.attempt != trial_.attempt) {
         trial_ = {};
@@ -49,7 +49,7 @@ void Live::note_trial(const servo::Frame& now) noexcept {
         trial_.start = seconds(now.time);
     }
     trial_.peak_grip = std::fmax(trial_.peak_grip, now.grip_force);
-    for (const servo::FingerFrame& finger : now.fingers)
+    for (const frame::FingerFrame& finger : now.fingers)
         trial_.peak_force = std::fmax(trial_.peak_force, finger.f_sent_W.norm());
     if (now.task.outcome < 0 || trial_.outcome >= 0) return;
     trial_.outcome = now.task.outcome;
@@ -60,7 +60,7 @@ void Live::note_trial(const servo::Frame& now) noexcept {
     trial_ends_.push(trial_);
 }
 
-void Live::show(const servo::Frame& now) noexcept {
+void Live::show(const frame::Frame& now) noexcept {
     note_zero(now.time);
     note_trial(now);
     // in a pause each tick was asked for by itself

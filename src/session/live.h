@@ -52,9 +52,9 @@ struct Live {
     /// Shortest time between samples of the curves.
     static constexpr Time kCurveInterval = std::chrono::milliseconds(10);
 
-    Latest<servo::Frame> frame;  ///< the newest; its `sequence` is -1 before the first
+    Latest<frame::Frame> frame;  ///< the newest; its `sequence` is -1 before the first
     /// If set before the session starts: the same for a second thread, such as a headset's.
-    std::shared_ptr<Latest<servo::Frame>> second;
+    std::shared_ptr<Latest<frame::Frame>> second;
     /// While set, time stands still. On the real clock no force acts, from the next tick on, and a
     /// trial that a pause interrupts begins anew.
     std::atomic<bool> paused{false};
@@ -68,12 +68,12 @@ struct Live {
     KnobTurner knobs;
 
     Live() {
-        for (servo::Frame& value : frame.values()) value.sequence = -1;
+        for (frame::Frame& value : frame.values()) value.sequence = -1;
     }
     /// Call before the first tick: reserves memory for the frames of this servo and scene.
     void prepare(const servo::Servo& servo, const scene::Scene& scene);
     /// In the tick: hands over a frame and a sample when they are due.
-    void show(const servo::Frame& now) noexcept;
+    void show(const frame::Frame& now) noexcept;
     /// The oldest sample not yet taken.
     std::optional<CurveSample> take_sample() { return samples_.pop(); }
 
@@ -116,7 +116,7 @@ struct Live {
   private:
     void note_zero(Time now) noexcept;
     double session_time(Clock::time_point at) const noexcept;
-    void note_trial(const servo::Frame& now) noexcept;
+    void note_trial(const frame::Frame& now) noexcept;
 
     static constexpr Clock::rep kNever = 0;
     std::atomic<Clock::rep> alive_{kNever};  // time of the last note_alive(), plus its `more`

@@ -54,7 +54,7 @@ class LoadChecks {
                 continue;
             }
             const auto finger = static_cast<size_t>(thing - bodies);
-            const devices::DeviceInfo& info = plan_.devices[finger];
+            const frame::DeviceInfo& info = plan_.devices[finger];
             check_loop(load, demand, info);
             check_force(load, demand, info);
             check_torque(load, demand, info, plan_.scene.fingers[finger].name);
@@ -80,7 +80,7 @@ class LoadChecks {
     }
 
     /// By the limits of a coupling's stiffness and damping.
-    void check_loop(const task::Load& load, const Demand& demand, const devices::DeviceInfo& info) {
+    void check_loop(const task::Load& load, const Demand& demand, const frame::DeviceInfo& info) {
         const double period = plan_.settings.tick() + 2 * (info.delay + load.delay());
         const double stiffest = model::passive_stiffness(info.damping, period);
         if (info.damping > 0 && demand.stiffness > stiffest) {
@@ -108,8 +108,7 @@ class LoadChecks {
     }
 
     /// Against the largest force that reaches the hand.
-    void check_force(const task::Load& load, const Demand& demand,
-                     const devices::DeviceInfo& info) {
+    void check_force(const task::Load& load, const Demand& demand, const frame::DeviceInfo& info) {
         const double most = plan_.settings.safety.largest_force(info.peak_force, info.scale);
         const task::LoadSpec& spec = load.spec();
         // what keeps a hand where it is may be as hard as the device can
@@ -141,7 +140,7 @@ class LoadChecks {
              "Lower it, or use a rig with a stronger device.");
     }
 
-    void check_torque(const task::Load& load, const Demand& demand, const devices::DeviceInfo& info,
+    void check_torque(const task::Load& load, const Demand& demand, const frame::DeviceInfo& info,
                       const std::string& finger) {
         if (demand.torque == 0) return;
         if (info.peak_torque <= 0) {

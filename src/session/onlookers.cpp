@@ -160,7 +160,7 @@ struct Ended {
 
 /// Sets a knob as it was asked; throws Refusal.
 template <class T>
-void turn(T& knob, const servo::Knob& is, const Json& value) {
+void turn(T& knob, const frame::Knob& is, const Json& value) {
     if constexpr (std::is_same_v<T, double>) {
         if (value.is_null() && is.unset != nullptr) {
             knob = kUnmeasured;
@@ -191,7 +191,7 @@ struct Onlookers::Parts {
           folder(std::move(in)),
           real(on_real_clock),
           knobs_elsewhere(window_has_knobs),
-          knobs(servo::Knobs::of(of.settings)) {}
+          knobs(frame::Knobs::of(of.settings)) {}
 
     const Plan& plan;
     const std::string folder;
@@ -200,7 +200,7 @@ struct Onlookers::Parts {
     std::vector<std::string> states;
     std::vector<std::string> outcomes;
 
-    Latest<servo::Frame> newest;
+    Latest<frame::Frame> newest;
     ValueRing<Ended> ends{64};
     std::atomic<bool> watched{false};
     Time shown{0};
@@ -211,7 +211,7 @@ struct Onlookers::Parts {
     std::atomic<bool> end{false};
 
     // of the thread
-    servo::Knobs knobs;
+    frame::Knobs knobs;
     std::list<Onlooker> onlookers;
     size_t came = 0, keys = 0, triggers = 0, turns = 0;
     std::optional<Listening> listening;
@@ -226,7 +226,7 @@ struct Onlookers::Parts {
     void steer(const Json& asked);
     void turn_knobs(const Json& asked);
     void look(Wall::time_point now);
-    Json picture_of(const servo::Frame& frame, Onlooker& onlooker) const;
+    Json picture_of(const frame::Frame& frame, Onlooker& onlooker) const;
     Json name_of(const std::vector<std::string>& names, int32_t index) const {
         const auto i = static_cast<size_t>(index);
         return index < 0 || i >= names.size() ? Json() : Json(names[i]);
@@ -353,19 +353,19 @@ void Onlookers::Parts::steer(const Json& asked) {
 
 void Onlookers::Parts::turn_knobs(const Json& asked) {
     if (knobs_elsewhere) throw Refusal{"The operator's window turns the knobs of this session."};
-    servo::Knobs next = knobs;
+    frame::Knobs next = knobs;
     for (const auto& [name, value] : asked.items()) {
         bool found = false;
         const std::string wanted = name;
         const Json& to = value;
-        servo::Knobs::visit([&](auto member, const servo::Knob& is) {
+        frame::Knobs::visit([&](auto member, const frame::Knob& is) {
             if (is.key == nullptr || wanted != is.name) return;
             turn(next.*member, is, to);
             found = true;
         });
         if (!found) {
             std::vector<std::string> names;
-            servo::Knobs::visit([&](auto, const servo::Knob& is) {
+            frame::Knobs::visit([&](auto, const frame::Knob& is) {
                 if (is.key != nullptr) names.emplace_back(is.name);
             });
             throw Refusal{
@@ -393,7 +393,7 @@ void Onlookers::Parts::look(Wall::time_point now) {
         return onlooker.watches && onlooker.owed.empty() && now >= onlooker.due;
     };
     if (std::ranges::none_of(onlookers, is_due)) return;
-    const servo::Frame& frame = newest.read();
+    const frame::Frame& frame = newest.read();
     for (Onlooker& onlooker : onlookers) {
         if (!is_due(onlooker)) continue;
         onlooker.send(picture_of(frame, onlooker));
@@ -401,7 +401,7 @@ void Onlookers::Parts::look(Wall::time_point now) {
     }
 }
 
-Json Onlookers::Parts::picture_of(const servo::Frame& frame, Onlooker& onlooker) const {
+Json Onlookers::Parts::picture_of(const frame::Frame& frame, Onlooker& onlooker) const {
     Json values = Json::array();
     for (task::RecordedValue& value : onlooker.values) {
         const double is = value(frame);
@@ -434,12 +434,12 @@ void Onlookers::open(const servo::Servo& servo, const std::vector<std::string>& 
     parts_->states = states;
     parts_->outcomes = outcomes;
     parts_->turner.prepare(servo, parts_->plan.scene);
-    for (servo::Frame& frame : parts_->newest.values()) servo.reserve(frame);
+    for (frame::Frame& frame : parts_->newest.values()) servo.reserve(frame);
     parts_->listening.emplace(parts_->folder);
     parts_->thread = std::thread([this] { parts_->run(); });
 }
 
-void Onlookers::show(const servo::Frame& frame) noexcept {
+void Onlookers::show(const frame::Frame& frame) noexcept {
     if (!parts_->watched.load(std::memory_order_relaxed)) return;
     if (frame.task.outcome >= 0)
         parts_->ends.push({frame.sequence, seconds(frame.time), frame.trial, frame.task.attempt,
@@ -461,7 +461,7 @@ bool Onlookers::ended() const noexcept {
     return parts_->end.load(std::memory_order_relaxed);
 }
 
-void Onlookers::turn_knobs(const servo::Frame& last, double h, servo::Knobs& now) noexcept {
+void Onlookers::turn_knobs(const frame::Frame& last, double h, frame::Knobs& now) noexcept {
     if (parts_->turned.load(std::memory_order_relaxed)) parts_->turner.turn(last, h, now);
 }
 

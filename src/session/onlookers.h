@@ -54,13 +54,13 @@ class Onlookers {
               const std::vector<std::string>& outcomes);
 
     // In the tick; none of them waits or allocates.
-    void show(const servo::Frame& frame) noexcept;
+    void show(const frame::Frame& frame) noexcept;
     /// What an onlooker pressed since the last call; 0: nothing.
     char take_key() noexcept;
     /// The trigger that one sent since the last call; 0: none.
     int take_trigger() noexcept;
     bool ended() const noexcept;
-    void turn_knobs(const servo::Frame& last, double h, servo::Knobs& now) noexcept;
+    void turn_knobs(const frame::Frame& last, double h, frame::Knobs& now) noexcept;
 
     /// Tells them that the session is over; returns what they did, in sentences.
     std::vector<std::string> finish();

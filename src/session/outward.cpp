@@ -31,9 +31,9 @@ Outward::Outward(const Plan& plan, const std::string& session)
     if (station_.wants_samples()) values_.resize(6 * plan.scene.fingers.size());
 }
 
-void Outward::send(const servo::Frame& frame) noexcept {
+void Outward::send(const frame::Frame& frame) noexcept {
     for (size_t i = 0; i < values_.size() / 6; ++i) {
-        const servo::FingerFrame& finger = frame.fingers[i];
+        const frame::FingerFrame& finger = frame.fingers[i];
         for (int k = 0; k < 3; ++k) {
             values_[6 * i + static_cast<size_t>(k)] = static_cast<float>(finger.p_WH[k]);
             values_[6 * i + 3 + static_cast<size_t>(k)] = static_cast<float>(finger.f_sent_W[k]);

@@ -16,7 +16,7 @@ class Outward {
     Outward(const Plan& plan, const std::string& session);
 
     /// Call in the tick.
-    void send(const servo::Frame& frame) noexcept;
+    void send(const frame::Frame& frame) noexcept;
     /// Call in the tick: a code that came in since the last call; 0 if none.
     int take_trigger() noexcept { return station_.take_trigger(); }
     /// Call after the last tick: returns what went wrong.

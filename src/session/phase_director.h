@@ -14,8 +14,8 @@ class PhaseDirector {
     PhaseDirector(std::vector<recording::PhaseInfo> phases, double tick)
         : phases_(std::move(phases)), tick_(tick) {}
 
-    void operator()(const servo::Frame& last, std::span<const haptics::Handle>,
-                    servo::Commands& commands) noexcept {
+    void operator()(const frame::Frame& last, std::span<const frame::Handle>,
+                    frame::Commands& commands) noexcept {
         const double now = last.sequence < 0 ? 0 : seconds(last.time) + tick_;
         while (phase_ + 1 < phases_.size() && now >= phases_[phase_].end - tick_ / 2) ++phase_;
         commands.trial = 1;

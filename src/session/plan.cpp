@@ -169,7 +169,7 @@ void find_files(task::Task& task, const std::string& folder, Diagnostics& diagno
 /// The trials, and the hand that does them.
 void plan_trials(Plan& plan, task::Task task, const Request& request, Diagnostics& diagnostics) {
     find_files(task, folder_of(request.file), diagnostics);
-    sound::check(task.sounds, plan.rig.sound.value_or(rig::SoundOutput{}), diagnostics);
+    sound::check(task.sounds, plan.rig.sound.value_or(display::SoundOutput{}), diagnostics);
     auto made = std::make_shared<task::TaskPlan>(task::plan_task(task, plan.scene, diagnostics));
     const int number = request.order_number.value_or(task::participant_number(request.participant));
     if (task::needs_number(task) && number < 0) {
@@ -439,7 +439,7 @@ Plan make_rest(const std::string& session, Seat seat, recording::SessionInfo& in
     return plan;
 }
 
-void apply_setting(servo::Settings& settings, const std::string& text) {
+void apply_setting(frame::Settings& settings, const std::string& text) {
     Diagnostics diagnostics;
     read_fields(settings, setting(text), diagnostics);
     if (settings.coupling.stiffness_share || settings.coupling.damping_share) {

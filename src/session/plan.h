@@ -40,8 +40,8 @@ struct Plan {
     scene::Scene scene;
     rig::Rig rig;
     /// What the rig says of the devices or, once they are open, what they say; by finger.
-    std::vector<devices::DeviceInfo> devices;
-    servo::Settings settings;
+    std::vector<frame::DeviceInfo> devices;
+    frame::Settings settings;
     Origins origins;
     hand::HandSpec hand;
     /// Moves simulated devices, with which it is shared. With a person at real devices it stays
@@ -66,7 +66,7 @@ struct Plan {
 };
 
 /// Applies a setting given as text, such as "coupling.stiffness_N_m=600". Throws Error.
-void apply_setting(servo::Settings& settings, const std::string& text);
+void apply_setting(frame::Settings& settings, const std::string& text);
 
 /// Whether the requested session runs on real devices, which keep real time. Problems with its
 /// files are left to make_plan().

@@ -27,7 +27,7 @@ Place place_of(const Plan& plan, const std::string& setting) {
 }
 
 /// Whether a device has said what it can do, or its rig all that there is to say.
-bool is_known(const devices::DeviceInfo& info) {
+bool is_known(const frame::DeviceInfo& info) {
     return std::isfinite(info.peak_force);
 }
 
@@ -35,13 +35,13 @@ bool is_known(const devices::DeviceInfo& info) {
 /// counts, since all fingers have the same coupling. The setting is then as if given in SI units.
 std::optional<double> of_maximum(Plan& plan, const std::string& name, Quantity quantity,
                                  std::optional<double>& share,
-                                 std::optional<double> devices::DeviceInfo::*maximum,
+                                 std::optional<double> frame::DeviceInfo::*maximum,
                                  Diagnostics& diagnostics) {
     if (!share) return std::nullopt;
     const std::string setting = "coupling." + name;
     const std::string origin = place_of(plan, setting + "_share").file;
     double least = std::numeric_limits<double>::infinity();
-    for (const devices::DeviceInfo& info : plan.devices) {
+    for (const frame::DeviceInfo& info : plan.devices) {
         if (!(info.*maximum) && !is_known(info)) return std::nullopt;
         if (!(info.*maximum)) {
             diagnostics.error(
@@ -61,33 +61,33 @@ std::optional<double> of_maximum(Plan& plan, const std::string& name, Quantity q
 }
 
 void resolve_shares(Plan& plan, Diagnostics& diagnostics) {
-    haptics::CouplingSettings& coupling = plan.settings.coupling;
+    frame::CouplingSettings& coupling = plan.settings.coupling;
     if (const auto k = of_maximum(plan, "stiffness", Quantity::stiffness, coupling.stiffness_share,
-                                  &devices::DeviceInfo::max_stiffness, diagnostics))
+                                  &frame::DeviceInfo::max_stiffness, diagnostics))
         coupling.stiffness = *k;
     if (const auto c = of_maximum(plan, "damping", Quantity::damping, coupling.damping_share,
-                                  &devices::DeviceInfo::max_damping, diagnostics))
+                                  &frame::DeviceInfo::max_damping, diagnostics))
         coupling.damping = *c;
 }
 
 bool is_point(const Plan& plan, const scene::Finger& finger) {
-    return plan.settings.proxy.of(finger) == haptics::ProxyKind::point;
+    return plan.settings.proxy.of(finger.proxy) == scene::ProxyKind::point;
 }
 
-bool any_finger(const Plan& plan, haptics::ProxyKind kind) {
+bool any_finger(const Plan& plan, scene::ProxyKind kind) {
     return std::any_of(
         plan.scene.fingers.begin(), plan.scene.fingers.end(),
-        [&](const scene::Finger& finger) { return plan.settings.proxy.of(finger) == kind; });
+        [&](const scene::Finger& finger) { return plan.settings.proxy.of(finger.proxy) == kind; });
 }
 
 /// Warns of a stiffness that the loop may not hold calmly. The limit is passivity's: below it no
 /// hand makes the loop shake; above it, some do (bench grasp measures how far one can go).
 void check_stiffness(const Plan& plan, Diagnostics& diagnostics) {
-    const haptics::CouplingSettings& coupling = plan.settings.coupling;
+    const frame::CouplingSettings& coupling = plan.settings.coupling;
     if (coupling.stiffness_share) return;  // of a maximum that is not known yet
     const double h = plan.settings.step();
     const Place place = place_of(plan, "coupling.stiffness");
-    for (const devices::DeviceInfo& info : plan.devices) {
+    for (const frame::DeviceInfo& info : plan.devices) {
         if (info.damping <= 0) continue;
         const double limit =
             model::passive_stiffness(info.damping, plan.settings.tick() + 2 * info.delay);
@@ -101,7 +101,7 @@ void check_stiffness(const Plan& plan, Diagnostics& diagnostics) {
             "it.");
         break;
     }
-    for (const devices::DeviceInfo& info : plan.devices) {
+    for (const frame::DeviceInfo& info : plan.devices) {
         if (info.peak_torque <= 0 || info.turn_damping <= 0) continue;
         const double limit =
             model::passive_stiffness(info.turn_damping, plan.settings.tick() + 2 * info.delay);
@@ -115,8 +115,8 @@ void check_stiffness(const Plan& plan, Diagnostics& diagnostics) {
         break;
     }
     const double explicit_limit = coupling.body_mass / (h * h);
-    if (coupling.kind == haptics::CouplingKind::dual_spring &&
-        any_finger(plan, haptics::ProxyKind::rigid) && coupling.stiffness > explicit_limit) {
+    if (coupling.kind == frame::CouplingKind::dual_spring &&
+        any_finger(plan, scene::ProxyKind::rigid) && coupling.stiffness > explicit_limit) {
         diagnostics.warning(
             place, "coupling.stiffness",
             fmt::format(
@@ -131,7 +131,7 @@ void check_stiffness(const Plan& plan, Diagnostics& diagnostics) {
 /// the handle back: with v the speed at the tick, v' = (1 - c T / m) v grows when c > 2 m / T.
 void check_damping(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.settings.coupling.damping) return;
-    for (const devices::DeviceInfo& info : plan.devices) {
+    for (const frame::DeviceInfo& info : plan.devices) {
         const double limit = 2 * info.mass / (plan.settings.tick() + 2 * info.delay);
         if (info.mass <= 0 || *plan.settings.coupling.damping <= limit) continue;
         diagnostics.warning(
@@ -146,16 +146,16 @@ void check_damping(const Plan& plan, Diagnostics& diagnostics) {
 
 /// Warns of settings that a point proxy has no use for.
 void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
-    if (!any_finger(plan, haptics::ProxyKind::point)) return;
-    if (plan.settings.coupling.kind != haptics::CouplingKind::implicit &&
-        !any_finger(plan, haptics::ProxyKind::rigid)) {
+    if (!any_finger(plan, scene::ProxyKind::point)) return;
+    if (plan.settings.coupling.kind != frame::CouplingKind::implicit &&
+        !any_finger(plan, scene::ProxyKind::rigid)) {
         diagnostics.warning(
             place_of(plan, "coupling.kind"), "coupling.kind",
             fmt::format("{} ties handles to rigid proxies; these proxies are points",
                         enum_name(plan.settings.coupling.kind)),
             "Leave it out, or use proxy: kind: rigid.");
     }
-    if (plan.settings.proxy.friction == haptics::PointFriction::together) return;
+    if (plan.settings.proxy.friction == frame::PointFriction::together) return;
     for (const scene::Finger& finger : plan.scene.fingers) {
         if (finger.torsion_radius <= 0 || !is_point(plan, finger)) continue;
         diagnostics.warning(finger.place, "torsion_radius",
@@ -169,8 +169,8 @@ void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
 void check_textures(const Plan& plan, Diagnostics& diagnostics) {
     constexpr double kSpeed = 0.25;  // of a hand that explores [m/s]
     const double way = kSpeed * plan.settings.dynamics.every / plan.settings.rate;
-    const bool apart = any_finger(plan, haptics::ProxyKind::point) &&
-                       plan.settings.proxy.friction == haptics::PointFriction::apart;
+    const bool apart = any_finger(plan, scene::ProxyKind::point) &&
+                       plan.settings.proxy.friction == frame::PointFriction::apart;
     for (const scene::Body& body : plan.scene.bodies) {
         const std::optional<scene::Texture>& texture = body.surface.texture;
         if (!texture || texture->height == 0) continue;
@@ -228,7 +228,7 @@ void check_dead_man(const Plan& plan, Diagnostics& diagnostics) {
 /// Warns of a force limit above a device's own peak, which then is the limit that holds.
 void check_limits(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.settings.safety.max_force) return;
-    for (const devices::DeviceInfo& info : plan.devices) {
+    for (const frame::DeviceInfo& info : plan.devices) {
         const double peak = info.peak_force / info.scale;  // force in the hand
         if (*plan.settings.safety.max_force <= peak) continue;
         diagnostics.warning(place_of(plan, "safety.max_force"), "safety.max_force",
@@ -253,7 +253,7 @@ void check_grip(const Plan& plan, Diagnostics& diagnostics) {
     const double weight =
         scene::mass(plan.scene.bodies[static_cast<size_t>(object)]) * plan.scene.gravity.norm();
     double force = 0;
-    for (const devices::DeviceInfo& info : plan.devices) force += info.peak_force;
+    for (const frame::DeviceInfo& info : plan.devices) force += info.peak_force;
     if (weight <= force) return;
     diagnostics.warning(
         plan.scene.bodies[static_cast<size_t>(object)].place,
@@ -316,7 +316,7 @@ void check_liftings(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.task || plan.scene.fingers.size() != 2 || plan.scene.gravity.norm() == 0) return;
     double peak = std::numeric_limits<double>::infinity();
     double continuous = peak;
-    for (const devices::DeviceInfo& info : plan.devices) {
+    for (const frame::DeviceInfo& info : plan.devices) {
         peak = std::min(peak, info.peak_force);
         continuous = std::min(continuous, info.continuous_force);
     }

@@ -20,7 +20,7 @@ constexpr double kLeastHours = 2;  // of recording that the disk has to have roo
 
 Finding devices_of(const Plan& plan) {
     std::set<std::string> models;
-    for (const devices::DeviceInfo& device : plan.devices) models.insert(device.model);
+    for (const frame::DeviceInfo& device : plan.devices) models.insert(device.model);
     const bool real = rig::is_real(plan.rig);
     return {"devices",
             fmt::format("{}{}", fmt::join(models, ", "),
@@ -46,7 +46,7 @@ Finding calibration_of(const Plan& plan, const std::string& today) {
     return out;
 }
 
-Finding display_of(const rig::Display& display, bool real, const std::string& today) {
+Finding display_of(const display::Display& display, bool real, const std::string& today) {
     Finding out{fmt::format("display {}", display.name), "", true, Remedy::register_display, ""};
     if (!display.registered) {
         out.found = "its corners are those that the rig file gives";
@@ -110,7 +110,7 @@ Finding disk(const std::string& folder, double bytes_per_hour) {
 
 std::vector<Finding> readiness(const Plan& plan, const std::string& out, const std::string& today) {
     std::vector<Finding> all{devices_of(plan), calibration_of(plan, today)};
-    for (const rig::Display& display : plan.rig.displays)
+    for (const display::Display& display : plan.rig.displays)
         all.push_back(display_of(display, rig::is_real(plan.rig), today));
     all.push_back(real_time_of(plan));
     all.push_back(disk(out, bytes_per_hour(plan)));

@@ -14,13 +14,13 @@ std::vector<std::string> closing_notes(const Recorded& session, const Plan& plan
     }
     for (const std::string& what : session.undecided) out.push_back("WARNING: " + what);
     const analysis::SessionFigures& figures = session.figures;
-    uint32_t told = figures.status & ~(servo::kPaused | servo::kResumed | servo::kSoftStarted);
+    uint32_t told = figures.status & ~(kPaused | kResumed | kSoftStarted);
     // that the operator stopped it is the fault that is told already
-    if (figures.ticks_with(servo::kStopped) > 0) told &= ~(servo::kStopped | servo::kForceOff);
+    if (figures.ticks_with(kStopped) > 0) told &= ~(kStopped | kForceOff);
     for_each_status(told, [&](Status bit) {
         const StatusRow& row = describe(bit);
-        const bool grave = bit == servo::kNotFinite || bit == servo::kUnbalanced;
-        const std::string what = bit == servo::kUnbalanced
+        const bool grave = bit == kNotFinite || bit == kUnbalanced;
+        const std::string what = bit == kUnbalanced
                                      ? figures.describe_imbalance()
                                      : fmt::format("in {} of {} {}", figures.ticks_with(bit),
                                                    counted(figures.frames, "tick"), row.what);
@@ -49,9 +49,9 @@ Recorded record(const Plan& plan, RunOptions options, const std::atomic<bool>& s
     if (!options.keep_log) {
         options.in_place_of_log = [&](const recording::SessionFolder& folder,
                                       const recording::SessionInfo& info,
-                                      const recording::LogHead& head) -> servo::FrameSink {
+                                      const recording::LogHead& head) -> frame::FrameSink {
             reader.emplace(folder, info, head);
-            return [&reader](const servo::Frame& frame) { reader->add(frame); };
+            return [&reader](const frame::Frame& frame) { reader->add(frame); };
         };
     }
     Recorded out{run_session(plan, options, stop, running, std::move(devices)), {}, {}};

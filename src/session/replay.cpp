@@ -13,7 +13,7 @@ namespace {
 using Wall = std::chrono::steady_clock;
 
 /// Equal to the bit, so that a NaN equals itself.
-bool same(const servo::Frame& frame, const servo::Frame& recorded) {
+bool same(const frame::Frame& frame, const frame::Frame& recorded) {
     const std::vector<double> a = outcome_of(frame);
     const std::vector<double> b = outcome_of(recorded);
     return frame.sequence == recorded.sequence && a.size() == b.size() &&
@@ -37,7 +37,7 @@ void check(const recording::LogHead& head, const scene::Scene& scene, const std:
 struct Inputs {
     scene::Scene scene;
     rig::Rig rig;
-    servo::Settings settings;
+    frame::Settings settings;
 };
 
 Inputs read_inputs(const recording::SessionFolder& folder, const recording::LogHead& head,
@@ -54,11 +54,11 @@ Inputs read_inputs(const recording::SessionFolder& folder, const recording::LogH
 }
 
 /// What the devices said in the recorded tick.
-void read_again(const servo::Frame& recorded, const recording::LogHead& head,
+void read_again(const frame::Frame& recorded, const recording::LogHead& head,
                 std::span<devices::Reading> readings) {
     auto turn = recorded.turns.begin();
     for (size_t i = 0; i < readings.size(); ++i) {
-        const servo::FingerFrame& finger = recorded.fingers[i];
+        const frame::FingerFrame& finger = recorded.fingers[i];
         readings[i] = {finger.p_DH, finger.v_DH, finger.buttons, finger.status & kStatusByDevice};
         if (!head.devices[i].measures_orientation) continue;
         readings[i].R_DH = turn->R_DH;
@@ -68,11 +68,11 @@ void read_again(const servo::Frame& recorded, const recording::LogHead& head,
 }
 
 /// What the session's owner ordered in it.
-void order_again(const servo::Frame& recorded, servo::Commands& commands) {
-    commands.force_off = (recorded.status & servo::kStopped) != 0;
-    commands.rest = (recorded.status & servo::kPaused) != 0;
+void order_again(const frame::Frame& recorded, frame::Commands& commands) {
+    commands.force_off = (recorded.status & kStopped) != 0;
+    commands.rest = (recorded.status & kPaused) != 0;
     // for how long is not known any more, and changes nothing
-    commands.abandoned = (recorded.status & servo::kAbandoned) != 0 ? 1 : 0;
+    commands.abandoned = (recorded.status & kAbandoned) != 0 ? 1 : 0;
     commands.knobs = recorded;
     commands.trial = recorded.trial;
     commands.phase = recorded.phase;
@@ -92,28 +92,28 @@ void judge_log(recording::RawLogReader& log, const recording::SessionInfo& info,
 
 }  // namespace
 
-std::vector<double> outcome_of(const servo::Frame& frame) {
+std::vector<double> outcome_of(const frame::Frame& frame) {
     std::vector<double> out;
     out.reserve(13 * frame.fingers.size() + 6 * frame.turns.size() + 7 * frame.bodies.size() +
                 6 * frame.joints.size());
     const auto add = [&](const auto& vector) {
         out.insert(out.end(), vector.data(), vector.data() + vector.size());
     };
-    for (const servo::FingerFrame& finger : frame.fingers) {
+    for (const frame::FingerFrame& finger : frame.fingers) {
         add(finger.f_sent_W);
         add(finger.f_asked_W);
         add(finger.p_WP);
         add(finger.R_WP.coeffs());
     }
-    for (const servo::TurnFrame& turn : frame.turns) {
+    for (const frame::TurnFrame& turn : frame.turns) {
         add(turn.t_sent_W);
         add(turn.t_asked_W);
     }
-    for (const servo::BodyFrame& body : frame.bodies) {
+    for (const frame::BodyFrame& body : frame.bodies) {
         add(body.X_WB.p);
         add(body.X_WB.R.coeffs());
     }
-    for (const servo::JointFrame& joint : frame.joints) {
+    for (const frame::JointFrame& joint : frame.joints) {
         add(joint.f_B_W);
         add(joint.t_B_W);
     }
@@ -135,7 +135,7 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
     result.version = recording::describe_version(log.health());
     result.program = info.program;
 
-    const servo::Frame* recorded = log.next();
+    const frame::Frame* recorded = log.next();
     devices::Context context;
     context.tick = inputs.settings.tick();
     context.recording.devices.assign(head.devices.begin(), head.devices.end());
@@ -147,15 +147,15 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
         inputs.scene, inputs.settings, devices::find_backend("replay")->make({}, context),
         rig::poses(inputs.rig, scene::finger_names(inputs.scene)), rig::wall_box(inputs.rig));
     servo.activate();
-    const servo::Director director = [&](const servo::Frame&, std::span<const haptics::Handle>,
-                                         servo::Commands& commands) {
+    const frame::Director director = [&](const frame::Frame&, std::span<const frame::Handle>,
+                                         frame::Commands& commands) {
         order_again(*recorded, commands);
     };
     const auto begin = Wall::now();
     while (recorded != nullptr && log.health().gaps.empty() && !stop.load()) {
-        if (recorded->status & servo::kResumed) servo.resume();
+        if (recorded->status & kResumed) servo.resume();
         servo.note_timing(recorded->lateness, recorded->tick_duration,
-                          (recorded->status & servo::kOverrun) != 0);
+                          (recorded->status & kOverrun) != 0);
         if (!same(servo.tick(recorded->time, director), *recorded) && result.different_ticks++ == 0)
             result.first_difference = seconds(recorded->time);
         ++result.ticks;

@@ -26,7 +26,7 @@ struct ReplayResult {
 
 /// What a tick computed: forces, torques and poses. Of two runs of one session they are the same to
 /// the bit.
-std::vector<double> outcome_of(const servo::Frame& frame);
+std::vector<double> outcome_of(const frame::Frame& frame);
 
 /// Throws Error when it cannot, or when the session's frozen inputs were changed.
 ReplayResult replay_session(const std::string& path, const std::atomic<bool>& stop,

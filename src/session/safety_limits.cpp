@@ -19,7 +19,7 @@ struct Limit {
 /// Collects a SafetySettings' numbers and choices.
 class Limits {
   public:
-    explicit Limits(haptics::SafetySettings settings) { settings.visit(*this); }
+    explicit Limits(frame::SafetySettings settings) { settings.visit(*this); }
 
     void operator()(std::string_view name, double& value, Field field = {}) {
         add(name, field, value, fmt::format("{:g} {}", value, si_symbol(field.quantity)));
@@ -46,7 +46,7 @@ class Limits {
 
 /// The limits that a rig sets, and where each was set.
 struct RigLimits {
-    haptics::SafetySettings allowed;
+    frame::SafetySettings allowed;
     Origins set_by;
     bool real;
 
@@ -59,7 +59,7 @@ struct RigLimits {
     }
 };
 
-void overlay(haptics::SafetySettings& safety, const Node& settings, Origins& origins) {
+void overlay(frame::SafetySettings& safety, const Node& settings, Origins& origins) {
     const Node* const node =
         settings.kind == Node::Kind::mapping ? settings.find("safety") : nullptr;
     if (node == nullptr || node->kind != Node::Kind::mapping) return;
@@ -95,7 +95,7 @@ void refuse(const Plan& plan, const std::string& name, const std::string& key,
 }
 
 void check_switch(const Plan& plan, const RigLimits& rig, Diagnostics& diagnostics) {
-    const haptics::SafetySettings& asked = plan.settings.safety;
+    const frame::SafetySettings& asked = plan.settings.safety;
     const auto finger = rig.set_by.find("safety.dead_man_finger");
     if (finger == rig.set_by.end() || rig.allowed.dead_man_finger.empty()) return;
     if (asked.dead_man_finger != rig.allowed.dead_man_finger) {

@@ -9,7 +9,7 @@ namespace dihaptic::session {
 namespace {
 
 /// Whether a simulated session gets a trigger, and turns a page, in this tick: once a second.
-bool once_a_second(const servo::Frame& last, Time period) noexcept {
+bool once_a_second(const frame::Frame& last, Time period) noexcept {
     return (last.time + period) % std::chrono::seconds(1) < period;
 }
 
@@ -46,8 +46,8 @@ std::string SessionDirector::bounded() const {
         formula.text);
 }
 
-void SessionDirector::operator()(const servo::Frame& last, std::span<const haptics::Handle> handles,
-                                 servo::Commands& commands) {
+void SessionDirector::operator()(const frame::Frame& last, std::span<const frame::Handle> handles,
+                                 frame::Commands& commands) {
     if (task_) {
         direct_task(last, handles, commands);
     } else {
@@ -62,9 +62,8 @@ void SessionDirector::operator()(const servo::Frame& last, std::span<const hapti
     onlookers_->turn_knobs(last, plan_.settings.tick(), commands.knobs);
 }
 
-void SessionDirector::direct_task(const servo::Frame& last,
-                                  std::span<const haptics::Handle> handles,
-                                  servo::Commands& commands) {
+void SessionDirector::direct_task(const frame::Frame& last, std::span<const frame::Handle> handles,
+                                  frame::Commands& commands) {
     if (servo_.fault()) {
         // without force there are no trials: the current one is over
         commands.trial = last.trial;
@@ -91,7 +90,7 @@ void SessionDirector::direct_task(const servo::Frame& last,
 
 /// Applies what the thread that watches the session asks for. On the virtual clock the session
 /// stands still in a pause (Pacing), and nobody's hand is at stake.
-void SessionDirector::be_steered(const servo::Frame& last, servo::Commands& commands) {
+void SessionDirector::be_steered(const frame::Frame& last, frame::Commands& commands) {
     commands.stop = commands.stop || live_->ended.load(std::memory_order_relaxed);
     commands.rest = real_ && live_->paused.load(std::memory_order_relaxed);
     commands.abandoned = real_ ? live_->abandoned() : 0;

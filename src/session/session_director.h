@@ -1,4 +1,4 @@
-// The director of a session (servo/servo.h): in each tick it orders what the trials want or,
+// The director of a session (frame/orders.h): in each tick it orders what the trials want or,
 // without trials, what the phases say, with what the operator, the simulated hand, the triggers and
 // the watching thread add.
 #pragma once
@@ -25,8 +25,8 @@ class SessionDirector {
                     const std::vector<recording::PhaseInfo>& phases, const servo::Servo& servo,
                     Outward* outward, Onlookers* onlookers);
 
-    void operator()(const servo::Frame& last, std::span<const haptics::Handle> handles,
-                    servo::Commands& commands);
+    void operator()(const frame::Frame& last, std::span<const frame::Handle> handles,
+                    frame::Commands& commands);
 
     /// Call between two ticks: a running trial begins anew.
     void interrupt() {
@@ -43,9 +43,9 @@ class SessionDirector {
     const Wait* endless_wait() const { return wait_ && wait_->over() ? &*wait_ : nullptr; }
 
   private:
-    void direct_task(const servo::Frame& last, std::span<const haptics::Handle> handles,
-                     servo::Commands& commands);
-    void be_steered(const servo::Frame& last, servo::Commands& commands);
+    void direct_task(const frame::Frame& last, std::span<const frame::Handle> handles,
+                     frame::Commands& commands);
+    void be_steered(const frame::Frame& last, frame::Commands& commands);
 
     const Plan& plan_;
     const RunOptions& options_;

@@ -75,7 +75,7 @@ void check_words(const Plan& plan, const RunOptions& options) {
     check_text(plan.title, "title", Lines::several);
 }
 
-recording::LogHead log_head(const scene::Scene& scene, const servo::Settings& settings,
+recording::LogHead log_head(const scene::Scene& scene, const frame::Settings& settings,
                             const recording::Setup& setup) {
     recording::LogHead head;
     static_cast<recording::Setup&>(head) = setup;
@@ -179,10 +179,10 @@ class Run {
     void let_others_watch();
     void make_director();
 
-    void take(const servo::Frame& frame);
+    void take(const frame::Frame& frame);
     void run_ticks();
-    void run_virtual_ticks(const servo::Director& director, const servo::FrameSink& sink);
-    void run_real_ticks(const servo::Director& director, const servo::FrameSink& sink);
+    void run_virtual_ticks(const frame::Director& director, const frame::FrameSink& sink);
+    void run_real_ticks(const frame::Director& director, const frame::FrameSink& sink);
     double share() const noexcept;
     std::string fault_text() const;
     std::string stall_text(const servo::Timing::Stall& stall) const;
@@ -205,7 +205,7 @@ class Run {
     recording::SessionInfo& info_ = result_.info;
     std::unique_ptr<servo::Servo> servo_;
     std::optional<recording::Recorder> recorder_;
-    servo::FrameSink read_;           // takes the frames in place of recorder_
+    frame::FrameSink read_;           // takes the frames in place of recorder_
     std::optional<Outward> outward_;  // real clock only: a rehearsal must not look like a session
     std::optional<sound::Player> player_;
     std::optional<Onlookers> onlookers_;
@@ -328,9 +328,9 @@ void Run::begin() {
 /// A session whose sounds cannot be played runs without them.
 void Run::open_sounds() {
     if (!plan_.task || plan_.task->task.sounds.empty() || options_.in_place_of_log) return;
-    const rig::SoundOutput output = plan_.rig.sound.value_or(rig::SoundOutput{});
-    const bool in_real_time = output.to == rig::SoundTo::speakers;
-    if (output.to == rig::SoundTo::nowhere || (in_real_time && !real_)) return;
+    const display::SoundOutput output = plan_.rig.sound.value_or(display::SoundOutput{});
+    const bool in_real_time = output.to == display::SoundTo::speakers;
+    if (output.to == display::SoundTo::nowhere || (in_real_time && !real_)) return;
     try {
         player_.emplace(sound::Player::Plan{plan_.task->task.sounds, output, plan_.seed, real_},
                         folder_);
@@ -370,7 +370,7 @@ void Run::make_director() {
                       outward_ ? &*outward_ : nullptr, onlookers_ ? &*onlookers_ : nullptr);
 }
 
-void Run::take(const servo::Frame& frame) {
+void Run::take(const frame::Frame& frame) {
     if (recorder_) {
         recorder_->record(frame);
     } else {
@@ -386,10 +386,10 @@ void Run::take(const servo::Frame& frame) {
 }
 
 void Run::run_ticks() {
-    const servo::FrameSink sink = [this](const servo::Frame& frame) { take(frame); };
-    const servo::Director director = [this](const servo::Frame& last,
-                                            std::span<const haptics::Handle> handles,
-                                            servo::Commands& commands) {
+    const frame::FrameSink sink = [this](const frame::Frame& frame) { take(frame); };
+    const frame::Director director = [this](const frame::Frame& last,
+                                            std::span<const frame::Handle> handles,
+                                            frame::Commands& commands) {
         (*director_)(last, handles, commands);
         commands.stop = commands.stop || (recorder_ && recorder_->failed());
     };
@@ -418,10 +418,10 @@ void Run::run_ticks() {
 }
 
 /// Runs the ticks; if the session is watched, at the pace that is asked for.
-void Run::run_virtual_ticks(const servo::Director& director, const servo::FrameSink& sink) {
+void Run::run_virtual_ticks(const frame::Director& director, const frame::FrameSink& sink) {
     std::optional<Pacing> pacing;
     if (live_ != nullptr) pacing.emplace(*live_, stop_);
-    const servo::FrameSink paced = [&](const servo::Frame& frame) {
+    const frame::FrameSink paced = [&](const frame::Frame& frame) {
         sink(frame);
         if (pacing) pacing->wait(frame.time);
     };
@@ -429,7 +429,7 @@ void Run::run_virtual_ticks(const servo::Director& director, const servo::FrameS
 }
 
 /// Runs the ticks once; if the session is steered, from pause to pause and from fault to remedy.
-void Run::run_real_ticks(const servo::Director& director, const servo::FrameSink& sink) {
+void Run::run_real_ticks(const frame::Director& director, const frame::FrameSink& sink) {
     const auto stuck = [this](const servo::Timing::Stall& stall) {
         if (options_.stuck) options_.stuck(stall_text(stall));
     };

@@ -38,7 +38,7 @@ struct RunOptions {
     bool keep_log = true;
     /// Virtual clock only: makes the sink that takes the frames in place of raw.log, which is then
     /// not written. The folder has its frozen inputs.
-    std::function<servo::FrameSink(const recording::SessionFolder&, const recording::SessionInfo&,
+    std::function<frame::FrameSink(const recording::SessionFolder&, const recording::SessionInfo&,
                                    const recording::LogHead&)>
         in_place_of_log;
     /// Decides between trials; prepared for the plan, and must outlive the run.

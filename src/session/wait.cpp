@@ -21,7 +21,7 @@ Wait::Wait(const task::TaskPlan& plan)
     }
 }
 
-void Wait::look(const servo::Frame& last, const servo::Commands& commands) noexcept {
+void Wait::look(const frame::Frame& last, const frame::Commands& commands) noexcept {
     const double now = seconds(last.time);
     if (last.trial != trial_ || last.task.attempt != attempt_) begun_ = since_ = now;
     if (last.phase != phase_) since_ = now;

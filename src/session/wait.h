@@ -16,7 +16,7 @@ class Wait {
     explicit Wait(const task::TaskPlan& plan);
 
     /// Call in each tick, with the last frame and the commands for this tick.
-    void look(const servo::Frame& last, const servo::Commands& commands) noexcept;
+    void look(const frame::Frame& last, const frame::Commands& commands) noexcept;
     /// Whether the wait is too long and the session is to end.
     bool over() const noexcept { return over_; }
     /// Says what was waited for, and what to do. `phases`: the session's phases.

@@ -10,7 +10,7 @@ namespace {
 constexpr auto kTend = std::chrono::milliseconds(20);
 
 std::unique_ptr<Sink> open_sink(const Player::Plan& plan, const recording::SessionFolder& folder) {
-    if (plan.output.to == rig::SoundTo::file)
+    if (plan.output.to == display::SoundTo::file)
         return open_file(plan.sounds, plan.seed, plan.output, folder.file("sound.wav"));
     return open_speakers(plan.sounds, plan.seed, plan.output);
 }
@@ -25,7 +25,7 @@ std::vector<Wave> make_waves(const std::vector<task::SoundSpec>& sounds, uint64_
     return out;
 }
 
-void check(const std::vector<task::SoundSpec>& sounds, const rig::SoundOutput& output,
+void check(const std::vector<task::SoundSpec>& sounds, const display::SoundOutput& output,
            Diagnostics& diagnostics) {
     for (const task::SoundSpec& sound : sounds) {
         if (sound.tone && *sound.tone >= output.rate / 2)
@@ -52,8 +52,8 @@ Player::~Player() {
     finish();
 }
 
-void Player::hear(const servo::Frame& frame) noexcept {
-    for (const servo::SoundFrame& sound : frame.task.sounds) {
+void Player::hear(const frame::Frame& frame) noexcept {
+    for (const frame::SoundFrame& sound : frame.task.sounds) {
         const Order order{frame.sequence, sound.sound, sound.on != 0, seconds(frame.time),
                           sink_->clock(frame.time)};
         if (!sink_->mixer().order(order)) lost_.fetch_add(1, std::memory_order_relaxed);

@@ -4,9 +4,9 @@
 
 #include <thread>
 
+#include "display/sound.h"
+#include "frame/frame.h"
 #include "recording/hearings.h"
-#include "rig/sound.h"
-#include "servo/frame.h"
 #include "task/sound.h"
 
 namespace dihaptic::sound {
@@ -14,18 +14,18 @@ namespace dihaptic::sound {
 class Sink;
 
 /// Sounds that cannot be made, with why, go to `diagnostics`.
-void check(const std::vector<task::SoundSpec>& sounds, const rig::SoundOutput& output,
+void check(const std::vector<task::SoundSpec>& sounds, const display::SoundOutput& output,
            Diagnostics& diagnostics);
 
 /// Opens the sound device that is meant, closes it again, and returns its name. Throws Error when
 /// it cannot be opened.
-std::string try_speakers(const rig::SoundOutput& output);
+std::string try_speakers(const display::SoundOutput& output);
 
 class Player {
   public:
     struct Plan {
         const std::vector<task::SoundSpec>& sounds;
-        const rig::SoundOutput& output;
+        const display::SoundOutput& output;
         uint64_t seed;
         bool real;  ///< on the real clock
     };
@@ -36,7 +36,7 @@ class Player {
     Player& operator=(const Player&) = delete;
 
     /// In the tick. On the real clock it neither waits nor allocates.
-    void hear(const servo::Frame& frame) noexcept;
+    void hear(const frame::Frame& frame) noexcept;
     /// After the last tick: returns what went wrong, in words.
     std::vector<std::string> finish();
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "rig/sound.h"
+#include "display/sound.h"
 #include "sound/mixer.h"
 
 namespace dihaptic::sound {
@@ -28,12 +28,12 @@ class Sink {
 
 /// Opens the system's sound device, or the one that is named. Throws Error when it cannot.
 std::unique_ptr<Sink> open_speakers(const std::vector<task::SoundSpec>& sounds, uint64_t seed,
-                                    const rig::SoundOutput& output);
+                                    const display::SoundOutput& output);
 
 /// Writes a WAV file of one channel in which the session's time is counted from its beginning.
 /// Throws Error when it cannot be written.
 std::unique_ptr<Sink> open_file(const std::vector<task::SoundSpec>& sounds, uint64_t seed,
-                                const rig::SoundOutput& output, const std::string& file);
+                                const display::SoundOutput& output, const std::string& file);
 
 /// The samples of all sounds.
 std::vector<Wave> make_waves(const std::vector<task::SoundSpec>& sounds, uint64_t seed,

@@ -11,7 +11,7 @@ namespace {
 class SoundFile final : public Sink {
   public:
     SoundFile(const std::vector<task::SoundSpec>& sounds, uint64_t seed,
-              const rig::SoundOutput& output, const std::string& file)
+              const display::SoundOutput& output, const std::string& file)
         : mixer_(make_waves(sounds, seed, output.rate), output.rate, output.delay.value_or(0)),
           file_(nullptr, sf_close),
           name_(file),
@@ -68,7 +68,7 @@ class SoundFile final : public Sink {
 }  // namespace
 
 std::unique_ptr<Sink> open_file(const std::vector<task::SoundSpec>& sounds, uint64_t seed,
-                                const rig::SoundOutput& output, const std::string& file) {
+                                const display::SoundOutput& output, const std::string& file) {
     return std::make_unique<SoundFile>(sounds, seed, output, file);
 }
 

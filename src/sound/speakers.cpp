@@ -49,7 +49,7 @@ class System {
 };
 
 /// The index of the output device whose name has this in it; if it is empty, the default.
-PaDeviceIndex find_device(const rig::SoundOutput& output) {
+PaDeviceIndex find_device(const display::SoundOutput& output) {
     std::vector<std::string> names;
     for (PaDeviceIndex i = 0; i < Pa_GetDeviceCount(); ++i) {
         const PaDeviceInfo& info = *Pa_GetDeviceInfo(i);
@@ -74,7 +74,7 @@ int64_t steady_now() noexcept {
 class Speakers final : public Sink {
   public:
     Speakers(const std::vector<task::SoundSpec>& sounds, uint64_t seed,
-             const rig::SoundOutput& output)
+             const display::SoundOutput& output)
         : clock_(output.rate), mono_(kMostSamples) {
         const PaDeviceIndex device = find_device(output);
         const PaDeviceInfo* const info = Pa_GetDeviceInfo(device);
@@ -118,7 +118,7 @@ class Speakers final : public Sink {
   private:
     static constexpr size_t kMostSamples = 8192;
 
-    static void check(PaError failed, const std::string& name, const rig::SoundOutput& output) {
+    static void check(PaError failed, const std::string& name, const display::SoundOutput& output) {
         if (failed == paNoError) return;
         throw Error(output.place, "device",
                     fmt::format("{} cannot be opened: {}", name, Pa_GetErrorText(failed)),
@@ -171,11 +171,11 @@ class Speakers final : public Sink {
 }  // namespace
 
 std::unique_ptr<Sink> open_speakers(const std::vector<task::SoundSpec>& sounds, uint64_t seed,
-                                    const rig::SoundOutput& output) {
+                                    const display::SoundOutput& output) {
     return std::make_unique<Speakers>(sounds, seed, output);
 }
 
-std::string try_speakers(const rig::SoundOutput& output) {
+std::string try_speakers(const display::SoundOutput& output) {
     return Speakers({}, 0, output).name();
 }
 

@@ -13,11 +13,11 @@
 
 #include "base/latest.h"
 #include "base/unmeasured.h"
-#include "servo/task_frame.h"
+#include "frame/task_frame.h"
 
 namespace dihaptic::task {
 
-using VariableValues = std::array<double, servo::TaskFrame::kMostVariables>;
+using VariableValues = std::array<double, frame::TaskFrame::kMostVariables>;
 
 /// How an attempt ended; what is asked for is decided before the next one begins.
 struct Ended {

@@ -137,10 +137,10 @@ class BlockChecker {
             }
             map = &name;
         }
-        if (loads <= servo::TaskFrame::kMostLoads) return true;
+        if (loads <= frame::TaskFrame::kMostLoads) return true;
         error(place, "perturb",
               fmt::format("makes {} loads act in state '{}', where {} are the most", loads, where,
-                          servo::TaskFrame::kMostLoads),
+                          frame::TaskFrame::kMostLoads),
               "Leave some out, or sum loads on one thing up in one of kind general.");
         return false;
     }

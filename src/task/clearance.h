@@ -2,8 +2,8 @@
 // each finger: precise enough to decide where a body may be placed.
 #pragma once
 
+#include "frame/frame.h"
 #include "scene/scene.h"
-#include "servo/frame.h"
 
 namespace dihaptic::task {
 
@@ -32,9 +32,9 @@ class Clearance {
         for (const scene::Finger& finger : scene.fingers) radius_.push_back(reach_of(finger));
     }
     /// Whether all proxies and handles are clear of all bodies.
-    bool all_clear(const servo::Frame& frame) const noexcept {
+    bool all_clear(const frame::Frame& frame) const noexcept {
         for (size_t i = 0; i < frame.fingers.size(); ++i) {
-            const servo::FingerFrame& finger = frame.fingers[i];
+            const frame::FingerFrame& finger = frame.fingers[i];
             for (size_t b = 0; b < boxes_.size(); ++b) {
                 const Pose& X_WB = frame.bodies[b].X_WB;
                 if (in_the_way(X_WB, boxes_[b], finger.p_WP, radius_[i]) ||

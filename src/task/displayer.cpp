@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "servo/displayed.h"
+#include "frame/displayed.h"
 
 namespace dihaptic::task {
 namespace {
@@ -21,11 +21,11 @@ size_t rows_of(const TaskPlan& plan, double tick) {
 }
 
 /// Adds looks to those that are there: what they say replaces what was said.
-void put_on(const std::vector<servo::LookFrame>& looks, servo::TaskFrame& out) noexcept {
-    for (const servo::LookFrame& look : looks) {
+void put_on(const std::vector<frame::LookFrame>& looks, frame::TaskFrame& out) noexcept {
+    for (const frame::LookFrame& look : looks) {
         const auto there =
             std::find_if(out.looks.begin(), out.looks.end(),
-                         [&](const servo::LookFrame& other) { return other.body == look.body; });
+                         [&](const frame::LookFrame& other) { return other.body == look.body; });
         if (there == out.looks.end()) {
             add(out.looks, look);
             continue;
@@ -36,9 +36,9 @@ void put_on(const std::vector<servo::LookFrame>& looks, servo::TaskFrame& out) n
     }
 }
 
-void put_on(const std::vector<servo::TargetFrame>& looks, servo::TaskFrame& out) noexcept {
-    for (const servo::TargetFrame& look : looks) {
-        for (servo::TargetFrame& target : out.targets) {
+void put_on(const std::vector<frame::TargetFrame>& looks, frame::TaskFrame& out) noexcept {
+    for (const frame::TargetFrame& look : looks) {
+        for (frame::TargetFrame& target : out.targets) {
             if (target.region != look.region) continue;
             if (look.colour >= 0) target.colour = look.colour;
             target.radius *= look.radius;
@@ -58,14 +58,14 @@ Displayer::Displayer(const TaskPlan& plan, uint64_t seed, double tick)
       past_(rows_ * things_),
       held_(fingers_) {}
 
-void Displayer::see(const servo::Frame& last) noexcept {
+void Displayer::see(const frame::Frame& last) noexcept {
     if (last.sequence < 0) return;
     bodies_ = last.bodies.size();
     newest_ = (newest_ + 1) % rows_;
     seen_ = std::min(seen_ + 1, rows_);
     Pose* const row = &past_[newest_ * things_];
-    for (size_t i = 0; i < fingers_; ++i) row[i] = servo::mapped_proxy(last, i);
-    if (object_ >= 0) row[fingers_] = servo::mapped_body(last, static_cast<size_t>(object_));
+    for (size_t i = 0; i < fingers_; ++i) row[i] = frame::mapped_proxy(last, i);
+    if (object_ >= 0) row[fingers_] = frame::mapped_body(last, static_cast<size_t>(object_));
 }
 
 void Displayer::enter(const TaskPlan::Stage& stage, const TaskPlan::Cell& cell,
@@ -86,14 +86,14 @@ const Pose& Displayer::past(size_t thing, long ticks) const noexcept {
     return past_[(newest_ + rows_ - back) % rows_ * things_ + thing];
 }
 
-void Displayer::order(double now, servo::TaskFrame& out) noexcept {
+void Displayer::order(double now, frame::TaskFrame& out) noexcept {
     if (stage_ == nullptr) return;
     for (const TaskPlan::Looks* looks : {&cell_->looks, &stage_->looks}) {
         put_on(looks->things, out);
         put_on(looks->targets, out);
     }
     if (!out.visual.empty() && seen_ > 0) {
-        const servo::VisualMap& map = out.visual.front();
+        const frame::VisualMap& map = out.visual.front();
         const bool shakes = !map.noise.isZero(0);
         if (shakes && (shaken_ < 0 || now - shaken_ >= kShake - tick_ / 2)) {
             shake_ = Vec3(random_.normal(), random_.normal(), random_.normal());
@@ -102,7 +102,7 @@ void Displayer::order(double now, servo::TaskFrame& out) noexcept {
         if (shakes || map.delay > 0) displace(map, out);
     }
     if (!holds_) return;
-    const auto is_finger = [&](const servo::DisplacedFrame& displaced) {
+    const auto is_finger = [&](const frame::DisplacedFrame& displaced) {
         return displaced.body >= static_cast<int32_t>(bodies_);
     };
     out.displaced.erase(std::remove_if(out.displaced.begin(), out.displaced.end(), is_finger),
@@ -112,17 +112,17 @@ void Displayer::order(double now, servo::TaskFrame& out) noexcept {
 }
 
 /// What is shaken but not late is shown a tick late: where it is in this tick is not known yet.
-void Displayer::displace(const servo::VisualMap& map, servo::TaskFrame& out) const noexcept {
+void Displayer::displace(const frame::VisualMap& map, frame::TaskFrame& out) const noexcept {
     const long ticks = std::lround(map.delay / tick_);
     const auto show = [&](size_t thing, size_t body) {
         Pose X_WB = past(thing, ticks);
         X_WB.p += map.noise.cwiseProduct(shake_);
         add(out.displaced, {static_cast<int32_t>(body), X_WB});
     };
-    if ((map.moves & servo::kMovesProxies) != 0) {
+    if ((map.moves & frame::kMovesProxies) != 0) {
         for (size_t i = 0; i < fingers_; ++i) show(i, bodies_ + i);
     }
-    if ((map.moves & servo::kMovesObject) != 0 && object_ >= 0)
+    if ((map.moves & frame::kMovesObject) != 0 && object_ >= 0)
         show(fingers_, static_cast<size_t>(object_));
 }
 

@@ -1,5 +1,5 @@
 // Orders, tick by tick, how a task's things are shown: hidden, coloured, sized, late, shaken or
-// held where they were. What it orders is recorded (servo/task_frame.h), so that a replay and a
+// held where they were. What it orders is recorded (frame/task_frame.h), so that a replay and a
 // picture show what the person saw. Once constructed it neither allocates, locks nor throws.
 #pragma once
 
@@ -15,17 +15,17 @@ class Displayer {
 
     /// Call in each tick before the other functions, with the last Frame: its poses are what is
     /// shown later.
-    void see(const servo::Frame& last) noexcept;
+    void see(const frame::Frame& last) noexcept;
     /// A state begins, in a new trial or in the one that runs. How it shows things holds until the
     /// next begins, between trials too.
     void enter(const TaskPlan::Stage& stage, const TaskPlan::Cell& cell, bool new_trial) noexcept;
     /// Call after the task's own orders, which name the targets and the visual map.
-    void order(double now, servo::TaskFrame& out) noexcept;
+    void order(double now, frame::TaskFrame& out) noexcept;
 
   private:
     /// The pose by the visual map `ticks` ago.
     const Pose& past(size_t thing, long ticks) const noexcept;
-    void displace(const servo::VisualMap& map, servo::TaskFrame& out) const noexcept;
+    void displace(const frame::VisualMap& map, frame::TaskFrame& out) const noexcept;
 
     size_t fingers_;
     int object_;  // -1: none

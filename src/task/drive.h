@@ -9,7 +9,7 @@
 
 #include "base/diagnostics.h"
 #include "base/formula.h"
-#include "servo/task_frame.h"
+#include "frame/task_frame.h"
 #include "task/expression.h"
 #include "task/profile.h"
 #include "task/sampled_path.h"

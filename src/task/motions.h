@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "haptics/coupling.h"
-#include "servo/frame.h"
+#include "frame/frame.h"
+#include "frame/handle.h"
 
 namespace dihaptic::task {
 
@@ -28,7 +28,7 @@ class Motions {
           known_(bodies + fingers, 0) {}
 
     /// Begins a tick: handles are those of this tick, bodies those at the end of the last.
-    void add(const servo::Frame& last, std::span<const haptics::Handle> handles) noexcept {
+    void add(const frame::Frame& last, std::span<const frame::Handle> handles) noexcept {
         now_ = (now_ + 1) % rows_.size();
         for (size_t i = 0; i < bodies_ && last.sequence >= 0; ++i)
             set(i, {last.bodies[i].X_WB.p, last.bodies[i].v_WB});

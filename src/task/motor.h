@@ -10,8 +10,8 @@
 
 #include "base/diagnostics.h"
 #include "base/formula.h"
+#include "frame/task_frame.h"
 #include "scene/joint.h"
-#include "servo/task_frame.h"
 #include "task/expression.h"
 #include "task/profile.h"
 
@@ -70,9 +70,9 @@ class Motor {
     /// What it does `t` after the beginning of the state [s], in which the joint began at `from`.
     /// `of(Number)` is a number in this trial, `values` are those of the quantities.
     template <class Of>
-    servo::MotorFrame at(double t, double from, const Of& of,
+    frame::MotorFrame at(double t, double from, const Of& of,
                          std::span<const double> values) const noexcept {
-        servo::MotorFrame out;
+        frame::MotorFrame out;
         out.joint = joint_;
         if (!push_.empty()) out.push = finite_or(0, push_(values));
         if (!goes_ && follow_.empty()) return out;

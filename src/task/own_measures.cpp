@@ -74,7 +74,7 @@ OwnMeasures::OwnMeasures(TaskPlan plan)
       numbers_(plan_),
       taken_(plan_.own_measures.size()) {}
 
-void OwnMeasures::add(const servo::Frame& frame) {
+void OwnMeasures::add(const frame::Frame& frame) {
     const double now = seconds(frame.time);
     if (began_ < 0) began_ = now;
     if (frame.phase != phase_) entered_ = now;

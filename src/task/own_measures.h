@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "frame/frame.h"
 #include "scene/scene.h"
-#include "servo/frame.h"
 #include "task/trial_numbers.h"
 
 namespace dihaptic::task {
@@ -24,7 +24,7 @@ class OwnMeasures {
     OwnMeasures(const OwnMeasures&) = delete;
 
     /// `frame`: of an attempt at a trial.
-    void add(const servo::Frame& frame);
+    void add(const frame::Frame& frame);
     /// In the units of the columns; NaN where no tick of the attempt was in the measure's states.
     /// What follows is another attempt.
     std::vector<double> end_attempt();
@@ -36,7 +36,7 @@ class OwnMeasures {
     };
     TaskPlan plan_;
     TrialNumbers numbers_;
-    std::vector<haptics::Handle> handles_;
+    std::vector<frame::Handle> handles_;
     std::vector<Taken> taken_;
     int phase_ = 0;
     double entered_ = 0;  // the state [s]

@@ -20,8 +20,8 @@ uint32_t moves_of(const VisualSpec& visual, Diagnostics& diagnostics) {
 }
 
 /// Adds the factors of a body to the list, or multiplies those that it has there.
-void add_to(std::vector<servo::PropertiesFrame>& list, const servo::PropertiesFrame& now) noexcept {
-    const auto same = std::find_if(list.begin(), list.end(), [&](const servo::PropertiesFrame& p) {
+void add_to(std::vector<frame::PropertiesFrame>& list, const frame::PropertiesFrame& now) noexcept {
+    const auto same = std::find_if(list.begin(), list.end(), [&](const frame::PropertiesFrame& p) {
         return p.body == now.body;
     });
     if (same == list.end()) return add(list, now);
@@ -33,8 +33,8 @@ void add_to(std::vector<servo::PropertiesFrame>& list, const servo::PropertiesFr
     same->restitution_scale *= now.restitution_scale;
 }
 
-void add_to(std::vector<servo::JointPropertiesFrame>& list,
-            const servo::JointPropertiesFrame& now) noexcept {
+void add_to(std::vector<frame::JointPropertiesFrame>& list,
+            const frame::JointPropertiesFrame& now) noexcept {
     const auto same = std::find_if(list.begin(), list.end(),
                                    [&](const auto& other) { return other.joint == now.joint; });
     if (same == list.end()) return add(list, now);
@@ -59,7 +59,7 @@ bool has_centre(const VisualSpec& visual) {
 }
 
 void check_displacing(const VisualSpec& visual, uint32_t moves, Diagnostics& diagnostics) {
-    if (!displaces(visual) || (moves & (servo::kMovesProxies | servo::kMovesObject)) != 0) return;
+    if (!displaces(visual) || (moves & (frame::kMovesProxies | frame::kMovesObject)) != 0) return;
     diagnostics.error(visual.place, visual.delay != 0 ? "delay" : "noise",
                       "is of proxies or the object, which are not moved", "Add proxies to moves.");
 }
@@ -131,11 +131,11 @@ void Perturbation::look_up_map(const VisualSpec& visual, const std::vector<Regio
         map.axis = axis_of(visual.axis, visual.place, "axis", diagnostics);
     map.angle_as_given = visual.angle;
     map.size_as_given = visual.size;
-    if (map.moves & servo::kMovesObject && map.object < 0) {
+    if (map.moves & frame::kMovesObject && map.object < 0) {
         diagnostics.error(visual.place, "moves", "the scene has no object that can move",
                           "Leave out object.");
     }
-    if (visual.size != 1 && (map.moves & servo::kMovesObject) == 0) {
+    if (visual.size != 1 && (map.moves & frame::kMovesObject) == 0) {
         diagnostics.error(visual.place, "size", "is the object's, which is not moved",
                           "Add object to moves.");
     }
@@ -148,7 +148,7 @@ void Perturbation::look_up_map(const VisualSpec& visual, const std::vector<Regio
 
 void Perturbation::look_up_body(const BodySpec& body, const scene::Scene& scene,
                                 Diagnostics& diagnostics) {
-    servo::PropertiesFrame& out = properties_.emplace();
+    frame::PropertiesFrame& out = properties_.emplace();
     out.body =
         look_up(names_of(scene.bodies), body.body, body.place, "body", "no body", diagnostics);
     const bool only_surface = body.mass_scale == FormulaVec3{1, 1, 1} && body.weight_scale == 1 &&
@@ -174,7 +174,7 @@ void Perturbation::look_up_body(const BodySpec& body, const scene::Scene& scene,
 
 void Perturbation::look_up_joint(const JointSpec& spec, const scene::Scene& scene,
                                  Diagnostics& diagnostics) {
-    servo::JointPropertiesFrame& out = joint_.emplace();
+    frame::JointPropertiesFrame& out = joint_.emplace();
     joint_as_given_ = {spec.stiffness_scale, spec.damping_scale, spec.friction_scale};
     out.joint = look_up(names_of(recorded_joints(scene)), spec.joint, spec.place, "joint",
                         "no joint of the scene", diagnostics);
@@ -206,10 +206,10 @@ std::optional<Vec3> Perturbation::axis() const {
 }
 
 void Perturbation::order(double share, std::span<const Vec3> regions_W, const Motions& motions,
-                         servo::TaskFrame& out) const noexcept {
+                         frame::TaskFrame& out) const noexcept {
     if (map_) {
         const Map& map = *map_;
-        servo::VisualMap shown;
+        frame::VisualMap shown;
         shown.moves = map.moves;
         shown.object = map.object;
         if (map.about >= 0) shown.p_WC = regions_W[static_cast<size_t>(map.about)];
@@ -225,7 +225,7 @@ void Perturbation::order(double share, std::span<const Vec3> regions_W, const Mo
         add(out.visual, shown);
     }
     if (properties_) {
-        servo::PropertiesFrame now = *properties_;
+        frame::PropertiesFrame now = *properties_;
         now.mass_scale = Vec3::Ones() + share * (now.mass_scale - Vec3::Ones());
         for (double* factor : {&now.weight_scale, &now.turning_scale, &now.friction_scale,
                                &now.stiffness_scale, &now.restitution_scale})
@@ -233,7 +233,7 @@ void Perturbation::order(double share, std::span<const Vec3> regions_W, const Mo
         add_to(out.properties, now);
     }
     if (joint_) {
-        servo::JointPropertiesFrame now = *joint_;
+        frame::JointPropertiesFrame now = *joint_;
         for (double* factor : {&now.stiffness_scale, &now.damping_scale, &now.friction_scale})
             *factor = part_of(share, *factor);
         add_to(out.joint_properties, now);

@@ -13,8 +13,8 @@
 
 #include "base/field_reader.h"
 #include "base/formula.h"
+#include "frame/frame.h"
 #include "scene/scene.h"
-#include "servo/frame.h"
 #include "task/loads.h"
 #include "task/profile.h"
 
@@ -192,7 +192,7 @@ class Perturbation {
     double share_at(double t) const noexcept { return profile_ ? profile_->share(t) : 1; }
     /// Adds the perturbation's commands to `out`. `regions_W`: centres of the regions [m].
     void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
-               servo::TaskFrame& out) const noexcept;
+               frame::TaskFrame& out) const noexcept;
     /// Force of its loads over velocity, at share 1 [N*s/m]; of channels and springs zero.
     Mat3 field_gain() const;
     /// Axis of its rotation, or of its first curl field; nullopt if it has neither.
@@ -204,7 +204,7 @@ class Perturbation {
     /// The most that the delay of what it moves on the screen may be [s].
     double longest_delay() const { return map_ ? map_->longest_delay : 0; }
     /// A body's properties at share 1; unset if it changes no body.
-    const std::optional<servo::PropertiesFrame>& properties() const { return properties_; }
+    const std::optional<frame::PropertiesFrame>& properties() const { return properties_; }
 
   private:
     struct Map {
@@ -239,9 +239,9 @@ class Perturbation {
 
     std::optional<Map> map_;
     Properties properties_as_given_;
-    std::optional<servo::PropertiesFrame> properties_;
+    std::optional<frame::PropertiesFrame> properties_;
     std::array<Number, 3> joint_as_given_{};  // factors on stiffness, damping, friction
-    std::optional<servo::JointPropertiesFrame> joint_;
+    std::optional<frame::JointPropertiesFrame> joint_;
     std::vector<Load> loads_;
     std::optional<Profile> profile_;
 };

@@ -34,11 +34,11 @@ class Definer {
         define_levels(task);
         for (const AskSpec& ask : questions_of(task))
             define(ask.name, kUnmeasured, Kind::variable, ask.place, "name");
-        if (plan_.start.size() > servo::TaskFrame::kMostVariables) {
+        if (plan_.start.size() > frame::TaskFrame::kMostVariables) {
             diagnostics_.error(task.place, "variables",
                                fmt::format("there are {} with levels of procedures and answers, "
                                            "where {} are the most",
-                                           plan_.start.size(), servo::TaskFrame::kMostVariables),
+                                           plan_.start.size(), frame::TaskFrame::kMostVariables),
                                "Leave some out.");
         }
     }

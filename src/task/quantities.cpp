@@ -4,7 +4,7 @@
 #include <array>
 #include <cstring>
 
-#include "servo/displayed.h"
+#include "frame/displayed.h"
 
 namespace dihaptic::task {
 namespace {
@@ -44,10 +44,10 @@ bool is_thing(const Quantities::Thing& thing, int body, int bodies) noexcept {
 }
 
 double fingers_that_press(const Quantities::Thing& body, const Quantities::Thing& who,
-                          const servo::Frame& last) noexcept {
+                          const frame::Frame& last) noexcept {
     const auto bodies = static_cast<int>(last.bodies.size());
     scene::FingerSet which;
-    for (const servo::ContactFrame& contact : last.contacts) {
+    for (const frame::ContactFrame& contact : last.contacts) {
         if (contact.normal_force <= 0 || (contact.a != body.body && contact.b != body.body))
             continue;
         const int other = (contact.a == body.body ? contact.b : contact.a) - bodies;
@@ -58,10 +58,10 @@ double fingers_that_press(const Quantities::Thing& body, const Quantities::Thing
 }
 
 double normal_force_between(const Quantities::Thing& a, const Quantities::Thing& b,
-                            const servo::Frame& last) noexcept {
+                            const frame::Frame& last) noexcept {
     const auto bodies = static_cast<int>(last.bodies.size());
     double sum = 0;
-    for (const servo::ContactFrame& contact : last.contacts) {
+    for (const frame::ContactFrame& contact : last.contacts) {
         const bool ab = is_thing(a, contact.a, bodies) && is_thing(b, contact.b, bodies);
         const bool ba = is_thing(b, contact.a, bodies) && is_thing(a, contact.b, bodies);
         if (ab || ba) sum += contact.normal_force;
@@ -86,7 +86,7 @@ struct Quantities::Lister {
     std::vector<Member> members{};
 
     template <class Value>
-    void operator()(const Value& value, const servo::Term& term) {
+    void operator()(const Value& value, const frame::Term& term) {
         using Format = Source::Format;
         Format format = Format::f64;
         int count = 1;
@@ -116,7 +116,7 @@ template <class Item>
 std::vector<Quantities::Member> Quantities::members() {
     const Item item{};
     Lister lister{&item};
-    if constexpr (std::is_same_v<Item, haptics::Handle>) {
+    if constexpr (std::is_same_v<Item, frame::Handle>) {
         lister(item.p_WH, {"handle_position", "m", "W", ""});
         lister(item.v_WH, {"handle_velocity", "m/s", "W", ""});
         lister(item.R_WH, {"handle_orientation", "1", "W", ""});
@@ -130,9 +130,9 @@ std::vector<Quantities::Member> Quantities::members() {
 const std::vector<Quantities::Member>& Quantities::members_of(Source::From from) {
     using From = Source::From;
     static const std::map<From, std::vector<Member>> kMembers{
-        {From::frame, members<servo::Frame>()},     {From::finger, members<servo::FingerFrame>()},
-        {From::handle, members<haptics::Handle>()}, {From::turn, members<servo::TurnFrame>()},
-        {From::body, members<servo::BodyFrame>()},  {From::joint, members<servo::JointFrame>()},
+        {From::frame, members<frame::Frame>()},    {From::finger, members<frame::FingerFrame>()},
+        {From::handle, members<frame::Handle>()},  {From::turn, members<frame::TurnFrame>()},
+        {From::body, members<frame::BodyFrame>()}, {From::joint, members<frame::JointFrame>()},
     };
     return kMembers.at(from);
 }
@@ -407,8 +407,8 @@ int Quantities::contact_force(const Thing& a, const Thing& b) {
 }
 
 /// A component of the middle of the hand's handles, or its speed.
-double Quantities::middle(const Source& source, const servo::Frame& last,
-                          std::span<const haptics::Handle> handles) noexcept {
+double Quantities::middle(const Source& source, const frame::Frame& last,
+                          std::span<const frame::Handle> handles) noexcept {
     const bool speed = source.format == Source::Format::norm;
     Vec3 sum = Vec3::Zero();
     for (size_t i = 0; i < handles.size(); ++i) {
@@ -416,12 +416,12 @@ double Quantities::middle(const Source& source, const servo::Frame& last,
     }
     const Vec3 mean = sum / static_cast<double>(source.a.fingers.count());
     if (speed) return mean.norm();
-    return (source.shown ? servo::displayed_hand(last, source.a.fingers, mean)
+    return (source.shown ? frame::displayed_hand(last, source.a.fingers, mean)
                          : mean)[source.index];
 }
 
-double Quantities::read(const Source& source, const servo::Frame& last,
-                        std::span<const haptics::Handle> handles) noexcept {
+double Quantities::read(const Source& source, const frame::Frame& last,
+                        std::span<const frame::Handle> handles) noexcept {
     using From = Source::From;
     const char* item = nullptr;
     const auto look_in = [&](const auto& list) {
@@ -480,8 +480,7 @@ double Quantities::number_at(const char* at, Source::Format format) noexcept {
     return Vec3(v[0], v[1], v[2]).norm();
 }
 
-void Quantities::update(const servo::Frame& last,
-                        std::span<const haptics::Handle> handles) noexcept {
+void Quantities::update(const frame::Frame& last, std::span<const frame::Handle> handles) noexcept {
     for (const Source& source : sources_) set(source.slot, read(source, last, handles));
 }
 

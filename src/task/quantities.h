@@ -25,9 +25,9 @@
 #include <vector>
 
 #include "base/unit.h"
-#include "haptics/coupling.h"
+#include "frame/frame.h"
+#include "frame/handle.h"
 #include "scene/finger_set.h"
-#include "servo/frame.h"
 
 namespace dihaptic::task {
 
@@ -112,7 +112,7 @@ class Quantities {
         for (int i = 0; i < 3; ++i) set(slot + i, value[i]);
     }
     /// Refreshes what follows the tick.
-    void update(const servo::Frame& last, std::span<const haptics::Handle> handles) noexcept;
+    void update(const frame::Frame& last, std::span<const frame::Handle> handles) noexcept;
     std::span<const double> values() const { return values_; }
 
   private:
@@ -146,11 +146,11 @@ class Quantities {
                                        const scene::FingerSet& fingers);
     std::optional<Symbol> find_of_region(std::string_view member, size_t i) const;
     int slot_of(Source source);
-    static double read(const Source& source, const servo::Frame& last,
-                       std::span<const haptics::Handle> handles) noexcept;
+    static double read(const Source& source, const frame::Frame& last,
+                       std::span<const frame::Handle> handles) noexcept;
     static double number_at(const char* at, Source::Format format) noexcept;
-    static double middle(const Source& source, const servo::Frame& last,
-                         std::span<const haptics::Handle> handles) noexcept;
+    static double middle(const Source& source, const frame::Frame& last,
+                         std::span<const frame::Handle> handles) noexcept;
 
     Names names_;
     int regions_ = 0;

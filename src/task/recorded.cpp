@@ -4,7 +4,7 @@
 
 namespace dihaptic::task {
 
-void handles_of(const servo::Frame& frame, std::vector<haptics::Handle>& out) {
+void handles_of(const frame::Frame& frame, std::vector<frame::Handle>& out) {
     out.resize(frame.fingers.size());
     for (size_t i = 0; i < out.size(); ++i) {
         out[i].p_WH = frame.fingers[i].p_WH;
@@ -29,7 +29,7 @@ RecordedValue::RecordedValue(const std::string& text, const scene::Scene& scene,
     scale_ = 1e3;
 }
 
-double RecordedValue::operator()(const servo::Frame& frame) {
+double RecordedValue::operator()(const frame::Frame& frame) {
     handles_of(frame, handles_);
     quantities_.update(frame, handles_);
     return scale_ * expression_(quantities_.values());

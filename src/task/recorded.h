@@ -10,7 +10,7 @@
 namespace dihaptic::task {
 
 /// The handles as a frame has them.
-void handles_of(const servo::Frame& frame, std::vector<haptics::Handle>& out);
+void handles_of(const frame::Frame& frame, std::vector<frame::Handle>& out);
 
 /// An expression of a recording, by itself: what a task defines (regions, variables, times in a
 /// state) has no name in it.
@@ -19,14 +19,14 @@ class RecordedValue {
     /// A mistake goes to `diagnostics`; the value is then 0.
     RecordedValue(const std::string& text, const scene::Scene& scene, Diagnostics& diagnostics);
 
-    double operator()(const servo::Frame& frame);
+    double operator()(const frame::Frame& frame);
     /// Of the value; lengths are in mm.
     const std::string& unit() const { return unit_; }
 
   private:
     Quantities quantities_;
     Expression expression_;
-    std::vector<haptics::Handle> handles_;
+    std::vector<frame::Handle> handles_;
     std::string unit_;
     double scale_ = 1;
 };

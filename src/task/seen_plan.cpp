@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "frame/shown_texts.h"
 #include "scene/colour.h"
-#include "servo/shown_texts.h"
 #include "task/lookup.h"
 
 namespace dihaptic::task {
@@ -14,17 +14,17 @@ namespace {
 
 constexpr size_t kMostLines = 2;                                    // of a state, and of the task
 constexpr size_t kMostInText = 4;                                   // numbers
-static_assert(servo::TaskFrame::kMostLines == 2 * kMostLines + 2);  // countdown, feedback
-static_assert(servo::TaskFrame::kMostNumbers == kMostInText * (1 + servo::TaskFrame::kMostLines));
+static_assert(frame::TaskFrame::kMostLines == 2 * kMostLines + 2);  // countdown, feedback
+static_assert(frame::TaskFrame::kMostNumbers == kMostInText * (1 + frame::TaskFrame::kMostLines));
 
 constexpr const char* kRest = "Take a break";
 constexpr const char* kCountdown = "{countdown}";
 
-servo::LookFrame& look_of(TaskPlan::Looks& looks, size_t body) {
-    for (servo::LookFrame& look : looks.things) {
+frame::LookFrame& look_of(TaskPlan::Looks& looks, size_t body) {
+    for (frame::LookFrame& look : looks.things) {
         if (look.body == static_cast<int32_t>(body)) return look;
     }
-    servo::LookFrame& look = looks.things.emplace_back();
+    frame::LookFrame& look = looks.things.emplace_back();
     look.body = static_cast<int32_t>(body);
     return look;
 }
@@ -50,7 +50,7 @@ int SeenPlanner::text(const std::string& text, const Place& place, const char* k
     if (found != plan_.messages.end()) return static_cast<int>(found - plan_.messages.begin());
     plan_.messages.push_back(text);
     std::vector<TextNumber> numbers;
-    for (const servo::Placeholder& given : servo::placeholders(text)) {
+    for (const frame::Placeholder& given : frame::placeholders(text)) {
         if (given.name.empty()) {
             diagnostics_.error(place, key,
                                fmt::format("'{}' is no place for a number",
@@ -190,7 +190,7 @@ void SeenPlanner::add_looks(const std::vector<LookSpec>& specs, TaskPlan::Looks&
         const int target = index(spec.target, spec, "target", regions_, "no region");
         if (target >= 0) out.targets.push_back({target, Vec3::Zero(), spec.scale, rgb});
         if (body < 0 && finger < 0) continue;
-        servo::LookFrame& look =
+        frame::LookFrame& look =
             look_of(out, body >= 0 ? static_cast<size_t>(body)
                                    : bodies_.size() + static_cast<size_t>(finger));
         if (rgb >= 0) look.colour = rgb;

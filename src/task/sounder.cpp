@@ -4,7 +4,7 @@
 
 namespace dihaptic::task {
 
-void Sounder::order(const TaskPlan::Stage* stage, servo::TaskFrame& out) noexcept {
+void Sounder::order(const TaskPlan::Stage* stage, frame::TaskFrame& out) noexcept {
     const uint32_t wanted =
         plan_.throughout | (stage == nullptr ? 0 : stage->sounds & plan_.going_on);
     const uint32_t before = std::exchange(going_, wanted);

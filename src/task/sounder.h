@@ -1,5 +1,5 @@
 // Orders, tick by tick, which of a task's sounds begin and end. What it orders is recorded
-// (servo/task_frame.h). Once constructed it neither allocates, locks nor throws.
+// (frame/task_frame.h). Once constructed it neither allocates, locks nor throws.
 #pragma once
 
 #include "task/task_plan.h"
@@ -16,7 +16,7 @@ class Sounder {
     /// A way out of a state is taken.
     void take(const TaskPlan::Way& way) noexcept { once_ |= way.sounds; }
     /// Call once in each tick, at its end. `stage`: the state that the trial is in; null: none.
-    void order(const TaskPlan::Stage* stage, servo::TaskFrame& out) noexcept;
+    void order(const TaskPlan::Stage* stage, frame::TaskFrame& out) noexcept;
 
   private:
     const TaskPlan& plan_;

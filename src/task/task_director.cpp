@@ -17,10 +17,10 @@ bool same_pose(const Pose& a, const Pose& b) noexcept {
 }
 
 /// Whether a finger presses the body.
-bool pressed(const servo::Frame& last, int body) noexcept {
+bool pressed(const frame::Frame& last, int body) noexcept {
     const auto bodies = static_cast<int>(last.bodies.size());
     return std::any_of(
-        last.contacts.begin(), last.contacts.end(), [&](const servo::ContactFrame& contact) {
+        last.contacts.begin(), last.contacts.end(), [&](const frame::ContactFrame& contact) {
             const bool of_body = contact.a == body || contact.b == body;
             return contact.normal_force > 0 && of_body && std::max(contact.a, contact.b) >= bodies;
         });
@@ -32,16 +32,16 @@ double exact(double time) noexcept {
 }
 
 /// Where the body is, or is put in this tick.
-Pose pose_of(int body, const servo::Frame& last, const servo::Commands& commands) noexcept {
-    for (const servo::PlacementFrame& placed : commands.task.placements) {
+Pose pose_of(int body, const frame::Frame& last, const frame::Commands& commands) noexcept {
+    for (const frame::PlacementFrame& placed : commands.task.placements) {
         if (placed.body == body) return placed.X_WB;
     }
     return last.bodies[static_cast<size_t>(body)].X_WB;
 }
 
 /// Where the joint's coordinate is.
-double coordinate_of(int joint, const servo::Frame& last) noexcept {
-    const servo::JointFrame& frame = last.joints[static_cast<size_t>(joint)];
+double coordinate_of(int joint, const frame::Frame& last) noexcept {
+    const frame::JointFrame& frame = last.joints[static_cast<size_t>(joint)];
     return std::isnan(frame.angle) ? frame.displacement : frame.angle;
 }
 
@@ -88,8 +88,8 @@ TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
     motor_from_.resize(motors);
 }
 
-void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics::Handle> handles,
-                              servo::Commands& commands) noexcept {
+void TaskDirector::operator()(const frame::Frame& last, std::span<const frame::Handle> handles,
+                              frame::Commands& commands) noexcept {
     const double now = last.sequence < 0 ? 0 : seconds(last.time) + tick_;
     motions_.add(last, handles);
     displayer_.see(last);
@@ -102,8 +102,8 @@ void TaskDirector::operator()(const servo::Frame& last, std::span<const haptics:
     say(now, commands.task);
 }
 
-void TaskDirector::direct(const servo::Frame& last, std::span<const haptics::Handle> handles,
-                          double now, servo::Commands& commands) noexcept {
+void TaskDirector::direct(const frame::Frame& last, std::span<const frame::Handle> handles,
+                          double now, frame::Commands& commands) noexcept {
     if (now >= feedback_until_ && next_message_ >= 0) message_ = std::exchange(next_message_, -1);
     // taken in every tick, so that input between trials counts for no trial
     const Input input{key_.exchange(0, std::memory_order_relaxed),
@@ -138,8 +138,8 @@ void TaskDirector::direct(const servo::Frame& last, std::span<const haptics::Han
     order(now, commands);
 }
 
-void TaskDirector::begin(const servo::Frame& last, char key, double now,
-                         servo::Commands& commands) noexcept {
+void TaskDirector::begin(const frame::Frame& last, char key, double now,
+                         frame::Commands& commands) noexcept {
     if (!decided(now)) return;
     if (now < feedback_until_) return;  // the feedback is still being read
     if (!opening_.over(trial(), last_trial_ > 0, key, now)) return;
@@ -208,7 +208,7 @@ void TaskDirector::follow(const Decision& decision, double now) noexcept {
 }
 
 /// Whether all bodies can be put back.
-bool TaskDirector::clear(const servo::Frame& last) const noexcept {
+bool TaskDirector::clear(const frame::Frame& last) const noexcept {
     const auto& homes = numbers_.cell().homes;
     return std::all_of(homes.begin(), homes.end(),
                        [&](const TaskPlan::Home& home) { return clear(last, home); });
@@ -216,7 +216,7 @@ bool TaskDirector::clear(const servo::Frame& last) const noexcept {
 
 /// Whether a body can be put there. A body put where a finger is would push the finger out; a body
 /// taken from between fingers that press it would let them clap together.
-bool TaskDirector::clear(const servo::Frame& last, const TaskPlan::Home& home) const noexcept {
+bool TaskDirector::clear(const frame::Frame& last, const TaskPlan::Home& home) const noexcept {
     if (last.sequence < 0) return true;
     if (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, home.X_WB)) return true;
     if (pressed(last, home.body)) return false;
@@ -229,8 +229,8 @@ bool TaskDirector::clear(const servo::Frame& last, const TaskPlan::Home& home) c
 
 /// Orders that the body be put there in this tick, whatever was ordered of it before.
 void TaskDirector::put(int body, const Pose& X_WB, const BodyMotion& motion,
-                       servo::Commands& commands) noexcept {
-    std::vector<servo::PlacementFrame>& list = commands.task.placements;
+                       frame::Commands& commands) noexcept {
+    std::vector<frame::PlacementFrame>& list = commands.task.placements;
     const auto same = std::find_if(list.begin(), list.end(),
                                    [&](const auto& placed) { return placed.body == body; });
     if (same == list.end()) {
@@ -241,7 +241,7 @@ void TaskDirector::put(int body, const Pose& X_WB, const BodyMotion& motion,
     motions_.put(body, X_WB.p);
 }
 
-void TaskDirector::enter(int state, double now, servo::Commands& commands) noexcept {
+void TaskDirector::enter(int state, double now, frame::Commands& commands) noexcept {
     if (state_ < 0) trial_began_ = now;
     numbers_.follow(queue_.trial() + 1, queue_.attempt(), variables_, state);
     const TaskPlan::Cell& cell = numbers_.cell();
@@ -263,7 +263,7 @@ void TaskDirector::enter(int state, double now, servo::Commands& commands) noexc
     commands.task.marker = stage.marker;
 }
 
-const TaskPlan::Way* TaskDirector::way_out(const servo::Frame& last, const Input& input,
+const TaskPlan::Way* TaskDirector::way_out(const frame::Frame& last, const Input& input,
                                            double now) noexcept {
     const auto& ways = plan_.stages[static_cast<size_t>(state_)].ways;
     Quantities& quantities = numbers_.quantities();
@@ -290,7 +290,7 @@ const TaskPlan::Way* TaskDirector::way_out(const servo::Frame& last, const Input
     return nullptr;
 }
 
-bool TaskDirector::holds(const TaskPlan::Way& way, const servo::Frame& last,
+bool TaskDirector::holds(const TaskPlan::Way& way, const frame::Frame& last,
                          const Input& input) const noexcept {
     switch (way.exit.when) {
         case When::key:
@@ -309,7 +309,7 @@ bool TaskDirector::holds(const TaskPlan::Way& way, const servo::Frame& last,
     }
 }
 
-void TaskDirector::finish(int outcome, bool redo, double now, servo::Commands& commands) noexcept {
+void TaskDirector::finish(int outcome, bool redo, double now, frame::Commands& commands) noexcept {
     last_trial_ = queue_.trial() + 1;
     last_attempt_ = queue_.attempt();
     commands.trial = last_trial_;
@@ -332,7 +332,7 @@ void TaskDirector::finish(int outcome, bool redo, double now, servo::Commands& c
 
 /// After the last trial, the session lasts until its feedback has been read. A session that was
 /// over when it was resumed ends at once.
-void TaskDirector::order_end(double now, servo::Commands& commands) const noexcept {
+void TaskDirector::order_end(double now, frame::Commands& commands) const noexcept {
     commands.stop = now >= feedback_until_;
     commands.trial = last_trial_;
     commands.phase = 0;
@@ -341,7 +341,7 @@ void TaskDirector::order_end(double now, servo::Commands& commands) const noexce
     commands.task.variables = variables_;
 }
 
-void TaskDirector::say(double now, servo::TaskFrame& out) const noexcept {
+void TaskDirector::say(double now, frame::TaskFrame& out) const noexcept {
     if (const int page = opening_.page(); page >= 0) {
         out.page = page;
         out.message = plan_.pages[static_cast<size_t>(page)].message;
@@ -363,7 +363,7 @@ void TaskDirector::say(double now, servo::TaskFrame& out) const noexcept {
     for (const int line : plan_.lines) add_line(line);
 }
 
-void TaskDirector::say(int message, double now, servo::TaskFrame& out) const noexcept {
+void TaskDirector::say(int message, double now, frame::TaskFrame& out) const noexcept {
     if (message < 0) return;
     for (const TextNumber& number : plan_.numbers[static_cast<size_t>(message)]) {
         if (!number.quantity.empty()) {
@@ -440,7 +440,7 @@ void TaskDirector::follow_rules(int outcome) noexcept {
     }
 }
 
-void TaskDirector::take_answers(std::span<const haptics::Handle> handles,
+void TaskDirector::take_answers(std::span<const frame::Handle> handles,
                                 const Input& input) noexcept {
     if (state_ < 0 || !plan_.stages[static_cast<size_t>(state_)].question) return;
     const Question& question = *plan_.stages[static_cast<size_t>(state_)].question;
@@ -450,7 +450,7 @@ void TaskDirector::take_answers(std::span<const haptics::Handle> handles,
             rating_.click(input.clicked, question);
     } else {
         Vec3 middle_W = Vec3::Zero();
-        for (const haptics::Handle& handle : handles)
+        for (const frame::Handle& handle : handles)
             middle_W += handle.p_WH / static_cast<double>(handles.size());
         const auto& p_W = numbers_.cell().p_W;
         rating_.point(middle_W, p_W[static_cast<size_t>(question.from)],
@@ -499,7 +499,7 @@ void TaskDirector::take_answer(int outcome) noexcept {
 
 /// Puts the state's bodies, each as soon as no finger presses it or is in its way, and keeps in
 /// place those that stay.
-void TaskDirector::put_bodies(const servo::Frame& last, servo::Commands& commands) noexcept {
+void TaskDirector::put_bodies(const frame::Frame& last, frame::Commands& commands) noexcept {
     if (state_ < 0) return;
     const auto& puts = plan_.stages[static_cast<size_t>(state_)].puts;
     for (size_t i = 0; i < puts.size(); ++i) {
@@ -522,8 +522,8 @@ void TaskDirector::put_bodies(const servo::Frame& last, servo::Commands& command
 
 /// Orders where the state's drives and motors get by the end of the tick, each from where its body
 /// or joint is as the state begins.
-void TaskDirector::drive_bodies(const servo::Frame& last, double now,
-                                servo::Commands& commands) noexcept {
+void TaskDirector::drive_bodies(const frame::Frame& last, double now,
+                                frame::Commands& commands) noexcept {
     if (state_ < 0 || last.sequence < 0) return;
     const auto& drives = plan_.stages[static_cast<size_t>(state_)].drives;
     const auto& motors = plan_.stages[static_cast<size_t>(state_)].motors;
@@ -544,10 +544,10 @@ void TaskDirector::drive_bodies(const servo::Frame& last, double now,
     }
 }
 
-void TaskDirector::order(double now, servo::Commands& commands) const noexcept {
+void TaskDirector::order(double now, frame::Commands& commands) const noexcept {
     commands.trial = queue_.trial() + 1;
     commands.phase = state_ + 1;
-    servo::TaskFrame& out = commands.task;
+    frame::TaskFrame& out = commands.task;
     out.attempt = queue_.attempt();
     out.message = message_;
     out.variables = variables_;

@@ -5,7 +5,7 @@
 
 #include <atomic>
 
-#include "servo/servo.h"
+#include "frame/orders.h"
 #include "task/between.h"
 #include "task/displayer.h"
 #include "task/opening.h"
@@ -21,8 +21,8 @@ class TaskDirector {
     TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
                  const std::vector<Attempt>& done = {});
 
-    void operator()(const servo::Frame& last, std::span<const haptics::Handle> handles,
-                    servo::Commands& commands) noexcept;
+    void operator()(const frame::Frame& last, std::span<const frame::Handle> handles,
+                    frame::Commands& commands) noexcept;
 
     /// The operator pressed a key; from any thread.
     void press(char key) noexcept { key_.store(key, std::memory_order_relaxed); }
@@ -49,42 +49,42 @@ class TaskDirector {
 
   private:
     const Trial& trial() const { return plan_.trials[static_cast<size_t>(queue_.trial())]; }
-    bool clear(const servo::Frame& last) const noexcept;
-    bool clear(const servo::Frame& last, const TaskPlan::Home& home) const noexcept;
+    bool clear(const frame::Frame& last) const noexcept;
+    bool clear(const frame::Frame& last, const TaskPlan::Home& home) const noexcept;
     void put(int body, const Pose& X_WB, const BodyMotion& motion,
-             servo::Commands& commands) noexcept;
+             frame::Commands& commands) noexcept;
     /// Begins the next trial once the last feedback and its block's pages have been read and bodies
     /// can be put back.
-    void begin(const servo::Frame& last, char key, double now, servo::Commands& commands) noexcept;
+    void begin(const frame::Frame& last, char key, double now, frame::Commands& commands) noexcept;
     /// Asks what decides between trials, if anything does.
     void ask(int attempt, int outcome, double now) noexcept;
     /// Whether what decides between trials has answered, or is too late.
     bool decided(double now) noexcept;
     void follow(const Decision& decision, double now) noexcept;
-    void enter(int state, double now, servo::Commands& commands) noexcept;
+    void enter(int state, double now, frame::Commands& commands) noexcept;
     /// What came in from outside since the last tick.
     struct Input {
         char key;     // 0: none
         int trigger;  // 0: none
         double clicked;
     };
-    bool holds(const TaskPlan::Way& way, const servo::Frame& last,
+    bool holds(const TaskPlan::Way& way, const frame::Frame& last,
                const Input& input) const noexcept;
-    const TaskPlan::Way* way_out(const servo::Frame& last, const Input& input, double now) noexcept;
-    void finish(int outcome, bool redo, double now, servo::Commands& commands) noexcept;
-    void order_end(double now, servo::Commands& commands) const noexcept;
-    void order(double now, servo::Commands& commands) const noexcept;
-    void put_bodies(const servo::Frame& last, servo::Commands& commands) noexcept;
-    void drive_bodies(const servo::Frame& last, double now, servo::Commands& commands) noexcept;
+    const TaskPlan::Way* way_out(const frame::Frame& last, const Input& input, double now) noexcept;
+    void finish(int outcome, bool redo, double now, frame::Commands& commands) noexcept;
+    void order_end(double now, frame::Commands& commands) const noexcept;
+    void order(double now, frame::Commands& commands) const noexcept;
+    void put_bodies(const frame::Frame& last, frame::Commands& commands) noexcept;
+    void drive_bodies(const frame::Frame& last, double now, frame::Commands& commands) noexcept;
     /// Takes what was typed, or where the hands are, as the answer that the state asks for.
-    void take_answers(std::span<const haptics::Handle> handles, const Input& input) noexcept;
+    void take_answers(std::span<const frame::Handle> handles, const Input& input) noexcept;
 
     /// As operator(), but for how things look and sound, and what texts say.
-    void direct(const servo::Frame& last, std::span<const haptics::Handle> handles, double now,
-                servo::Commands& commands) noexcept;
+    void direct(const frame::Frame& last, std::span<const frame::Handle> handles, double now,
+                frame::Commands& commands) noexcept;
     /// Orders the texts, once the message is ordered, or the page in their place.
-    void say(double now, servo::TaskFrame& out) const noexcept;
-    void say(int message, double now, servo::TaskFrame& out) const noexcept;
+    void say(double now, frame::TaskFrame& out) const noexcept;
+    void say(int message, double now, frame::TaskFrame& out) const noexcept;
     /// Number in a text; NaN if there is none now.
     double value_of(Figure figure, double now) const noexcept;
     double countdown(double now) const noexcept;
@@ -106,7 +106,7 @@ class TaskDirector {
     std::vector<Procedure> procedures_;
     TrialQueue queue_;
     TrialNumbers numbers_;
-    std::vector<servo::VariableFrame> variables_;
+    std::vector<frame::VariableFrame> variables_;
     bool begun_ = false;      // the trial's numbers are resolved
     int state_ = -1;          // -1: between trials
     double trial_began_ = 0;  // when the trial entered its first state [s]

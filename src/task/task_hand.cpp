@@ -47,7 +47,7 @@ hand::FingerTarget TaskHand::do_target(int finger, double t) const noexcept {
     return target;
 }
 
-void TaskHand::do_see(const servo::Frame& frame) noexcept {
+void TaskHand::do_see(const frame::Frame& frame) noexcept {
     const double now = seconds(frame.time);
     if (frame.phase != kBetween)
         numbers_.follow(frame.trial, frame.task.attempt, frame.task.variables, frame.phase - 1);

@@ -21,7 +21,7 @@ class TaskHand final : public SeeingDriver {
 
   private:
     hand::FingerTarget do_target(int finger, double t) const noexcept override;
-    void do_see(const servo::Frame& frame) noexcept override;
+    void do_see(const frame::Frame& frame) noexcept override;
     void begin_step(double now) noexcept;
 
     /// Where a finger's hand is in its step.

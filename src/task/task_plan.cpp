@@ -154,10 +154,10 @@ class Planner {
         check_names(task.rounds, "rounds", diagnostics_);
         check_names(task.procedures, "procedures", diagnostics_);
         check_names(task.blocks, "blocks", diagnostics_);
-        if (task.regions.size() > servo::TaskFrame::kMostTargets) {
+        if (task.regions.size() > frame::TaskFrame::kMostTargets) {
             error(task.place, "regions",
                   fmt::format("there are {}, where {} are the most", task.regions.size(),
-                              servo::TaskFrame::kMostTargets),
+                              frame::TaskFrame::kMostTargets),
                   "Let conditions move one region about.");
         }
         if (task.sounds.size() > TaskPlan::kMostSounds)
@@ -415,7 +415,7 @@ class Planner {
                         [&](const Motor& other) { return other.joint() == index; }))
             error(spec.place, "joint", fmt::format("'{}' has two motors", joint.name),
                   "Keep one of the two: it may both go somewhere and push.");
-        if (out.motors.size() == servo::TaskFrame::kMostMotors)
+        if (out.motors.size() == frame::TaskFrame::kMostMotors)
             error(spec.place, "joint",
                   fmt::format("there are more than {} motors", out.motors.size()),
                   "Leave out some.");

@@ -2,7 +2,7 @@
 // read.
 #pragma once
 
-#include "servo/task_frame.h"
+#include "frame/task_frame.h"
 #include "task/formulas.h"
 #include "task/on_joint.h"
 #include "task/trials.h"
@@ -39,7 +39,7 @@ struct TextNumber {
 
 struct TaskPlan {
     static constexpr size_t kMostStates = 64;  ///< sets of states are one bit each
-    static constexpr int kMostSounds = servo::TaskFrame::kMostSounds;  ///< and of sounds
+    static constexpr int kMostSounds = frame::TaskFrame::kMostSounds;  ///< and of sounds
 
     Task task;
     std::vector<Trial> trials;
@@ -97,8 +97,8 @@ struct TaskPlan {
     };
     /// How bodies, proxies and targets look; of a target the radius is the factor on it.
     struct Looks {
-        std::vector<servo::LookFrame> things;
-        std::vector<servo::TargetFrame> targets;
+        std::vector<frame::LookFrame> things;
+        std::vector<frame::TargetFrame> targets;
     };
     struct Stage {
         uint32_t shown = 0;  ///< regions shown, one bit each
@@ -217,7 +217,7 @@ struct TaskPlan {
     int chose_comparison = -1;            ///< outcome
     int chose_standard = -1;              ///< outcome
     /// What variables, then levels, and then answers are at the session's start.
-    std::vector<servo::VariableFrame> start;
+    std::vector<frame::VariableFrame> start;
     std::vector<Change> changes;
     std::vector<std::optional<Expression>> until;  ///< by block
 

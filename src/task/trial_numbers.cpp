@@ -69,7 +69,7 @@ double TrialNumbers::resolve(int index) noexcept {
     return resolved_[i];
 }
 
-void TrialNumbers::set(std::span<const servo::VariableFrame> variables) noexcept {
+void TrialNumbers::set(std::span<const frame::VariableFrame> variables) noexcept {
     const auto& symbols = plan_.symbols.variables;
     for (size_t i = 0; i < std::min(variables.size(), symbols.size()); ++i) {
         quantities_.set(symbols[i].slot, variables[i].value);
@@ -84,7 +84,7 @@ bool TrialNumbers::ends_before(int trial) noexcept {
     return until && (*until)(between_.values()) != 0;
 }
 
-void TrialNumbers::begin(int trial, int attempt, std::span<const servo::VariableFrame> variables,
+void TrialNumbers::begin(int trial, int attempt, std::span<const frame::VariableFrame> variables,
                          int state) noexcept {
     trial_ = trial + 1;
     attempt_ = attempt;
@@ -142,7 +142,7 @@ void TrialNumbers::begin(int trial, int attempt, std::span<const servo::Variable
     for (Perturbation& perturbation : cell.perturbations) perturbation.resolve(resolved_);
 }
 
-void TrialNumbers::follow(int trial, int attempt, std::span<const servo::VariableFrame> variables,
+void TrialNumbers::follow(int trial, int attempt, std::span<const frame::VariableFrame> variables,
                           int state) noexcept {
     if (trial < 1) return;
     const bool standard = plan_.shows_standard(plan_.trials[static_cast<size_t>(trial - 1)], state);

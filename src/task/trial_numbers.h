@@ -3,7 +3,7 @@
 // the trials has its own: the director, and the hand that sees the Frames.
 #pragma once
 
-#include "servo/frame.h"
+#include "frame/frame.h"
 #include "task/task_plan.h"
 
 namespace dihaptic::task {
@@ -16,11 +16,11 @@ class TrialNumbers {
 
     /// `trial`: index among the plan's. `variables`: their values [SI]. `state`: levels of
     /// procedures may be at their standard in it; -1: they are as in the variables.
-    void begin(int trial, int attempt, std::span<const servo::VariableFrame> variables,
+    void begin(int trial, int attempt, std::span<const frame::VariableFrame> variables,
                int state = -1) noexcept;
     /// Begins the attempt if it is another one, and one of a trial, or if the state is of another
     /// interval. `trial`: from 1, as in frames.
-    void follow(int trial, int attempt, std::span<const servo::VariableFrame> variables,
+    void follow(int trial, int attempt, std::span<const frame::VariableFrame> variables,
                 int state) noexcept;
     /// Forgets which attempt was begun.
     void restart() noexcept { trial_ = 0; }
@@ -38,7 +38,7 @@ class TrialNumbers {
     Quantities& quantities() noexcept { return quantities_; }
     std::span<const double> values() const noexcept { return quantities_.values(); }
     /// Sets the variables for the expressions that name them.
-    void set(std::span<const servo::VariableFrame> variables) noexcept;
+    void set(std::span<const frame::VariableFrame> variables) noexcept;
     /// How often a formula gave what its bounds do not allow, and which was the last; -1: none.
     int bounded() const noexcept { return bounded_; }
     int last_bounded() const noexcept { return last_bounded_; }
@@ -67,7 +67,7 @@ template <class F>
 void each_trial(const TaskPlan& plan, F f) {
     TrialNumbers numbers(plan);
     for (size_t t = 0; t < plan.trials.size(); ++t) {
-        std::vector<servo::VariableFrame> variables = plan.start;
+        std::vector<frame::VariableFrame> variables = plan.start;
         const TaskPlan::Level* const level = plan.level_of(plan.trials[t]);
         for (size_t i = 0; i < (level == nullptr ? 1 : level->values.size()); ++i) {
             if (level != nullptr) variables[level->variable].value = level->values[i];

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "servo/displayed.h"
+#include "frame/displayed.h"
 
 namespace dihaptic::view {
 namespace {
@@ -14,8 +14,8 @@ constexpr double kBall = 0.004;
 const char* const kMetal = "#30363f";
 const char* const kSpring = "#2a7f62";
 
-Pose shown(const servo::Frame& frame, int body) {
-    return body < 0 ? Pose{} : servo::displayed_body(frame, static_cast<size_t>(body));
+Pose shown(const frame::Frame& frame, int body) {
+    return body < 0 ? Pose{} : frame::displayed_body(frame, static_cast<size_t>(body));
 }
 
 /// A coil from a to b, with straight ends.
@@ -60,7 +60,7 @@ JointMark::JointMark(const scene::Joint& joint, const scene::Scene& scene)
     from_A_ = p_A_ + axis_A_ * axis_W.dot(way);
 }
 
-void JointMark::add_to(Solids& out, const servo::Frame& frame, const gl::Model& ball) const {
+void JointMark::add_to(Solids& out, const frame::Frame& frame, const gl::Model& ball) const {
     using Kind = scene::JointKind;
     const Pose X_WA = shown(frame, a_);
     const Pose X_WB = shown(frame, b_);

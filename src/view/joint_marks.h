@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "frame/frame.h"
 #include "scene/scene.h"
-#include "servo/frame.h"
 #include "view/solids.h"
 
 namespace dihaptic::view {
@@ -14,7 +14,7 @@ class JointMark {
   public:
     JointMark(const scene::Joint& joint, const scene::Scene& scene);
     /// Where the frame's bodies are shown; `ball` is one of radius 1.
-    void add_to(Solids& out, const servo::Frame& frame, const gl::Model& ball) const;
+    void add_to(Solids& out, const frame::Frame& frame, const gl::Model& ball) const;
 
   private:
     void add_slider(Solids& out, const Pose& X_WA, const Pose& X_WB) const;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kNearestShare = 0.05;  // distance at which things begin, over that of the screen
 
-Viewpoint viewpoint(const rig::Display& display, const Vec3& eye_W, double beyond) {
+Viewpoint viewpoint(const display::Display& display, const Vec3& eye_W, double beyond) {
     Mat3 edges;
     edges << display.right(), display.up(), display.lower_left - eye_W;
     const Mat3 shares = edges.inverse();  // alpha, beta, gamma
@@ -17,8 +17,8 @@ Viewpoint viewpoint(const rig::Display& display, const Vec3& eye_W, double beyon
     const double furthest = 1 + beyond / std::abs(normal.dot(display.lower_left - eye_W));
     const double depth = (furthest + kNearestShare) / (furthest - kNearestShare);
     const double depth_0 = -2 * furthest * kNearestShare / (furthest - kNearestShare);
-    const double x = display.mirrored == rig::Mirrored::left_right ? -1 : 1;
-    const double y = display.mirrored == rig::Mirrored::up_down ? -1 : 1;
+    const double x = display.mirrored == display::Mirrored::left_right ? -1 : 1;
+    const double y = display.mirrored == display::Mirrored::up_down ? -1 : 1;
     Eigen::Matrix<double, 4, 3> clip;
     clip.row(0) = x * (2 * shares.row(0) - shares.row(2));
     clip.row(1) = y * (2 * shares.row(1) - shares.row(2));
@@ -28,28 +28,28 @@ Viewpoint viewpoint(const rig::Display& display, const Vec3& eye_W, double beyon
     out.eye_W = eye_W;
     out.clip_from_world.leftCols<3>() = clip;
     out.clip_from_world.col(3) = -clip * eye_W + Eigen::Vector4d(0, 0, depth_0, 0);
-    out.flipped = display.mirrored != rig::Mirrored::no;
+    out.flipped = display.mirrored != display::Mirrored::no;
     return out;
 }
 
 }  // namespace
 
-std::vector<Pane> panes(const rig::Display& display, double beyond) {
-    if (display.stereo == rig::Stereo::none || display.stereo == rig::Stereo::in_turn)
+std::vector<Pane> panes(const display::Display& display, double beyond) {
+    if (display.stereo == display::Stereo::none || display.stereo == display::Stereo::in_turn)
         return {{viewpoint(display, display.eyes.position, beyond)}};
     Pane left{viewpoint(display, display.eyes.left(), beyond)};
     Pane right{viewpoint(display, display.eyes.right(), beyond)};
     switch (display.stereo) {
-        case rig::Stereo::none:
-        case rig::Stereo::in_turn:
+        case display::Stereo::none:
+        case display::Stereo::in_turn:
             break;
-        case rig::Stereo::side_by_side:
+        case display::Stereo::side_by_side:
             left.width = right.width = right.left = 0.5;
             break;
-        case rig::Stereo::top_bottom:
+        case display::Stereo::top_bottom:
             left.height = right.height = left.bottom = 0.5;
             break;
-        case rig::Stereo::anaglyph:
+        case display::Stereo::anaglyph:
             left.green_blue = right.red = false;
             break;
     }

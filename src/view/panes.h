@@ -13,7 +13,7 @@
 
 #include <vector>
 
-#include "rig/display.h"
+#include "display/display.h"
 
 namespace dihaptic::view {
 
@@ -34,7 +34,7 @@ struct Pane {
 /// The panes of a display: one without stereo, or of pictures in turn, seen from the middle between
 /// the eyes; else one for the left eye and one for the right. `beyond`: how far behind the screen
 /// things are drawn [m].
-std::vector<Pane> panes(const rig::Display& display, double beyond);
+std::vector<Pane> panes(const display::Display& display, double beyond);
 
 /// How far to each side an eye of a headset sees, from straight ahead; left and down are negative,
 /// and all within a quarter turn [rad].

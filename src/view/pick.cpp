@@ -3,7 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 
-#include "servo/displayed.h"
+#include "frame/displayed.h"
 #include "view/triangles.h"
 
 namespace dihaptic::view {
@@ -58,15 +58,15 @@ Ray ray_through(const Camera& camera, double right, double up) {
     return {X_WV.p, (X_WV.R * Vec3(half * right, half * up, -1)).normalized()};
 }
 
-std::optional<Seen> seen_first(const scene::Scene& scene, const servo::Frame& frame,
+std::optional<Seen> seen_first(const scene::Scene& scene, const frame::Frame& frame,
                                const Ray& ray) {
     std::optional<Seen> out;
     double nearest = std::numeric_limits<double>::infinity();
     for (size_t i = 0; i < scene.bodies.size(); ++i) {
-        if (!servo::is_displayed(frame, i)) continue;
+        if (!frame::is_displayed(frame, i)) continue;
         // in the measure of the body, which may be shown larger
-        const Pose X_BW = servo::displayed_body(frame, i).inverse();
-        const double size = servo::displayed_size(frame, i);
+        const Pose X_BW = frame::displayed_body(frame, i).inverse();
+        const double size = frame::displayed_size(frame, i);
         const double length = size * length_to(triangles(scene.bodies[i]), X_BW * ray.from_W / size,
                                                X_BW.R * ray.along_W);
         if (length >= nearest) continue;

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "servo/frame.h"
+#include "frame/frame.h"
 #include "view/camera.h"
 
 namespace dihaptic::view {
@@ -22,7 +22,7 @@ struct Seen {
     size_t body = 0;  ///< its index
     Vec3 p_W = Vec3::Zero();
 };
-std::optional<Seen> seen_first(const scene::Scene& scene, const servo::Frame& frame,
+std::optional<Seen> seen_first(const scene::Scene& scene, const frame::Frame& frame,
                                const Ray& ray);
 
 /// How far something goes that is held at a point, while the line of sight to the pointer changes

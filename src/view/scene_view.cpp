@@ -8,8 +8,8 @@
 #include <span>
 
 #include "base/diagnostics.h"
+#include "frame/displayed.h"
 #include "model/grasp.h"
-#include "servo/displayed.h"
 #include "view/colours.h"
 #include "view/gl.h"
 #include "view/hand_bones.h"
@@ -79,8 +79,8 @@ void add_box(Solids& out, const Pose& X_WA, const Vec3& size, double radius, con
     }
 }
 
-void add_grip_axis(Solids& out, const servo::Frame& frame, size_t fingers) {
-    const auto place = [&](size_t i) -> Vec3 { return servo::displayed_proxy(frame, i).p; };
+void add_grip_axis(Solids& out, const frame::Frame& frame, size_t fingers) {
+    const auto place = [&](size_t i) -> Vec3 { return frame::displayed_proxy(frame, i).p; };
     out.add_line(place(0), model::opposing_point(fingers, place), 0.0006, ink("#7b4ea3"));
 }
 
@@ -202,7 +202,7 @@ struct SceneView::Parts {
     /// Half of the shadow map's width: the smallest of a series of steps that holds everything that
     /// throws shadows. Steps keep shadows from swimming as bodies move. What is too far away is
     /// left out.
-    double reach(const servo::Frame& frame, const Mat3& R_LW) const {
+    double reach(const frame::Frame& frame, const Mat3& R_LW) const {
         double needed = start_radius;
         const double most = 4 * start_radius + 0.5;
         const auto include = [&](const Thing& thing, const Vec3& p) {
@@ -210,10 +210,10 @@ struct SceneView::Parts {
             if (r < most) needed = std::max(needed, r);
         };
         for (size_t i = 0; i < bodies.size(); ++i) {
-            if (!bodies[i].ground) include(bodies[i], servo::displayed_body(frame, i).p);
+            if (!bodies[i].ground) include(bodies[i], frame::displayed_body(frame, i).p);
         }
         for (size_t i = 0; i < fingers.size(); ++i)
-            include(fingers[i], servo::displayed_proxy(frame, i).p);
+            include(fingers[i], frame::displayed_proxy(frame, i).p);
         return start_radius * std::exp2(std::ceil(2 * std::log2(needed / start_radius)) / 2);
     }
 
@@ -254,10 +254,10 @@ struct SceneView::Parts {
     /// null.
     using Prepare = std::function<const gl::Program&(const Thing&, const Vec3* tint)>;
 
-    void draw_hand(const servo::Frame& frame, const Prepare& prepare) const {
+    void draw_hand(const frame::Frame& frame, const Prepare& prepare) const {
         const auto is_seen = [&](int finger) {
             return finger >= 0 &&
-                   servo::is_displayed(frame, bodies.size() + static_cast<size_t>(finger));
+                   frame::is_displayed(frame, bodies.size() + static_cast<size_t>(finger));
         };
         if (!is_seen(thumb) || !is_seen(index)) return;
         const gl::Program& program = prepare(skin, nullptr);
@@ -266,8 +266,8 @@ struct SceneView::Parts {
             model.draw();
         };
         for (const Bone& bone :
-             hand_bones(servo::displayed_proxy(frame, static_cast<size_t>(thumb)).p,
-                        servo::displayed_proxy(frame, static_cast<size_t>(index)).p)) {
+             hand_bones(frame::displayed_proxy(frame, static_cast<size_t>(thumb)).p,
+                        frame::displayed_proxy(frame, static_cast<size_t>(index)).p)) {
             const double wide = bone.radius / kRod;
             put(rod, along(bone.from, bone.to), {wide, wide, (bone.to - bone.from).norm()});
             for (const Vec3& end : {bone.from, bone.to})
@@ -275,22 +275,22 @@ struct SceneView::Parts {
         }
     }
 
-    void draw_models(const servo::Frame& frame, bool hand, const Prepare& prepare) const {
+    void draw_models(const frame::Frame& frame, bool hand, const Prepare& prepare) const {
         const auto draw = [&](const Thing& thing, size_t body, const Pose& X) {
-            if (!servo::is_displayed(frame, body)) return;
-            const servo::LookFrame* look = servo::item_of(frame.task.looks, body);
+            if (!frame::is_displayed(frame, body)) return;
+            const frame::LookFrame* look = frame::item_of(frame.task.looks, body);
             const bool tinted = look != nullptr && look->colour >= 0;
             const Vec3 tint =
                 tinted ? linear_colour(static_cast<uint32_t>(look->colour)) : Vec3::Zero();
             const gl::Program& program = prepare(thing, tinted ? &tint : nullptr);
             program.set("world_from_model",
-                        placed(X, Vec3::Constant(servo::displayed_size(frame, body))));
+                        placed(X, Vec3::Constant(frame::displayed_size(frame, body))));
             thing.model.draw();
         };
         for (size_t i = 0; i < bodies.size(); ++i)
-            draw(bodies[i], i, servo::displayed_body(frame, i));
+            draw(bodies[i], i, frame::displayed_body(frame, i));
         for (size_t i = 0; i < fingers.size(); ++i)
-            draw(fingers[i], bodies.size() + i, servo::displayed_proxy(frame, i));
+            draw(fingers[i], bodies.size() + i, frame::displayed_proxy(frame, i));
         if (hand) draw_hand(frame, prepare);
     }
 
@@ -300,22 +300,22 @@ struct SceneView::Parts {
         double texel = 0;  // [m]
     };
 
-    Shown draw(const servo::Frame& frame, std::span<const Pane> all, int new_width, int new_height,
+    Shown draw(const frame::Frame& frame, std::span<const Pane> all, int new_width, int new_height,
                const Overlays& overlays);
-    Lamp render_shadows(const servo::Frame& frame, bool hand);
+    Lamp render_shadows(const frame::Frame& frame, bool hand);
     void draw_patch(const PatchLook& look) const;
     // `corner` and `size` are a pane's [pixels]
     void draw_background(const Eigen::Vector2d& corner, const Eigen::Vector2d& size) const;
-    void draw_surfaces(const servo::Frame& frame, const Viewpoint& viewpoint,
+    void draw_surfaces(const frame::Frame& frame, const Viewpoint& viewpoint,
                        const Eigen::Vector2d& corner, const Eigen::Vector2d& size, const Lamp& lamp,
                        bool hand) const;
-    void draw_overlays(const servo::Frame& frame, const Overlays& overlays) const;
-    void add_drop_lines(Solids& out, const servo::Frame& frame) const;
-    void add_picked(Solids& out, const servo::Frame& frame, size_t body) const;
-    void add_contacts(Solids& out, const servo::Frame& frame, const Overlays& overlays) const;
+    void draw_overlays(const frame::Frame& frame, const Overlays& overlays) const;
+    void add_drop_lines(Solids& out, const frame::Frame& frame) const;
+    void add_picked(Solids& out, const frame::Frame& frame, size_t body) const;
+    void add_contacts(Solids& out, const frame::Frame& frame, const Overlays& overlays) const;
     void draw_solids(const Solids& solids) const;
-    void draw_targets(const servo::Frame& frame) const;
-    void draw_ghosts(const servo::Frame& frame) const;
+    void draw_targets(const frame::Frame& frame) const;
+    void draw_ghosts(const frame::Frame& frame) const;
 };
 
 SceneView::SceneView(const scene::Scene& scene, Shadows shadows) {
@@ -326,7 +326,7 @@ SceneView::SceneView(const scene::Scene& scene, Shadows shadows) {
 
 SceneView::~SceneView() = default;
 
-Shown SceneView::draw(const servo::Frame& frame, const Camera& camera, int width, int height,
+Shown SceneView::draw(const frame::Frame& frame, const Camera& camera, int width, int height,
                       const Overlays& overlays) {
     const double distance = (camera.position - camera.look_at).norm();
     const double aspect = static_cast<double>(width) / height;
@@ -335,17 +335,17 @@ Shown SceneView::draw(const servo::Frame& frame, const Camera& camera, int width
     return parts_->draw(frame, std::array{Pane{viewpoint}}, width, height, overlays);
 }
 
-Shown SceneView::draw(const servo::Frame& frame, const rig::Display& display, int width, int height,
-                      const Overlays& overlays) {
+Shown SceneView::draw(const frame::Frame& frame, const display::Display& display, int width,
+                      int height, const Overlays& overlays) {
     return parts_->draw(frame, panes(display, kPlaneSize), width, height, overlays);
 }
 
-Shown SceneView::draw(const servo::Frame& frame, std::span<const Pane> panes, int width, int height,
+Shown SceneView::draw(const frame::Frame& frame, std::span<const Pane> panes, int width, int height,
                       const Overlays& overlays) {
     return parts_->draw(frame, panes, width, height, overlays);
 }
 
-Shown SceneView::Parts::draw(const servo::Frame& frame, std::span<const Pane> all, int new_width,
+Shown SceneView::Parts::draw(const frame::Frame& frame, std::span<const Pane> all, int new_width,
                              int new_height, const Overlays& overlays) {
     const KeepTarget target;
     resize(new_width, new_height);
@@ -397,7 +397,7 @@ void SceneView::set_detail(double share) {
 
 /// Needs the scissor test.
 void SceneView::Parts::draw_patch(const PatchLook& look) const {
-    using rig::Corner;
+    using display::Corner;
     const int edge = static_cast<int>(std::lround(look.patch.size * height));
     const Corner corner = look.patch.corner;
     const bool right = corner == Corner::lower_right || corner == Corner::upper_right;
@@ -407,7 +407,7 @@ void SceneView::Parts::draw_patch(const PatchLook& look) const {
     glClearBufferfv(GL_COLOR, 0, std::array{light, light, light, 1.f}.data());
 }
 
-SceneView::Parts::Lamp SceneView::Parts::render_shadows(const servo::Frame& frame, bool hand) {
+SceneView::Parts::Lamp SceneView::Parts::render_shadows(const frame::Frame& frame, bool hand) {
     const Mat3 R_LW = light_rotation();
     const double half = reach(frame, R_LW);
     Lamp out;
@@ -437,7 +437,7 @@ void SceneView::Parts::draw_background(const Eigen::Vector2d& corner,
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void SceneView::Parts::draw_surfaces(const servo::Frame& frame, const Viewpoint& viewpoint,
+void SceneView::Parts::draw_surfaces(const frame::Frame& frame, const Viewpoint& viewpoint,
                                      const Eigen::Vector2d& corner, const Eigen::Vector2d& size,
                                      const Lamp& lamp, bool hand) const {
     const float furthest = 1;
@@ -474,7 +474,7 @@ void SceneView::Parts::draw_surfaces(const servo::Frame& frame, const Viewpoint&
 }
 
 /// Draws targets transparent, so that what is in them can be seen.
-void SceneView::Parts::draw_targets(const servo::Frame& frame) const {
+void SceneView::Parts::draw_targets(const frame::Frame& frame) const {
     surface.set("gloss", 0.4);
     surface.set("alpha", 0.45);
     glDepthMask(GL_FALSE);
@@ -483,7 +483,7 @@ void SceneView::Parts::draw_targets(const servo::Frame& frame) const {
         const int32_t rgb = frame.task.targets[i].colour;
         surface.set("albedo", rgb < 0 ? ink("#d55e00") : linear_colour(static_cast<uint32_t>(rgb)));
         surface.set("world_from_model",
-                    placed({Quat::Identity(), servo::displayed_target(frame, i)},
+                    placed({Quat::Identity(), frame::displayed_target(frame, i)},
                            Vec3::Constant(frame.task.targets[i].radius)));
         ball.draw();
     }
@@ -492,7 +492,7 @@ void SceneView::Parts::draw_targets(const servo::Frame& frame) const {
 }
 
 /// Draws ghosts over everything, since the handle of a finger that presses a body is inside it.
-void SceneView::Parts::draw_ghosts(const servo::Frame& frame) const {
+void SceneView::Parts::draw_ghosts(const frame::Frame& frame) const {
     glDepthFunc(GL_ALWAYS);
     glDepthMask(GL_FALSE);
     glEnable(GL_CULL_FACE);
@@ -500,7 +500,7 @@ void SceneView::Parts::draw_ghosts(const servo::Frame& frame) const {
     surface.set("alpha", 0.35);
     for (size_t i = 0; i < fingers.size(); ++i) {
         surface.set("albedo", fingers[i].colour);
-        surface.set("world_from_model", gl::matrix(servo::displayed_handle(frame, i)));
+        surface.set("world_from_model", gl::matrix(frame::displayed_handle(frame, i)));
         fingers[i].model.draw();
     }
     glDisable(GL_CULL_FACE);
@@ -508,10 +508,10 @@ void SceneView::Parts::draw_ghosts(const servo::Frame& frame) const {
 }
 
 /// Adds points of contact, and forces on fingers.
-void SceneView::Parts::add_contacts(Solids& out, const servo::Frame& frame,
+void SceneView::Parts::add_contacts(Solids& out, const frame::Frame& frame,
                                     const Overlays& overlays) const {
     const auto first_finger = static_cast<int>(bodies.size());
-    for (const servo::ContactFrame& contact : frame.contacts) {
+    for (const frame::ContactFrame& contact : frame.contacts) {
         const bool a_finger = contact.a >= first_finger;
         const bool b_finger = contact.b >= first_finger;
         if (overlays.contacts) out.add_ball(ball, contact.p_WC, 0.0018, ink("#ffffff"));
@@ -545,10 +545,10 @@ void SceneView::Parts::draw_solids(const Solids& solids) const {
 }
 
 /// Lines that show above which place of the table the fingers are, and how high.
-void SceneView::Parts::add_drop_lines(Solids& out, const servo::Frame& frame) const {
+void SceneView::Parts::add_drop_lines(Solids& out, const frame::Frame& frame) const {
     constexpr double kRadius = 4e-4, kFoot = 3e-3;  // [m]
     for (size_t i = 0; i < fingers.size(); ++i) {
-        const Vec3 p = servo::displayed_proxy(frame, i).p;
+        const Vec3 p = frame::displayed_proxy(frame, i).p;
         const Vec3 foot(p.x(), p.y(), table_top);
         if (!p.allFinite() || p.z() - table_top < kFoot) continue;
         const std::array line{p, foot};
@@ -558,17 +558,17 @@ void SceneView::Parts::add_drop_lines(Solids& out, const servo::Frame& frame) co
 }
 
 /// A box a little larger than the body, so that its edges lie free.
-void SceneView::Parts::add_picked(Solids& out, const servo::Frame& frame, size_t body) const {
+void SceneView::Parts::add_picked(Solids& out, const frame::Frame& frame, size_t body) const {
     constexpr double kFree = 0.002, kRadius = 0.0005;  // [m]
     const Thing& thing = bodies[body];
-    const double scale = servo::displayed_size(frame, body);
-    Pose X_WA = servo::displayed_body(frame, body);
+    const double scale = frame::displayed_size(frame, body);
+    Pose X_WA = frame::displayed_body(frame, body);
     X_WA.p = X_WA * (scale * (thing.low_B + thing.high_B) / 2);
     const Vec3 size = scale * (thing.high_B - thing.low_B) + Vec3::Constant(2 * kFree);
     add_box(out, X_WA, size, kRadius, ink("#e69f00"));
 }
 
-void SceneView::Parts::draw_overlays(const servo::Frame& frame, const Overlays& overlays) const {
+void SceneView::Parts::draw_overlays(const frame::Frame& frame, const Overlays& overlays) const {
     Solids solids;
     if (!overlays.path.empty()) solids.add(tube(overlays.path, 0.0009), {}, ink("#cc3d7a"));
     add_contacts(solids, frame, overlays);

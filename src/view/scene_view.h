@@ -13,9 +13,9 @@
 #include <span>
 #include <string>
 
-#include "rig/display.h"
+#include "display/display.h"
+#include "frame/frame.h"
 #include "scene/scene.h"
-#include "servo/frame.h"
 #include "view/camera.h"
 #include "view/panes.h"
 
@@ -29,7 +29,7 @@ struct Workspace {
 
 /// The rig's patch, as it is now.
 struct PatchLook {
-    rig::Patch patch;
+    display::Patch patch;
     bool white = false;
 };
 
@@ -74,13 +74,13 @@ class SceneView {
 
     /// Draws a frame of this scene, `width` x `height` pixels from the framebuffer's lower left,
     /// and returns its stamp.
-    Shown draw(const servo::Frame& frame, const Camera& camera, int width, int height,
+    Shown draw(const frame::Frame& frame, const Camera& camera, int width, int height,
                const Overlays& overlays = {});
     /// The same as the eyes see it on a display.
-    Shown draw(const servo::Frame& frame, const rig::Display& display, int width, int height,
+    Shown draw(const frame::Frame& frame, const display::Display& display, int width, int height,
                const Overlays& overlays = {});
     /// The same in parts, each from its own viewpoint.
-    Shown draw(const servo::Frame& frame, std::span<const Pane> panes, int width, int height,
+    Shown draw(const frame::Frame& frame, std::span<const Pane> panes, int width, int height,
                const Overlays& overlays = {});
 
     /// Pictures are drawn with so many pixels as a share of their width and height, and enlarged:

@@ -18,7 +18,7 @@
 #include "cli/doctor/ports.h"
 #include "cli/doctor/real_time.h"
 #include "cli/doctor/sound.h"
-#include "servo/settings.h"
+#include "frame/settings.h"
 
 namespace dihaptic::doctor {
 namespace {
@@ -43,7 +43,7 @@ Findings graphics() {
 std::vector<Section> sections() {
     std::vector<Section> out{
         {"real time", "real-time",
-         [] { return real_time("", rights_now(servo::Settings{}.real_time_priority)); }},
+         [] { return real_time("", rights_now(frame::Settings{}.real_time_priority)); }},
         {"devices", "ports", [] { return ports("", may_open); }}};
     for (const devices::Backend& backend : devices::backends()) {
         if (backend.survey == nullptr) continue;

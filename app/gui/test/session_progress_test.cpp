@@ -13,15 +13,15 @@ session::Plan plan_of(const char* file, bool mouse = false) {
     return session::make_plan(request);
 }
 
-servo::Frame at(double time) {
-    servo::Frame frame;
+frame::Frame at(double time) {
+    frame::Frame frame;
     frame.time = from_seconds(time);
     return frame;
 }
 
 TEST(SessionProgress, OfAScriptIsItsPhaseAndWhatIsLeft) {
     const session::Plan plan = plan_of("experiments/lift-block.yaml");
-    servo::Frame frame = at(plan.driver->duration() - 3);
+    frame::Frame frame = at(plan.driver->duration() - 3);
     frame.phase = 0;
     const SessionProgress now = progress_of(plan, frame, 0);
     EXPECT_EQ(now.trial, "");
@@ -37,7 +37,7 @@ TEST(SessionProgress, ByAHandThatNobodyPlannedIsTheTime) {
 
 TEST(SessionProgress, OfTrialsIsWhichAndHowLongTheRestTakes) {
     const session::Plan plan = plan_of("experiments/visuomotor-rotation.yaml");
-    servo::Frame frame = at(100);
+    frame::Frame frame = at(100);
     EXPECT_EQ(progress_of(plan, frame, 0).text, "1 min 40 s");
     frame.trial = 3;
     frame.task.attempt = 2;

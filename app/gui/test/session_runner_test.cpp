@@ -46,7 +46,7 @@ class SessionRunnerTest : public ::testing::Test {
         EXPECT_TRUE(answer_until([&] { return timer.elapsed() >= ms; }));
     }
     double now() {
-        const servo::Frame& frame = runner_.read_frame();
+        const frame::Frame& frame = runner_.read_frame();
         return frame.sequence < 0 ? -1 : seconds(frame.time);
     }
     void grip() {
@@ -58,11 +58,11 @@ class SessionRunnerTest : public ::testing::Test {
         ASSERT_GT(runner_.read_frame().grip_force, 0.3);
     }
     /// Waits for the session's end; returns its frames.
-    std::vector<servo::Frame> end() {
+    std::vector<frame::Frame> end() {
         EXPECT_TRUE(answer_until([&] { return !runner_.running(); }));
-        std::vector<servo::Frame> frames;
+        std::vector<frame::Frame> frames;
         recording::RawLogReader log(end_.folder.toStdString() + "/raw.log");
-        while (const servo::Frame* frame = log.next()) frames.push_back(*frame);
+        while (const frame::Frame* frame = log.next()) frames.push_back(*frame);
         return frames;
     }
 
@@ -79,7 +79,7 @@ class SessionRunnerTest : public ::testing::Test {
 TEST_F(SessionRunnerTest, AWindowThatHangsBeforeItsFirstPictureTakesForceAwayToo) {
     grip();
     QThread::msleep(6500);  // force goes off after 5 s for the picture and 1 s more
-    EXPECT_NE(runner_.read_frame().status & servo::kForceOff, 0u);
+    EXPECT_NE(runner_.read_frame().status & kForceOff, 0u);
     QString told;
     ASSERT_TRUE(answer_until([&] { return !(told = runner_.take_told()).isEmpty(); }));
     EXPECT_TRUE(told.contains("the window has not answered for 1.")) << told.toStdString();
@@ -92,8 +92,8 @@ TEST_F(SessionRunnerTest, AHungWindowTakesForceAwayAndTheSessionWaitsForIt) {
     grip();
     const double before = now();
     QThread::msleep(2500);  // the window's thread hangs
-    const servo::Frame& frame = runner_.read_frame();
-    EXPECT_NE(frame.status & servo::kForceOff, 0u);
+    const frame::Frame& frame = runner_.read_frame();
+    EXPECT_NE(frame.status & kForceOff, 0u);
     EXPECT_EQ(frame.fingers[0].f_sent_W, Vec3::Zero());
     QString told;
     ASSERT_TRUE(answer_until([&] { return !(told = runner_.take_told()).isEmpty(); }));
@@ -104,10 +104,10 @@ TEST_F(SessionRunnerTest, AHungWindowTakesForceAwayAndTheSessionWaitsForIt) {
     EXPECT_EQ(now(), waits);
     runner_.set_paused(false);
     ASSERT_TRUE(answer_until([&] { return now() > waits + 0.5; }));
-    EXPECT_EQ(runner_.read_frame().status & servo::kForceOff, 0u);
+    EXPECT_EQ(runner_.read_frame().status & kForceOff, 0u);
     runner_.end();
-    for (const servo::Frame& f : end()) {
-        if ((f.status & servo::kAbandoned) == 0) continue;
+    for (const frame::Frame& f : end()) {
+        if ((f.status & kAbandoned) == 0) continue;
         EXPECT_GT(seconds(f.time), before + 0.8);  // the last beat was up to 0.1 s before
         EXPECT_LT(seconds(f.time), before + 1.2);
     }
@@ -125,14 +125,14 @@ TEST_F(SessionRunnerTest, APauseFromAnotherThreadTakesForceAwayThoughTheWindowHa
     const double before = now();
     std::thread(pause_twice).join();
     QThread::msleep(200);  // the window's thread hangs
-    EXPECT_NE(runner_.read_frame().status & servo::kPaused, 0u);
+    EXPECT_NE(runner_.read_frame().status & kPaused, 0u);
     EXPECT_EQ(runner_.frame().fingers[0].f_sent_W, Vec3::Zero());
     EXPECT_LT(now(), before + 0.1);
     EXPECT_EQ(told, 0);
     answer_for(50);
     EXPECT_EQ(told, 1);
     runner_.end();
-    for (const servo::Frame& f : end()) EXPECT_EQ(f.status & servo::kAbandoned, 0u);
+    for (const frame::Frame& f : end()) EXPECT_EQ(f.status & kAbandoned, 0u);
     SessionRunner::pause_at_once();  // no session runs
     answer_for(50);
     EXPECT_EQ(told, 1);
@@ -143,10 +143,10 @@ TEST_F(SessionRunnerTest, AStopFromOutsideTakesForceAwayAndEndsInOrder) {
     grip();
     const double before = now();
     stop_ = true;
-    const std::vector<servo::Frame> frames = end();
+    const std::vector<frame::Frame> frames = end();
     ASSERT_FALSE(frames.empty());
-    const servo::Frame& last = frames.back();
-    EXPECT_NE(last.status & servo::kStopped, 0u);
+    const frame::Frame& last = frames.back();
+    EXPECT_NE(last.status & kStopped, 0u);
     EXPECT_EQ(last.fingers[0].f_sent_W, Vec3::Zero());
     EXPECT_LT(seconds(last.time), before + 0.1);
     EXPECT_FALSE(end_.good);

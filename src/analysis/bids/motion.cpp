@@ -24,26 +24,26 @@ Channel latency(const std::string& name) {
             "n/a",
             "s",
             "time of the row, from the first tick of the recording",
-            [](const servo::Frame& frame) { return seconds(frame.time); }};
+            [](const frame::Frame& frame) { return seconds(frame.time); }};
 }
 
 /// Channels of a finger, in world axes.
 std::vector<Channel> channels_of(const std::string& finger, size_t f) {
     std::vector<Channel> out;
     const auto vector = [&](const std::string& what, const std::string& type,
-                            const std::string& unit, Vec3 servo::FingerFrame::*field,
+                            const std::string& unit, Vec3 frame::FingerFrame::*field,
                             const std::string& words) {
         for (int i = 0; i < 3; ++i) {
             const std::string axis(1, "xyz"[i]);
             out.push_back({fmt::format("{}_{}_{}", finger, what, axis),
                            type == "MISC" ? "n/a" : axis, type,
                            what.starts_with("proxy") ? finger + "_proxy" : finger, unit,
-                           words + ", " + axis, [field, i, f](const servo::Frame& frame) {
+                           words + ", " + axis, [field, i, f](const frame::Frame& frame) {
                                return (frame.fingers[f].*field)[i];
                            }});
         }
     };
-    using servo::FingerFrame;
+    using frame::FingerFrame;
     vector("position", "POS", "m", &FingerFrame::p_WH, "of the device's handle");
     vector("velocity", "VEL", "m/s", &FingerFrame::v_WH, "of the device's handle");
     vector("proxy_position", "POS", "m", &FingerFrame::p_WP, "of the finger in the virtual world");
@@ -60,14 +60,14 @@ void add_body(std::vector<Channel>& out, const std::string& body, size_t b) {
         const std::string axis(1, "xyz"[i]);
         out.push_back({body + "_position_" + axis, axis, "POS", body, "m",
                        "of the body's origin, " + axis,
-                       [b, i](const servo::Frame& frame) { return frame.bodies[b].X_WB.p[i]; }});
+                       [b, i](const frame::Frame& frame) { return frame.bodies[b].X_WB.p[i]; }});
     }
     for (int i = 0; i < 4; ++i) {
         const std::string part(1, "xyzw"[i]);  // also Eigen's order
         out.push_back(
             {body + "_orientation_" + part, "quat_" + part, "ORNT", body, "n/a",
              "unit quaternion that turns the body's axes into the world's, " + part,
-             [b, i](const servo::Frame& frame) { return frame.bodies[b].X_WB.R.coeffs()[i]; }});
+             [b, i](const frame::Frame& frame) { return frame.bodies[b].X_WB.R.coeffs()[i]; }});
     }
 }
 

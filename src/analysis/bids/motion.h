@@ -18,7 +18,7 @@ struct Channel {
     std::string point;      ///< tracked point
     std::string unit;
     std::string what;  ///< description
-    std::function<double(const servo::Frame&)> value;
+    std::function<double(const frame::Frame&)> value;
 };
 
 struct TrackingSystem {

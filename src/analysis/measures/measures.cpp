@@ -75,15 +75,15 @@ std::optional<MeasureFinder> MeasureFinder::of(const recording::SessionFolder& f
     return std::nullopt;
 }
 
-MotionSample MeasureFinder::sample(const servo::Frame& frame) const {
+MotionSample MeasureFinder::sample(const frame::Frame& frame) const {
     MotionSample out{seconds(frame.time), frame.phase,      Vec3::Zero(), Vec3::Zero(),
                      Vec3::Zero(),        frame.grip_force, true};
-    out.continues = frame.sequence == sequence_ + 1 && (frame.status & servo::kResumed) == 0;
+    out.continues = frame.sequence == sequence_ + 1 && (frame.status & kResumed) == 0;
     if (body_ >= 0) {
-        const servo::BodyFrame& body = frame.bodies[static_cast<size_t>(body_)];
+        const frame::BodyFrame& body = frame.bodies[static_cast<size_t>(body_)];
         out.p_W = body.X_WB.p;
         out.v_W = body.v_WB;
-        for (const servo::LoadFrame& load : frame.task.loads) {
+        for (const frame::LoadFrame& load : frame.task.loads) {
             if (load.body == body_) out.f_W -= load.force_W;
         }
         return out;
@@ -99,7 +99,7 @@ MotionSample MeasureFinder::sample(const servo::Frame& frame) const {
     return out;
 }
 
-void MeasureFinder::add(const servo::Frame& frame) {
+void MeasureFinder::add(const frame::Frame& frame) {
     if (frame.trial >= 1 && frame.phase != 0) {
         trial_ = frame.trial;
         number_ = frame.task.attempt;

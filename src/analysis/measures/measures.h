@@ -24,7 +24,7 @@ class MeasureFinder {
                                            const recording::LogHead& head,
                                            const std::vector<std::string>& phases);
 
-    void add(const servo::Frame& frame);
+    void add(const frame::Frame& frame);
     /// Ends the attempt whose frames came last; does nothing between trials. `lift`: null if there
     /// is none.
     void end_attempt(const Lift* lift);
@@ -33,7 +33,7 @@ class MeasureFinder {
 
   private:
     MeasureFinder() = default;
-    MotionSample sample(const servo::Frame& frame) const;
+    MotionSample sample(const frame::Frame& frame) const;
 
     std::vector<const task::MeasureRow*> measures_;
     std::vector<task::OwnMeasure> own_measures_;

@@ -64,7 +64,7 @@ CourseCharts::CourseCharts(const SessionData& session, const recording::LogHead&
         sent_.push_back(line(finger, palette::finger(sent_.size())));
 }
 
-void CourseCharts::see(const servo::Frame& frame) {
+void CourseCharts::see(const frame::Frame& frame) {
     const double t = seconds(frame.time);
     if (!excerpt_ || t < excerpt_->from || t > excerpt_->to) return;
     if (frame.phase != phase_) {

@@ -16,7 +16,7 @@ class CourseCharts {
     CourseCharts(const SessionData& session, const recording::LogHead& head);
 
     /// Call for each frame of the log, in order.
-    void see(const servo::Frame& frame);
+    void see(const frame::Frame& frame);
     /// Adds the charts; nothing of a long session without a complete lift.
     void add_to(Page& page, const std::string& origin);
 

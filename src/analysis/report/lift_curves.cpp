@@ -79,7 +79,7 @@ LiftCurves::LiftCurves(const SessionData& session, double tick) : tick_(tick) {
               [](const Lift& a, const Lift& b) { return a.lift_off < b.lift_off; });
 }
 
-void LiftCurves::see(const servo::Frame& frame) {
+void LiftCurves::see(const frame::Frame& frame) {
     const double now = seconds(frame.time);
     for (size_t i = first_; i < lifts_.size(); ++i) {
         Lift& lift = lifts_[i];

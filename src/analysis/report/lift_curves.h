@@ -4,7 +4,7 @@
 
 #include "analysis/report/page.h"
 #include "analysis/report/session_data.h"
-#include "servo/frame.h"
+#include "frame/frame.h"
 
 namespace dihaptic::analysis {
 
@@ -14,7 +14,7 @@ class LiftCurves {
     LiftCurves(const SessionData& session, double tick);
 
     /// Call for each frame of the log, in order.
-    void see(const servo::Frame& frame);
+    void see(const frame::Frame& frame);
     /// Adds a chart for each condition and perturbation; nothing if there were no lifts.
     void add_to(Page& page, const std::string& origin) const;
 

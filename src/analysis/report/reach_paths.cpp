@@ -88,7 +88,7 @@ void ReachPaths::find_lines(const SessionData& session, const recording::LogHead
     }
 }
 
-void ReachPaths::see(const servo::Frame& frame) {
+void ReachPaths::see(const frame::Frame& frame) {
     const auto trial = static_cast<size_t>(frame.trial) - 1;
     if (frame.trial < 1 || trial >= lines_.size() ||
         std::find(phases_.begin(), phases_.end(), frame.phase) == phases_.end())

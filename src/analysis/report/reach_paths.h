@@ -15,7 +15,7 @@ class ReachPaths {
     ReachPaths(const SessionData& session, const recording::LogHead& head);
 
     /// Call for each frame of the log, in order.
-    void see(const servo::Frame& frame);
+    void see(const frame::Frame& frame);
     /// Adds a picture; nothing if the task has no reaches.
     void add_to(Page& page, const std::string& origin) const;
 

@@ -400,7 +400,7 @@ void add_log(SessionPage& out, const SessionData& session,
     LiftCurves lifts(session, log.head().tick);
     ReachPaths reaches(session, log.head());
     CourseCharts course(session, log.head());
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         if (progress) progress(log.share());
         lifts.see(*frame);
         reaches.see(*frame);

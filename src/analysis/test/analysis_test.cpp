@@ -11,8 +11,8 @@ namespace dihaptic::analysis::analysis_test {
 namespace {
 
 /// Frame i of a second in which two fingers, 4 cm apart along x, hold body 1.
-servo::Frame held(int i) {
-    servo::Frame frame;
+frame::Frame held(int i) {
+    frame::Frame frame;
     frame.sequence = i;
     frame.time = i * std::chrono::milliseconds(1);
     frame.bodies.resize(2);
@@ -30,7 +30,7 @@ servo::Frame held(int i) {
     return frame;
 }
 
-GraspTrace trace_of(const std::function<servo::Frame(int)>& make, int count = 1000) {
+GraspTrace trace_of(const std::function<frame::Frame(int)>& make, int count = 1000) {
     GraspTrace trace(1, 1e-3);
     for (int i = 0; i < count; ++i) trace.add(make(i));
     return trace;
@@ -39,10 +39,10 @@ GraspTrace trace_of(const std::function<servo::Frame(int)>& make, int count = 10
 TEST(FaultRecord, KeepsTheSecondBeforeTheFaultAndItsTick) {
     FaultRecord record({"thumb", "index"});
     for (int i = 0; i < 3000; ++i) {
-        servo::Frame frame = held(i);
+        frame::Frame frame = held(i);
         frame.fingers[1].f_sent_W = {0, 0, i < 2000 ? 1.5 : 0};
-        if (i >= 2000) frame.status = servo::kForceOff;
-        if (i == 2000) frame.status |= servo::kTooFast;
+        if (i >= 2000) frame.status = kForceOff;
+        if (i == 2000) frame.status |= kTooFast;
         record.add(frame);
     }
     const Table table = record.table();
@@ -62,11 +62,11 @@ TEST(FaultRecord, KeepsTheSecondBeforeTheFaultAndItsTick) {
 TEST(FaultRecord, KeepsWhatLedToEachFaultOfASessionThatWentOn) {
     FaultRecord record({"thumb", "index"});
     for (int i = 0; i < 6000; ++i) {
-        servo::Frame frame = held(i);
+        frame::Frame frame = held(i);
         // force is off from the first fault to the remedy, and again after the second fault
         const bool off = (i >= 2000 && i < 3000) || i >= 3500;
-        if (off) frame.status = servo::kForceOff;
-        if (i == 3000) frame.status = servo::kResumed;
+        if (off) frame.status = kForceOff;
+        if (i == 3000) frame.status = kResumed;
         record.add(frame);
     }
     const Table table = record.table();
@@ -79,10 +79,10 @@ TEST(FaultRecord, KeepsWhatLedToEachFaultOfASessionThatWentOn) {
 TEST(FaultRecord, HasTorqueOfFingersThatTurn) {
     FaultRecord record({"thumb", "index"}, {"index"});
     for (int i = 0; i < 3; ++i) {
-        servo::Frame frame = held(i);
+        frame::Frame frame = held(i);
         frame.turns.resize(1);
         frame.turns[0].t_sent_W = {0, 0, i < 2 ? 0.1 : 0};
-        if (i == 2) frame.status = servo::kForceOff;
+        if (i == 2) frame.status = kForceOff;
         record.add(frame);
     }
     const Table table = record.table();
@@ -97,9 +97,9 @@ TEST(FaultRecord, HasNothingWithoutAFault) {
     FaultRecord calm({"thumb", "index"});
     FaultRecord stopped({"thumb", "index"});
     for (int i = 0; i < 2000; ++i) {
-        servo::Frame frame = held(i);
+        frame::Frame frame = held(i);
         calm.add(frame);
-        if (i == 1999) frame.status = servo::kForceOff | servo::kStopped;
+        if (i == 1999) frame.status = kForceOff | kStopped;
         stopped.add(frame);
     }
     EXPECT_TRUE(calm.table().rows.empty());
@@ -121,7 +121,7 @@ TEST(GraspTrace, AStillHoldHasNoFigureButItsForces) {
 
 TEST(GraspTrace, SlipIsWhatAFingerMovesInTheObjectsFrameNotInTheWorlds) {
     const GraspTrace carried = trace_of([](int i) {
-        servo::Frame f = held(i);
+        frame::Frame f = held(i);
         const Pose X{rotation_xyz({0, 0, 1e-3 * i}), {1e-4 * i, 0, 0}};
         f.bodies[1].X_WB = X;
         for (auto& finger : f.fingers) finger.p_WP = X * finger.p_WP;
@@ -129,7 +129,7 @@ TEST(GraspTrace, SlipIsWhatAFingerMovesInTheObjectsFrameNotInTheWorlds) {
     });
     EXPECT_LT(carried.slip({0, 1000}), 1e-15);
     const GraspTrace slipping = trace_of([](int i) {
-        servo::Frame f = held(i);
+        frame::Frame f = held(i);
         f.fingers[1].p_WP.z() -= 1e-6 * i;
         return f;
     });
@@ -139,7 +139,7 @@ TEST(GraspTrace, SlipIsWhatAFingerMovesInTheObjectsFrameNotInTheWorlds) {
 
 TEST(GraspTrace, TurnIsAboutTheLineBetweenTheFingers) {
     const GraspTrace trace = trace_of([](int i) {
-        servo::Frame f = held(i);
+        frame::Frame f = held(i);
         f.bodies[1].X_WB.R = rotation_xyz({1e-3 * i, 0, 0});
         return f;
     });
@@ -150,7 +150,7 @@ TEST(GraspTrace, TurnIsAboutTheLineBetweenTheFingers) {
 TEST(GraspTrace, TiltAndHeightOfASine) {
     const double amplitude = 1e-4;
     const GraspTrace trace = trace_of([&](int i) {
-        servo::Frame f = held(i);
+        frame::Frame f = held(i);
         const double z = amplitude * std::sin(2 * std::numbers::pi * 10 * i * 1e-3);
         f.bodies[1].X_WB.p.z() = z;
         f.fingers[1].p_WP.z() = z;
@@ -165,7 +165,7 @@ TEST(GraspTrace, ForceAbove5HzLeavesOutWhatIsSlower) {
     const auto shaking = [](double frequency) {
         return trace_of(
                    [=](int i) {
-                       servo::Frame f = held(i);
+                       frame::Frame f = held(i);
                        f.fingers[0].f_sent_W.y() =
                            3 + std::sin(2 * std::numbers::pi * frequency * i * 1e-3);
                        return f;
@@ -179,7 +179,7 @@ TEST(GraspTrace, ForceAbove5HzLeavesOutWhatIsSlower) {
 
 TEST(GraspTrace, WeightFeltIsDownOnAllHandles) {
     const GraspTrace trace = trace_of([](int i) {
-        servo::Frame f = held(i);
+        frame::Frame f = held(i);
         f.fingers[0].f_sent_W = {1, 0, -0.4};
         f.fingers[1].f_sent_W = {-1, 0, -0.6};
         return f;
@@ -190,9 +190,9 @@ TEST(GraspTrace, WeightFeltIsDownOnAllHandles) {
 
 TEST(GraspTrace, LiftOffIsWhenOnlyFingersCarryTheObject) {
     const GraspTrace trace = trace_of([](int i) {
-        servo::Frame f = held(i);
+        frame::Frame f = held(i);
         if (i < 400) {
-            servo::ContactFrame& table = f.contacts.emplace_back();
+            frame::ContactFrame& table = f.contacts.emplace_back();
             table.a = 0;
             table.b = 1;
             table.normal_force = 0.3;
@@ -216,12 +216,12 @@ TEST(Events, FindsTouchesLiftOffPhasesAndLimits) {
     head.bodies = {"table", "block"};
     EventFinder finder(head, 1, {"reach", "lift"});
     for (int i = 0; i < 100; ++i) {
-        servo::Frame f = held(i);
+        frame::Frame f = held(i);
         f.phase = i < 50 ? 0 : 1;
-        if (i >= 70 && i < 80) f.status = servo::kRateLimited;
+        if (i >= 70 && i < 80) f.status = kRateLimited;
         if (i < 10) f.contacts.clear();
         if (i < 60) {
-            servo::ContactFrame& table = f.contacts.emplace_back();
+            frame::ContactFrame& table = f.contacts.emplace_back();
             table.a = 0;
             table.b = 1;
             table.normal_force = 1;
@@ -238,14 +238,14 @@ TEST(Events, FindsTouchesLiftOffPhasesAndLimits) {
 TEST(Events, TellsWhatWasTunedOnceItHasArrived) {
     EventFinder finder({}, -1, {"all"});
     for (int i = 0; i < 100; ++i) {
-        servo::Frame f;
+        frame::Frame f;
         f.sequence = i;
         f.time = i * std::chrono::milliseconds(1);
         f.phase = 0;
         f.damping = kUnmeasured;
         f.stiffness = i < 20 ? 1000 : std::min(2000, 1000 + 50 * (i - 20));
         if (i >= 60) f.damping = 3;
-        if (i == 80) f.status = servo::kResumed;
+        if (i == 80) f.status = kResumed;
         finder.add(f);
     }
     EXPECT_EQ(said_by(finder),

@@ -29,7 +29,7 @@ recording::SessionFolder session(const std::string& parent, const std::string& s
     {
         recording::RawLogWriter log(folder.raw_log(), head);
         for (int i = 0; i < 3; ++i) {
-            servo::Frame frame;
+            frame::Frame frame;
             frame.sequence = i;
             frame.time = i * std::chrono::milliseconds(1);
             frame.fingers.resize(1);

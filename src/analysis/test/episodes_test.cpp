@@ -19,8 +19,8 @@ ObjectFacts facts() {
 }
 
 /// Body 0 is the table, body 1 the object, which nothing touches; bodies 2 to 5 are four fingers.
-servo::Frame frame_at(int i) {
-    servo::Frame frame;
+frame::Frame frame_at(int i) {
+    frame::Frame frame;
     frame.sequence = i;
     frame.time = i * std::chrono::milliseconds(1);
     frame.bodies.resize(2);
@@ -30,8 +30,8 @@ servo::Frame frame_at(int i) {
     return frame;
 }
 
-void press(servo::Frame& frame, int other, const Vec3& n_W = Vec3::UnitZ()) {
-    servo::ContactFrame& contact = frame.contacts.emplace_back();
+void press(frame::Frame& frame, int other, const Vec3& n_W = Vec3::UnitZ()) {
+    frame::ContactFrame& contact = frame.contacts.emplace_back();
     contact.a = std::min(other, 1);
     contact.b = std::max(other, 1);
     contact.n_W = other < 1 ? n_W : -n_W;
@@ -39,11 +39,11 @@ void press(servo::Frame& frame, int other, const Vec3& n_W = Vec3::UnitZ()) {
     contact.p_WC = frame.bodies[1].X_WB.p - 0.02 * n_W;
 }
 
-std::vector<Episode> episodes_of(int count, const std::function<void(int, servo::Frame&)>& change,
+std::vector<Episode> episodes_of(int count, const std::function<void(int, frame::Frame&)>& change,
                                  const ObjectFacts& object = facts()) {
     GraspTrace trace(1, kTick);
     for (int i = 0; i < count; ++i) {
-        servo::Frame frame = frame_at(i);
+        frame::Frame frame = frame_at(i);
         change(i, frame);
         trace.add(frame);
     }
@@ -55,7 +55,7 @@ std::vector<Episode> episodes_of(int count, const std::function<void(int, servo:
 std::vector<Episode> thrown(const Vec3& v0, const Vec3& v_hand, const Vec3& gravity) {
     Vec3 p = Vec3::Zero();
     Vec3 v = v0;
-    return episodes_of(300, [&](int i, servo::Frame& frame) {
+    return episodes_of(300, [&](int i, frame::Frame& frame) {
         if (i >= 100) v += kTick * gravity;
         p += kTick * v;
         frame.bodies[1].X_WB.p = p;
@@ -98,7 +98,7 @@ TEST(Episodes, AFlightUnderOtherForcesIsOffTheBallisticPath) {
 TEST(Episodes, ABlockThatSlidesOnStopsByFriction) {
     double x = 0;
     double v = 0.5;
-    const auto slide = [&](int, servo::Frame& frame) {
+    const auto slide = [&](int, frame::Frame& frame) {
         v = std::max(0.0, v - kFriction * 9.81 * kTick);
         x += kTick * v;
         frame.bodies[1].X_WB.p.x() = x;
@@ -128,7 +128,7 @@ TEST(Episodes, ABlockThatIsPushedTakesMuMG) {
     const double lean = 0.7;
     const double N = kMass * 9.81 * std::cos(slope) + lean;
     const double push = kFriction * N - kMass * 9.81 * std::sin(slope);
-    const auto found = episodes_of(200, [&](int i, servo::Frame& frame) {
+    const auto found = episodes_of(200, [&](int i, frame::Frame& frame) {
         frame.bodies[1].X_WB.p = 0.2 * kTick * i * along;
         frame.bodies[1].v_WB = 0.2 * along;
         frame.fingers[0].f_sent_W = -push * along + lean * n;
@@ -142,7 +142,7 @@ TEST(Episodes, ABlockThatIsPushedTakesMuMG) {
 }
 
 TEST(Episodes, ABallThatRollsDoesNotSlide) {
-    const auto found = episodes_of(200, [](int i, servo::Frame& frame) {
+    const auto found = episodes_of(200, [](int i, frame::Frame& frame) {
         frame.bodies[1].X_WB.p.x() = 0.2 * kTick * i;
         frame.bodies[1].v_WB.x() = 0.2;
         frame.bodies[1].w_WB.y() = 0.2 / 0.02;
@@ -152,7 +152,7 @@ TEST(Episodes, ABallThatRollsDoesNotSlide) {
 }
 
 TEST(Episodes, AHoldTurnsWithItsFingersAndSinks) {
-    const auto found = episodes_of(1000, [](int i, servo::Frame& frame) {
+    const auto found = episodes_of(1000, [](int i, frame::Frame& frame) {
         const double share = std::min(i, 500) / 500.0;
         const Quat hand = rotation_xyz({0, 0, 0.5 * share});
         frame.bodies[1].X_WB = {rotation_xyz({0, 0, 0.6 * share}), {0, 0, -0.002 * share}};
@@ -170,7 +170,7 @@ TEST(Episodes, AHoldTurnsWithItsFingersAndSinks) {
 }
 
 TEST(Episodes, AHandOverIsAHoldOfEachHandAndOneOfBoth) {
-    const auto found = episodes_of(900, [](int i, servo::Frame& frame) {
+    const auto found = episodes_of(900, [](int i, frame::Frame& frame) {
         const bool first = i < 600;
         const bool second = i >= 300;
         // lets go for a moment too short to count
@@ -195,17 +195,17 @@ TEST(Episodes, AHandOverIsAHoldOfEachHandAndOneOfBoth) {
 
 TEST(Episodes, AnObjectAtRestAsleepOrUnknownIsInNone) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_TRUE(episodes_of(200, [](int, servo::Frame& frame) { press(frame, 0); }).empty());
+    EXPECT_TRUE(episodes_of(200, [](int, frame::Frame& frame) { press(frame, 0); }).empty());
     EXPECT_TRUE(
-        episodes_of(200, [](int, servo::Frame& frame) { frame.bodies[1].awake = 0; }).empty());
-    EXPECT_TRUE(episodes_of(200, [&](int, servo::Frame& frame) {
+        episodes_of(200, [](int, frame::Frame& frame) { frame.bodies[1].awake = 0; }).empty());
+    EXPECT_TRUE(episodes_of(200, [&](int, frame::Frame& frame) {
                     frame.bodies[1].X_WB.p.setConstant(nan);
                 }).empty());
 }
 
 TEST(Episodes, WithoutTheScenesFactsFiguresThatNeedThemAreNone) {
     const auto found = episodes_of(
-        200, [](int i, servo::Frame& frame) { frame.bodies[1].X_WB.p.z() = 0.1 * i; }, {});
+        200, [](int i, frame::Frame& frame) { frame.bodies[1].X_WB.p.z() = 0.1 * i; }, {});
     ASSERT_EQ(found.size(), 1u);
     EXPECT_TRUE(std::isnan(found[0].off_path));
     EXPECT_TRUE(std::isnan(found[0].release_ratio));

@@ -62,7 +62,7 @@ void add_lift(GraspTrace& trace, const Plan& plan, uint64_t seed = 1) {
     const auto before = static_cast<int>(trace.samples().size());
     for (int i = 0; i < kSamples; ++i) {
         const double t = i * kTick;
-        servo::Frame frame;
+        frame::Frame frame;
         frame.time = (before + i) * std::chrono::milliseconds(1);
         frame.bodies.resize(2);
         frame.fingers.resize(2);
@@ -92,9 +92,9 @@ void add_lift(GraspTrace& trace, const Plan& plan, uint64_t seed = 1) {
         frame.bodies[1].X_WB.p = {0, 0, t < plan.unknown ? kUnmeasured : 0.02 + h};
         frame.bodies[1].v_WB = {0, 0, v};
         frame.bodies[1].awake = 1;
-        if (paused && t < plan.pauses_at + 1.5 * kTick) frame.status |= servo::kResumed;
+        if (paused && t < plan.pauses_at + 1.5 * kTick) frame.status |= kResumed;
         if (plan.stands && h <= 0) {
-            servo::ContactFrame& contact = frame.contacts.emplace_back();
+            frame::ContactFrame& contact = frame.contacts.emplace_back();
             contact.a = 0;
             contact.b = 1;
             contact.normal_force = 0.1;
@@ -105,7 +105,7 @@ void add_lift(GraspTrace& trace, const Plan& plan, uint64_t seed = 1) {
             if (fell) continue;
             const double n = grip + plan.noise * random.normal();
             if (n <= 0) continue;
-            servo::ContactFrame& contact = frame.contacts.emplace_back();
+            frame::ContactFrame& contact = frame.contacts.emplace_back();
             contact.a = 1;
             contact.b = 2 + f;
             contact.n_W = {side, 0, 0};

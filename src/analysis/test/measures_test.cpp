@@ -208,7 +208,7 @@ TEST(Measures, AreTakenFromTheFramesOfEachAttempt) {
     std::optional<MeasureFinder> finder = session.finder();
     ASSERT_TRUE(finder);
     const Reach reach;
-    servo::Frame frame;
+    frame::Frame frame;
     frame.fingers.resize(2);
     for (const MotionSample& s : reach.attempt.samples) {
         frame.time = Time(std::llround(s.time * 1e9));

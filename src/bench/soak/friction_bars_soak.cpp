@@ -4,10 +4,10 @@
 namespace dihaptic::bench {
 namespace {
 
-class FrictionBars : public ::testing::TestWithParam<dynamics::Solver> {};
+class FrictionBars : public ::testing::TestWithParam<contact::Solver> {};
 INSTANTIATE_TEST_SUITE_P(Soak, FrictionBars,
-                         ::testing::Values(dynamics::Solver::stewart_trinkle,
-                                           dynamics::Solver::staggered_projections),
+                         ::testing::Values(contact::Solver::stewart_trinkle,
+                                           contact::Solver::staggered_projections),
                          measure::solver_name);
 TEST_P(FrictionBars, AreReached) {
     const FrictionFigures figures = bench_friction(settings_of(GetParam()), {});

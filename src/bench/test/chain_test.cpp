@@ -7,8 +7,8 @@ namespace dihaptic::bench::chain_test {
 namespace {
 
 TEST(BenchChain, OursHoldsTogetherAndKeepsItsEnergy) {
-    dynamics::Settings settings;
-    settings.solver = dynamics::Solver::newton;
+    frame::DynamicsSettings settings;
+    settings.solver = contact::Solver::newton;
     const auto rows = bench_chain({world_simulator(settings), bullet_simulator()}, {2, 5},
                                   [](const std::string&, double) {});
     ASSERT_EQ(rows.size(), 4u);
@@ -25,8 +25,8 @@ TEST(BenchChain, OursHoldsTogetherAndKeepsItsEnergy) {
 }
 
 TEST(BenchChain, OursHoldsFiftyLinks) {
-    dynamics::Settings settings;
-    settings.solver = dynamics::Solver::newton;
+    frame::DynamicsSettings settings;
+    settings.solver = contact::Solver::newton;
     const auto rows =
         bench_chain({world_simulator(settings)}, {50}, [](const std::string&, double) {});
     ASSERT_EQ(rows.size(), 1u);

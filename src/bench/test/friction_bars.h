@@ -10,19 +10,19 @@
 
 namespace dihaptic::bench {
 
-inline dynamics::Settings settings_of(dynamics::Solver solver) {
-    dynamics::Settings settings;
+inline frame::DynamicsSettings settings_of(contact::Solver solver) {
+    frame::DynamicsSettings settings;
     settings.solver = solver;
     return settings;
 }
 
-inline void expect_bars_of_friction(dynamics::Solver solver, const FrictionFigures& figures) {
+inline void expect_bars_of_friction(contact::Solver solver, const FrictionFigures& figures) {
     EXPECT_LT(figures.drift_mm, 0.001);
     EXPECT_LT(std::abs(figures.accel_error), 0.001);
     EXPECT_LT(figures.direction_error_deg, 0.1);
     ASSERT_TRUE(figures.cards_drift_mm);
     EXPECT_TRUE(figures.arch_drift_mm);
-    if (solver == dynamics::Solver::sequential_impulse) {
+    if (solver == contact::Solver::sequential_impulse) {
         // guards against getting worse: README has 0.23, 0.004 and 0.002. Bullet's solver, which
         // this one replaced, left 0.14, 0.013 and 0.050.
         EXPECT_LT(figures.stack_drift_mm, 0.25);

@@ -4,10 +4,10 @@
 namespace dihaptic::bench::friction_bars_test {
 namespace {
 
-class FrictionBars : public ::testing::TestWithParam<dynamics::Solver> {};
+class FrictionBars : public ::testing::TestWithParam<contact::Solver> {};
 INSTANTIATE_TEST_SUITE_P(Bench, FrictionBars,
-                         ::testing::Values(dynamics::Solver::newton,
-                                           dynamics::Solver::sequential_impulse),
+                         ::testing::Values(contact::Solver::newton,
+                                           contact::Solver::sequential_impulse),
                          measure::solver_name);
 TEST_P(FrictionBars, AreReached) {
     expect_bars_of_friction(GetParam(),

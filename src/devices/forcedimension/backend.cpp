@@ -33,8 +33,8 @@ std::vector<Options> read_options(const std::vector<DeviceConfig>& configs,
     return options;
 }
 
-DeviceInfo info_of(const Options& options) {
-    DeviceInfo info;
+frame::DeviceInfo info_of(const Options& options) {
+    frame::DeviceInfo info;
     info.serial = options.serial_text();
     info.model = "Force Dimension device";
     if (!info.serial.empty()) info.model += " " + info.serial;
@@ -43,9 +43,9 @@ DeviceInfo info_of(const Options& options) {
     return info;
 }
 
-std::vector<DeviceInfo> describe(const std::vector<DeviceConfig>& configs, const Context&,
-                                 Diagnostics& diagnostics) {
-    std::vector<DeviceInfo> out;
+std::vector<frame::DeviceInfo> describe(const std::vector<DeviceConfig>& configs, const Context&,
+                                        Diagnostics& diagnostics) {
+    std::vector<frame::DeviceInfo> out;
     for (const Options& options : read_options(configs, diagnostics))
         out.push_back(info_of(options));
     return out;
@@ -102,7 +102,7 @@ Connection take(std::vector<Connection>& there, const Options& options, const Pl
 /// Adds orientation and torque to `info`. A device that does not measure orientation renders no
 /// torque.
 void add_wrist(const Dhd& dhd, const Connection& connection, const Options& options,
-               const Place& place, DeviceInfo& info) {
+               const Place& place, frame::DeviceInfo& info) {
     info.measures_orientation = options.orientation && dhd.has_wrist(connection.id());
     const bool turns = info.measures_orientation && dhd.has_active_wrist(connection.id());
     if (!turns && options.peak_torque) {
@@ -117,9 +117,9 @@ void add_wrist(const Dhd& dhd, const Connection& connection, const Options& opti
     if (options.continuous_torque) info.continuous_torque = *options.continuous_torque;
 }
 
-DeviceInfo info_of(const Dhd& dhd, const Connection& connection, const Options& options,
-                   const Place& place) {
-    DeviceInfo info = info_of(options);
+frame::DeviceInfo info_of(const Dhd& dhd, const Connection& connection, const Options& options,
+                          const Place& place) {
+    frame::DeviceInfo info = info_of(options);
     info.serial = number_text(connection.serial());
     info.model = fmt::format("{}, serial {}", connection.model(), connection.serial());
     const double most = dhd.max_force(connection.id());
@@ -145,7 +145,7 @@ std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs, cons
     for (size_t i = 0; i < configs.size(); ++i) {
         const Place& place = configs[i].place;
         Connection connection = take(there, options[i], place);
-        const DeviceInfo info = info_of(dhd, connection, options[i], place);
+        const frame::DeviceInfo info = info_of(dhd, connection, options[i], place);
         devices.push_back({std::move(connection), info,
                            fmt::format("the {}'s device ({})", configs[i].finger, info.model),
                            place, options[i].watchdog});

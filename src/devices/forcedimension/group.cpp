@@ -9,8 +9,8 @@
 namespace dihaptic::devices::forcedimension {
 namespace {
 
-std::vector<DeviceInfo> infos(const std::vector<Group::Device>& devices) {
-    std::vector<DeviceInfo> out;
+std::vector<frame::DeviceInfo> infos(const std::vector<Group::Device>& devices) {
+    std::vector<frame::DeviceInfo> out;
     out.reserve(devices.size());
     for (const Group::Device& device : devices) out.push_back(device.info);
     return out;

@@ -82,7 +82,7 @@ class Group final : public DeviceGroup {
   public:
     struct Device {
         Connection connection;
-        DeviceInfo info;
+        frame::DeviceInfo info;
         std::string who;  ///< for messages
         Place place{};
         bool watchdog = true;

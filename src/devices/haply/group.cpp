@@ -25,10 +25,10 @@ std::optional<Grip> grip_of(const Options& options) {
     return {};
 }
 
-std::vector<DeviceInfo> infos(const std::vector<Wanted>& devices) {
-    std::vector<DeviceInfo> out;
+std::vector<frame::DeviceInfo> infos(const std::vector<Wanted>& devices) {
+    std::vector<frame::DeviceInfo> out;
     for (const Wanted& device : devices) {
-        DeviceInfo info;
+        frame::DeviceInfo info;
         info.model = "Haply Inverse3";
         info.serial = device.options.device_id;
         info.peak_force = device.options.peak_force;
@@ -232,8 +232,8 @@ class HaplyGroup final : public DeviceGroup {
 
 }  // namespace
 
-std::vector<DeviceInfo> describe_group(const std::vector<DeviceConfig>& configs, const Context&,
-                                       Diagnostics& diagnostics) {
+std::vector<frame::DeviceInfo> describe_group(const std::vector<DeviceConfig>& configs,
+                                              const Context&, Diagnostics& diagnostics) {
     return infos(read_wanted(configs, diagnostics));
 }
 

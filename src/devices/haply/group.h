@@ -7,8 +7,8 @@
 namespace dihaptic::devices::haply {
 
 /// What the devices' options say of them; the service says no more.
-std::vector<DeviceInfo> describe_group(const std::vector<DeviceConfig>& configs,
-                                       const Context& context, Diagnostics& diagnostics);
+std::vector<frame::DeviceInfo> describe_group(const std::vector<DeviceConfig>& configs,
+                                              const Context& context, Diagnostics& diagnostics);
 /// Makes the group. Throws Error when the devices' options do not fit together.
 std::unique_ptr<DeviceGroup> make_group(const std::vector<DeviceConfig>& configs,
                                         const Context& context);

@@ -26,9 +26,9 @@ std::vector<Options> read_options(const std::vector<DeviceConfig>& configs,
     return options;
 }
 
-std::vector<DeviceInfo> describe(const std::vector<DeviceConfig>& configs, const Context&,
-                                 Diagnostics& diagnostics) {
-    std::vector<DeviceInfo> out;
+std::vector<frame::DeviceInfo> describe(const std::vector<DeviceConfig>& configs, const Context&,
+                                        Diagnostics& diagnostics) {
+    std::vector<frame::DeviceInfo> out;
     for (const Options& options : read_options(configs, diagnostics)) {
         out.push_back(options.info());
         out.back().model = options.name.empty() ? "the driver's first device" : options.name;

@@ -15,8 +15,8 @@ bool sound(double limit) {
 
 }  // namespace
 
-DeviceInfo Options::info() const {
-    DeviceInfo out;
+frame::DeviceInfo Options::info() const {
+    frame::DeviceInfo out;
     out.serial = serial;
     if (joint_angles) out.arm = links;
     out.max_stiffness = max_stiffness;

@@ -15,8 +15,8 @@ constexpr auto kSilence = std::chrono::milliseconds(100);
 constexpr auto kBeginning = std::chrono::seconds(2);
 constexpr auto kLook = std::chrono::milliseconds(5);
 
-std::vector<DeviceInfo> infos(const std::vector<Connection>& connections) {
-    std::vector<DeviceInfo> out;
+std::vector<frame::DeviceInfo> infos(const std::vector<Connection>& connections) {
+    std::vector<frame::DeviceInfo> out;
     out.reserve(connections.size());
     for (const Connection& connection : connections) out.push_back(connection.info());
     return out;

@@ -61,7 +61,7 @@ struct Options {
     }
 
     /// What they say of the device.
-    DeviceInfo info() const;
+    frame::DeviceInfo info() const;
 };
 
 /// An initialised device; the destructor disables it.
@@ -81,7 +81,7 @@ class Connection {
     const std::string& serial() const { return serial_; }
     const Place& place() const { return place_; }
     const Vec3& centre() const { return centre_; }
-    const DeviceInfo& info() const { return info_; }
+    const frame::DeviceInfo& info() const { return info_; }
 
     /// Calibrates the device if it can do so by itself. Throws Error when its positions still mean
     /// nothing.
@@ -105,7 +105,7 @@ class Connection {
     std::string model_;
     std::string serial_;
     Vec3 centre_ = Vec3::Zero();  // D's origin in HD's frame [m]
-    DeviceInfo info_;
+    frame::DeviceInfo info_;
 };
 
 class Group final : public DeviceGroup {

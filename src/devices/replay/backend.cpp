@@ -24,8 +24,8 @@ constexpr const char* kNoRecording = "devices of the backend 'replay' need a rec
 constexpr const char* kRemedy = "Use dihaptic replay SESSION, or backend: simulated.";
 
 /// A rig file has no recording.
-std::vector<DeviceInfo> describe(const std::vector<DeviceConfig>& configs, const Context& context,
-                                 Diagnostics& diagnostics) {
+std::vector<frame::DeviceInfo> describe(const std::vector<DeviceConfig>& configs,
+                                        const Context& context, Diagnostics& diagnostics) {
     for (const DeviceConfig& config : configs)
         diagnostics.error(config.place, "backend", kNoRecording, kRemedy);
     return context.recording.devices;

@@ -87,10 +87,10 @@ struct Device {
     uint32_t clamped = 0;
 };
 
-std::vector<DeviceInfo> infos(const std::vector<Options>& options, const Context& context) {
-    std::vector<DeviceInfo> out;
+std::vector<frame::DeviceInfo> infos(const std::vector<Options>& options, const Context& context) {
+    std::vector<frame::DeviceInfo> out;
     for (const Options& option : options) {
-        DeviceInfo info;
+        frame::DeviceInfo info;
         info.model = std::string("simulated ") + std::string(enum_name(option.preset));
         info.serial = option.serial;
         info.simulated = true;
@@ -197,8 +197,8 @@ class SimulatedGroup final : public DeviceGroup {
     bool begins_ = false;  // the plants begin at the next reading, whatever its time
 };
 
-std::vector<DeviceInfo> describe(const std::vector<DeviceConfig>& configs, const Context& context,
-                                 Diagnostics& diagnostics) {
+std::vector<frame::DeviceInfo> describe(const std::vector<DeviceConfig>& configs,
+                                        const Context& context, Diagnostics& diagnostics) {
     return infos(read_options(configs, context, diagnostics), context);
 }
 

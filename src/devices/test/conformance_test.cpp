@@ -27,7 +27,7 @@ class Conformance : public ::testing::TestWithParam<std::string> {
     Conformance() {
         context.driver = &driver_;
         context.recording.devices.resize(2);
-        for (DeviceInfo& info : context.recording.devices) info.model = "recorded";
+        for (frame::DeviceInfo& info : context.recording.devices) info.model = "recorded";
         context.recording.read = [](Time now, std::span<Reading> readings) {
             for (size_t i = 0; i < readings.size(); ++i)
                 readings[i].p_DH = Vec3(static_cast<double>(i), seconds(now), 0);
@@ -166,12 +166,13 @@ TEST_P(Conformance, RefusesOptionsThatItDoesNotKnow) {
 
 TEST_P(Conformance, ItsOptionsSayNothingElseThanItsDevicesDo) {
     Diagnostics diagnostics;
-    const std::vector<DeviceInfo> described = backend().describe(configs(), context, diagnostics);
+    const std::vector<frame::DeviceInfo> described =
+        backend().describe(configs(), context, diagnostics);
     const auto group = make();
     ASSERT_EQ(described.size(), 2u);
     for (size_t i = 0; i < described.size(); ++i) {
-        const DeviceInfo& said = described[i];
-        const DeviceInfo& is = group->descriptions()[i];
+        const frame::DeviceInfo& said = described[i];
+        const frame::DeviceInfo& is = group->descriptions()[i];
         EXPECT_FALSE(said.model.empty());
         EXPECT_EQ(said.simulated, is.simulated);
         if (!said.serial.empty()) {
@@ -207,7 +208,7 @@ TEST(DeviceTable, HasSimulatedAndReplay) {
 
 TEST(Replay, SaysWhenTheRecordingEnds) {
     Context context;
-    context.recording = {std::vector<DeviceInfo>(1), [](auto, auto) { return false; }};
+    context.recording = {std::vector<frame::DeviceInfo>(1), [](auto, auto) { return false; }};
     const auto group = find_backend("replay")->make({{"thumb", {}, {}}}, context);
     std::vector<Reading> readings(1);
     group->activate();

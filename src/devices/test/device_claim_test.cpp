@@ -12,14 +12,14 @@ namespace dihaptic::devices::device_claim_test {
 namespace {
 
 /// A device that no other test has.
-DeviceInfo device(const std::string& serial = number_text(getpid())) {
-    DeviceInfo info;
+frame::DeviceInfo device(const std::string& serial = number_text(getpid())) {
+    frame::DeviceInfo info;
     info.model = "Made up";
     info.serial = serial;
     return info;
 }
 
-std::string refusal(const DeviceInfo& info) {
+std::string refusal(const frame::DeviceInfo& info) {
     try {
         const DeviceClaim claim("test", info, {"rig.yaml", 3}, Time(0));
         return "";
@@ -38,7 +38,7 @@ TEST(DeviceClaim, IsHeldByOneUntilItIsGivenBack) {
         EXPECT_NE(told.find("(process " + number_text(getpid()) + " of user "), std::string::npos)
             << told;
         EXPECT_EQ(refusal(device("another")), "");
-        DeviceInfo nameless = device("");
+        frame::DeviceInfo nameless = device("");
         EXPECT_EQ(refusal(nameless), "");
     }
     EXPECT_EQ(refusal(device()), "");
@@ -47,7 +47,7 @@ TEST(DeviceClaim, IsHeldByOneUntilItIsGivenBack) {
 TEST(DeviceClaim, EndsWithItsProgramHoweverThatEnds) {
     int ready[2];
     ASSERT_EQ(pipe(ready), 0);
-    const DeviceInfo info = device();
+    const frame::DeviceInfo info = device();
     const pid_t child = fork();
     if (child == 0) {
         const DeviceClaim claim("test", info, {}, Time(0));
@@ -79,7 +79,7 @@ TEST(DeviceClaim, ThatIsGivenBackSoonIsWaitedFor) {
 TEST(DeviceClaim, HoldsForOtherUsersToo) {
     if (geteuid() != 0) GTEST_SKIP() << "only root can become another user";
     const DeviceClaim mine("test", device(), {}, Time(0));
-    const DeviceInfo info = device();
+    const frame::DeviceInfo info = device();
     const pid_t child = fork();
     if (child == 0) {
         constexpr uid_t kNobody = 65534;

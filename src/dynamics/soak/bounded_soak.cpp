@@ -35,7 +35,7 @@ std::vector<Step> steps_of(uint64_t seed) {
     std::vector<Step> out;
     for (int i = 0; i < kSteps; ++i) {
         if (i % kChange == 0)
-            extreme.world().set_solver(Solver((i / kChange + seed) % contact::kSolvers));
+            extreme.world().set_solver(contact::Solver((i / kChange + seed) % contact::kSolvers));
         const double begin = now();
         const StepStatus status = extreme.step(i);
         out.push_back({now() - begin, extreme.world().solve_stats(), extreme.touched()});

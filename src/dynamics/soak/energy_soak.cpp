@@ -12,17 +12,17 @@ constexpr int kScenes = 200;
 constexpr int kSteps = 1000;
 constexpr double kRise = 1e-6;
 
-class EnergySoak : public ::testing::TestWithParam<Solver> {};
-INSTANTIATE_TEST_SUITE_P(World, EnergySoak,
-                         ::testing::Values(Solver::sequential_impulse, Solver::stewart_trinkle,
-                                           Solver::staggered_projections, Solver::newton),
-                         [](const auto& which) {
-                             return std::string(
-                                 enum_names(Solver{})[static_cast<size_t>(which.param)]);
-                         });
+class EnergySoak : public ::testing::TestWithParam<contact::Solver> {};
+INSTANTIATE_TEST_SUITE_P(
+    World, EnergySoak,
+    ::testing::Values(contact::Solver::sequential_impulse, contact::Solver::stewart_trinkle,
+                      contact::Solver::staggered_projections, contact::Solver::newton),
+    [](const auto& which) {
+        return std::string(enum_names(contact::Solver{})[static_cast<size_t>(which.param)]);
+    });
 
 TEST_P(EnergySoak, NoStepRaisesItWithoutAnOverlap) {
-    Settings settings;
+    frame::DynamicsSettings settings;
     settings.solver = GetParam();
     int raised_from_overlap = 0;
     double worst = 0;
@@ -45,10 +45,10 @@ TEST_P(EnergySoak, NoStepRaisesItWithoutAnOverlap) {
 }
 
 TEST_P(EnergySoak, NoStepRaisesItWhenOverlapsAreLeft) {
-    if (GetParam() == Solver::sequential_impulse)
+    if (GetParam() == contact::Solver::sequential_impulse)
         GTEST_SKIP()
             << "sweeps that end at their bound, in a step of some ten thousand, gain energy";
-    Settings settings;
+    frame::DynamicsSettings settings;
     settings.solver = GetParam();
     settings.penetration_recovery = 0;
     double worst = 0;

@@ -93,15 +93,15 @@ struct Mechanism {
     }
 };
 
-class MechanismsSoak : public ::testing::TestWithParam<Solver> {};
-INSTANTIATE_TEST_SUITE_P(World, MechanismsSoak, ::testing::Values(Solver::newton),
+class MechanismsSoak : public ::testing::TestWithParam<contact::Solver> {};
+INSTANTIATE_TEST_SUITE_P(World, MechanismsSoak, ::testing::Values(contact::Solver::newton),
                          [](const auto& which) {
                              return std::string(
-                                 enum_names(Solver{})[static_cast<size_t>(which.param)]);
+                                 enum_names(contact::Solver{})[static_cast<size_t>(which.param)]);
                          });
 
 TEST_P(MechanismsSoak, AMillionStepsHarmNothing) {
-    Settings settings = awake();
+    frame::DynamicsSettings settings = awake();
     settings.solver = GetParam();
     int missed = 0;
     double fastest = 0;

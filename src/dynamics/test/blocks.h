@@ -62,13 +62,13 @@ inline scene::Body body_from(const std::string& yaml) {
 }
 
 /// Settings with which nothing sleeps.
-inline Settings awake() {
-    Settings settings;
+inline frame::DynamicsSettings awake() {
+    frame::DynamicsSettings settings;
     settings.sleeping = false;
     return settings;
 }
 
-inline World make(std::vector<scene::Body> bodies, const Settings& settings = {}) {
+inline World make(std::vector<scene::Body> bodies, const frame::DynamicsSettings& settings = {}) {
     scene::Scene scene;
     scene.bodies = std::move(bodies);
     World world(scene, settings);

@@ -37,13 +37,13 @@ struct Example {
     std::function<void(World&, int)> act = [](World&, int) {};
 };
 
-World made_of(const Example& example, Solver solver = Solver::newton) {
+World made_of(const Example& example, contact::Solver solver = contact::Solver::newton) {
     scene::Scene scene;
     Diagnostics diagnostics;
     read_fields(scene, parse_yaml(example.yaml, "test"), diagnostics);
     scene::complete(scene, "scenes", diagnostics);
     diagnostics.throw_if_errors();
-    Settings settings = awake();
+    frame::DynamicsSettings settings = awake();
     settings.solver = solver;
     World world(scene, settings);
     world.activate();
@@ -155,9 +155,10 @@ std::vector<Example> examples() {
 
 TEST(Books, BalanceWithEverySolver) {
     for (const Example& example : examples()) {
-        for (size_t i = 0; i < enum_names(Solver{}).size(); ++i) {
-            SCOPED_TRACE(example.name + ", " + std::string(enum_name(static_cast<Solver>(i))));
-            World world = made_of(example, static_cast<Solver>(i));
+        for (size_t i = 0; i < enum_names(contact::Solver{}).size(); ++i) {
+            SCOPED_TRACE(example.name + ", " +
+                         std::string(enum_name(static_cast<contact::Solver>(i))));
+            World world = made_of(example, static_cast<contact::Solver>(i));
             int unbalanced = 0;
             double most = 0;
             double turning = 0;
@@ -370,7 +371,7 @@ TEST(Books, TellEveryFaultThatMovesAnything) {
 }
 
 TEST(Books, TellContactsThatAreNotRecorded) {
-    Settings settings = awake();
+    frame::DynamicsSettings settings = awake();
     settings.max_contacts = 2;
     World world = make({table(), block({0, 0, 0.02})}, settings);
     for (int step = 0; step < 10; ++step) world.step(kStep);

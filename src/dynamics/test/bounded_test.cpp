@@ -18,7 +18,8 @@ TEST(Bounded, NoStepOfAnExtremeSceneDoesMoreThanItMay) {
         Extreme extreme(seed);
         for (int i = 0; i < 24; ++i) {
             // twenty times a second, and more often than that
-            if (i % 6 == 0) extreme.world().set_solver(Solver((i / 6 + seed) % contact::kSolvers));
+            if (i % 6 == 0)
+                extreme.world().set_solver(contact::Solver((i / 6 + seed) % contact::kSolvers));
             if (extreme.step(i) == StepStatus::diverged) extreme.world().mend();
             const contact::SolveStats& stats = extreme.world().solve_stats();
             const auto contacts = static_cast<int64_t>(extreme.world().contacts().size());
@@ -41,7 +42,7 @@ TEST(Bounded, IsTheSameToTheBitWhenItIsRepeated) {
     const auto end = [] {
         Extreme extreme(7);
         for (int i = 0; i < 20; ++i) {
-            if (i % 5 == 0) extreme.world().set_solver(Solver(i / 5 % contact::kSolvers));
+            if (i % 5 == 0) extreme.world().set_solver(contact::Solver(i / 5 % contact::kSolvers));
             extreme.step(i);
         }
         Vec3 sum = Vec3::Zero();
@@ -57,8 +58,8 @@ TEST(Bounded, APlateOnARailThatIsInsideTheTableIsSolvedAllTheSame) {
         scene.bodies = {table(), box("plate", {0.006, 0.04, 0.04}, {0, 0, 0}, 0.02)};
         scene.bodies[1].moves = scene::Axes::x;
         scene.bodies[1].turns = scene::Axes::none;
-        Settings settings = awake();
-        settings.solver = static_cast<Solver>(solver);
+        frame::DynamicsSettings settings = awake();
+        settings.solver = static_cast<contact::Solver>(solver);
         World world(scene, settings);
         scene::Finger finger;
         finger.shape = scene::Shape::box({0.005, 0.02, 0.02});

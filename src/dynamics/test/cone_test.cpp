@@ -53,7 +53,8 @@ struct Roll {
         return std::sqrt(kGravity * (h / c - 0.75 * h * c) /
                          (c / s * (along * c * c + across * s * s)));
     }
-    World start(const scene::Body& ground, const Settings& settings = awake()) const {
+    World start(const scene::Body& ground,
+                const frame::DynamicsSettings& settings = awake()) const {
         World world = make({ground, cone(size, ground.friction)}, settings);
         const Pose X = on_its_side(size);
         world.set_pose({1}, X);
@@ -75,11 +76,12 @@ struct Roll {
 const std::vector<Size> kSizes{{0.003, 0.01}, {0.005, 0.02}, {0.01, 0.01}, {0.01, 0.1},
                                {0.02, 0.02},  {0.02, 0.06},  {0.03, 0.03}, {0.05, 0.02},
                                {0.05, 0.2},   {0.1, 0.1},    {0.1, 0.05}};
-const std::vector<Solver> kSolvers{Solver::newton, Solver::staggered_projections,
-                                   Solver::stewart_trinkle, Solver::sequential_impulse};
+const std::vector<contact::Solver> kSolvers{
+    contact::Solver::newton, contact::Solver::staggered_projections,
+    contact::Solver::stewart_trinkle, contact::Solver::sequential_impulse};
 
-Settings awake_with(Solver solver) {
-    Settings settings = awake();
+frame::DynamicsSettings awake_with(contact::Solver solver) {
+    frame::DynamicsSettings settings = awake();
     settings.solver = solver;
     return settings;
 }
@@ -105,7 +107,7 @@ void expect_circle(const Roll& roll, World& world) {
 }
 
 TEST(Cone, RollsOnItsSideInACircleAboutItsTip) {
-    for (const Solver solver : kSolvers) {
+    for (const contact::Solver solver : kSolvers) {
         for (const Size& size : kSizes) {
             for (const scene::Body& ground : {plane(), table()}) {
                 SCOPED_TRACE(::testing::Message() << size.radius << " x " << size.height << " "
@@ -146,7 +148,7 @@ double held_up(const World& world) {
 }
 
 TEST(Cone, StandsOnItsBaseWhichCarriesItsWeight) {
-    for (const Solver solver : kSolvers) {
+    for (const contact::Solver solver : kSolvers) {
         for (const Size& size : kSizes) {
             for (const scene::Body& ground : {plane(), table()}) {
                 World world = make({ground, cone(size)}, awake_with(solver));

@@ -115,9 +115,9 @@ TEST(Driven, CarriesRound) {
 
 TEST(Driven, KeepsWhatLiesOnATurntableWhereItIs) {
     // with another one on top, held by a sixth of the friction that there is
-    for (size_t i = 0; i < enum_names(Solver{}).size(); ++i) {
-        Settings settings = awake();
-        settings.solver = static_cast<Solver>(i);
+    for (size_t i = 0; i < enum_names(contact::Solver{}).size(); ++i) {
+        frame::DynamicsSettings settings = awake();
+        settings.solver = static_cast<contact::Solver>(i);
         SCOPED_TRACE(std::string(enum_name(settings.solver)));
         scene::Body top = block({0.05, 0.01, 0.06}, 0.5);
         top.name = "top";

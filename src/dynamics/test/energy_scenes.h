@@ -13,7 +13,7 @@ namespace dihaptic::dynamics {
 
 class EnergyScene {
   public:
-    EnergyScene(uint64_t seed, Settings settings) : inertia_{Mat3::Zero()} {
+    EnergyScene(uint64_t seed, frame::DynamicsSettings settings) : inertia_{Mat3::Zero()} {
         Random random(seed, "energy");
         scene::Body table;
         table.name = "table";

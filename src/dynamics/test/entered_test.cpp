@@ -13,14 +13,14 @@ namespace {
 
 constexpr double kDeep = 2e-4;  // twice the depth that a step tolerates [m]
 
-class EnteredTest : public ::testing::TestWithParam<Solver> {
+class EnteredTest : public ::testing::TestWithParam<contact::Solver> {
   protected:
     World weightless(std::vector<scene::Body> bodies, const scene::Finger* finger = nullptr,
                      const Vec3& p_WP = Vec3::Zero()) {
         scene::Scene scene;
         scene.gravity.setZero();
         scene.bodies = std::move(bodies);
-        Settings settings;
+        frame::DynamicsSettings settings;
         settings.solver = GetParam();
         World world(scene, settings);
         if (finger != nullptr) world.add_proxy(*finger, p_WP);
@@ -33,8 +33,10 @@ class EnteredTest : public ::testing::TestWithParam<Solver> {
     }
 };
 INSTANTIATE_TEST_SUITE_P(Solvers, EnteredTest,
-                         ::testing::Values(Solver::sequential_impulse, Solver::stewart_trinkle,
-                                           Solver::staggered_projections, Solver::newton),
+                         ::testing::Values(contact::Solver::sequential_impulse,
+                                           contact::Solver::stewart_trinkle,
+                                           contact::Solver::staggered_projections,
+                                           contact::Solver::newton),
                          [](const auto& test) { return std::string(enum_name(test.param)); });
 
 TEST_P(EnteredTest, ABoxThatSpinsPastABlockStaysOutsideOfItAndGainsNoEnergy) {

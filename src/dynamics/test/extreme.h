@@ -11,7 +11,7 @@ namespace dihaptic::dynamics {
 /// A world of such a scene, with two fingers that press on it from both sides.
 class Extreme {
   public:
-    explicit Extreme(uint64_t seed, const Settings& settings = awake())
+    explicit Extreme(uint64_t seed, const frame::DynamicsSettings& settings = awake())
         : random_(seed, "extreme scenes"), world_(scene(), settings) {
         for (const double side : {-1.0, 1.0}) {
             scene::Finger finger;

@@ -12,7 +12,7 @@ namespace dihaptic::dynamics::islands_test {
 namespace {
 
 /// A block in the air between two pads, and a wall of loose bricks away from it.
-World held_block(int columns, Solver solver = Solver::newton) {
+World held_block(int columns, contact::Solver solver = contact::Solver::newton) {
     scene::Scene scene;
     scene.bodies = {table(), block({0, 0, 0.3})};
     for (int i = 0; i < 10 * columns; ++i) {
@@ -21,7 +21,7 @@ World held_block(int columns, Solver solver = Solver::newton) {
         scene.bodies.push_back(box("loose " + number_text(i), Vec3::Constant(0.04),
                                    {x, 0, 0.021 + 0.0405 * row}, 0.05));
     }
-    Settings settings = awake();
+    frame::DynamicsSettings settings = awake();
     settings.solver = solver;
     World world(scene, settings);
     for (const double side : {-1.0, 1.0}) {
@@ -99,7 +99,7 @@ TEST(Islands, AreSolvedApartWithWorkAndIterationsSummed) {
 
 TEST(Carried, ImpulsesOutliveManyMoreContactsThanAreReserved) {
     // a block that rocks makes new points all the time: what ended points carried is given again
-    Settings settings = awake();
+    frame::DynamicsSettings settings = awake();
     settings.max_contacts = 16;
     World world = make({table(), block({0, 0, 0.02})}, settings);
     for (int i = 0; i < 3000; ++i) {

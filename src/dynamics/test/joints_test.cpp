@@ -16,7 +16,7 @@ namespace {
 using scene::JointKind;
 
 World make(std::vector<scene::Body> bodies, std::vector<scene::Joint> joints,
-           const Settings& settings = awake()) {
+           const frame::DynamicsSettings& settings = awake()) {
     scene::Scene scene;
     scene.bodies = std::move(bodies);
     scene.joints = std::move(joints);

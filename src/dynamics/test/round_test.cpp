@@ -160,8 +160,9 @@ TEST(Round, WhatRollsOnALevelGoesOnAsItWas) {
     struct Size {
         double radius, length;
     };
-    for (const Solver solver : {Solver::newton, Solver::staggered_projections,
-                                Solver::stewart_trinkle, Solver::sequential_impulse}) {
+    for (const contact::Solver solver :
+         {contact::Solver::newton, contact::Solver::staggered_projections,
+          contact::Solver::stewart_trinkle, contact::Solver::sequential_impulse}) {
         for (const Size& size : {Size{0.002, 0.03},
                                  {0.005, 0.15},
                                  {0.01, 0.02},
@@ -175,7 +176,7 @@ TEST(Round, WhatRollsOnALevelGoesOnAsItWas) {
             for (const auto kind : {scene::ShapeKind::cylinder, scene::ShapeKind::capsule}) {
                 for (const scene::Body& ground :
                      {plane(scene::Body{}.friction), box("plane", {9, 2, 0.1}, {0, 0, -0.05}, 0)}) {
-                    Settings settings = awake();
+                    frame::DynamicsSettings settings = awake();
                     settings.solver = solver;
                     World world = make({ground, lying(kind, size.radius, size.length)}, settings);
                     const double speed = 0.2;

@@ -141,7 +141,8 @@ struct Shots {
 
 class Shooting {
   public:
-    Shooting(uint64_t seed, Shot::At at, Solver solver) : random_(seed, "shot"), solver_(solver) {
+    Shooting(uint64_t seed, Shot::At at, contact::Solver solver)
+        : random_(seed, "shot"), solver_(solver) {
         shot_.at = at;
         shot_.speed = 100 * std::pow(random_.uniform(0.1, 1), 2);
     }
@@ -163,7 +164,7 @@ class Shooting {
             is_plain_ = is_plain_ && body.shape.kind != scene::ShapeKind::cone &&
                         body.surface.restitution.value_or(0) == 0;
         scene.bodies = std::move(bodies);
-        Settings settings;
+        frame::DynamicsSettings settings;
         settings.solver = solver_;
         settings.sleeping = false;
         World world(scene, settings);
@@ -282,7 +283,7 @@ class Shooting {
         return out;
     }
     Random random_;
-    Solver solver_;
+    contact::Solver solver_;
     Shot shot_;
     bool is_plain_ = true;
     std::vector<Vec3> points_;
@@ -292,7 +293,7 @@ class Shooting {
 inline Shots shots(Shot::At at, uint64_t from, uint64_t count) {
     Shots out;
     for (uint64_t seed = from; seed < from + count; ++seed) {
-        const Shot shot = Shooting(seed, at, Solver(seed % contact::kSolvers)).shoot();
+        const Shot shot = Shooting(seed, at, contact::Solver(seed % contact::kSolvers)).shoot();
         EXPECT_FALSE(shot.silent) << "seed " << seed << ": " << enum_name(shot.shape);
         EXPECT_FALSE(shot.passed) << "seed " << seed << ": " << enum_name(shot.shape) << " at "
                                   << shot.speed << " m/s, " << shot.deepest << " m deep";

@@ -12,21 +12,21 @@
 namespace dihaptic::dynamics::solvers_test {
 namespace {
 
-class EachSolver : public ::testing::TestWithParam<Solver> {
+class EachSolver : public ::testing::TestWithParam<contact::Solver> {
   protected:
     World world_of(std::vector<scene::Body> bodies) const {
-        Settings settings = awake();
+        frame::DynamicsSettings settings = awake();
         settings.solver = GetParam();
         return make(std::move(bodies), settings);
     }
 };
-INSTANTIATE_TEST_SUITE_P(World, EachSolver,
-                         ::testing::Values(Solver::sequential_impulse, Solver::stewart_trinkle,
-                                           Solver::staggered_projections, Solver::newton),
-                         [](const auto& which) {
-                             return std::string(
-                                 enum_names(Solver{})[static_cast<size_t>(which.param)]);
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    World, EachSolver,
+    ::testing::Values(contact::Solver::sequential_impulse, contact::Solver::stewart_trinkle,
+                      contact::Solver::staggered_projections, contact::Solver::newton),
+    [](const auto& which) {
+        return std::string(enum_names(contact::Solver{})[static_cast<size_t>(which.param)]);
+    });
 
 TEST_P(EachSolver, SlidesAsFarAsCoulombSays) {
     World world = world_of({table(0.5), block({0, 0, 0.02}, 0.5)});
@@ -41,7 +41,7 @@ TEST_P(EachSolver, SlidesAsFarAsCoulombSays) {
 
 TEST_P(EachSolver, NeverGainsEnergy) {
     // the soak test has hundreds of scenes
-    Settings settings;
+    frame::DynamicsSettings settings;
     settings.solver = GetParam();
     for (uint64_t seed = 0; seed < 8; ++seed) {
         EnergyScene scene(seed, settings);
@@ -87,7 +87,7 @@ TEST_P(EachSolver, TellsItsResidual) {
         world.apply({1}, {0.3, 0, 0}, Vec3::Zero());
         world.step(kStep);
         EXPECT_LT(world.solve_stats().residual,
-                  GetParam() == Solver::sequential_impulse ? 1e-5 : 1e-8);
+                  GetParam() == contact::Solver::sequential_impulse ? 1e-5 : 1e-8);
         EXPECT_FALSE(world.solve_stats().fallback);
     }
     EXPECT_EQ(world.contacts().size(), 4u);
@@ -98,7 +98,8 @@ TEST(Solvers, ChangeWhileRunningWithoutAJump) {
                         box("upper", Vec3::Constant(0.04), {0.005, 0, 0.06}, 0.1)},
                        awake());
     for (int i = 0; i < 800; ++i) {
-        if (i % 100 == 0) world.set_solver(static_cast<Solver>(i / 100 % contact::kSolvers));
+        if (i % 100 == 0)
+            world.set_solver(static_cast<contact::Solver>(i / 100 % contact::kSolvers));
         world.step(kStep);
         double force = 0;
         for (const contact::Contact& c : world.contacts()) {
@@ -110,11 +111,11 @@ TEST(Solvers, ChangeWhileRunningWithoutAJump) {
 }
 
 /// A rod held by one end between two soft spheres, each pressed with `press`.
-World held_rod(Solver solver, double radius) {
+World held_rod(contact::Solver solver, double radius) {
     scene::Scene scene;
     scene::Body rod = box("rod", {0.01, 0.2, 0.01}, {0, 0.09, 0.3}, 0.02);
     scene.bodies = {table(), rod};
-    Settings settings = awake();
+    frame::DynamicsSettings settings = awake();
     settings.solver = solver;
     World world(scene, settings);
     for (const double side : {-1.0, 1.0}) {
@@ -145,8 +146,9 @@ double turned_after(World& world, double press, double time) {
 TEST(SoftFinger, HoldsARodByItsEndAndLetsItSwingWhenItEases) {
     // the moment of its weight about the pinch is 0.02 kg g 0.09 m = 17.7 mN m; two fingers of 12
     // mm carry 2 mu r N = 19.2 mN m per N at mu 0.8, less what carries the weight
-    for (const Solver solver : {Solver::sequential_impulse, Solver::stewart_trinkle,
-                                Solver::staggered_projections, Solver::newton}) {
+    for (const contact::Solver solver :
+         {contact::Solver::sequential_impulse, contact::Solver::stewart_trinkle,
+          contact::Solver::staggered_projections, contact::Solver::newton}) {
         World firm = held_rod(solver, 0.012);
         EXPECT_LT(std::abs(turned_after(firm, 2, 0.3)), 0.002);
         World loose = held_rod(solver, 0.012);

@@ -16,7 +16,7 @@ namespace {
 struct OnTable {
     scene::Body table = dynamics::table();
     scene::Body body;
-    Settings settings = awake();
+    frame::DynamicsSettings settings = awake();
 
     explicit OnTable(scene::Body what) : body(std::move(what)) {}
     World make() const { return dynamics::make({table, body}, settings); }
@@ -24,14 +24,14 @@ struct OnTable {
 
 const BodyIndex kBody{1};
 
-class OfEach : public ::testing::TestWithParam<Solver> {};
-INSTANTIATE_TEST_SUITE_P(Surfaces, OfEach,
-                         ::testing::Values(Solver::newton, Solver::staggered_projections,
-                                           Solver::stewart_trinkle, Solver::sequential_impulse),
-                         [](const auto& which) {
-                             return std::string(
-                                 enum_names(Solver{})[static_cast<size_t>(which.param)]);
-                         });
+class OfEach : public ::testing::TestWithParam<contact::Solver> {};
+INSTANTIATE_TEST_SUITE_P(
+    Surfaces, OfEach,
+    ::testing::Values(contact::Solver::newton, contact::Solver::staggered_projections,
+                      contact::Solver::stewart_trinkle, contact::Solver::sequential_impulse),
+    [](const auto& which) {
+        return std::string(enum_names(contact::Solver{})[static_cast<size_t>(which.param)]);
+    });
 
 TEST_P(OfEach, AreAsSoftAsTheySay) {
     constexpr double kMass = 0.2;
@@ -264,7 +264,7 @@ TEST_P(OfEach, KeepTheEnergyOfARowOfBallsWhateverItsGaps) {
             const double radius = scene.bodies.back().shape.radius;
             scene.bodies.back().position = {(2 * radius + gap) * i - (i == 0 ? 0.02 : 0), 0, 0};
         }
-        Settings settings = awake();
+        frame::DynamicsSettings settings = awake();
         settings.solver = GetParam();
         World world(scene, settings);
         world.activate();

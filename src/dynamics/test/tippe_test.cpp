@@ -41,8 +41,8 @@ Has look(const BodyState& now) {
             v.squaredNorm() / 2 + now.w_WB.dot(L) / 2 + kGravity * (now.X_WB.p + to_mass).z()};
 }
 
-World spinning(double rate, Solver solver) {
-    Settings settings = awake();
+World spinning(double rate, contact::Solver solver) {
+    frame::DynamicsSettings settings = awake();
     settings.solver = solver;
     World world = make({plane(0.3), top()}, settings);
     world.set_pose({1}, {rotation_by(0.1 * Vec3::UnitX()), {0, 0, kRadius}});
@@ -54,8 +54,9 @@ World spinning(double rate, Solver solver) {
 /// gets upside down with C w (1 - a) = C w' (1 + a), where a is how far its centre of mass is off,
 /// in radii.
 TEST(TippeTop, TurnsOverAndKeepsJellettsInvariant) {
-    for (const Solver solver : {Solver::newton, Solver::staggered_projections,
-                                Solver::stewart_trinkle, Solver::sequential_impulse}) {
+    for (const contact::Solver solver :
+         {contact::Solver::newton, contact::Solver::staggered_projections,
+          contact::Solver::stewart_trinkle, contact::Solver::sequential_impulse}) {
         for (const double rate : {200.0, 250.0, 300.0}) {
             SCOPED_TRACE(::testing::Message() << static_cast<int>(solver) << " " << rate);
             World world = spinning(rate, solver);
@@ -78,7 +79,7 @@ TEST(TippeTop, TurnsOverAndKeepsJellettsInvariant) {
 }
 
 TEST(TippeTop, StaysUpIfItSpinsSlowly) {
-    World world = spinning(30, Solver::newton);
+    World world = spinning(30, contact::Solver::newton);
     for (int i = 0; i < 8000; ++i) world.step(kStep);
     EXPECT_GT(look(world.state({1})).up, 0.99);
 }

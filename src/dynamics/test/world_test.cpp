@@ -418,7 +418,7 @@ TEST(World, StepsWithoutAllocatingWithRoundShapesToo) {
 
 TEST(World, TheAllocationGuardSeesWhatAStepWouldAllocate) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
-    Settings settings;
+    frame::DynamicsSettings settings;
     settings.max_contacts = 4;  // far too few: the step has to allocate, and reports it
     std::vector<scene::Body> bodies{table()};
     for (int i = 0; i < 80; ++i) {

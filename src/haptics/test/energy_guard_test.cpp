@@ -25,7 +25,7 @@ double watch(EnergyGuard& guard, double p_H, double v_H, double p_P, double forc
 
 /// Moves a handle and a proxy along x, with the coupling's force on the handle.
 struct Motion {
-    EnergyGuard guard{EnergyGuardMode::warn};
+    EnergyGuard guard{frame::EnergyGuardMode::warn};
     unsigned flags = 0;
 
     void tick(double p_H, double v_H, double p_P, double force) {
@@ -164,7 +164,7 @@ TEST(EnergyGuard, IsNotLulledByWhatWasDissipatedBefore) {
 }
 
 TEST(EnergyGuard, ActsAgainstTheMotionAndNoMoreThanItNeeds) {
-    EnergyGuard guard(EnergyGuardMode::act);
+    EnergyGuard guard(frame::EnergyGuardMode::act);
     unsigned flags = 0;
     // a push of 5 N out of nowhere while proxy and wall stand still
     watch(guard, 0, 0.5, 0.005, 5, flags);
@@ -189,7 +189,7 @@ TEST(EnergyGuard, ActsAgainstTheMotionAndNoMoreThanItNeeds) {
 
 TEST(EnergyGuard, CanBeOff) {
     Motion run;
-    run.guard = EnergyGuard(EnergyGuardMode::off);
+    run.guard = EnergyGuard(frame::EnergyGuardMode::off);
     run.press(-5, 0.004, 20);
     EXPECT_EQ(run.flags, 0u);
     EXPECT_EQ(run.guard.generated(), 0);

@@ -13,8 +13,8 @@ namespace {
 constexpr double kTick = 1e-3;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-devices::DeviceInfo device(double continuous_force) {
-    devices::DeviceInfo info;
+frame::DeviceInfo device(double continuous_force) {
+    frame::DeviceInfo info;
     info.peak_force = 8.5;
     info.continuous_force = continuous_force;
     return info;
@@ -111,7 +111,7 @@ TEST(SoftStart, CanBeNone) {
 }
 
 TEST(ForceGuard, DropsAtOnceWithoutTheSwitchAndRisesAgainFromZero) {
-    SafetySettings settings;
+    frame::SafetySettings settings;
     settings.max_force_rate = 100;  // 0.1 N a tick
     ForceGuard guard(settings, device(kInfinite), {}, kTick);
     unsigned flags = 0;
@@ -143,7 +143,7 @@ TEST(ForceGuard, KeepsTheWallsAxesWithTheDevice) {
 }
 
 TEST(ForceGuard, CutsToWhatTheMotorsBear) {
-    SafetySettings settings;
+    frame::SafetySettings settings;
     settings.heating_time = 1;
     ForceGuard guard(settings, device(1.4), {}, kTick);
     unsigned flags = 0;

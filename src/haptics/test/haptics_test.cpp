@@ -84,7 +84,7 @@ struct Scene {
         proxy = world.add_proxy(finger, {-0.05, 0, 0});
         world.activate();
     }
-    Vec3 tick(Finger& f, const Handle& handle) {
+    Vec3 tick(Finger& f, const frame::Handle& handle) {
         f.begin_tick(world, handle, kStep);
         f.before_step(world, handle, kStep);
         world.step(kStep);
@@ -93,8 +93,8 @@ struct Scene {
     }
 };
 
-CouplingSettings implicit(double k) {
-    CouplingSettings settings;
+frame::CouplingSettings implicit(double k) {
+    frame::CouplingSettings settings;
     settings.stiffness = k;
     return settings;
 }
@@ -161,12 +161,12 @@ TEST(ImplicitCoupling, BetweenStepsTheForceFollowsTheHandWithinTheCone) {
 
 TEST(DualSpring, SmoothsTheForceByItsFilter) {
     Scene s;
-    CouplingSettings settings;
-    settings.kind = CouplingKind::dual_spring;
+    frame::CouplingSettings settings;
+    settings.kind = frame::CouplingKind::dual_spring;
     settings.stiffness = 100;
     settings.damping = 0;
     Finger finger(s.finger, s.proxy, settings, 8.5);
-    const Handle handle{{-0.04, 0, 0}, Vec3::Zero()};
+    const frame::Handle handle{{-0.04, 0, 0}, Vec3::Zero()};
     // the proxy stands still for the first force, 10 mm behind
     finger.begin_tick(s.world, handle, kStep);
     const Vec3 first = finger.force(s.world, handle, kStep);
@@ -178,8 +178,8 @@ TEST(DualSpring, SmoothsTheForceByItsFilter) {
 
 TEST(DualSpring, DragsTheHandInFreeMotion) {
     Scene s;
-    CouplingSettings settings;
-    settings.kind = CouplingKind::dual_spring;
+    frame::CouplingSettings settings;
+    settings.kind = frame::CouplingKind::dual_spring;
     Finger finger(s.finger, s.proxy, settings, 8.5);
     Vec3 f;
     for (int i = 0; i < 400; ++i) {
@@ -191,9 +191,9 @@ TEST(DualSpring, DragsTheHandInFreeMotion) {
     EXPECT_NEAR(f.y(), -0.02 * 4 / 10, 0.001);
 }
 
-CouplingSettings velocity_impulse(double k) {
-    CouplingSettings settings = implicit(k);
-    settings.kind = CouplingKind::velocity_impulse;
+frame::CouplingSettings velocity_impulse(double k) {
+    frame::CouplingSettings settings = implicit(k);
+    settings.kind = frame::CouplingKind::velocity_impulse;
     return settings;
 }
 
@@ -202,7 +202,7 @@ TEST(VelocityImpulse, TakesTheProxyToTheHandleInOneStepAndLeavesTheHandFree) {
     Finger finger(s.finger, s.proxy, velocity_impulse(1000), 8.5);
     for (int i = 0; i < 300; ++i) {
         const double t = i * kStep;
-        const Handle handle{{-0.05, 2 * t * t, 0.001 * std::sin(40 * t)}, Vec3::Zero()};
+        const frame::Handle handle{{-0.05, 2 * t * t, 0.001 * std::sin(40 * t)}, Vec3::Zero()};
         EXPECT_EQ(s.tick(finger, handle), Vec3::Zero());
         EXPECT_LT((s.world.state(s.proxy).X_WB.p - handle.p_WH).norm(), 1e-12) << i;
     }
@@ -241,7 +241,7 @@ TEST(VelocityImpulse, PressesAWallWithStiffnessTimesDepthAndGivesItTheSame) {
 }
 
 /// A handle that runs into the wall, stays, leaves, comes back within the onset, stays, and leaves.
-Handle there_and_back(int tick) {
+frame::Handle there_and_back(int tick) {
     const std::array<std::pair<int, double>, 7> way{{{0, -0.05},
                                                      {100, 0.0075},
                                                      {300, 0.0075},
@@ -259,19 +259,20 @@ Handle there_and_back(int tick) {
     return {{way.back().second, 0, 0}, Vec3::Zero()};
 }
 
-class Onsets : public ::testing::TestWithParam<CouplingKind> {};
+class Onsets : public ::testing::TestWithParam<frame::CouplingKind> {};
 INSTANTIATE_TEST_SUITE_P(Couplings, Onsets,
-                         ::testing::Values(CouplingKind::implicit, CouplingKind::dual_spring,
-                                           CouplingKind::velocity_impulse),
+                         ::testing::Values(frame::CouplingKind::implicit,
+                                           frame::CouplingKind::dual_spring,
+                                           frame::CouplingKind::velocity_impulse),
                          [](const auto& of) { return std::string(enum_name(of.param)); });
 
 TEST_P(Onsets, SoftenTouchingAndTouchingAgainWithoutAStepAndKeepTheEquilibrium) {
     const double k = 1000;
     const double time = 0.05;
-    CouplingSettings settings = implicit(k);
+    frame::CouplingSettings settings = implicit(k);
     settings.kind = GetParam();
     settings.onset = time;
-    const bool dual = GetParam() == CouplingKind::dual_spring;
+    const bool dual = GetParam() == frame::CouplingKind::dual_spring;
     if (dual) settings.smoothing = 1;
     Scene s;
     Finger soft(s.finger, s.proxy, settings, 1e3);
@@ -282,7 +283,7 @@ TEST_P(Onsets, SoftenTouchingAndTouchingAgainWithoutAStepAndKeepTheEquilibrium) 
     int touches = 0;
     int ticks = 0;  // of the current touch
     for (int i = 0; i < 715; ++i) {
-        const Handle handle = there_and_back(i);
+        const frame::Handle handle = there_and_back(i);
         const Vec3 f = s.tick(soft, handle);
         const Vec3 f_hard = h.tick(hard, handle);
         // share times k v h and c v while the handle moves, and the growth of the share at 10 mm;
@@ -310,7 +311,7 @@ TEST_P(Onsets, SoftenTouchingAndTouchingAgainWithoutAStepAndKeepTheEquilibrium) 
 
 TEST(Coupling, DefaultDampingCancelsTheHoldOfOneSample) {
     EXPECT_DOUBLE_EQ(damping(implicit(1000), 1e-3), 0.5);
-    CouplingSettings given = implicit(1000);
+    frame::CouplingSettings given = implicit(1000);
     given.damping = 2;
     EXPECT_EQ(damping(given, 1e-3), 2);
 }

@@ -62,27 +62,27 @@ TEST(LateLoop, HoldsWhatIsSaid) {
 
 TEST(LateLoop, ThatIsInTimeHoldsAnythingAndSoftensNothing) {
     EXPECT_EQ(held_stiffness(1, 0), std::numeric_limits<double>::infinity());
-    CouplingSettings settings;
+    frame::CouplingSettings settings;
     settings.stiffness = 1e6;
     settings.damping = 1e3;
     settings.turn_damping = 1e3;
-    const CouplingSettings same = softened(settings, 1, 0, 1e-3);
+    const frame::CouplingSettings same = softened(settings, 1, 0, 1e-3);
     EXPECT_EQ(same, settings);
 }
 
 TEST(LateLoop, SoftensOnceAsTwice) {
-    CouplingSettings settings;
+    frame::CouplingSettings settings;
     settings.damping = 8;
     settings.turn_damping = 0.1;
     settings.turn_stiffness = 5;
-    const CouplingSettings once = softened(settings, 3, 20e-3, 1e-3);
+    const frame::CouplingSettings once = softened(settings, 3, 20e-3, 1e-3);
     EXPECT_DOUBLE_EQ(once.stiffness, 0.7 * 2 * 3 / 20e-3);
     EXPECT_DOUBLE_EQ(once.turn_stiffness, 0.7 * 2 * 0.02 / 20e-3);
     // m / L
     EXPECT_DOUBLE_EQ(*once.damping, 0.075 / 20e-3);
     EXPECT_DOUBLE_EQ(*once.turn_damping, 1e-4 / 20e-3);
     EXPECT_DOUBLE_EQ(once.smoothing, 20.0 / 21);
-    const CouplingSettings twice = softened(once, 3, 20e-3, 1e-3);
+    const frame::CouplingSettings twice = softened(once, 3, 20e-3, 1e-3);
     EXPECT_EQ(twice, once);
     settings = {};
     settings.stiffness = 50;

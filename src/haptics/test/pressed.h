@@ -34,8 +34,8 @@ class Pressed {
         spec.friction = friction;
         scene_.bodies = {block};
         scene_.fingers = {spec};
-        world_ = std::make_unique<World>(scene_, dynamics::Settings{});
-        CouplingSettings coupling;
+        world_ = std::make_unique<World>(scene_, frame::DynamicsSettings{});
+        frame::CouplingSettings coupling;
         coupling.stiffness = kPressedCoupling;
         lift_ = proxy == PressedProxy::rigid ? kRadius : 0;
         const Vec3 at(0, 0, lift_ + 0.002);
@@ -44,11 +44,12 @@ class Pressed {
             finger_ = std::make_unique<Finger>(spec, body_, coupling, 50);
         } else {
             body_ = world_->add_point(spec, at);
-            finger_ = proxy == PressedProxy::point_apart
-                          ? std::make_unique<Finger>(
-                                PointProxy(scene_, body_, coupling, ProxySettings{}), body_)
-                          : std::make_unique<Finger>(
-                                SolvedPoint(scene_, body_, coupling, ProxySettings{}), body_);
+            finger_ =
+                proxy == PressedProxy::point_apart
+                    ? std::make_unique<Finger>(
+                          PointProxy(scene_, body_, coupling, frame::ProxySettings{}), body_)
+                    : std::make_unique<Finger>(
+                          SolvedPoint(scene_, body_, coupling, frame::ProxySettings{}), body_);
         }
         world_->activate();
         handle_ = {at, Vec3::Zero()};
@@ -90,7 +91,7 @@ class Pressed {
     std::unique_ptr<World> world_;
     std::unique_ptr<Finger> finger_;
     BodyIndex body_;
-    Handle handle_;
+    frame::Handle handle_;
     double lift_ = 0;  // of the handle over what touches the block [m]
     int every_;
     int ticks_ = 0;

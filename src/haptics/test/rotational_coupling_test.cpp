@@ -27,7 +27,7 @@ struct Bar {
         out.mass = mass;
         return out;
     }
-    explicit Bar(const scene::Scene& scene, const CouplingSettings& settings = {},
+    explicit Bar(const scene::Scene& scene, const frame::CouplingSettings& settings = {},
                  double mass = 0.001)
         : finger(bar(mass)),
           world(scene, {}),
@@ -38,7 +38,7 @@ struct Bar {
         proxy.place(world, {});
     }
     /// Does a tick; returns the torque on the handle.
-    Vec3 tick(const Handle& handle, bool steps = true, double step = kStep) {
+    Vec3 tick(const frame::Handle& handle, bool steps = true, double step = kStep) {
         proxy.begin_tick(world, handle, step);
         if (steps) {
             proxy.before_step(world, handle, step);
@@ -52,8 +52,8 @@ struct Bar {
     Vec3 force = Vec3::Zero();
 };
 
-Handle turned(const Vec3& rotation, const Vec3& w = Vec3::Zero()) {
-    Handle out;
+frame::Handle turned(const Vec3& rotation, const Vec3& w = Vec3::Zero()) {
+    frame::Handle out;
     out.R_WH = rotation_by(rotation);
     out.w_WH = w;
     return out;
@@ -80,7 +80,7 @@ TEST(RotationalCoupling, FollowsAHandleInFreeSpaceThatFeelsNothing) {
     Quat R = Quat::Identity();
     for (int i = 0; i < 300; ++i) {
         R = (rotation_by(kStep * w) * R).normalized();
-        Handle handle;
+        frame::Handle handle;
         handle.R_WH = R;
         handle.w_WH = w;
         EXPECT_EQ(bar.tick(handle), Vec3::Zero());
@@ -91,7 +91,7 @@ TEST(RotationalCoupling, FollowsAHandleInFreeSpaceThatFeelsNothing) {
 
 TEST(RotationalCoupling, IsTheSpringAndDamperOfTheStepsEndWhateverTheInertia) {
     // backward Euler of I dw/dt = k r - c w about one axis, by hand
-    CouplingSettings settings;
+    frame::CouplingSettings settings;
     settings.turn_stiffness = 2;
     settings.turn_damping = 0.005;
     Bar bar(scene::Scene{}, settings, 0.5);
@@ -116,7 +116,7 @@ TEST(RotationalCoupling, IsTheSpringAndDamperOfTheStepsEndWhateverTheInertia) {
 
 TEST(RotationalCoupling, TurnsAgainstStopsWithStiffnessTimesAngle) {
     for (const double k : {0.3, 5.0}) {
-        CouplingSettings settings;
+        frame::CouplingSettings settings;
         settings.turn_stiffness = k;
         Bar bar(stops(), settings);
         Vec3 torque;
@@ -139,7 +139,7 @@ TEST(RotationalCoupling, CarriesWeightTimesDistance) {
     block.position = {0.07, 0, 0.015};
     block.mass = 0.1;
     scene.bodies = {block};
-    CouplingSettings settings;
+    frame::CouplingSettings settings;
     settings.damping = 10;  // otherwise the block swings: no hand calms it
     settings.turn_damping = 0.05;
     Bar bar(scene, settings);
@@ -155,7 +155,7 @@ TEST(RotationalCoupling, CarriesWeightTimesDistance) {
 /// Ratio of the last swing to the first, after a small push, of a handle of inertia I and damping b
 /// that a constant torque holds at its stops, with the coupling's spring through a sample and hold.
 double swing_ratio(double k, double I, double b) {
-    CouplingSettings settings;
+    frame::CouplingSettings settings;
     settings.turn_stiffness = k;
     settings.turn_damping = 0;
     Bar bar(stops(), settings);
@@ -198,7 +198,7 @@ TEST(RotationalCoupling, IsFreshBetweenStepsAndNeverChangesItsSign) {
 }
 
 TEST(RotationalCoupling, IsAShareOfItselfDuringOnset) {
-    CouplingSettings settings;
+    frame::CouplingSettings settings;
     settings.onset = 0.1;
     Bar bar(stops(), settings);
     Vec3 torque = bar.tick(turned({0, 0.1, 0}));
@@ -227,11 +227,11 @@ TEST(RotationalCoupling, OfASoftPointFeelsTheTorsionThatItsGripHolds) {
         scene.fingers = {finger};
         World world(scene, {});
         const BodyIndex body = world.add_point(finger, Vec3::Zero(), true);
-        const CouplingSettings settings;
+        const frame::CouplingSettings settings;
         Finger point(SolvedPoint(scene, body, settings, {}), body);
         world.activate();
         point.turn_with_handle(RotationalCoupling(settings, 0, Quat::Identity()));
-        Handle handle;
+        frame::Handle handle;
         handle.p_WH = {0, 0, 0.001};
         point.place(world, handle);
         const auto tick = [&] {

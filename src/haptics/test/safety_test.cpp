@@ -10,7 +10,7 @@ namespace {
 constexpr double kTick = 1e-3;
 
 /// A handle that moves along x at 1 m/s.
-Handle moving(int tick) {
+frame::Handle moving(int tick) {
     return {{tick * kTick, 0, 0}, {1, 0, 0}};
 }
 
@@ -18,8 +18,8 @@ TEST(HandleGuard, LetsAHandMove) {
     HandleGuard guard(2);
     Fault fault;
     for (int i = 0; i < 100; ++i) {
-        const Handle read = moving(i);
-        const Handle handle = guard.accept(read, FaultKind::none, i == 0 ? 0 : kTick, fault);
+        const frame::Handle read = moving(i);
+        const frame::Handle handle = guard.accept(read, FaultKind::none, i == 0 ? 0 : kTick, fault);
         EXPECT_EQ(handle.p_WH, read.p_WH);
         EXPECT_EQ(handle.v_WH, read.v_WH);
     }
@@ -28,7 +28,7 @@ TEST(HandleGuard, LetsAHandMove) {
 
 struct Bad {
     const char* name;
-    Handle read;
+    frame::Handle read;
     FaultKind reported;
     FaultKind kind;
 };
@@ -43,7 +43,7 @@ TEST_P(BadReading, FaultsAndLeavesTheHandleWhereItWasForGood) {
     for (int i = 0; i < 10; ++i)
         guard.accept(moving(i), FaultKind::none, i == 0 ? 0 : kTick, fault);
     ASSERT_FALSE(fault);
-    Handle handle = guard.accept(GetParam().read, GetParam().reported, kTick, fault);
+    frame::Handle handle = guard.accept(GetParam().read, GetParam().reported, kTick, fault);
     EXPECT_EQ(fault.kind, GetParam().kind);
     EXPECT_EQ(handle.p_WH, moving(9).p_WH);
     EXPECT_EQ(handle.v_WH, Vec3::Zero());

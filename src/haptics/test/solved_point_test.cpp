@@ -20,13 +20,13 @@ constexpr double kTick = 1e-3;
 /// A world, one point in it, and a handle that the test moves.
 struct Room {
     scene::Scene scene;
-    CouplingSettings coupling;
-    ProxySettings proxy;
-    dynamics::Settings dynamics;
+    frame::CouplingSettings coupling;
+    frame::ProxySettings proxy;
+    frame::DynamicsSettings dynamics;
     std::unique_ptr<World> world;
     std::unique_ptr<Finger> finger;
     BodyIndex point;
-    Handle handle;
+    frame::Handle handle;
     int ticks = 0;
 
     Room() { scene.gravity.setZero(); }

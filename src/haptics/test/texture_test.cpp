@@ -148,7 +148,7 @@ TEST(Texture, TurnsWithItsBody) {
     other.name = "other";
     other.surface.texture.reset();
     scene.bodies = {block, other};
-    World world(scene, dynamics::Settings{});
+    World world(scene, frame::DynamicsSettings{});
     world.activate();
     // its x is the world's y
     EXPECT_NEAR(world.friction_at({0}, {1}, {1.4, 2 + kWave / 2, 3.05}, Vec3::UnitZ()),

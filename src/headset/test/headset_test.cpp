@@ -193,19 +193,19 @@ std::vector<Showing> next_showings(Headset& headset) {
 }
 
 /// Frames of which the newest stays the same.
-std::shared_ptr<Headset::Frames> still(const servo::Frame& frame) {
+std::shared_ptr<Headset::Frames> still(const frame::Frame& frame) {
     return std::make_shared<Headset::Frames>(frame);
 }
 
-rig::Headset somewhere() {
-    rig::Headset out;
+display::Headset somewhere() {
+    display::Headset out;
     out.position = {0.1, -0.7, -0.9};
     out.rotation = {0.02, -0.03, 0.4};
     return out;
 }
 
 TEST_F(HeadsetTest, DrawsPointsWhereAPinholeWouldForEachEye) {
-    const rig::Headset place = somewhere();
+    const display::Headset place = somewhere();
     Random random(11, "headset");
     view::Balls balls;
     for (int x = -2; x <= 2; ++x) {
@@ -274,20 +274,20 @@ scene::Scene block_scene() {
     return out.scene;
 }
 
-servo::Frame frame_of(const scene::Scene& scene, int64_t tick) {
-    servo::Frame out;
+frame::Frame frame_of(const scene::Scene& scene, int64_t tick) {
+    frame::Frame out;
     for (const scene::Body& body : scene.bodies) out.bodies.push_back({body.pose()});
     out.sequence = tick;
     return out;
 }
 
 TEST_F(HeadsetTest, HasTheColoursThatAScreenHas) {
-    const rig::Headset place;
+    const display::Headset place;
     Random random(3, "headset");
     const Seen seen = random_head(random, place.X_WS());
     pretend(seen.pretence);
     const scene::Scene scene = block_scene();
-    const servo::Frame frame = frame_of(scene, -1);
+    const frame::Frame frame = frame_of(scene, -1);
     Handed handed;
     {
         Headset headset(place);
@@ -310,7 +310,7 @@ TEST_F(HeadsetTest, HasTheColoursThatAScreenHas) {
 }
 
 TEST_F(HeadsetTest, TellsWhichTickWasSeenWhenAndFromWhere) {
-    const rig::Headset place = somewhere();
+    const display::Headset place = somewhere();
     Random random(5, "headset");
     const Seen seen = random_head(random, place.X_WS());
     pretend(seen.pretence);
@@ -364,7 +364,7 @@ TEST_F(HeadsetTest, DrawsNothingThatNobodySeesAndNothingFromNowhere) {
 }
 
 TEST_F(HeadsetTest, HangsWordsUprightBeforeTheHead) {
-    const rig::Headset place = somewhere();
+    const display::Headset place = somewhere();
     Random random(6, "headset");
     const Seen seen = random_head(random, place.X_WS());
     pretend(seen.pretence);
@@ -414,7 +414,7 @@ TEST_F(HeadsetTest, SaysWhatIsMissing) {
     pretence.has_stage = false;
     pretend(pretence);
     {
-        rig::Headset place;
+        display::Headset place;
         place.place = {"rig.yaml", 7};
         Headset headset(place);
         const std::vector<Note> notes = notes_at_the_end(headset);
@@ -423,8 +423,8 @@ TEST_F(HeadsetTest, SaysWhatIsMissing) {
         EXPECT_NE(notes[0].text.find("write space: local"), std::string::npos) << notes[0].text;
     }
     {
-        rig::Headset place;
-        place.space = rig::HeadsetSpace::local;
+        display::Headset place;
+        place.space = display::HeadsetSpace::local;
         const scene::Scene scene = block_scene();
         Headset headset(place);
         headset.show(scene, still(frame_of(scene, 4)));

@@ -4,26 +4,26 @@
 namespace dihaptic::measure {
 namespace {
 
-class GraspBars : public ::testing::TestWithParam<dynamics::Solver> {};
+class GraspBars : public ::testing::TestWithParam<contact::Solver> {};
 INSTANTIATE_TEST_SUITE_P(Soak, GraspBars,
-                         ::testing::Values(dynamics::Solver::sequential_impulse,
-                                           dynamics::Solver::stewart_trinkle,
-                                           dynamics::Solver::staggered_projections),
+                         ::testing::Values(contact::Solver::sequential_impulse,
+                                           contact::Solver::stewart_trinkle,
+                                           contact::Solver::staggered_projections),
                          solver_name);
 TEST_P(GraspBars, AreReached) {
     expect_bars_of_grasp(GetParam());
 }
 
 TEST(VelocityImpulse, ReachesTheBars) {
-    expect_bars_of_grasp(dynamics::Solver::newton, haptics::CouplingKind::velocity_impulse);
+    expect_bars_of_grasp(contact::Solver::newton, frame::CouplingKind::velocity_impulse);
 }
 
-class HoldBars : public ::testing::TestWithParam<dynamics::Solver> {};
+class HoldBars : public ::testing::TestWithParam<contact::Solver> {};
 INSTANTIATE_TEST_SUITE_P(Soak, HoldBars,
-                         ::testing::Values(dynamics::Solver::newton,
-                                           dynamics::Solver::sequential_impulse,
-                                           dynamics::Solver::stewart_trinkle,
-                                           dynamics::Solver::staggered_projections),
+                         ::testing::Values(contact::Solver::newton,
+                                           contact::Solver::sequential_impulse,
+                                           contact::Solver::stewart_trinkle,
+                                           contact::Solver::staggered_projections),
                          solver_name);
 TEST_P(HoldBars, WhatFrictionHoldsIsHeldAndTheRestFalls) {
     for (const double friction : {0.3, 0.4, 0.5, 0.65, 0.8, 1.0, 1.2}) {

@@ -24,7 +24,7 @@ constexpr auto enum_names(Family) {
 }
 
 struct Case {
-    dynamics::Solver solver;
+    contact::Solver solver;
     Family family;
 };
 
@@ -41,8 +41,8 @@ class Soak : public ::testing::TestWithParam<Case> {
 
 std::vector<Case> cases() {
     std::vector<Case> out;
-    for (const auto solver : {dynamics::Solver::stewart_trinkle,
-                              dynamics::Solver::staggered_projections, dynamics::Solver::newton}) {
+    for (const auto solver : {contact::Solver::stewart_trinkle,
+                              contact::Solver::staggered_projections, contact::Solver::newton}) {
         for (const Family family : {Family::chosen_on, Family::other_seed, Family::other_grips})
             out.push_back({solver, family});
     }
@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Grasps, Soak, ::testing::ValuesIn(cases()), [](const au
 TEST_P(Soak, AMillionSolvesOfGrasps) {
     constexpr int kSolves = 1'000'000;
     constexpr size_t kContacts = 12;
-    const dynamics::Solver solver = GetParam().solver;
+    const contact::Solver solver = GetParam().solver;
     Random random = scenes();
     int64_t solves = 0;
     int64_t fallbacks = 0;  // with newton all; with other solvers those with up to 12 contacts
@@ -88,25 +88,24 @@ TEST_P(Soak, AMillionSolvesOfGrasps) {
             [&](const contact::ContactProblem& problem, std::span<const contact::Impulse>) {
                 contacts += problem.contacts.size();
             });
-        const servo::Director shake = [&](const servo::Frame& frame,
-                                          std::span<const haptics::Handle>,
-                                          servo::Commands& commands) {
+        const frame::Director shake = [&](const frame::Frame& frame, std::span<const frame::Handle>,
+                                          frame::Commands& commands) {
             contacts = 0;
             // gusts of 50 ms in every 200, five times as strong
             const bool gust = is_other() && frame.sequence % 200 < 50;
             const double size = setup.mass * (gust ? 25 : 5);
-            servo::add(commands.task.loads,
+            frame::add(commands.task.loads,
                        {1, size * Vec3(push.normal(), push.normal(), push.normal()),
                         0.005 * size * Vec3(push.normal(), push.normal(), push.normal())});
         };
         bench.run(
-            [&](const servo::Frame& frame) {
+            [&](const frame::Frame& frame) {
                 if (frame.contacts.empty()) return;
                 ++solves;
                 ++routes[static_cast<size_t>(frame.solver_route)];
-                if (solver == dynamics::Solver::newton || contacts <= kContacts)
+                if (solver == contact::Solver::newton || contacts <= kContacts)
                     fallbacks += frame.solver_fallback;
-                missed += (frame.status & servo::kSolverMissed) != 0;
+                missed += (frame.status & kSolverMissed) != 0;
                 not_finite +=
                     !frame.bodies[1].X_WB.p.allFinite() || !std::isfinite(frame.solver_residual);
             },
@@ -123,7 +122,7 @@ TEST_P(Soak, AMillionSolvesOfGrasps) {
     }
     EXPECT_EQ(missed, 0);
     EXPECT_EQ(not_finite, 0);
-    const int64_t most = solver == dynamics::Solver::newton ? kSolves / 100'000 : kSolves / 1000;
+    const int64_t most = solver == contact::Solver::newton ? kSolves / 100'000 : kSolves / 1000;
     EXPECT_LE(fallbacks, most);
 }
 

@@ -5,12 +5,12 @@
 namespace dihaptic::measure {
 namespace {
 
-class PlaySoak : public ::testing::TestWithParam<dynamics::Solver> {};
+class PlaySoak : public ::testing::TestWithParam<contact::Solver> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, PlaySoak,
-                         ::testing::Values(dynamics::Solver::sequential_impulse,
-                                           dynamics::Solver::stewart_trinkle,
-                                           dynamics::Solver::staggered_projections,
-                                           dynamics::Solver::newton),
+                         ::testing::Values(contact::Solver::sequential_impulse,
+                                           contact::Solver::stewart_trinkle,
+                                           contact::Solver::staggered_projections,
+                                           contact::Solver::newton),
                          solver_name);
 TEST_P(PlaySoak, HarmsNothing) {
     EXPECT_GT(expect_harmless_play(GetParam(), 1, 600).held, 0);

@@ -13,27 +13,27 @@
 namespace dihaptic::measure {
 
 /// A solver's name, for tests with the solver as their parameter.
-inline std::string solver_name(const ::testing::TestParamInfo<dynamics::Solver>& which) {
+inline std::string solver_name(const ::testing::TestParamInfo<contact::Solver>& which) {
     return std::string(enum_name(which.param));
 }
 
 /// Largest slip of a finger while it holds [mm]. An exact solution sticks up to rounding; Bullet's
 /// iterations end near it.
-inline double slip_bar(dynamics::Solver solver, Fingering fingering) {
+inline double slip_bar(contact::Solver solver, Fingering fingering) {
     switch (solver) {
-        case dynamics::Solver::newton:
-        case dynamics::Solver::staggered_projections:
+        case contact::Solver::newton:
+        case contact::Solver::staggered_projections:
             return 1e-4;
-        case dynamics::Solver::stewart_trinkle:
+        case contact::Solver::stewart_trinkle:
             return 1e-3;
-        case dynamics::Solver::sequential_impulse:
+        case contact::Solver::sequential_impulse:
             return fingering == Fingering::real ? 0.004 : 0.001;
     }
     return 0;
 }
 /// Largest slip of a finger during the lift [mm].
-inline double lift_slip_bar(dynamics::Solver solver, Fingering fingering) {
-    return solver == dynamics::Solver::sequential_impulse ? 0.01 : slip_bar(solver, fingering);
+inline double lift_slip_bar(contact::Solver solver, Fingering fingering) {
+    return solver == contact::Solver::sequential_impulse ? 0.01 : slip_bar(solver, fingering);
 }
 
 /// Expects the stiffest hold that is claimed, beyond the bench's table.
@@ -48,7 +48,7 @@ inline void expect_held_at_6000(BenchSetup setup) {
     }
 }
 
-inline void expect_bars_of_grasp(dynamics::Solver solver, haptics::CouplingKind coupling = {}) {
+inline void expect_bars_of_grasp(contact::Solver solver, frame::CouplingKind coupling = {}) {
     BenchSetup setup;
     setup.settings.dynamics.solver = solver;
     setup.settings.coupling.kind = coupling;
@@ -93,7 +93,7 @@ inline void expect_bars_of_grasp(dynamics::Solver solver, haptics::CouplingKind 
 
 /// Expects that a block of this mass is held calmly or dropped, by the mass that the grip can carry
 /// in closed form, 2 mu F / g.
-inline void expect_hold_as_friction_says(dynamics::Solver solver, double friction, double mass) {
+inline void expect_hold_as_friction_says(contact::Solver solver, double friction, double mass) {
     BenchSetup setup;
     setup.settings.dynamics.solver = solver;
     setup.settings.coupling.stiffness = 1000;

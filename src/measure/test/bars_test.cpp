@@ -6,7 +6,7 @@ namespace dihaptic::measure::bars_test {
 namespace {
 
 TEST(GraspBars, AreReached) {
-    expect_bars_of_grasp(dynamics::Solver::newton);
+    expect_bars_of_grasp(contact::Solver::newton);
 }
 
 /// Friction at the ends of 0.3 to 1.2, masses on both sides of what the grip can carry, and the
@@ -15,13 +15,13 @@ TEST(BenchGrasp, HoldsWhatFrictionHoldsAndDropsTheRest) {
     for (const double friction : {0.3, 1.2}) {
         const auto [held, dropped] = held_and_dropped(friction);
         for (const double mass : {0.01, held, dropped})
-            expect_hold_as_friction_says(dynamics::Solver::newton, friction, mass);
+            expect_hold_as_friction_says(contact::Solver::newton, friction, mass);
     }
 }
 
 TEST(BenchGrasp, ShowsTheFaultsOfTheDualSpring) {
     BenchSetup setup;
-    setup.settings.coupling.kind = haptics::CouplingKind::dual_spring;
+    setup.settings.coupling.kind = frame::CouplingKind::dual_spring;
     setup.settings.coupling.stiffness = 1000;
     EXPECT_GT(measure_kick(setup, 0.5).kick_ratio, 1.1);
     EXPECT_GT(measure_kick(setup, 0.5).leave_pull_n, 0.02);

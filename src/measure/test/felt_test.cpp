@@ -15,8 +15,8 @@ class Felt : public ::testing::TestWithParam<Way> {
   protected:
     BenchSetup setup;
     Felt() {
-        if (point()) setup.settings.proxy.kind = haptics::ProxyKind::point;
-        if (apart()) setup.settings.proxy.friction = haptics::PointFriction::apart;
+        if (point()) setup.settings.proxy.kind = scene::ProxyKind::point;
+        if (apart()) setup.settings.proxy.friction = frame::PointFriction::apart;
     }
     bool point() const { return GetParam() != Way::rigid; }
     bool apart() const { return GetParam() == Way::apart; }
@@ -40,7 +40,7 @@ TEST_P(Felt, PushingABlockIsItsMassTimesAccelerationPlusFriction) {
     double force_before = 0;
     int compared = 0;
     double last_ratio = 0;
-    bench.run([&](const servo::Frame& frame) {
+    bench.run([&](const frame::Frame& frame) {
         const Vec3 v = frame.bodies[1].v_WB;
         // with friction apart, a point's force acts on the block in the next step
         const double now = -frame.fingers[0].f_sent_W.x();
@@ -83,7 +83,7 @@ TEST_P(Felt, LiftingABeadOnItsStringIsItsWeight) {
     hand.script = {{"lift", 1, {}, {0, 0, 0.06}, false}, {"hold", 2, {}, Vec3::Zero(), false}};
     Bench bench(scene, hand, setup);
     analysis::GraspTrace trace(0, setup.settings.tick());
-    bench.run([&](const servo::Frame& frame) { trace.add(frame); });
+    bench.run([&](const frame::Frame& frame) { trace.add(frame); });
     EXPECT_NEAR(trace.weight_felt(trace.between(2, 3)) / (0.08 * kGravity), 1, 0.005);
     EXPECT_GT(trace.samples().back().X_WB.p.z(), 0.08);
 }
@@ -105,8 +105,8 @@ TEST_P(Felt, AFrictionlessPlaneIsStiffnessTimesDepthAndNothingAcross) {
     hand.script = {{"press", 1, {}, {0, 0, point() ? -0.038 : -0.03}, false},
                    {"slide", 1, {}, {0.2, 0, 0}, false}};
     Bench bench(scene, hand, setup);
-    bench.run([&](const servo::Frame& frame) {
-        const servo::FingerFrame& f = frame.fingers[0];
+    bench.run([&](const frame::Frame& frame) {
+        const frame::FingerFrame& f = frame.fingers[0];
         // only the inertia of the proxy's own gram, at the peak acceleration of minimum jerk over
         // 0.2 m in 1 s; a point has no mass
         const double drag = point() ? 1e-12 : 1.02 * scene.fingers[0].mass * 5.774 * 0.2;
@@ -148,7 +148,7 @@ TEST_P(Felt, ALongOnsetSoftensATouchAndKeepsItsForce) {
 
 TEST(FeltByVelocityImpulse, TouchingLeavingFreeMotionAndHoldingAreClean) {
     BenchSetup setup;
-    setup.settings.coupling.kind = haptics::CouplingKind::velocity_impulse;
+    setup.settings.coupling.kind = frame::CouplingKind::velocity_impulse;
     expect_clean_touches(setup, {300, 2000});
     setup.fingering = Fingering::offset;
     for (const double k : {300.0, 6000.0}) {
@@ -157,17 +157,17 @@ TEST(FeltByVelocityImpulse, TouchingLeavingFreeMotionAndHoldingAreClean) {
     }
 }
 
-class FeltByAPoint : public ::testing::TestWithParam<haptics::PointFriction> {
+class FeltByAPoint : public ::testing::TestWithParam<frame::PointFriction> {
   protected:
     BenchSetup setup;
     FeltByAPoint() {
-        setup.settings.proxy.kind = haptics::ProxyKind::point;
+        setup.settings.proxy.kind = scene::ProxyKind::point;
         setup.settings.proxy.friction = GetParam();
     }
 };
 INSTANTIATE_TEST_SUITE_P(Friction, FeltByAPoint,
-                         ::testing::Values(haptics::PointFriction::together,
-                                           haptics::PointFriction::apart),
+                         ::testing::Values(frame::PointFriction::together,
+                                           frame::PointFriction::apart),
                          [](const auto& of) { return std::string(enum_name(of.param)); });
 
 TEST_P(FeltByAPoint, TouchingLeavingAndFreeMotionAreClean) {
@@ -196,7 +196,7 @@ TEST_P(FeltByAPoint, StickingAndSlidingAreCoulombsLaw) {
     Bench bench(scene, hand, setup);
     double largest = 0;
     double least = 1;
-    bench.run([&](const servo::Frame& frame) {
+    bench.run([&](const frame::Frame& frame) {
         if (seconds(frame.time) < 1) return;
         const Vec3& f = frame.fingers[0].f_sent_W;
         const double ratio = f.head<2>().norm() / f.z();
@@ -213,14 +213,14 @@ TEST(FrictionApart, ShakesALightBlockLooseAt100HzWhereTogetherHoldsIt) {
     // when 2 K a^2 h^2 / I > 4, a being half its width, I = m (2 a)^2 / 6: at K 600 and h 10 ms
     // below 45 g. Handles give way: 42 g is still held.
     BenchSetup setup;
-    setup.settings.proxy.kind = haptics::ProxyKind::point;
+    setup.settings.proxy.kind = scene::ProxyKind::point;
     setup.settings.coupling.stiffness = 600;
     setup.settings.dynamics.every = 10;
     for (const double mass : {0.035, 0.1}) {
         setup.mass = mass;
-        setup.settings.proxy.friction = haptics::PointFriction::apart;
+        setup.settings.proxy.friction = frame::PointFriction::apart;
         EXPECT_EQ(measure_hold(setup).held, mass > 0.04);
-        setup.settings.proxy.friction = haptics::PointFriction::together;
+        setup.settings.proxy.friction = frame::PointFriction::together;
         const HoldFigures together = measure_hold(setup);
         EXPECT_TRUE(together.held);
         EXPECT_LT(together.z_pp_um, 1);
@@ -230,8 +230,8 @@ TEST(FrictionApart, ShakesALightBlockLooseAt100HzWhereTogetherHoldsIt) {
 TEST(PointsTogether, HoldWithEverySolver) {
     for (int i = 0; i < contact::kSolvers; ++i) {
         BenchSetup setup;
-        setup.settings.proxy.kind = haptics::ProxyKind::point;
-        setup.settings.dynamics.solver = static_cast<dynamics::Solver>(i);
+        setup.settings.proxy.kind = scene::ProxyKind::point;
+        setup.settings.dynamics.solver = static_cast<contact::Solver>(i);
         SCOPED_TRACE(enum_name(setup.settings.dynamics.solver));
         const HoldFigures hold = measure_hold(setup);
         EXPECT_TRUE(hold.held);
@@ -243,7 +243,7 @@ TEST(PointsTogether, HoldWithEverySolver) {
 
 TEST(PointsTogether, ReachTheBarsOfAGrasp) {
     BenchSetup setup;
-    setup.settings.proxy.kind = haptics::ProxyKind::point;
+    setup.settings.proxy.kind = scene::ProxyKind::point;
     const GraspFigures figures = bench_grasp(setup, {});
     for (const HoldFigures& h : figures.hold) {
         SCOPED_TRACE(std::string(enum_name(h.fingering)) + ", K " + number_text(h.k));

@@ -109,7 +109,7 @@ struct PlayReport {
 class Play {
   public:
     /// The index finger's proxy is a ball, or a point; the thumb's is a box.
-    Play(const servo::Settings& settings, uint64_t seed,
+    Play(const frame::Settings& settings, uint64_t seed,
          scene::ProxyKind index = scene::ProxyKind::rigid)
         : settings_(settings), random_(seed, "play"), has_point_(index == scene::ProxyKind::point) {
         make_scene(index);
@@ -289,24 +289,24 @@ class Play {
         return sum;
     }
 
-    void judge(const servo::Frame& frame, PlayReport& out) {
+    void judge(const frame::Frame& frame, PlayReport& out) {
         const double h = settings_.tick();
         const double now = seconds(frame.time);
         out.status |= frame.status;
-        out.missed += (frame.status & servo::kSolverMissed) != 0;
+        out.missed += (frame.status & kSolverMissed) != 0;
         out.fallbacks += frame.solver_fallback;
-        out.generated += (frame.status & servo::kEnergyGenerated) != 0;
+        out.generated += (frame.status & kEnergyGenerated) != 0;
         ++out.ticks;
         const size_t bodies = frame.bodies.size();
         last_force_.resize(frame.fingers.size(), Vec3::Zero());
         std::vector<Pose> X_WB;
-        for (const servo::BodyFrame& body : frame.bodies) {
+        for (const frame::BodyFrame& body : frame.bodies) {
             X_WB.push_back(body.X_WB);
             out.fastest = std::max(out.fastest, body.v_WB.norm());
         }
         for (size_t b = kFixed; b < bodies; ++b) left_[b] = left_[b] || !in_tray(X_WB[b].p);
         for (size_t f = 0; f < frame.fingers.size(); ++f) {
-            const servo::FingerFrame& finger = frame.fingers[f];
+            const frame::FingerFrame& finger = frame.fingers[f];
             X_WB.push_back({finger.R_WP, finger.p_WP});
             out.largest_force = std::max(out.largest_force, finger.f_sent_W.norm());
             out.largest_change =
@@ -334,7 +334,7 @@ class Play {
         double work = 0;
         std::vector<char> touched(bodies, 0);
         std::vector<int> fingers_on(bodies, 0);
-        for (const servo::ContactFrame& contact : frame.contacts) {
+        for (const frame::ContactFrame& contact : frame.contacts) {
             if (contact.normal_force <= 0) continue;
             const auto a = static_cast<size_t>(contact.a);
             const auto b = static_cast<size_t>(contact.b);
@@ -360,7 +360,7 @@ class Play {
         energy_ = now_energy;
     }
 
-    servo::Settings settings_;
+    frame::Settings settings_;
     Random random_;
     bool has_point_;
     scene::Scene scene_;
@@ -378,11 +378,11 @@ class Play {
 
 /// Plays for `time` [s] with the energy guard armed, and expects that nothing went wrong and that
 /// the guard reported nothing.
-inline PlayReport expect_harmless_play(dynamics::Solver solver, uint64_t seed, double time,
+inline PlayReport expect_harmless_play(contact::Solver solver, uint64_t seed, double time,
                                        scene::ProxyKind index = scene::ProxyKind::rigid) {
-    servo::Settings settings;
+    frame::Settings settings;
     settings.dynamics.solver = solver;
-    settings.safety.energy_guard = haptics::EnergyGuardMode::act;
+    settings.safety.energy_guard = frame::EnergyGuardMode::act;
     Play play(settings, seed, index);
     const PlayReport report = play.run(time);
     std::printf(
@@ -395,9 +395,9 @@ inline PlayReport expect_harmless_play(dynamics::Solver solver, uint64_t seed, d
         static_cast<double>(report.flying) * settings.tick(), static_cast<long>(report.missed),
         static_cast<long>(report.fallbacks), static_cast<long>(report.ticks),
         static_cast<long>(report.generated));
-    EXPECT_EQ(report.status & (servo::kNotFinite | servo::kForceOff | servo::kContactsFull |
-                               servo::kEnergyGenerated | servo::kEnergyDamped),
-              0u);
+    EXPECT_EQ(
+        report.status & (kNotFinite | kForceOff | kContactsFull | kEnergyGenerated | kEnergyDamped),
+        0u);
     EXPECT_LE(report.largest_force, 8.5 + 1e-9);
     EXPECT_LE(report.largest_change, settings.safety.max_force_rate * settings.tick() + 1e-9);
     EXPECT_LE(report.deepest, 1e-3) << report.deepest_pair << " at " << report.deepest_at << " s";

@@ -27,12 +27,12 @@ TEST(Overlap, OfShapesWhoseDepthIsKnown) {
                 1e-9);
 }
 
-class PlayTest : public ::testing::TestWithParam<dynamics::Solver> {};
+class PlayTest : public ::testing::TestWithParam<contact::Solver> {};
 INSTANTIATE_TEST_SUITE_P(Solvers, PlayTest,
-                         ::testing::Values(dynamics::Solver::sequential_impulse,
-                                           dynamics::Solver::stewart_trinkle,
-                                           dynamics::Solver::staggered_projections,
-                                           dynamics::Solver::newton),
+                         ::testing::Values(contact::Solver::sequential_impulse,
+                                           contact::Solver::stewart_trinkle,
+                                           contact::Solver::staggered_projections,
+                                           contact::Solver::newton),
                          solver_name);
 TEST_P(PlayTest, HarmsNothing) {
     int64_t held = 0;
@@ -43,14 +43,14 @@ TEST_P(PlayTest, HarmsNothingWithAPoint) {
     expect_harmless_play(GetParam(), 1, 5, scene::ProxyKind::point);
 }
 TEST_P(PlayTest, TripsTheEnergyGuardWhenTheCouplingHasNegativeDamping) {
-    servo::Settings settings;
+    frame::Settings settings;
     settings.dynamics.solver = GetParam();
     settings.coupling.damping = -1;
-    settings.safety.energy_guard = haptics::EnergyGuardMode::act;
+    settings.safety.energy_guard = frame::EnergyGuardMode::act;
     const PlayReport report = Play(settings, 1).run(5);
-    EXPECT_NE(report.status & servo::kEnergyGenerated, 0u);
-    EXPECT_NE(report.status & servo::kEnergyDamped, 0u);
-    EXPECT_EQ(report.status & servo::kNotFinite, 0u);
+    EXPECT_NE(report.status & kEnergyGenerated, 0u);
+    EXPECT_NE(report.status & kEnergyDamped, 0u);
+    EXPECT_EQ(report.status & kNotFinite, 0u);
     EXPECT_LE(report.largest_force, 8.5 + 1e-9);
 }
 

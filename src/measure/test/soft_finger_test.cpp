@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kGravity = 9.81;
 
-class SoftFinger : public ::testing::TestWithParam<haptics::ProxyKind> {
+class SoftFinger : public ::testing::TestWithParam<scene::ProxyKind> {
   protected:
     BenchSetup setup;
     SoftFinger() {
@@ -20,7 +20,7 @@ class SoftFinger : public ::testing::TestWithParam<haptics::ProxyKind> {
     }
 };
 INSTANTIATE_TEST_SUITE_P(Proxies, SoftFinger,
-                         ::testing::Values(haptics::ProxyKind::rigid, haptics::ProxyKind::point),
+                         ::testing::Values(scene::ProxyKind::rigid, scene::ProxyKind::point),
                          [](const auto& of) { return std::string(enum_name(of.param)); });
 
 TEST_P(SoftFinger, LetsGoAtTheEllipticLimit) {
@@ -38,19 +38,19 @@ TEST_P(SoftFinger, ATiltedHoldTurnsTheBlockUntilItsContactsAreInLineWithTheForce
     setup.fingering = Fingering::offset;
     const hand::HandSpec hand = grasp_hand(setup);
     Bench bench(grasp_scene(setup), hand, setup);
-    servo::Frame last;
-    bench.run([&](const servo::Frame& frame) {
+    frame::Frame last;
+    bench.run([&](const frame::Frame& frame) {
         if (frame.phase == kHold) last = frame;
     });
     constexpr double kDegree = std::numbers::pi / 180;
     ASSERT_EQ(last.contacts.size(), 2u);
     std::array<Vec3, 2> at;
-    for (const servo::ContactFrame& c : last.contacts)
+    for (const frame::ContactFrame& c : last.contacts)
         at[static_cast<size_t>(std::max(c.a, c.b) - 2)] = c.p_WC;
     // each finger carries half the weight; the rest of its force is opposite to the other's
     const Vec3 squeeze = last.fingers[1].f_contact_W - last.fingers[0].f_contact_W;
     EXPECT_LT(squeeze.normalized().cross((at[1] - at[0]).normalized()).norm(), 0.1 * kDegree);
-    if (GetParam() == haptics::ProxyKind::point) {
+    if (GetParam() == scene::ProxyKind::point) {
         const Vec3 targets = hand.fingers[1].offset - hand.fingers[0].offset +
                              Vec3(kBlockSize - 2 * setup.squeeze, 0, 0);
         EXPECT_LT((at[1] - at[0]).normalized().cross(targets.normalized()).norm(), 0.1 * kDegree);
@@ -74,8 +74,8 @@ TEST_P(SoftFinger, AnOffCentreHoldStaysLevelOrSwingsDownAsFarAsStaticsSays) {
         hand::HandSpec hand = grasp_hand(setup);
         for (hand::FingerPlace& finger : hand.fingers) finger.offset = {0, c.off, 0};
         Bench bench(grasp_scene(setup), hand, setup);
-        servo::Frame last;
-        bench.run([&](const servo::Frame& frame) {
+        frame::Frame last;
+        bench.run([&](const frame::Frame& frame) {
             if (frame.phase == kHold) last = frame;
         });
         const dynamics::BodyState block{last.bodies[1].X_WB, last.bodies[1].v_WB,

@@ -10,7 +10,7 @@ const std::vector<std::string> kFingers{"thumb", "index"};
 /// A short search: one row, around the stiffness at which the ideal plant's margin ends.
 TuneSetup small_search() {
     TuneSetup setup =
-        tune_setup(rig::simulated_rig(kFingers), kFingers, servo::Settings{}, hand::Impedance{});
+        tune_setup(rig::simulated_rig(kFingers), kFingers, frame::Settings{}, hand::Impedance{});
     setup.stiffness = {1300, 2600, 5200};
     setup.damping = {1};
     return setup;
@@ -69,7 +69,7 @@ TEST(Tune, KeepsTheRigsDevicesAndAddsToTheirDelay) {
     const auto hold = [](const char* options, Burden burden) {
         rig::Rig rig = rig::simulated_rig(kFingers);
         for (rig::Device& device : rig.devices) device.options = parse_yaml(options, "rig");
-        const TuneSetup setup = tune_setup(rig, kFingers, servo::Settings{}, hand::Impedance{});
+        const TuneSetup setup = tune_setup(rig, kFingers, frame::Settings{}, hand::Impedance{});
         EXPECT_NEAR(setup.grip, 1.2, 1e-12);
         return measure_hold(hold_setup(setup, {2000, 1, 1, {}}, burden));
     };
@@ -85,7 +85,7 @@ TEST(Tune, GripsNoHarderThanMotorsBearForLong) {
     for (const char* preset : {"premium_1_0", "touch"}) {
         for (rig::Device& device : rig.devices)
             device.options = parse_yaml(std::string("preset: ") + preset, "here");
-        TuneSetup setup = tune_setup(rig, kFingers, servo::Settings{}, hand::Impedance{});
+        TuneSetup setup = tune_setup(rig, kFingers, frame::Settings{}, hand::Impedance{});
         setup.stiffness = {740};
         setup.damping = {1};
         const TuneResult searched = tune(setup, false, {});
@@ -105,7 +105,7 @@ TEST(Tune, RefusesWhatItCannotSimulate) {
     rig.devices[1].place = {"rig.yaml", 7};
     const auto message = [&](const std::vector<std::string>& fingers) -> std::string {
         try {
-            tune_setup(rig, fingers, servo::Settings{}, hand::Impedance{});
+            tune_setup(rig, fingers, frame::Settings{}, hand::Impedance{});
         } catch (const Error& e) {
             return e.what();
         }

@@ -79,7 +79,7 @@ TEST(Forces, AreLearnedAsForcesAndRotationsAsRotations) {
         session::Plan plan = sitting.plan();
         const Traits traits = steady_person();
         sit_down(plan, traits);
-        run_trials(plan, [](const servo::Frame&) {});
+        run_trials(plan, [](const frame::Frame&) {});
         const auto& person = static_cast<const Person&>(*plan.seeing);
         return std::pair(person.rotations(1).expected(d), person.forces(1).expected(d));
     };

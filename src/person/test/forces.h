@@ -62,7 +62,7 @@ inline std::vector<ForceReach> force_reaches(const session::Plan& plan) {
     };
     std::vector<ForceReach> out(plan.task->trials.size());
     std::vector<Sums> sums(out.size());
-    run_trials(plan, [&](const servo::Frame& frame) {
+    run_trials(plan, [&](const frame::Frame& frame) {
         if (frame.trial < 1 || frame.phase != 2) return;
         const auto i = static_cast<size_t>(frame.trial - 1);
         const auto& trial = plan.task->trials[i];
@@ -73,7 +73,7 @@ inline std::vector<ForceReach> force_reaches(const session::Plan& plan) {
                 plan.task->task.perturbations[static_cast<size_t>(trial.perturb[0])].name;
         const Vec3 along = (cell.p_W[1] - cell.p_W[0]).normalized();
         const Vec3 left = Vec3::UnitZ().cross(along);
-        const servo::FingerFrame& finger = frame.fingers[0];
+        const frame::FingerFrame& finger = frame.fingers[0];
         const double off = (finger.p_WH - cell.p_W[0]).dot(left);
         if (std::abs(off) > std::abs(reach.deviation)) reach.deviation = off;
         const double ideal = kCurl * finger.v_WH.dot(along);

@@ -147,7 +147,7 @@ std::vector<Lift> lifts(const session::Plan& plan) {
     std::vector<double> grip, load;  // in this attempt, until lift-off
     double held = 0, sum_grip = 0, sum_load = 0, count = 0;
     constexpr size_t kStep = 20;
-    run_trials(plan, [&](const servo::Frame& frame) {
+    run_trials(plan, [&](const frame::Frame& frame) {
         if (frame.trial < 1 || frame.phase == 0) return;
         Lift& lift = out[static_cast<size_t>(frame.trial - 1)];
         const double now = seconds(frame.time);
@@ -270,7 +270,7 @@ TEST(Lifts, WithDirectionalMassAreLearnedByASingleRate) {
     sit_down(plan, traits);
     const auto& person = static_cast<const Person&>(*plan.seeing);
     std::vector<double> learned;  // mass along x beyond the weight's, at the end of each trial
-    run_trials(plan, [&](const servo::Frame& frame) {
+    run_trials(plan, [&](const frame::Frame& frame) {
         if (frame.task.outcome >= 0) learned.push_back(person.grip().memory(1).more_mass.x());
     });
     ASSERT_EQ(learned.size(), 15u);

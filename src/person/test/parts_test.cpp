@@ -14,11 +14,11 @@ namespace {
 
 TEST(Eyes, SeeWhereThingsAreShownAWhileAgo) {
     Eyes eyes(0.1, 2, 1e-3);
-    servo::Frame frame;
+    frame::Frame frame;
     frame.fingers.resize(2);
     frame.task.reserve(1);
-    servo::VisualMap map;
-    map.moves = servo::kMovesProxies;
+    frame::VisualMap map;
+    map.moves = frame::kMovesProxies;
     map.scale = Vec3(2, 1, 1);
     frame.task.visual.push_back(map);
     frame.task.targets.push_back({3, Vec3(0, 0, 1), 0.01});

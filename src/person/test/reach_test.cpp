@@ -160,7 +160,7 @@ TEST(Reaches, BeginAReactionTimeAfterTheTargetAndLastAsTheTempoSays) {
     std::vector<double> shown(4, -1);
     std::vector<double> begun(4, -1);
     std::vector<double> over(4, -1);
-    run_trials(plan, [&](const servo::Frame& frame) {
+    run_trials(plan, [&](const frame::Frame& frame) {
         if (frame.phase < 2 || frame.trial < 1) return;
         const auto i = static_cast<size_t>(frame.trial);
         const double now = seconds(frame.time);

@@ -26,7 +26,7 @@ inline Curve reaches(const session::Plan& plan) {
     Curve curve{std::vector<double>(trials, NAN), std::vector<double>(trials, NAN),
                 std::vector<std::string>(trials)};
     std::vector<int> measured(trials, 0);  // attempt that was measured last, by trial
-    run_trials(plan, [&](const servo::Frame& frame) {
+    run_trials(plan, [&](const frame::Frame& frame) {
         if (frame.trial < 1) return;
         const auto i = static_cast<size_t>(frame.trial - 1);
         if (frame.task.outcome >= 0)
@@ -38,7 +38,7 @@ inline Curve reaches(const session::Plan& plan) {
         measured[i] = frame.task.attempt;
         const Vec3 way = cell.p_W[1] - cell.p_W[0];
         curve.hand[i] = -angle_about_z(way, arm) / kDegree;
-        const Vec3 shown = servo::displayed_handle(frame, 0).p - cell.p_W[0];
+        const Vec3 shown = frame::displayed_handle(frame, 0).p - cell.p_W[0];
         curve.shown[i] = angle_about_z(way, shown) / kDegree;
     });
     return curve;

@@ -121,7 +121,7 @@ TEST(Session, OfShippedGripsGoesOnOnceTheHandIsAway) {
         sit_down(plan, median_person(Objects::device));
         const auto phases = plan.task->phases();
         std::map<int, double> spent;  // time in the last state, by trial [s]
-        run_trials(plan, [&, last = std::string(state)](const servo::Frame& frame) {
+        run_trials(plan, [&, last = std::string(state)](const frame::Frame& frame) {
             const std::string& phase = phases[static_cast<size_t>(frame.phase)];
             if (phase == last || (phase == "less" && last == "more"))
                 spent[frame.trial] += plan.settings.tick();
@@ -152,7 +152,7 @@ TEST(Session, GoesOnWithAPersonWhoGivesUpOrHesitates) {
     traits.hesitation_rate = 0.5;
     sit_down(plan, traits);
     int done = 0;
-    run_trials(plan, [&](const servo::Frame& frame) { done += frame.task.outcome >= 0 ? 1 : 0; });
+    run_trials(plan, [&](const frame::Frame& frame) { done += frame.task.outcome >= 0 ? 1 : 0; });
     EXPECT_GE(done, 6);
 }
 
@@ -182,7 +182,7 @@ std::vector<std::string> answers(double scale, const Traits& traits, int trials)
     session::Plan plan = sitting.plan();
     sit_down(plan, traits);
     std::vector<std::string> out;
-    run_trials(plan, [&](const servo::Frame& frame) {
+    run_trials(plan, [&](const frame::Frame& frame) {
         if (frame.task.outcome >= 0)
             out.push_back(plan.task->outcomes[static_cast<size_t>(frame.task.outcome)].name);
     });
@@ -215,7 +215,7 @@ TEST(Session, OfAPersonFindsThresholdsOfWhatIsShown) {
     std::vector<double> shares;
     int right = 0;
     double share = 0;
-    run_trials(plan, [&](const servo::Frame& frame) {
+    run_trials(plan, [&](const frame::Frame& frame) {
         if (frame.task.share != 0) share = frame.task.share;
         if (frame.task.outcome < 0) return;
         const auto& trial = plan.task->trials[static_cast<size_t>(frame.trial) - 1];

@@ -50,18 +50,18 @@ struct Sitting {
 };
 
 /// Runs the plan's trials as a session does, but records nothing.
-inline void run_trials(const session::Plan& plan, const servo::FrameSink& sink) {
+inline void run_trials(const session::Plan& plan, const frame::FrameSink& sink) {
     const auto servo = session::make_servo(plan);
     servo->activate();
     plan.seeing->restart();
     task::TaskDirector task(*plan.task, plan.seed, plan.settings.tick());
-    const servo::Director director = [&](const servo::Frame& last,
-                                         std::span<const haptics::Handle> handles,
-                                         servo::Commands& commands) {
+    const frame::Director director = [&](const frame::Frame& last,
+                                         std::span<const frame::Handle> handles,
+                                         frame::Commands& commands) {
         if (const char key = plan.seeing->take_key(); key != 0) task.press(key);
         task(last, handles, commands);
     };
-    const servo::FrameSink see = [&](const servo::Frame& frame) {
+    const frame::FrameSink see = [&](const frame::Frame& frame) {
         plan.seeing->see(frame);
         sink(frame);
     };

@@ -33,7 +33,7 @@ Bytes written() {
     recording::RawLogWriter writer(file, head);
     std::vector<std::byte> bytes(recording::most_bytes(head.layout(), 8));
     for (int64_t i = 0; i < 10; ++i) {
-        servo::Frame frame;
+        frame::Frame frame;
         frame.sequence = i;
         frame.time = i * std::chrono::milliseconds(1);
         frame.fingers.resize(2);

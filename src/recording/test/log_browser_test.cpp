@@ -18,7 +18,7 @@ void expect_all_moments(const std::string& file, int64_t frames) {
     for (int i = 0; i < 300; ++i) {
         const double time = random.uniform(-0.1, 1e-3 * static_cast<double>(frames) + 0.1);
         for (const double later : {0.0, 0.003, 0.04, 0.2}) {
-            const servo::Frame& frame = browser.at(time + later);
+            const frame::Frame& frame = browser.at(time + later);
             const auto tick = std::clamp(static_cast<int64_t>(std::floor((time + later) * 1e3)),
                                          int64_t{0}, frames - 1);
             ASSERT_EQ(frame.sequence, tick) << time << " " << later;
@@ -71,7 +71,7 @@ TEST(LogBrowser, GoesOnFrameByFrame) {
     LogBrowser browser(folder.file("made.log"));
     browser.at(0.4);
     for (int64_t tick = 401; tick < 600; ++tick) {
-        const servo::Frame* const frame = browser.next();
+        const frame::Frame* const frame = browser.next();
         ASSERT_NE(frame, nullptr);
         ASSERT_EQ(frame->sequence, tick);
     }

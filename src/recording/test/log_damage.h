@@ -22,8 +22,8 @@ inline LogHead damage_head(const std::string& identity) {
 }
 
 /// A frame that says by all it has which it is, and of which session.
-inline servo::Frame damage_frame(int64_t sequence, double session) {
-    servo::Frame f;
+inline frame::Frame damage_frame(int64_t sequence, double session) {
+    frame::Frame f;
     f.sequence = sequence;
     f.time = sequence * std::chrono::milliseconds(1);
     f.grip_force = static_cast<double>(sequence);
@@ -52,12 +52,12 @@ inline std::string damage_log(const testing::TemporaryFolder& folder, double ses
 inline LogHealth read_damaged(const std::string& file, double session) {
     RawLogReader reader(file);
     int64_t last = -1;
-    while (const servo::Frame* f = reader.next()) {
+    while (const frame::Frame* f = reader.next()) {
         EXPECT_GT(f->sequence, last);
         last = f->sequence;
         EXPECT_EQ(f->grip_force, static_cast<double>(last));
         EXPECT_EQ(f->load_force, session);
-        for (const servo::BodyFrame& body : f->bodies) {
+        for (const frame::BodyFrame& body : f->bodies) {
             if (body.X_WB.p.hasNaN()) continue;
             EXPECT_EQ(body.X_WB.p.y(), session);
             EXPECT_EQ(body.X_WB.p.z(), static_cast<double>(last / 70));

@@ -6,15 +6,15 @@
 #include <set>
 
 #include "base/unit.h"
+#include "frame/frame.h"
 #include "recording/codes.h"
 #include "recording/schema.h"
-#include "servo/frame.h"
 #include "testing/files.h"
 
 namespace dihaptic::recording::quantities_test {
 namespace {
 
-using namespace servo;
+using namespace frame;
 
 constexpr const char* kFile = "docs/quantities.md";
 

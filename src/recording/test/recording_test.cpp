@@ -21,8 +21,8 @@ LogHead head() {
 
 const FrameDecoder kDecoder(schema(), "raw.log");
 
-servo::Frame frame(int64_t sequence) {
-    servo::Frame f;
+frame::Frame frame(int64_t sequence) {
+    frame::Frame f;
     f.sequence = sequence;
     f.time = sequence * std::chrono::milliseconds(1);
     f.grip_force = 0.1 * static_cast<double>(sequence);
@@ -32,14 +32,14 @@ servo::Frame frame(int64_t sequence) {
     f.bodies[2].X_WB.p = {0, 0, 1e-3 * static_cast<double>(sequence)};
     f.changed = sequence == 0 ? std::vector<uint16_t>{0, 1, 2} : std::vector<uint16_t>{2};
     f.contacts.resize(static_cast<size_t>(sequence % 3));
-    for (servo::ContactFrame& c : f.contacts) c.b = 2;
+    for (frame::ContactFrame& c : f.contacts) c.b = 2;
     return f;
 }
 
 TEST(Codec, GivesBackEveryFieldAndCarriesOverBodiesThatDidNotChange) {
     std::vector<std::byte> bytes(most_bytes(head().layout(), 8));
-    servo::Frame out;
-    servo::Frame first = frame(0);
+    frame::Frame out;
+    frame::Frame first = frame(0);
     first.bodies[1].X_WB.p = {7, 8, 9};
     size_t size = encode(first, bytes);
     ASSERT_GT(size, 0u);
@@ -60,7 +60,7 @@ TEST(Codec, HasMoreOfFingersWhoseDevicesMeasureOrientation) {
     turning.devices[1].finger = "index";
     turning.devices[1].measures_orientation = true;
     EXPECT_EQ(turning.turning_fingers(), std::vector<std::string>{"index"});
-    servo::Frame in = frame(1);
+    frame::Frame in = frame(1);
     in.turns.resize(1);
     in.turns[0].R_WH = rotation_by({0.1, 0.2, 0.3});
     in.turns[0].t_sent_W = {1, 2, 3};
@@ -68,7 +68,7 @@ TEST(Codec, HasMoreOfFingersWhoseDevicesMeasureOrientation) {
     const size_t size = encode(in, bytes);
     ASSERT_GT(size, encode(frame(1), bytes));
     encode(in, bytes);
-    servo::Frame out;
+    frame::Frame out;
     ASSERT_TRUE(kDecoder.decode(std::span(bytes).first(size), turning.layout(), out));
     EXPECT_EQ(out.turns[0].R_WH.coeffs(), in.turns[0].R_WH.coeffs());
     EXPECT_EQ(out.turns[0].t_sent_W, Vec3(1, 2, 3));
@@ -78,14 +78,14 @@ TEST(Codec, HasMoreOfFingersWhoseDevicesMeasureOrientation) {
 TEST(Codec, HasTheScenesJoints) {
     LogHead jointed = head();
     jointed.joints = {"hinge", "drawer"};
-    servo::Frame in = frame(1);
+    frame::Frame in = frame(1);
     in.joints.resize(2);
     in.joints[0].angle = 0.5;
     in.joints[1].displacement = -0.02;
     in.joints[1].f_B_W = {1, 2, 3};
     std::vector<std::byte> bytes(most_bytes(jointed.layout(), 8));
     const size_t size = encode(in, bytes);
-    servo::Frame out;
+    frame::Frame out;
     ASSERT_TRUE(kDecoder.decode(std::span(bytes).first(size), jointed.layout(), out));
     EXPECT_EQ(out.joints[0].angle, 0.5);
     EXPECT_TRUE(std::isnan(out.joints[0].displacement));
@@ -99,7 +99,7 @@ TEST(Codec, RefusesWhatDoesNotFitAndWhatIsNoFrame) {
     EXPECT_EQ(encode(frame(1), small), 0u);
     std::vector<std::byte> bytes(most_bytes(head().layout(), 8));
     const size_t size = encode(frame(1), bytes);
-    servo::Frame out;
+    frame::Frame out;
     EXPECT_FALSE(kDecoder.decode(std::span(bytes).first(size - 1), head().layout(), out));
     EXPECT_FALSE(kDecoder.decode(std::span(bytes).first(size), {1, 3}, out));
     EXPECT_FALSE(kDecoder.decode(std::span(bytes).first(size), {2, 2}, out));
@@ -113,7 +113,7 @@ TEST(Codec, SchemaNamesEveryFieldWithItsUnit) {
 }
 
 /// The bytes of a frame.
-std::vector<std::byte> encoded(const servo::Frame& in) {
+std::vector<std::byte> encoded(const frame::Frame& in) {
     std::vector<std::byte> bytes(most_bytes(head().layout(), 8));
     bytes.resize(encode(in, bytes));
     return bytes;
@@ -121,7 +121,7 @@ std::vector<std::byte> encoded(const servo::Frame& in) {
 
 /// The same without what differs in the other, whose `size` bytes begin at the first difference;
 /// from each of so many items.
-std::vector<std::byte> without(const servo::Frame& in, const servo::Frame& other, size_t size,
+std::vector<std::byte> without(const frame::Frame& in, const frame::Frame& other, size_t size,
                                size_t items = 1) {
     std::vector<std::byte> bytes = encoded(in);
     std::vector<std::byte> differs = encoded(other);
@@ -141,7 +141,7 @@ std::string schema_without(const std::string& line) {
     return out.erase(out.find(line), line.size() + 1);
 }
 
-void expect_as_in_frame_5(const servo::Frame& out) {
+void expect_as_in_frame_5(const frame::Frame& out) {
     EXPECT_EQ(out.sequence, 5);
     EXPECT_EQ(out.grip_force, 0.5);
     EXPECT_EQ(out.bodies[2].X_WB.p.z(), 5e-3);
@@ -154,10 +154,10 @@ TEST(Decoder, ReadsFramesFromBeforeAFieldWasAdded) {
     const FrameDecoder decoder(schema_without("solver_route int32 1"), "raw.log");
     EXPECT_EQ(decoder.missing(), std::vector<std::string>{"solver_route"});
     EXPECT_TRUE(decoder.unknown().empty());
-    servo::Frame in = frame(5);
+    frame::Frame in = frame(5);
     in.solver_route = -1;
     const std::vector<std::byte> bytes = without(frame(5), in, sizeof(in.solver_route));
-    servo::Frame out;
+    frame::Frame out;
     EXPECT_FALSE(kDecoder.decode(bytes, head().layout(), out));
     out = {};
     ASSERT_TRUE(decoder.decode(bytes, head().layout(), out));
@@ -169,10 +169,10 @@ TEST(Decoder, ReadsFramesFromBeforeAFieldWasAdded) {
 TEST(Decoder, ReadsFramesFromBeforeAFingerHadAField) {
     const FrameDecoder decoder(schema_without("  buttons uint32 1"), "raw.log");
     EXPECT_EQ(decoder.missing(), std::vector<std::string>{"buttons of fingers"});
-    servo::Frame in = frame(5);
-    for (servo::FingerFrame& finger : in.fingers) finger.buttons = ~0u;
+    frame::Frame in = frame(5);
+    for (frame::FingerFrame& finger : in.fingers) finger.buttons = ~0u;
     const std::vector<std::byte> bytes = without(frame(5), in, sizeof(in.fingers[0].buttons), 2);
-    servo::Frame out;
+    frame::Frame out;
     ASSERT_TRUE(decoder.decode(bytes, head().layout(), out));
     EXPECT_EQ(out.fingers[0].buttons, 0u);
     EXPECT_EQ(out.fingers[1].f_sent_W, Vec3(1.0 / 3, -2, 5));
@@ -198,7 +198,7 @@ TEST(Decoder, PassesOverWhatALaterVersionRecorded) {
     add(3, 3 * 9);
     add(2, 2 * (2 + 9));
     bytes.resize(bytes.size() + 8);
-    servo::Frame out;
+    frame::Frame out;
     ASSERT_TRUE(decoder.decode(bytes, head().layout(), out));
     expect_as_in_frame_5(out);
     bytes.pop_back();
@@ -213,7 +213,7 @@ TEST(Decoder, TakesAFieldOfAnotherUnitOrTypeForAnotherField) {
     const FrameDecoder decoder(other, "raw.log");
     EXPECT_EQ(decoder.missing(), std::vector<std::string>{"grip_force"});
     EXPECT_EQ(decoder.unknown(), std::vector<std::string>{"grip_force"});
-    servo::Frame out;
+    frame::Frame out;
     ASSERT_TRUE(decoder.decode(encoded(frame(5)), head().layout(), out));
     EXPECT_TRUE(std::isnan(out.grip_force));
     EXPECT_EQ(out.load_force, 0);
@@ -235,7 +235,7 @@ TEST(Decoder, RefusesWhatIsNoSchemaOfFrames) {
 TEST(Decoder, TakesNoMemoryForItemsThatAreNotThere) {
     std::vector<std::byte> bytes = encoded(frame(3));  // without contacts: their number ends it
     bytes[bytes.size() - 1] = bytes[bytes.size() - 2] = std::byte{0xff};
-    servo::Frame out;
+    frame::Frame out;
     EXPECT_FALSE(kDecoder.decode(bytes, head().layout(), out));
     EXPECT_EQ(out.contacts.capacity(), 0u);
 }
@@ -243,7 +243,7 @@ TEST(Decoder, TakesNoMemoryForItemsThatAreNotThere) {
 /// Reads a log to its end; returns the number of frames, each checked to be the next.
 int64_t count(RawLogReader& reader) {
     int64_t n = 0;
-    while (const servo::Frame* f = reader.next()) EXPECT_EQ(f->sequence, n++);
+    while (const frame::Frame* f = reader.next()) EXPECT_EQ(f->sequence, n++);
     return n;
 }
 
@@ -273,7 +273,7 @@ TEST(DeviceRecord, KeepsWhatTheDeviceWasAndReadsThoseOfEarlierVersions) {
     record.delay = 2e-3;
     const DeviceRecord again = read(to_yaml(write_fields(record)));
     EXPECT_EQ(again.finger, "index");
-    EXPECT_EQ(static_cast<const devices::DeviceInfo&>(again), record);
+    EXPECT_EQ(static_cast<const frame::DeviceInfo&>(again), record);
     // as log version 2 had it
     const DeviceRecord old = read(
         "finger: index\nmodel: simulated plant\npeak_force_N: 8.5\norientation: yes\n"
@@ -309,7 +309,7 @@ TEST(RawLog, CutAnywhereItGivesAllWholeChunksBefore) {
 std::string log_of_300(const testing::TemporaryFolder& folder) {
     Recorder recorder(folder.file("raw.log"), head(), Writing::in_place);
     for (int i = 0; i < 300; ++i) {
-        servo::Frame f = frame(i);
+        frame::Frame f = frame(i);
         f.bodies[1].X_WB.p.x() = i < 120 ? 1 : 2;
         if (i == 120) f.changed = {1, 2};
         recorder.record(f);
@@ -328,7 +328,7 @@ TEST(RawLog, ADamagedByteCostsItsChunkAloneAndIsNeverTakenForData) {
         damaged[at] = static_cast<char>(damaged[at] ^ 0x10);
         RawLogReader reader(folder.write("damaged.log", damaged));
         int64_t n = 0;
-        while (const servo::Frame* f = reader.next()) {
+        while (const frame::Frame* f = reader.next()) {
             ++n;
             EXPECT_EQ(f->grip_force, 0.1 * static_cast<double>(f->sequence));
             EXPECT_EQ(f->bodies[1].X_WB.p.x(), f->sequence < 120 ? 1 : 2) << f->sequence;
@@ -382,7 +382,7 @@ TEST(RawLog, WhatIsNotKnownOfABodyAfterAGapIsNaN) {
     reader.next();
     EXPECT_TRUE(reader.next()->bodies[1].X_WB.p.allFinite());
     for (int i = 0; i < 2; ++i) {
-        const servo::Frame* after = reader.next();
+        const frame::Frame* after = reader.next();
         EXPECT_TRUE(after->bodies[1].X_WB.p.hasNaN());
         EXPECT_TRUE(after->bodies[1].X_WB.R.coeffs().hasNaN());
         EXPECT_TRUE(after->bodies[2].X_WB.p.allFinite());
@@ -415,7 +415,7 @@ TEST(RawLog, CountsTheTicksThatTheServoLeftOut) {
     const testing::TemporaryFolder folder;
     Recorder recorder(folder.file("raw.log"), head(), Writing::in_place);
     for (int i = 0; i < 100; ++i) {
-        servo::Frame f = frame(i);
+        frame::Frame f = frame(i);
         f.time += std::chrono::milliseconds(i >= 50 ? 7 : 0);
         recorder.record(f);
     }
@@ -432,7 +432,7 @@ TEST(RawLog, CountsWholeTicksOfDevicesThatKeepAPeriodOfTheirOwn) {
     const testing::TemporaryFolder folder;
     Recorder recorder(folder.file("raw.log"), head(), Writing::in_place);
     for (int i = 0; i < 100; ++i) {
-        servo::Frame f = frame(i);
+        frame::Frame f = frame(i);
         f.time += std::chrono::microseconds(i % 2 == 0 ? 150 : -150);
         if (i >= 50) f.time += std::chrono::milliseconds(3);
         recorder.record(f);
@@ -497,7 +497,7 @@ TEST(Recorder, FlushesEveryFiftyMilliseconds) {
 TEST(Recorder, InAThreadLosesNothingAndAllocatesNothing) {
     const testing::TemporaryFolder folder;
     Recorder recorder(folder.file("raw.log"), head(), Writing::in_thread);
-    servo::Frame f = frame(0);
+    frame::Frame f = frame(0);
     f.contacts.reserve(2);
     size_t allocations = 0;
     for (int i = 0; i < 2000; ++i) {
@@ -521,7 +521,7 @@ TEST(Recorder, InAThreadLosesNothingAndAllocatesNothing) {
 TEST(Recorder, InAThreadCountsWhatItHadToDrop) {
     const testing::TemporaryFolder folder;
     Recorder recorder(folder.file("raw.log"), head(), Writing::in_thread);
-    servo::Frame f = frame(0);
+    frame::Frame f = frame(0);
     f.contacts.resize(60);
     for (int i = 0; i < 20000; ++i) {
         f.sequence = i;

@@ -21,8 +21,8 @@ class MovingArm final : public devices::DeviceGroup {
     explicit MovingArm(Wrench& told) : DeviceGroup({info()}), told_(told) {}
 
   private:
-    static devices::DeviceInfo info() {
-        devices::DeviceInfo out;
+    static frame::DeviceInfo info() {
+        frame::DeviceInfo out;
         out.peak_force = 8;
         out.continuous_force = 2;
         out.workspace = Vec3(0.1, 0.2, 0.3);

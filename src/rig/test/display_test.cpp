@@ -1,6 +1,6 @@
 // Tests displays and their registration: what rig files may not say, and how well a finger finds a
 // screen.
-#include "rig/display.h"
+#include "display/display.h"
 #include "base/number.h"
 
 #include <gtest/gtest.h>
@@ -36,7 +36,7 @@ TEST(Displays, MoveWithTheWorldsOrigin) {
     Diagnostics diagnostics;
     const Rig rig = read(folder, kRig, diagnostics);
     diagnostics.throw_if_errors();
-    const Display* const display = &display_of(rig, "");
+    const display::Display* const display = &display_of(rig, "");
     EXPECT_LT((display->lower_left - Vec3(-0.25, -0.15, -0.04)).norm(), 1e-15);
     EXPECT_LT((display->eyes.position - Vec3(0, -0.35, 0.45)).norm(), 1e-15);
     EXPECT_LT((display->eyes.right() - display->eyes.left() - Vec3(0.063, 0, 0)).norm(), 1e-15);
@@ -91,21 +91,21 @@ TEST(Displays, ThatNobodyCanSeeAreErrors) {
     }
 }
 
-Display example() {
+display::Display example() {
     const testing::TemporaryFolder folder;
     Diagnostics diagnostics;
     return read(folder, kRig, diagnostics).displays.at(0);
 }
 
 /// The display turned by 2 degrees about some axis through its middle, and moved by 5 mm.
-Display misplaced(const Display& display, Random& random) {
+display::Display misplaced(const display::Display& display, Random& random) {
     const auto unit = [&] {
         return Vec3(random.normal(), random.normal(), random.normal()).normalized();
     };
     const Vec3 middle = display.at({0.5, 0.5});
     const Quat R(Eigen::AngleAxisd(2 * kDegree, unit()));
     const Vec3 by = 5e-3 * unit();
-    Display out = display;
+    display::Display out = display;
     for (Vec3* corner : {&out.lower_left, &out.lower_right, &out.upper_left})
         *corner = middle + R * (*corner - middle) + by;
     return out;
@@ -113,11 +113,11 @@ Display misplaced(const Display& display, Random& random) {
 
 TEST(Registration, FindsAScreenThatIsExactlySomewhereElse) {
     Random random(3, "registration");
-    const Display display = example();
-    const Display seen = misplaced(display, random);
+    const display::Display display = example();
+    const display::Display seen = misplaced(display, random);
     std::vector<Vec3> touches;
-    for (const Cross& cross : crosses()) touches.push_back(seen.at(cross));
-    const RegistrationResult found = register_screen(display, touches);
+    for (const display::Cross& cross : display::crosses()) touches.push_back(seen.at(cross));
+    const display::RegistrationResult found = display::register_screen(display, touches);
     EXPECT_LT((found.registration.upper_left - seen.upper_left).norm(), 1e-12);
     EXPECT_NEAR(found.moved, 5e-3, 1e-12);
     EXPECT_NEAR(found.turned, 2 * kDegree, 1e-9);
@@ -134,12 +134,12 @@ TEST(Registration, FindsAMisplacedScreenByANoisyFinger) {
     int within = 0;
     for (uint64_t seed = 1; seed <= kScreens; ++seed) {
         Random random(seed, "screens");
-        const Display display = display_of(rig, "");
-        const Display seen = misplaced(display, random);
+        const display::Display display = display_of(rig, "");
+        const display::Display seen = misplaced(display, random);
         const std::vector<Vec3> touches =
             lead_registration(rig, "thumb", seen, quiet, {0.3e-3, seed});
-        const RegistrationResult found = register_screen(display, touches);
-        Display is = display;
+        const display::RegistrationResult found = display::register_screen(display, touches);
+        display::Display is = display;
         is.set(found.registration);
         const double away = (is.at({0.5, 0.5}) - seen.at({0.5, 0.5})).norm();
         const double tilted = is.right()
@@ -169,10 +169,10 @@ TEST(Registration, IsKeptInTheRigFilesFrame) {
     const Rig rig = read_rig_to_register(file, diagnostics);
     diagnostics.throw_if_errors();
     Random random(5, "registration");
-    const Display seen = misplaced(display_of(rig, ""), random);
+    const display::Display seen = misplaced(display_of(rig, ""), random);
     std::vector<Vec3> touches;
-    for (const Cross& cross : crosses()) touches.push_back(seen.at(cross));
-    RegistrationResult found = register_screen(display_of(rig, ""), touches);
+    for (const display::Cross& cross : display::crosses()) touches.push_back(seen.at(cross));
+    display::RegistrationResult found = display::register_screen(display_of(rig, ""), touches);
     found.registration.date = "2026-11-24";
     store_registration(rig, found.registration, registration_file(display_of(rig, ""), file));
     const Rig again = read_rig(file, diagnostics);
@@ -196,7 +196,7 @@ TEST(Registration, IsKeptInTheRigFilesFrame) {
 
 std::string refusal(const std::vector<Vec3>& touches) {
     try {
-        register_screen(example(), touches);
+        display::register_screen(example(), touches);
     } catch (const Error& e) {
         return e.what();
     }
@@ -204,9 +204,9 @@ std::string refusal(const std::vector<Vec3>& touches) {
 }
 
 TEST(Registration, RefusesTouchesThatContradictEachOther) {
-    const Display display = example();
+    const display::Display display = example();
     std::vector<Vec3> touches;
-    for (const Cross& cross : crosses()) touches.push_back(display.at(cross));
+    for (const display::Cross& cross : display::crosses()) touches.push_back(display.at(cross));
     EXPECT_EQ(refusal(touches), "");
     std::vector<Vec3> large = touches;
     for (Vec3& p : large) p *= 1.05;
@@ -217,10 +217,10 @@ TEST(Registration, RefusesTouchesThatContradictEachOther) {
 }
 
 TEST(Registration, CrossesAreTurnedRoundForAMirror) {
-    Display display = example();
-    const std::string plain = cross_picture(display);
-    display.mirrored = Mirrored::left_right;
-    const std::string turned = cross_picture(display);
+    display::Display display = example();
+    const std::string plain = display::cross_picture(display);
+    display.mirrored = display::Mirrored::left_right;
+    const std::string turned = display::cross_picture(display);
     EXPECT_EQ(plain.find("scale(-1 1)"), std::string::npos);
     EXPECT_NE(turned.find("translate(1600.0 0) scale(-1 1)"), std::string::npos);
     EXPECT_NE(plain.find(">20</text>"), std::string::npos);

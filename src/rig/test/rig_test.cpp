@@ -64,7 +64,7 @@ TEST(RigFile, PlacesAHeadset) {
                  diagnostics);
     diagnostics.throw_if_errors();
     ASSERT_TRUE(rig.headset);
-    EXPECT_EQ(rig.headset->space, HeadsetSpace::local);
+    EXPECT_EQ(rig.headset->space, display::HeadsetSpace::local);
     const Pose X_WS = rig.headset->X_WS();
     EXPECT_EQ(X_WS.p, Vec3(0.01, 0, 0.03));
     // turned to the left by a quarter, its forward is -x; its up is up

@@ -17,16 +17,16 @@ const Vec3 kEast = Vec3::UnitX();
 struct Planted {
     const char* name;
     haptics::FaultKind kind;  ///< none: whichever comes first, or none without an effect
-    std::function<void(PlantedGrasp&, double)> change;  ///< made before the tick
-    std::function<void(Commands&, double)> order;       ///< ordered by the director in the tick
+    std::function<void(PlantedGrasp&, double)> change;    ///< made before the tick
+    std::function<void(frame::Commands&, double)> order;  ///< ordered by the director in the tick
 };
 
 void read(PlantedGrasp& grasp, const std::function<void(devices::Reading&)>& change) {
     grasp.devices->plant = [change](std::span<devices::Reading> readings) { change(readings[1]); };
 }
 
-LoadFrame load(int32_t body, const Vec3& force) {
-    LoadFrame out;
+frame::LoadFrame load(int32_t body, const Vec3& force) {
+    frame::LoadFrame out;
     out.body = body;
     out.force_W = force;
     return out;
@@ -46,34 +46,34 @@ const std::vector<Planted> kPlanted{
     {"field",
      haptics::FaultKind::not_finite,
      {},
-     [](Commands& c, double x) { c.task.loads.push_back(load(kProxy, x * kEast)); }},
+     [](frame::Commands& c, double x) { c.task.loads.push_back(load(kProxy, x * kEast)); }},
     {"load_on_a_body",
      haptics::FaultKind::diverged,
      {},
-     [](Commands& c, double x) { c.task.loads.push_back(load(kBlock, x * kEast)); }},
+     [](frame::Commands& c, double x) { c.task.loads.push_back(load(kBlock, x * kEast)); }},
     {"torque_on_a_body",
      haptics::FaultKind::diverged,
      {},
-     [](Commands& c, double x) {
+     [](frame::Commands& c, double x) {
          c.task.loads.push_back(load(kBlock, Vec3::Zero()));
          c.task.loads.back().torque_W.z() = x;
      }},
     {"place_of_a_body",
      haptics::FaultKind::diverged,
      {},
-     [](Commands& c, double x) {
+     [](frame::Commands& c, double x) {
          c.task.placements.push_back({kBlock, {Quat::Identity(), x * kEast}});
      }},
     {"turn_of_a_body",
      haptics::FaultKind::diverged,
      {},
-     [](Commands& c, double x) {
+     [](frame::Commands& c, double x) {
          c.task.placements.push_back({kBlock, {{1, x, 0, 0}, kEast}});
      }},
     {"place_of_a_fixed_body",
      haptics::FaultKind::diverged,
      {},
-     [](Commands& c, double) {
+     [](frame::Commands& c, double) {
          c.task.placements.push_back({kTable, {Quat::Identity(), Vec3::Constant(kUnmeasured)}});
      }},
     {"velocity_of_a_body",
@@ -83,8 +83,8 @@ const std::vector<Planted> kPlanted{
     {"mass_of_a_body",
      haptics::FaultKind::none,
      {},
-     [](Commands& c, double x) {
-         PropertiesFrame properties;
+     [](frame::Commands& c, double x) {
+         frame::PropertiesFrame properties;
          properties.body = kBlock;
          properties.mass_scale = Vec3::Constant(x);
          properties.weight_scale = x;
@@ -93,12 +93,15 @@ const std::vector<Planted> kPlanted{
     {"friction",
      haptics::FaultKind::none,
      {},
-     [](Commands& c, double x) { c.knobs.friction_scale = x; }},
+     [](frame::Commands& c, double x) { c.knobs.friction_scale = x; }},
     {"stiffness",
      haptics::FaultKind::none,
      {},
-     [](Commands& c, double x) { c.knobs.stiffness = x; }},
-    {"damping", haptics::FaultKind::none, {}, [](Commands& c, double x) { c.knobs.damping = x; }},
+     [](frame::Commands& c, double x) { c.knobs.stiffness = x; }},
+    {"damping",
+     haptics::FaultKind::none,
+     {},
+     [](frame::Commands& c, double x) { c.knobs.damping = x; }},
     {"clock_that_goes_back",
      haptics::FaultKind::late,
      [](PlantedGrasp& g, double) { g.now -= std::chrono::milliseconds(5); },
@@ -111,27 +114,26 @@ const std::vector<Planted> kPlanted{
 
 struct Setting {
     const char* name;
-    haptics::ProxyKind proxy;
-    haptics::CouplingKind coupling;
-    dynamics::Solver solver;
-    haptics::PointFriction friction = haptics::PointFriction::together;
+    scene::ProxyKind proxy;
+    frame::CouplingKind coupling;
+    contact::Solver solver;
+    frame::PointFriction friction = frame::PointFriction::together;
 };
 const std::vector<Setting> kSettings{
-    {"newton", haptics::ProxyKind::rigid, haptics::CouplingKind::implicit,
-     dynamics::Solver::newton},
-    {"stewart_trinkle", haptics::ProxyKind::rigid, haptics::CouplingKind::velocity_impulse,
-     dynamics::Solver::stewart_trinkle},
-    {"staggered", haptics::ProxyKind::rigid, haptics::CouplingKind::dual_spring,
-     dynamics::Solver::staggered_projections},
-    {"bullet", haptics::ProxyKind::rigid, haptics::CouplingKind::implicit,
-     dynamics::Solver::sequential_impulse},
-    {"point", haptics::ProxyKind::point, haptics::CouplingKind::implicit, dynamics::Solver::newton},
-    {"point_apart", haptics::ProxyKind::point, haptics::CouplingKind::implicit,
-     dynamics::Solver::newton, haptics::PointFriction::apart},
+    {"newton", scene::ProxyKind::rigid, frame::CouplingKind::implicit, contact::Solver::newton},
+    {"stewart_trinkle", scene::ProxyKind::rigid, frame::CouplingKind::velocity_impulse,
+     contact::Solver::stewart_trinkle},
+    {"staggered", scene::ProxyKind::rigid, frame::CouplingKind::dual_spring,
+     contact::Solver::staggered_projections},
+    {"bullet", scene::ProxyKind::rigid, frame::CouplingKind::implicit,
+     contact::Solver::sequential_impulse},
+    {"point", scene::ProxyKind::point, frame::CouplingKind::implicit, contact::Solver::newton},
+    {"point_apart", scene::ProxyKind::point, frame::CouplingKind::implicit, contact::Solver::newton,
+     frame::PointFriction::apart},
 };
 
-Settings settings_of(const Setting& setting) {
-    Settings out;
+frame::Settings settings_of(const Setting& setting) {
+    frame::Settings out;
     out.proxy.kind = setting.proxy;
     out.proxy.friction = setting.friction;
     out.coupling.kind = setting.coupling;
@@ -152,14 +154,14 @@ TEST_P(NoNumber, EndsForceInTheSameTick) {
         ASSERT_GT(grasp.told(), 0.5);
         ASSERT_FALSE(grasp.servo->fault());
         if (planted.change) planted.change(grasp, x);
-        const Director director = [&](const Frame&, std::span<const haptics::Handle>,
-                                      Commands& commands) {
+        const frame::Director director = [&](const frame::Frame&, std::span<const frame::Handle>,
+                                             frame::Commands& commands) {
             if (planted.order) planted.order(commands, x);
         };
-        const Director nothing;
+        const frame::Director nothing;
         const testing::AllocationGuard guard;
         for (int i = 0; i < 100; ++i) {
-            const Frame& frame = grasp.tick(i == 0 ? director : nothing);
+            const frame::Frame& frame = grasp.tick(i == 0 ? director : nothing);
             const haptics::Fault& fault = grasp.servo->fault();
             if (!fault && planted.kind == haptics::FaultKind::none) {
                 ASSERT_TRUE(std::isfinite(grasp.told())) << i;
@@ -170,7 +172,7 @@ TEST_P(NoNumber, EndsForceInTheSameTick) {
             ASSERT_EQ(grasp.devices->told[0].force, Vec3::Zero()) << i;
             ASSERT_EQ(grasp.devices->told[1].force, Vec3::Zero()) << i;
             ASSERT_NE(frame.status & kForceOff, 0u) << i;
-            for (const ContactFrame& contact : frame.contacts) {
+            for (const frame::ContactFrame& contact : frame.contacts) {
                 ASSERT_GE(contact.a, 0);
                 ASSERT_LT(contact.b, 4);
             }
@@ -184,7 +186,7 @@ TEST_P(NoNumber, EndsForceInTheSameTick) {
 
 TEST(NoNumber, OfACalibrationIsABadReading) {
     PlantedGrasp grasp({}, [](std::vector<Pose>& poses) { poses[1].p.x() = kUnmeasured; });
-    const Frame& frame = grasp.tick();
+    const frame::Frame& frame = grasp.tick();
     EXPECT_EQ(grasp.servo->fault().kind, haptics::FaultKind::bad_reading);
     EXPECT_EQ(grasp.servo->fault().device, 1);
     EXPECT_EQ(grasp.told(), 0);
@@ -223,15 +225,16 @@ TEST(ADivergedWorld, IsMendedWhenTheSessionGoesOn) {
         SCOPED_TRACE(setting.name);
         PlantedGrasp grasp(settings_of(setting));
         grasp.grasp();
-        grasp.tick([](const Frame&, std::span<const haptics::Handle>, Commands& commands) {
-            commands.task.loads.push_back(load(kBlock, kUnmeasured * kEast));
-        });
+        grasp.tick(
+            [](const frame::Frame&, std::span<const frame::Handle>, frame::Commands& commands) {
+                commands.task.loads.push_back(load(kBlock, kUnmeasured * kEast));
+            });
         ASSERT_EQ(grasp.servo->fault().kind, haptics::FaultKind::diverged);
         ASSERT_TRUE(grasp.servo->world().diverged());
         grasp.servo->rest();
         grasp.servo->resume();
         for (int i = 0; i < 1000; ++i) {
-            const Frame& frame = grasp.tick();
+            const frame::Frame& frame = grasp.tick();
             ASSERT_EQ(frame.status & (kForceOff | kNotFinite), 0u) << i;
             ASSERT_TRUE(frame.bodies[kBlock].X_WB.p.allFinite());
             if (i == 0) {

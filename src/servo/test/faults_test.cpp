@@ -38,12 +38,12 @@ void inject(PlantedGrasp& grasp, const Failure& failure) {
     };
 }
 
-bool finite(const Frame& frame) {
+bool finite(const frame::Frame& frame) {
     bool out = true;
-    for (const FingerFrame& finger : frame.fingers)
+    for (const frame::FingerFrame& finger : frame.fingers)
         out = out && finger.p_WH.allFinite() && finger.p_WP.allFinite() &&
               finger.f_sent_W.allFinite();
-    for (const BodyFrame& body : frame.bodies) out = out && body.X_WB.p.allFinite();
+    for (const frame::BodyFrame& body : frame.bodies) out = out && body.X_WB.p.allFinite();
     return out;
 }
 
@@ -69,7 +69,8 @@ TEST_P(FaultInjected, TakesAllForceAwayInTheSameTickForGood) {
             const Time pause = GetParam().what == Injected::late && i > tick
                                    ? std::chrono::milliseconds(50)
                                    : std::chrono::milliseconds(0);
-            const Frame& frame = grasp.servo->tick(i * std::chrono::milliseconds(1) + pause, {});
+            const frame::Frame& frame =
+                grasp.servo->tick(i * std::chrono::milliseconds(1) + pause, {});
             ASSERT_TRUE(finite(frame)) << i;
             ASSERT_EQ(frame.sequence, i);
             const int fault_tick = tick + (GetParam().what == Injected::late ? 1 : 0);
@@ -103,14 +104,14 @@ INSTANTIATE_TEST_SUITE_P(
                       Case{Injected::late, haptics::FaultKind::late, kLate}));
 
 TEST(Faults, AWorldThatDivergesIsOneAndEndsForce) {
-    Settings settings;  // an explicit spring far beyond m / h^2 diverges
-    settings.coupling.kind = haptics::CouplingKind::dual_spring;
+    frame::Settings settings;  // an explicit spring far beyond m / h^2 diverges
+    settings.coupling.kind = frame::CouplingKind::dual_spring;
     settings.coupling.stiffness = 1e6;
     settings.coupling.body_mass = 1e-7;
     PlantedGrasp grasp(settings);
     int off = 0;
     for (int i = 0; i < 800; ++i) {
-        const Frame& frame = grasp.servo->tick(i * std::chrono::milliseconds(1), {});
+        const frame::Frame& frame = grasp.servo->tick(i * std::chrono::milliseconds(1), {});
         if (off == 0 && (frame.status & kNotFinite) == 0) continue;
         ++off;
         ASSERT_NE(frame.status & kForceOff, 0u) << i;
@@ -129,7 +130,7 @@ TEST(FaultsInRealTime, ACallThatBlocksLeavesNoForceInTheNextTick) {
     timing.reserve(1000);
     run_real(
         *grasp.servo, {},
-        [&](const Frame& frame) {
+        [&](const frame::Frame& frame) {
             if (frame.sequence <= kTick) return;
             EXPECT_NE(frame.status & kForceOff, 0u) << frame.sequence;
             EXPECT_EQ(grasp.told(), 0);

@@ -47,7 +47,7 @@ Outcome grasp(const Case& c) {
     FakeService service(setup, context);
     service.misbehave(c.what, kMessage, 1, milliseconds(c.late_ms));
 
-    Settings settings;
+    frame::Settings settings;
     settings.safety.max_pause = 1;  // the machine may be busy, which is not tested here
     settings.safety.hand_damping = 100;
     settings.safety.soft_start = 0;
@@ -57,14 +57,14 @@ Outcome grasp(const Case& c) {
                 std::vector<Pose>(2));
     servo.activate();
     Outcome out;
-    const Director director = [&](const Frame&, std::span<const haptics::Handle>,
-                                  Commands& commands) {
+    const frame::Director director = [&](const frame::Frame&, std::span<const frame::Handle>,
+                                         frame::Commands& commands) {
         commands.stop = out.after_fault >= kAfter;
     };
-    const FrameSink sink = [&](const Frame& frame) {
+    const frame::FrameSink sink = [&](const frame::Frame& frame) {
         if (!servo.fault()) return;
         ++out.after_fault;
-        for (const FingerFrame& finger : frame.fingers)
+        for (const frame::FingerFrame& finger : frame.fingers)
             out.force_after_fault = out.force_after_fault || finger.f_sent_W != Vec3::Zero();
     };
     const std::atomic<bool> stop{false};

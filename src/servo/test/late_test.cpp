@@ -39,7 +39,7 @@ struct Hold {
     enum class What { wall, block };
     /// `backend`: "real" or "simulated" for simulated devices that pass for real or for simulated
     /// ones, or the name of a manufacturer's backend.
-    explicit Hold(What what, const std::string& backend = "real", Settings settings = {}) {
+    explicit Hold(What what, const std::string& backend = "real", frame::Settings settings = {}) {
         scene::Scene scene = block_on_table();
         constexpr double kTouch = 0.0225;  // x of a pad's centre at contact
         constexpr double kOff = 0.03;
@@ -87,9 +87,9 @@ struct Hold {
     }
 
     void tick() {
-        const Frame& frame = servo->tick(now, {});
+        const frame::Frame& frame = servo->tick(now, {});
         last = 0;
-        for (const FingerFrame& finger : frame.fingers)
+        for (const frame::FingerFrame& finger : frame.fingers)
             last = std::max(last, finger.f_sent_W.norm());
         most = std::max(most, last);
         status |= frame.status;
@@ -228,7 +228,7 @@ TEST(Late, TheCouplingComesBackWithoutAStepInForce) {
 
 TEST(Late, AReplayThatAsksForWhatWasInForceIsTheSame) {
     // provided that its ticks come at the same times
-    Settings settings;
+    frame::Settings settings;
     settings.coupling.damping = 2;
     Hold hold(What::block, "real", settings);
     Hold replay(What::block, "real", settings);
@@ -237,11 +237,11 @@ TEST(Late, AReplayThatAsksForWhatWasInForceIsTheSame) {
     for (int i = 0; i < 2500; ++i) {
         // in time, alternately late and in time, all late, and in time again
         now += milliseconds(i < 500 ? 1 : i < 900 ? 1 + 12 * (i % 2) : i < 1200 ? 13 : 1);
-        const Frame& frame = hold.servo->tick(now, {});
-        const Knobs in_force = frame;
-        const Frame& again =
-            replay.servo->tick(now, [&](const Frame&, std::span<const haptics::Handle>,
-                                        Commands& commands) { commands.knobs = in_force; });
+        const frame::Frame& frame = hold.servo->tick(now, {});
+        const frame::Knobs in_force = frame;
+        const frame::Frame& again =
+            replay.servo->tick(now, [&](const frame::Frame&, std::span<const frame::Handle>,
+                                        frame::Commands& commands) { commands.knobs = in_force; });
         ASSERT_EQ(again.fingers[0].f_sent_W, frame.fingers[0].f_sent_W) << i;
         ASSERT_EQ(again.stiffness, frame.stiffness) << i;
         ASSERT_EQ(again.damping, frame.damping) << i;
@@ -270,7 +270,7 @@ TEST(Late, OnSimulatedDevicesIsToldAndNoFault) {
     EXPECT_NE(hold.status & kLate, 0u);
     EXPECT_EQ(hold.status & (kForceOff | kSoftened), 0u);
     // late below max_pause is no fault either
-    Settings settings;
+    frame::Settings settings;
     settings.safety.hand_damping = 1;
     Hold often(What::wall, "simulated", settings);
     often.run(kHeld, milliseconds(39), kHeld + milliseconds(3000));
@@ -281,7 +281,7 @@ TEST(Late, OnSimulatedDevicesIsToldAndNoFault) {
 }
 
 TEST(Late, MoreThanMaxLateEndsForceInTheNextTick) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.max_late = 3e-3;
     Hold hold(What::wall, "real", settings);
     hold.run(kHeld, milliseconds(1), kHeld);
@@ -309,7 +309,7 @@ TEST(Late, MoreThanMaxLateEndsForceInTheNextTick) {
 }
 
 TEST(Late, ASessionThatGoesOnAfterItBeginsAnew) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.hand_damping = 1;
     Hold hold(What::wall, "real", settings);
     hold.run(kHeld, milliseconds(21), kHeld + milliseconds(3000));

@@ -29,7 +29,7 @@ struct Grasp {
     FakeDhd* dhd = nullptr;
     std::vector<std::string> models;
 
-    explicit Grasp(const std::string& backend, const Settings& settings = {}) {
+    explicit Grasp(const std::string& backend, const frame::Settings& settings = {}) {
         const scene::Scene scene = block_on_table();
         const auto fingers = scene::finger_names(scene);
         driver = std::make_unique<hand::ScriptDriver>(hand, fingers);
@@ -77,7 +77,7 @@ TEST_P(MakersFaults, TakeAllForceAwayInTheTickThatLearnsOfThem) {
     int after = 0;
     run_virtual(
         *grasp.servo,
-        [&](const Frame& last, std::span<const haptics::Handle>, Commands&) {
+        [&](const frame::Frame& last, std::span<const frame::Handle>, frame::Commands&) {
             // while the forces of the last tick act
             if (last.sequence == kTick - 1) {
                 EXPECT_GT(grasp.acting(0), 0.5);
@@ -91,8 +91,8 @@ TEST_P(MakersFaults, TakeAllForceAwayInTheTickThatLearnsOfThem) {
             if (deaf && last.sequence < kTick + 32) return;
             EXPECT_EQ(grasp.acting(1), 0) << last.sequence;
         },
-        [&](const Frame& frame) {
-            for (const FingerFrame& finger : frame.fingers) {
+        [&](const frame::Frame& frame) {
+            for (const frame::FingerFrame& finger : frame.fingers) {
                 ASSERT_TRUE(finger.p_WH.allFinite());
                 ASSERT_TRUE(finger.f_sent_W.allFinite());
             }
@@ -152,13 +152,13 @@ TEST_P(ForceCut, LeavesNoHalfGraspAndComesBackSoftly) {
     uint32_t status = 0;
     run_virtual(
         *grasp.servo,
-        [&](const Frame& last, std::span<const haptics::Handle>, Commands&) {
+        [&](const frame::Frame& last, std::span<const frame::Handle>, frame::Commands&) {
             if (last.sequence != kTick - 1) return;
             if (grasp.hd != nullptr)
                 grasp.hd->raise(devices::openhaptics::kHdExceededMaxVelocity, 1);
             if (grasp.dhd != nullptr) grasp.dhd->cut(1, devices::forcedimension::kDhdByVelocity);
         },
-        [&](const Frame& frame) {
+        [&](const frame::Frame& frame) {
             const double most =
                 std::max(frame.fingers[0].f_sent_W.norm(), frame.fingers[1].f_sent_W.norm());
             if (frame.sequence == kTick + 1) {
@@ -183,7 +183,7 @@ INSTANTIATE_TEST_SUITE_P(Servo, ForceCut, ::testing::Values("openhaptics", "forc
 class Late : public ::testing::TestWithParam<const char*> {
   protected:
     /// Runs for 0.7 s; a call of the second device blocks for `pause`.
-    Timing run(Grasp& grasp, Time pause, const FrameSink& sink) {
+    Timing run(Grasp& grasp, Time pause, const frame::FrameSink& sink) {
         auto frames = std::make_shared<int>(0);
         const auto block = [this, pause, frames](size_t device) {
             if (device != 1 || ++*frames != kTick) return;
@@ -206,12 +206,12 @@ class Late : public ::testing::TestWithParam<const char*> {
 };
 
 TEST_P(Late, By5MsIsAnOverrun) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.max_pause = 1;  // real pauses on a busy machine are not tested here
     settings.safety.hand_damping = 100;
     Grasp grasp(GetParam(), settings);
     double force = 0;
-    const Timing timing = run(grasp, milliseconds(5), [&](const Frame& frame) {
+    const Timing timing = run(grasp, milliseconds(5), [&](const frame::Frame& frame) {
         force = frame.fingers[1].f_sent_W.norm();
     });
     EXPECT_GE(timing.overruns, 1);
@@ -221,7 +221,7 @@ TEST_P(Late, By5MsIsAnOverrun) {
 
 TEST_P(Late, By50MsTakesAllForceAway) {
     Grasp grasp(GetParam());
-    run(grasp, milliseconds(50), [&](const Frame& frame) {
+    run(grasp, milliseconds(50), [&](const frame::Frame& frame) {
         if (frame.sequence < kTick) return;  // frames count from 0, blocking ones from 1
         EXPECT_NE(frame.status & kForceOff, 0u) << frame.sequence;
         EXPECT_EQ(grasp.acting(0), 0);
@@ -236,7 +236,7 @@ TEST_P(Late, By50MsTakesAllForceAway) {
 INSTANTIATE_TEST_SUITE_P(Servo, Late, ::testing::Values("openhaptics", "forcedimension"));
 
 TEST(LateCalls, OfDevicesThatPaceAreOverrunsThoughNoTickIs) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.max_pause = 1;
     Grasp grasp("openhaptics", settings);
     grasp.hd->real_time = true;
@@ -251,7 +251,7 @@ TEST(LateCalls, OfDevicesThatPaceAreOverrunsThoughNoTickIs) {
     int64_t recorded = 0;
     run_real(
         *grasp.servo, {},
-        [&](const Frame& frame) {
+        [&](const frame::Frame& frame) {
             if (frame.sequence == 200) status = frame.status;
             recorded += (frame.status & kOverrun) != 0;
         },

@@ -10,7 +10,7 @@ namespace dihaptic::servo::makers_torque_test {
 namespace {
 
 struct Turned {
-    Frame last;                    ///< after 1.5 s
+    frame::Frame last;             ///< after 1.5 s
     Vec3 acting_D = Vec3::Zero();  ///< torque of the fake's device on the hand at that time [N*m]
     double peak = 0;               ///< peak torque that the device states [N*m]
 };
@@ -37,14 +37,15 @@ Turned turn_the_bar(const std::string& backend, const Pose& X_WD) {
     const std::atomic<bool> stop{false};
     run_virtual(
         servo,
-        [&](const Frame& last, std::span<const haptics::Handle>, Commands&) {
+        [&](const frame::Frame& last, std::span<const frame::Handle>, frame::Commands&) {
             if (last.sequence < 0 || simulated) return;
             out.acting_D =
                 backend == "openhaptics"
                     ? devices::openhaptics::fake_hd_as_it_is().devices[0].acting_torque
                     : devices::forcedimension::fake_dhd_as_it_is().devices[0].acting_torque;
         },
-        [&](const Frame& frame) { out.last = frame; }, std::chrono::milliseconds(1500), stop);
+        [&](const frame::Frame& frame) { out.last = frame; }, std::chrono::milliseconds(1500),
+        stop);
     return out;
 }
 

@@ -20,7 +20,7 @@ struct Session {
     std::unique_ptr<Servo> servo;
     int next = 0;
 
-    explicit Session(double turn, const Settings& settings = {},
+    explicit Session(double turn, const frame::Settings& settings = {},
                      const std::string& options = "{orientation: yes, peak_torque_Nm: 1}",
                      const Vec3& rotation = Vec3::Zero()) {
         driver = std::make_unique<hand::ScriptDriver>(turning_hand(turn),
@@ -41,9 +41,9 @@ struct Session {
                                         rig::poses(rig, {"hand"}));
         servo->activate();
     }
-    const Frame& tick() { return servo->tick(next++ * std::chrono::milliseconds(1), {}); }
-    const Frame& run(int ticks) {
-        const Frame* frame = nullptr;
+    const frame::Frame& tick() { return servo->tick(next++ * std::chrono::milliseconds(1), {}); }
+    const frame::Frame& run(int ticks) {
+        const frame::Frame* frame = nullptr;
         for (int i = 0; i < ticks; ++i) frame = &tick();
         return *frame;
     }
@@ -54,10 +54,10 @@ TEST(Orientation, AToolThatIsStoppedIsFeltAsATorqueWhereverTheDeviceStands) {
     for (const Vec3& rotation : {Vec3(0, 0, 0), Vec3(1.2, -0.4, 2)}) {
         Session session(0.2, {}, "{orientation: yes, peak_torque_Nm: 1}", rotation);
         const testing::AllocationGuard guard;
-        const Frame& frame = session.run(1500);
+        const frame::Frame& frame = session.run(1500);
         EXPECT_EQ(guard.count(), 0u);
         EXPECT_EQ(frame.status, 0u);
-        const TurnFrame& turn = frame.turns.at(0);
+        const frame::TurnFrame& turn = frame.turns.at(0);
         // 1 N*m/rad of the hand and as much of the coupling, in series, over 0.2 rad
         EXPECT_NEAR(turn.t_sent_W.y(), -0.1, 1e-4);
         EXPECT_EQ(turn.t_sent_W, turn.t_asked_W);
@@ -71,7 +71,7 @@ TEST(Orientation, AToolThatIsStoppedIsFeltAsATorqueWhereverTheDeviceStands) {
 
 TEST(Orientation, IsFollowedByToolsOfDevicesThatRenderNoTorque) {
     Session session(0.2, {}, "orientation: yes");
-    const Frame& frame = session.run(1500);
+    const frame::Frame& frame = session.run(1500);
     EXPECT_EQ(frame.status, 0u);
     EXPECT_NEAR(frame.turns[0].t_asked_W.y(), -0.2, 1e-3);
     EXPECT_EQ(frame.turns[0].t_sent_W, Vec3::Zero());
@@ -80,16 +80,16 @@ TEST(Orientation, IsFollowedByToolsOfDevicesThatRenderNoTorque) {
 
 TEST(Orientation, LeavesToolsOfOtherDevicesAsTheyAre) {
     Session session(0.2, {}, "{}");
-    const Frame& frame = session.run(600);
+    const frame::Frame& frame = session.run(600);
     EXPECT_TRUE(frame.turns.empty());
     EXPECT_EQ(frame.fingers[0].R_WP.coeffs(), Quat::Identity().coeffs());
     EXPECT_EQ(session.device->told[0].torque, Vec3::Zero());
 }
 
 TEST(Orientation, TorqueIsCutToTheDevicesPeakAndTheSetting) {
-    Settings settings;
+    frame::Settings settings;
     Session weak(0.4, settings, "{orientation: yes, peak_torque_Nm: 0.05}");
-    const Frame& frame = weak.run(1500);
+    const frame::Frame& frame = weak.run(1500);
     EXPECT_NE(frame.status & kForceLimited, 0u);
     EXPECT_NEAR(frame.turns[0].t_sent_W.norm(), 0.05, 1e-12);
     settings.safety.max_torque = 0.03;
@@ -98,7 +98,7 @@ TEST(Orientation, TorqueIsCutToTheDevicesPeakAndTheSetting) {
 }
 
 TEST(Orientation, TorqueHeldTooLongFallsToTheContinuousOne) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.heating_time = 1;
     Session session(0.4, settings,
                     "{orientation: yes, peak_torque_Nm: 0.5, continuous_torque_Nm: 0.05}");
@@ -109,13 +109,13 @@ TEST(Orientation, TorqueHeldTooLongFallsToTheContinuousOne) {
 }
 
 TEST(Orientation, TorqueChangesNoFasterThanAllowed) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.max_torque_rate = 0.2;  // the hand turns into the stops at 0.9 N*m/s
     Session session(0.2, settings);
     double last = 0;
     uint32_t status = 0;
     for (int i = 0; i < 1500; ++i) {
-        const Frame& frame = session.tick();
+        const frame::Frame& frame = session.tick();
         const double now = frame.turns[0].t_sent_W.y();
         ASSERT_LE(std::abs(now - last), 0.2e-3 * (1 + 1e-9)) << i;
         last = now;
@@ -126,7 +126,7 @@ TEST(Orientation, TorqueChangesNoFasterThanAllowed) {
 }
 
 TEST(Orientation, TorqueComesOnSoftlyAndGoesWithTheDeadManSwitch) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.dead_man_finger = "hand";
     Session session(0.2, settings);
     session.run(800);
@@ -136,7 +136,7 @@ TEST(Orientation, TorqueComesOnSoftlyAndGoesWithTheDeadManSwitch) {
     EXPECT_TRUE(session.device->told[0].is_zero());
     session.buttons = 1;
     session.tick();
-    const Frame& frame = session.run(100);
+    const frame::Frame& frame = session.run(100);
     EXPECT_NE(frame.status & kSoftStarted, 0u);
     EXPECT_NEAR(frame.turns[0].t_sent_W.norm() / frame.turns[0].t_asked_W.norm(), 0.2, 1e-9);
 }
@@ -165,7 +165,7 @@ TEST(Orientation, WhatCannotBeIsAFaultThatEndsTorqueAndForce) {
         session.run(800);
         EXPECT_GT(session.device->told[0].torque.norm(), 0.05);
         session.spoil = bad.spoil;
-        const Frame& frame = session.tick();
+        const frame::Frame& frame = session.tick();
         EXPECT_TRUE(session.device->told[0].is_zero());
         EXPECT_EQ(session.servo->fault().kind, bad.kind);
         EXPECT_NE(frame.status & bad.status, 0u);
@@ -181,15 +181,14 @@ TEST(Orientation, TheOperatorEndsTorqueToo) {
     Session session(0.2);
     session.run(800);
     session.servo->tick(std::chrono::milliseconds(session.next),
-                        [](const Frame&, std::span<const haptics::Handle>, Commands& commands) {
-                            commands.force_off = true;
-                        });
+                        [](const frame::Frame&, std::span<const frame::Handle>,
+                           frame::Commands& commands) { commands.force_off = true; });
     EXPECT_TRUE(session.device->told[0].is_zero());
 }
 
 TEST(Orientation, IsWatchedByTheEnergyGuard) {
     // a coupling that feeds the hand's swing instead of damping it, against a sound one
-    Settings settings;
+    frame::Settings settings;
     Session sound(0.3, settings);
     uint32_t status = 0;
     for (int i = 0; i < 3000; ++i) status |= sound.tick().status;

@@ -3,9 +3,9 @@
 
 #include <numbers>
 
+#include "frame/displayed.h"
 #include "hand/script.h"
 #include "rig/rig.h"
-#include "servo/displayed.h"
 #include "servo/servo.h"
 #include "testing/allocation_guard.h"
 
@@ -23,7 +23,7 @@ struct Desk {
     int next = 0;
 
     explicit Desk(bool gravity, double friction = 0.5, const Vec3& move = Vec3::Zero(),
-                  const Settings& settings = {}) {
+                  const frame::Settings& settings = {}) {
         if (!gravity) scene.gravity.setZero();
         scene::Body plane;
         plane.name = "plane";
@@ -58,35 +58,36 @@ struct Desk {
                                         rig::poses(rig, fingers));
         servo->activate();
     }
-    const Frame& tick(const std::function<void(const Frame&, Commands&)>& order = {}) {
-        return servo->tick(
-            next++ * std::chrono::milliseconds(1),
-            [&](const Frame& last, std::span<const haptics::Handle>, Commands& commands) {
-                if (order) order(last, commands);
-            });
+    const frame::Frame& tick(
+        const std::function<void(const frame::Frame&, frame::Commands&)>& order = {}) {
+        return servo->tick(next++ * std::chrono::milliseconds(1),
+                           [&](const frame::Frame& last, std::span<const frame::Handle>,
+                               frame::Commands& commands) {
+                               if (order) order(last, commands);
+                           });
     }
 };
 
-PropertiesFrame with_mass(const Vec3& scale) {
-    PropertiesFrame out;
+frame::PropertiesFrame with_mass(const Vec3& scale) {
+    frame::PropertiesFrame out;
     out.body = 1;
     out.mass_scale = scale;
     return out;
 }
 
-class AnySolver : public ::testing::TestWithParam<dynamics::Solver> {
+class AnySolver : public ::testing::TestWithParam<contact::Solver> {
   protected:
-    Settings settings() const {
-        Settings out;
+    frame::Settings settings() const {
+        frame::Settings out;
         out.dynamics.solver = GetParam();
         return out;
     }
 };
 INSTANTIATE_TEST_SUITE_P(Perturbation, AnySolver,
-                         ::testing::Values(dynamics::Solver::newton,
-                                           dynamics::Solver::staggered_projections,
-                                           dynamics::Solver::stewart_trinkle,
-                                           dynamics::Solver::sequential_impulse),
+                         ::testing::Values(contact::Solver::newton,
+                                           contact::Solver::staggered_projections,
+                                           contact::Solver::stewart_trinkle,
+                                           contact::Solver::sequential_impulse),
                          [](const auto& of) { return std::string(enum_name(of.param)); });
 
 TEST(Perturbation, DirectionalMassIsFeltAlongEachAxisAndTheWeightStays) {
@@ -95,12 +96,12 @@ TEST(Perturbation, DirectionalMassIsFeltAlongEachAxisAndTheWeightStays) {
     const Vec3 force(0.3, -0.2, 0.4);
     Vec3 v = Vec3::Zero();
     // in free fall, above the plane
-    desk.tick([](const Frame&, Commands& c) {
+    desk.tick([](const frame::Frame&, frame::Commands& c) {
         add(c.task.placements, {1, {Quat::Identity(), {0, 0, 1}}});
     });
     v = desk.servo->world().state({1}).v_WB;
     for (int i = 0; i < 100; ++i) {
-        const Frame& frame = desk.tick([&](const Frame&, Commands& c) {
+        const frame::Frame& frame = desk.tick([&](const frame::Frame&, frame::Commands& c) {
             add(c.task.properties, with_mass(scale));
             add(c.task.loads, {1, force, Vec3::Zero()});
         });
@@ -120,12 +121,12 @@ TEST(Perturbation, FrictionOfAFixedBodyWakesWhatRestsOnItAndLetsItSlide) {
     for (int i = 0; i < 1000; ++i) desk.tick();
     EXPECT_EQ(desk.tick().bodies[1].awake, 0);
     const double force = 0.8;  // too little for the whole coefficient
-    PropertiesFrame slippery;
+    frame::PropertiesFrame slippery;
     slippery.body = 0;
     slippery.friction_scale = 0.5;
     double v = 0;
     for (int i = 0; i < 300; ++i) {
-        const Frame& frame = desk.tick([&](const Frame&, Commands& c) {
+        const frame::Frame& frame = desk.tick([&](const frame::Frame&, frame::Commands& c) {
             add(c.task.properties, slippery);
             add(c.task.loads, {1, {force, 0, 0}, Vec3::Zero()});
         });
@@ -138,7 +139,7 @@ TEST(Perturbation, FrictionOfAFixedBodyWakesWhatRestsOnItAndLetsItSlide) {
     }
     EXPECT_GT(v, 0.3);
     for (int i = 0; i < 1000; ++i) {  // without an order the plane is as in the scene
-        desk.tick([&](const Frame&, Commands& c) {
+        desk.tick([&](const frame::Frame&, frame::Commands& c) {
             add(c.task.loads, {1, {force, 0, 0}, Vec3::Zero()});
         });
     }
@@ -152,7 +153,7 @@ TEST_P(AnySolver, SlidesABlockOfDirectionalMassUnderItsTrueWeight) {
     const double force = 2;
     double v = 0;
     for (int i = 0; i < 300; ++i) {
-        const Frame& frame = desk.tick([&](const Frame&, Commands& c) {
+        const frame::Frame& frame = desk.tick([&](const frame::Frame&, frame::Commands& c) {
             add(c.task.properties, with_mass({3, 1, 1}));
             add(c.task.loads, {1, {force, 0, 0}, Vec3::Zero()});
         });
@@ -163,7 +164,7 @@ TEST_P(AnySolver, SlidesABlockOfDirectionalMassUnderItsTrueWeight) {
         v += kTick * (force - mu * kMass * 9.81) / (3 * kMass);
         EXPECT_NEAR(frame.bodies[1].v_WB.x(), v, 2e-5) << i;
         double normal = 0;
-        for (const ContactFrame& contact : frame.contacts) normal += contact.normal_force;
+        for (const frame::ContactFrame& contact : frame.contacts) normal += contact.normal_force;
         EXPECT_NEAR(normal, kMass * 9.81, 2e-3);
     }
     EXPECT_GT(v, 0.4);
@@ -171,31 +172,32 @@ TEST_P(AnySolver, SlidesABlockOfDirectionalMassUnderItsTrueWeight) {
 
 TEST(Perturbation, WeightDensityAndFrictionChangeWhatTheyName) {
     Desk desk(true);
-    const auto normal_and_slide = [&](const PropertiesFrame& properties, double force) {
+    const auto normal_and_slide = [&](const frame::PropertiesFrame& properties, double force) {
         double normal = 0;
         for (int i = 0; i < 200; ++i) {
-            const Frame& frame = desk.tick([&](const Frame&, Commands& c) {
+            const frame::Frame& frame = desk.tick([&](const frame::Frame&, frame::Commands& c) {
                 if (i == 0) add(c.task.placements, {1, {Quat::Identity(), {0, 0, 0.02}}});
                 add(c.task.properties, properties);
                 add(c.task.loads, {1, {force, 0, 0}, Vec3::Zero()});
             });
             normal = 0;
-            for (const ContactFrame& contact : frame.contacts) normal += contact.normal_force;
+            for (const frame::ContactFrame& contact : frame.contacts)
+                normal += contact.normal_force;
         }
         return std::pair{normal, desk.servo->world().state({1}).v_WB.x()};
     };
-    PropertiesFrame heavy;
+    frame::PropertiesFrame heavy;
     heavy.body = 1;
     heavy.weight_scale = 2;
     const auto [weight, slid] = normal_and_slide(heavy, 3);
     EXPECT_NEAR(weight, 2 * kMass * 9.81, 1e-6);
     EXPECT_NEAR(slid, 0.2 * (3 - 0.5 * 2 * kMass * 9.81) / kMass, 1e-3);
-    PropertiesFrame dense = with_mass(Vec3::Constant(2));
+    frame::PropertiesFrame dense = with_mass(Vec3::Constant(2));
     dense.weight_scale = dense.turning_scale = 2;
     const auto [dense_weight, dense_slid] = normal_and_slide(dense, 3);
     EXPECT_NEAR(dense_weight, 2 * kMass * 9.81, 1e-6);
     EXPECT_NEAR(dense_slid, 0.2 * (3 - 0.5 * 2 * kMass * 9.81) / (2 * kMass), 1e-3);
-    PropertiesFrame slippery;
+    frame::PropertiesFrame slippery;
     slippery.body = 1;
     slippery.friction_scale = 0.2;
     const auto [same_weight, slippery_slid] = normal_and_slide(slippery, 1);
@@ -205,11 +207,11 @@ TEST(Perturbation, WeightDensityAndFrictionChangeWhatTheyName) {
 
 TEST(Perturbation, DensityScalesTheMomentsOfInertiaToo) {
     Desk desk(false);
-    PropertiesFrame dense = with_mass(Vec3::Constant(4));
+    frame::PropertiesFrame dense = with_mass(Vec3::Constant(4));
     dense.turning_scale = 4;
     const double moment = kMass * (0.04 * 0.04 + 0.04 * 0.04) / 12;
     for (int i = 0; i < 10; ++i) {
-        desk.tick([&](const Frame&, Commands& c) {
+        desk.tick([&](const frame::Frame&, frame::Commands& c) {
             add(c.task.properties, dense);
             add(c.task.loads, {1, Vec3::Zero(), {0, 0, 1e-3}});
         });
@@ -221,31 +223,33 @@ TEST(Perturbation, AChangeOfWeightWakesWhatSleeps) {
     Desk desk(true);
     for (int i = 0; i < 700; ++i) desk.tick();
     ASSERT_EQ(desk.tick().bodies[1].awake, 0u);
-    PropertiesFrame floating;
+    frame::PropertiesFrame floating;
     floating.body = 1;
     floating.weight_scale = -1;
-    const auto order = [&](const Frame&, Commands& c) { add(c.task.properties, floating); };
+    const auto order = [&](const frame::Frame&, frame::Commands& c) {
+        add(c.task.properties, floating);
+    };
     desk.tick(order);
     for (int i = 0; i < 99; ++i) desk.tick(order);
     EXPECT_NEAR(desk.servo->world().state({1}).v_WB.z(), 100 * kTick * 9.81, 1e-9);
 }
 
 TEST(Perturbation, AForceOnAHandleIsAddedToTheCouplingsAndLimitedAsThatIs) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.soft_start = 0;
     settings.safety.max_force = 2;
     Desk desk(true, 0.5, Vec3::Zero(), settings);
     const int32_t proxy = 2;
-    const Frame* frame = nullptr;
+    const frame::Frame* frame = nullptr;
     for (int i = 0; i < 1000; ++i) {
-        frame = &desk.tick([&](const Frame&, Commands& c) {
+        frame = &desk.tick([&](const frame::Frame&, frame::Commands& c) {
             add(c.task.loads, {proxy, {0, 0.6, 0}, Vec3::Zero()});
         });
     }
     EXPECT_LT((frame->fingers[0].f_sent_W - Vec3(0, 0.6, 0)).norm(), 1e-12);
     EXPECT_EQ(frame->fingers[0].f_asked_W, Vec3::Zero());
     EXPECT_NEAR(frame->fingers[0].p_WH.y(), 0.6 / 300, 1e-5);
-    frame = &desk.tick([&](const Frame&, Commands& c) {
+    frame = &desk.tick([&](const frame::Frame&, frame::Commands& c) {
         add(c.task.loads, {proxy, {0, 60, 0}, Vec3::Zero()});
     });
     EXPECT_LE(frame->fingers[0].f_sent_W.norm(), 2 + 1e-12);
@@ -254,12 +258,12 @@ TEST(Perturbation, AForceOnAHandleIsAddedToTheCouplingsAndLimitedAsThatIs) {
 
 TEST(Perturbation, TurnsScalesAndGuidesWhatIsShownAndNothingElse) {
     const Vec3 centre(0.3, 0, 0.1);
-    const auto path = [&](const VisualMap& map) -> Vec3 {
+    const auto path = [&](const frame::VisualMap& map) -> Vec3 {
         Desk desk(true, 0.5, {0.1, 0, 0});
         double farthest = 0;
         for (int i = 0; i < 500; ++i) {
-            const Frame& frame =
-                desk.tick([&](const Frame&, Commands& c) { add(c.task.visual, map); });
+            const frame::Frame& frame = desk.tick(
+                [&](const frame::Frame&, frame::Commands& c) { add(c.task.visual, map); });
             const Vec3 arm = frame.fingers[0].p_WH - centre;
             Vec3 expected = centre + map.R * map.scale.cwiseProduct(arm);
             if (map.along_W != Vec3::Zero()) expected = centre + arm.norm() * map.along_W;
@@ -268,13 +272,15 @@ TEST(Perturbation, TurnsScalesAndGuidesWhatIsShownAndNothingElse) {
             farthest = std::max(farthest, arm.norm());
         }
         EXPECT_NEAR(farthest, 0.1, 0.002);
-        return displayed_handle(
-                   desk.tick([&](const Frame&, Commands& c) { add(c.task.visual, map); }), 0)
+        return displayed_handle(desk.tick([&](const frame::Frame&, frame::Commands& c) {
+                   add(c.task.visual, map);
+               }),
+                                0)
                    .p -
                centre;
     };
-    VisualMap map;
-    map.moves = kMovesProxies;
+    frame::VisualMap map;
+    map.moves = frame::kMovesProxies;
     map.p_WC = centre;
     map.R = Quat(Eigen::AngleAxisd(std::numbers::pi / 6, Vec3::UnitZ()));
     const Vec3 turned = path(map);
@@ -289,13 +295,13 @@ TEST(Perturbation, TurnsScalesAndGuidesWhatIsShownAndNothingElse) {
 
 TEST(Perturbation, MovesTheObjectAndItsSizeWhenItNamesThem) {
     Desk desk(true);
-    VisualMap map;
-    map.moves = kMovesObject | kMovesTargets;
+    frame::VisualMap map;
+    map.moves = frame::kMovesObject | frame::kMovesTargets;
     map.object = 1;
     map.size = 1.2;
     map.p_WC = {0.1, 0, 0.02};
     map.R = Quat(Eigen::AngleAxisd(std::numbers::pi / 2, Vec3::UnitZ()));
-    const Frame& frame = desk.tick([&](const Frame&, Commands& c) {
+    const frame::Frame& frame = desk.tick([&](const frame::Frame&, frame::Commands& c) {
         add(c.task.visual, map);
         add(c.task.targets, {0, {0.1, 0.1, 0}, 0.01});
     });
@@ -312,7 +318,7 @@ TEST_P(AnySolver, SlidesABlockUnderScaledFriction) {
     ASSERT_EQ(desk.tick().bodies[1].awake, 0u);
     // at a friction scale of 0.7 the block withstands 0.6 N, at 0.2 it does not
     const auto pulled = [&](double scale) {
-        return desk.tick([&](const Frame&, Commands& c) {
+        return desk.tick([&](const frame::Frame&, frame::Commands& c) {
             c.knobs.friction_scale = scale;
             add(c.task.loads, {1, {0.6, 0, 0}, Vec3::Zero()});
         });
@@ -326,10 +332,9 @@ TEST_P(AnySolver, SlidesABlockUnderScaledFriction) {
 
 TEST(Perturbation, ScaledFrictionIsThatOfEveryProxy) {
     for (const bool point : {false, true}) {
-        for (const auto friction :
-             {haptics::PointFriction::together, haptics::PointFriction::apart}) {
-            Settings settings;
-            if (point) settings.proxy.kind = haptics::ProxyKind::point;
+        for (const auto friction : {frame::PointFriction::together, frame::PointFriction::apart}) {
+            frame::Settings settings;
+            if (point) settings.proxy.kind = scene::ProxyKind::point;
             settings.proxy.friction = friction;
             // the target goes down into the plane, and along it
             Desk desk(true, 0.5, {0.2, 0, -0.115}, settings);
@@ -337,9 +342,9 @@ TEST(Perturbation, ScaledFrictionIsThatOfEveryProxy) {
                                                    desk.scene.fingers[0].friction);
             int slid = 0;
             for (int i = 0; i < 380; ++i) {
-                const Frame& frame =
-                    desk.tick([&](const Frame&, Commands& c) { c.knobs.friction_scale = 0.3; });
-                const FingerFrame& finger = frame.fingers[0];
+                const frame::Frame& frame = desk.tick(
+                    [&](const frame::Frame&, frame::Commands& c) { c.knobs.friction_scale = 0.3; });
+                const frame::FingerFrame& finger = frame.fingers[0];
                 if (finger.normal_force < 0.3 || finger.v_WH.x() < 0.1) continue;
                 ++slid;
                 ASSERT_NEAR(-finger.f_contact_W.x() / finger.normal_force, 0.3 * mu, 2e-3) << i;
@@ -353,16 +358,18 @@ TEST(Perturbation, AllocatesNothing) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     Desk desk(true);
     for (int i = 0; i < 700; ++i) desk.tick();
-    const Director director = [](const Frame&, std::span<const haptics::Handle>, Commands& c) {
-        add(c.task.visual, VisualMap{});
+    const frame::Director director = [](const frame::Frame&, std::span<const frame::Handle>,
+                                        frame::Commands& c) {
+        add(c.task.visual, frame::VisualMap{});
         add(c.task.properties, with_mass({2, 1, 1}));
         for (int n = 0; n < 20; ++n) add(c.task.loads, {1, {0.1, 0, 0}, Vec3::Zero()});
         add(c.task.placements, {1, {Quat::Identity(), {0, 0, 0.02}}});
     };
     const testing::AllocationGuard guard;
     for (int i = 0; i < 50; ++i) {
-        const Frame& frame = desk.servo->tick(desk.next++ * std::chrono::milliseconds(1), director);
-        ASSERT_EQ(frame.task.loads.size(), TaskFrame::kMostLoads);
+        const frame::Frame& frame =
+            desk.servo->tick(desk.next++ * std::chrono::milliseconds(1), director);
+        ASSERT_EQ(frame.task.loads.size(), frame::TaskFrame::kMostLoads);
     }
     EXPECT_EQ(guard.count(), 0u);
 }

@@ -18,7 +18,7 @@ struct PlantedGrasp {
     std::unique_ptr<Servo> servo;
     Time now{0};
 
-    explicit PlantedGrasp(const Settings& settings = {},
+    explicit PlantedGrasp(const frame::Settings& settings = {},
                           const std::function<void(std::vector<Pose>&)>& calibrate = {}) {
         const scene::Scene scene = block_on_table();
         const auto fingers = scene::finger_names(scene);
@@ -36,8 +36,8 @@ struct PlantedGrasp {
         servo->activate();
     }
 
-    const Frame& tick(const Director& director = {}) {
-        const Frame& frame = servo->tick(now, director);
+    const frame::Frame& tick(const frame::Director& director = {}) {
+        const frame::Frame& frame = servo->tick(now, director);
         now += servo->period();
         return frame;
     }

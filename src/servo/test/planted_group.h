@@ -34,9 +34,8 @@ class PlantedGroup : public devices::DeviceGroup {
     }
 
   private:
-    static std::vector<devices::DeviceInfo> infos(const devices::DeviceGroup& inner,
-                                                  bool simulated) {
-        std::vector<devices::DeviceInfo> out;
+    static std::vector<frame::DeviceInfo> infos(const devices::DeviceGroup& inner, bool simulated) {
+        std::vector<frame::DeviceInfo> out;
         for (int i = 0; i < inner.size(); ++i) {
             out.push_back(inner.info(i));
             out.back().simulated = simulated;

@@ -17,28 +17,27 @@ using testing::system_calls;
 using testing::SystemCalls;
 
 struct Case {
-    dynamics::Solver solver = dynamics::Solver::newton;
-    haptics::ProxyKind proxy = haptics::ProxyKind::rigid;
-    haptics::CouplingKind coupling = haptics::CouplingKind::implicit;
+    contact::Solver solver = contact::Solver::newton;
+    scene::ProxyKind proxy = scene::ProxyKind::rigid;
+    frame::CouplingKind coupling = frame::CouplingKind::implicit;
 };
 
 class Quiet : public ::testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Ticks, Quiet,
-                         ::testing::Values(Case{}, Case{dynamics::Solver::staggered_projections},
-                                           Case{dynamics::Solver::stewart_trinkle},
-                                           Case{dynamics::Solver::sequential_impulse},
-                                           Case{dynamics::Solver::newton,
-                                                haptics::ProxyKind::point},
-                                           Case{dynamics::Solver::newton, haptics::ProxyKind::rigid,
-                                                haptics::CouplingKind::dual_spring}),
+                         ::testing::Values(Case{}, Case{contact::Solver::staggered_projections},
+                                           Case{contact::Solver::stewart_trinkle},
+                                           Case{contact::Solver::sequential_impulse},
+                                           Case{contact::Solver::newton, scene::ProxyKind::point},
+                                           Case{contact::Solver::newton, scene::ProxyKind::rigid,
+                                                frame::CouplingKind::dual_spring}),
                          [](const auto& of) {
                              return std::string(enum_name(of.param.solver)) + "_" +
                                     std::string(enum_name(of.param.proxy)) + "_" +
                                     std::string(enum_name(of.param.coupling));
                          });
 
-Settings settings_of(const Case& c) {
-    Settings out;
+frame::Settings settings_of(const Case& c) {
+    frame::Settings out;
     out.dynamics.solver = c.solver;
     out.proxy.kind = c.proxy;
     out.coupling.kind = c.coupling;
@@ -46,7 +45,7 @@ Settings settings_of(const Case& c) {
 }
 
 /// The ticks of a whole grasp: in the air, touching, lifting, holding.
-void grasp(PlantedGrasp& fingers, const Director& director = {}) {
+void grasp(PlantedGrasp& fingers, const frame::Director& director = {}) {
     for (int i = 0; i < 900; ++i) fingers.tick(director);
 }
 
@@ -73,7 +72,7 @@ TEST(QuietGuard, SeesALockAnExceptionAndACall) {
     PlantedGrasp fingers;
     std::mutex mutex;
     const QuietGuard guard;
-    grasp(fingers, [&](const Frame&, std::span<const haptics::Handle>, Commands&) {
+    grasp(fingers, [&](const frame::Frame&, std::span<const frame::Handle>, frame::Commands&) {
         const std::lock_guard lock(mutex);
         try {
             throw 1;
@@ -84,7 +83,7 @@ TEST(QuietGuard, SeesALockAnExceptionAndACall) {
     EXPECT_EQ(guard.throws(), 900u);
 
     const SystemCalls calls = system_calls([&] {
-        grasp(fingers, [&](const Frame&, std::span<const haptics::Handle>, Commands&) {
+        grasp(fingers, [&](const frame::Frame&, std::span<const frame::Handle>, frame::Commands&) {
             syscall(SYS_getppid);
         });
     });

@@ -29,7 +29,7 @@ void expect_soft_beginning(PlantedGrasp& grasp) {
     const double soft_start = grasp.servo->settings().safety.soft_start;
     double last = 0;
     for (int i = 0; i < 300; ++i) {
-        const Frame& frame = grasp.tick();
+        const frame::Frame& frame = grasp.tick();
         ASSERT_EQ(frame.status & kForceOff, 0u) << i;
         if (i == 0) {
             ASSERT_EQ(grasp.told(), 0);
@@ -90,8 +90,9 @@ INSTANTIATE_TEST_SUITE_P(
               [](PlantedGrasp& g) { g.now += std::chrono::milliseconds(50); }},
         Cause{"not_finite", haptics::FaultKind::not_finite,
               [](PlantedGrasp& g) {
-                  g.tick([](const Frame&, std::span<const haptics::Handle>, Commands& commands) {
-                      LoadFrame load;
+                  g.tick([](const frame::Frame&, std::span<const frame::Handle>,
+                            frame::Commands& commands) {
+                      frame::LoadFrame load;
                       load.body = 2;  // the first finger's proxy, so the load is a force field
                       load.force_W.x() = kUnmeasured;
                       commands.task.loads.push_back(load);
@@ -100,13 +101,13 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& which) { return which.param.name; });
 
 TEST(ForceAfterAPause, BeginsAtZeroWithoutASoftStartToo) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.soft_start = 0;
     PlantedGrasp grasp(settings);
     grasp.grasp();
     grasp.servo->rest();
     grasp.servo->resume();
-    const Frame& frame = grasp.tick();
+    const frame::Frame& frame = grasp.tick();
     EXPECT_EQ(grasp.told(), 0);
     EXPECT_NE(frame.status & kResumed, 0u);
     grasp.tick();
@@ -114,7 +115,7 @@ TEST(ForceAfterAPause, BeginsAtZeroWithoutASoftStartToo) {
 }
 
 TEST(ForceAfterAPause, OfASlowSlewLimitIsZeroInFreeAir) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.max_force_rate = 100;
     PlantedGrasp grasp(settings);
     grasp.grasp();

@@ -19,7 +19,7 @@ struct Session {
     uint32_t buttons = 0;  ///< of the first device
     int next = 0;
 
-    Session(const scene::Scene& scene, const hand::HandSpec& hand, const Settings& settings,
+    Session(const scene::Scene& scene, const hand::HandSpec& hand, const frame::Settings& settings,
             const std::string& options = "") {
         const auto fingers = scene::finger_names(scene);
         driver = std::make_unique<hand::ScriptDriver>(hand, fingers);
@@ -39,7 +39,7 @@ struct Session {
             std::make_unique<Servo>(scene, settings, std::move(group), rig::poses(rig, fingers));
         servo->activate();
     }
-    const Frame& tick(const Director& director = {}) {
+    const frame::Frame& tick(const frame::Director& director = {}) {
         return servo->tick(next++ * std::chrono::milliseconds(1), director);
     }
 };
@@ -70,7 +70,7 @@ hand::HandSpec pressing_hand(double start, double end) {
 }
 
 TEST(Safety, AForceHeldTooLongFallsToTheContinuousOneSmoothly) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.heating_time = 1;
     // 10 mm through 300 and 1000 N/m in series are 2.3 N; later as much as 1.4 N allow
     Session session(wall(), pressing_hand(-0.01, 0.01), settings,
@@ -78,7 +78,7 @@ TEST(Safety, AForceHeldTooLongFallsToTheContinuousOneSmoothly) {
     uint32_t status = 0;
     double peak = 0, last = 0;
     for (int i = 0; i < 3000; ++i) {
-        const Frame& frame = session.tick();
+        const frame::Frame& frame = session.tick();
         const double force = frame.fingers[0].f_sent_W.norm();
         peak = std::max(peak, force);
         // no abrupt cut: (f^2 - f_c^2) f_p^2 / (2 f f_c^2 tau), 27 N/s at 2.3 N
@@ -99,10 +99,10 @@ TEST(Safety, AHandThatLeavesTheWorkspaceIsPushedBack) {
     scene.bodies[0].position.x() += 10;
     // the box ends at x = 50 mm; the hand wants 30 mm more, and 300 and 500 N/m share them
     Session session(scene, pressing_hand(0.0025, 0.0825), {}, "workspace_mm: [100, 500, 500]\n");
-    const Frame* frame = nullptr;
+    const frame::Frame* frame = nullptr;
     for (int i = 0; i < 1500; ++i) {
         frame = &session.tick();
-        const FingerFrame& finger = frame->fingers[0];
+        const frame::FingerFrame& finger = frame->fingers[0];
         const bool outside = finger.p_WH.x() > 0.05;
         EXPECT_EQ((frame->status & kPushedInward) != 0, outside) << i;
         EXPECT_LE(finger.f_sent_W.x(), 0);
@@ -117,12 +117,12 @@ TEST(Safety, AHandThatLeavesTheWorkspaceIsPushedBack) {
 
 /// Largest speed of a hand that begins 5 mm inside a wall and is thrown out [m/s].
 double thrown_at(double soft_start, uint32_t& status) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.soft_start = soft_start;
     Session session(wall(), pressing_hand(0.005, 0.005), settings);
     double speed = 0;
     for (int i = 0; i < 1000; ++i) {
-        const Frame& frame = session.tick();
+        const frame::Frame& frame = session.tick();
         if (i == 0 && soft_start > 0) {
             EXPECT_EQ(session.devices->told[0].force, Vec3::Zero());
         }
@@ -135,7 +135,7 @@ double thrown_at(double soft_start, uint32_t& status) {
 TEST(Safety, AHandThatBeginsInsideAWallIsNotThrownOut) {
     uint32_t soft = 0, hard = 0;
     const double thrown = thrown_at(0, hard);
-    const double eased = thrown_at(Settings{}.safety.soft_start, soft);
+    const double eased = thrown_at(frame::Settings{}.safety.soft_start, soft);
     EXPECT_GT(thrown, 0.2);
     EXPECT_LT(eased, 0.05);
     EXPECT_EQ(hard & kSoftStarted, 0u);
@@ -143,7 +143,7 @@ TEST(Safety, AHandThatBeginsInsideAWallIsNotThrownOut) {
 }
 
 TEST(Safety, AHandThatTouchesLaterFeelsTheSameWithASoftStart) {
-    Settings none;
+    frame::Settings none;
     none.safety.soft_start = 0;
     Session with(wall(), pressing_hand(-0.002, 0.01), {});
     Session without(wall(), pressing_hand(-0.002, 0.01), none);
@@ -155,7 +155,7 @@ TEST(Safety, AHandThatTouchesLaterFeelsTheSameWithASoftStart) {
 
 TEST(Safety, ForceIsOnOnlyWhileTheDeadManSwitchIsHeld) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
-    Settings settings;
+    frame::Settings settings;
     settings.safety.dead_man_finger = "thumb";
     settings.safety.dead_man_button = 2;
     Session session(block_on_table(), lifting_hand(), settings);
@@ -164,7 +164,7 @@ TEST(Safety, ForceIsOnOnlyWhileTheDeadManSwitchIsHeld) {
     for (int i = 0; i < 1200; ++i) {
         const bool held = i < 500 || i >= 600;
         session.buttons = held ? 0b101 : 0b001;
-        const Frame& frame = session.tick();
+        const frame::Frame& frame = session.tick();
         const Vec3& force = session.devices->told[0].force;
         if (!held) {
             ASSERT_EQ(session.devices->largest_told(), 0) << i;
@@ -187,7 +187,7 @@ TEST(Safety, ForceIsOnOnlyWhileTheDeadManSwitchIsHeld) {
 }
 
 TEST(Safety, ASwitchOfAFingerThatIsNotThereIsHeldByNobody) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.dead_man_finger = "toe";
     Session session(block_on_table(), lifting_hand(), settings);
     session.buttons = ~0u;
@@ -202,8 +202,9 @@ TEST(Safety, TheOperatorSwitchesForceOffAtOnceAndEndsTheRun) {
     for (int i = 0; i < 500; ++i) session.tick();
     EXPECT_GT(session.devices->told[0].force.norm(), 0.5);
     EXPECT_FALSE(session.servo->stopped());
-    const Frame& frame = session.tick([](const Frame&, std::span<const haptics::Handle>,
-                                         Commands& commands) { commands.force_off = true; });
+    const frame::Frame& frame =
+        session.tick([](const frame::Frame&, std::span<const frame::Handle>,
+                        frame::Commands& commands) { commands.force_off = true; });
     EXPECT_EQ(session.devices->largest_told(), 0);
     EXPECT_EQ(frame.status, unsigned{kStopped} | kForceOff);
     EXPECT_EQ(session.servo->fault().kind, haptics::FaultKind::stopped);
@@ -211,7 +212,7 @@ TEST(Safety, TheOperatorSwitchesForceOffAtOnceAndEndsTheRun) {
 }
 
 TEST(Safety, AFaultEndsTheRunASecondLater) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.max_speed = 0.05;
     Session session(block_on_table(), lifting_hand(), settings);
     const std::atomic<bool> stop{false};
@@ -245,16 +246,16 @@ struct Energy {
     double most_force = 0;  ///< largest force asked for [N]
 };
 
-Energy observe(const scene::Scene& scene, const hand::HandSpec& hand, const Settings& settings,
-               const std::string& options = "") {
+Energy observe(const scene::Scene& scene, const hand::HandSpec& hand,
+               const frame::Settings& settings, const std::string& options = "") {
     Session session(scene, hand, settings, options);
     Energy out;
     const auto ticks = static_cast<int>(session.driver->duration() * 1e3);
     for (int i = 0; i < ticks; ++i) {
-        const Frame& frame = session.tick();
+        const frame::Frame& frame = session.tick();
         out.status |= frame.status;
         for (size_t f = 0; f < frame.fingers.size(); ++f) {
-            const FingerFrame& finger = frame.fingers[f];
+            const frame::FingerFrame& finger = frame.fingers[f];
             out.most = std::max(out.most, session.servo->generated(static_cast<int>(f)));
             out.most_force = std::max(out.most_force, finger.f_asked_W.norm());
         }
@@ -264,18 +265,18 @@ Energy observe(const scene::Scene& scene, const hand::HandSpec& hand, const Sett
 
 struct Rendering {
     const char* name;
-    haptics::ProxyKind proxy;
+    scene::ProxyKind proxy;
     double stiffness;
     const char* options;
-    haptics::PointFriction friction = haptics::PointFriction::together;
+    frame::PointFriction friction = frame::PointFriction::together;
 };
 void PrintTo(const Rendering& rendering, std::ostream* out) {
     *out << rendering.name;
 }
 class SoundCoupling : public ::testing::TestWithParam<Rendering> {
   protected:
-    Settings settings() const {
-        Settings out;
+    frame::Settings settings() const {
+        frame::Settings out;
         out.proxy.kind = GetParam().proxy;
         out.proxy.friction = GetParam().friction;
         out.coupling.stiffness = GetParam().stiffness;
@@ -292,10 +293,10 @@ TEST_P(SoundCoupling, GivesNobodyEnergyInGraspLiftTossPushAndSlap) {
 }
 
 TEST_P(SoundCoupling, IsSeenWhenItsDampingTurnsNegative) {
-    Settings active = settings();
+    frame::Settings active = settings();
     active.coupling.damping = -5;
     // an apart point has only the mass h c + h^2 k in the step: none with a negative damper
-    active.proxy.friction = haptics::PointFriction::apart;
+    active.proxy.friction = frame::PointFriction::apart;
     // fingers heavy enough for the implicit coupling: m + h c + h^2 k stays positive
     scene::Scene scene = block_on_table();
     for (scene::Finger& finger : scene.fingers) finger.mass = 0.06;
@@ -307,24 +308,24 @@ TEST_P(SoundCoupling, IsSeenWhenItsDampingTurnsNegative) {
 constexpr const char* kPremium = "position_step_mm: 0.03\nfriction_N: 0.04\n";
 INSTANTIATE_TEST_SUITE_P(
     EnergyGuard, SoundCoupling,
-    ::testing::Values(Rendering{"rigid 300", haptics::ProxyKind::rigid, 300, ""},
-                      Rendering{"rigid 1000", haptics::ProxyKind::rigid, 1000, ""},
-                      Rendering{"rigid 3000", haptics::ProxyKind::rigid, 3000, ""},
-                      Rendering{"rigid 1000, premium", haptics::ProxyKind::rigid, 1000, kPremium},
-                      Rendering{"point 300", haptics::ProxyKind::point, 300, ""},
-                      Rendering{"point 1000", haptics::ProxyKind::point, 1000, ""},
-                      Rendering{"point 1000, premium", haptics::ProxyKind::point, 1000, kPremium},
-                      Rendering{"point apart 300", haptics::ProxyKind::point, 300, "",
-                                haptics::PointFriction::apart},
-                      Rendering{"point apart 1000", haptics::ProxyKind::point, 1000, "",
-                                haptics::PointFriction::apart},
-                      Rendering{"point apart 1000, premium", haptics::ProxyKind::point, 1000,
-                                kPremium, haptics::PointFriction::apart}));
+    ::testing::Values(Rendering{"rigid 300", scene::ProxyKind::rigid, 300, ""},
+                      Rendering{"rigid 1000", scene::ProxyKind::rigid, 1000, ""},
+                      Rendering{"rigid 3000", scene::ProxyKind::rigid, 3000, ""},
+                      Rendering{"rigid 1000, premium", scene::ProxyKind::rigid, 1000, kPremium},
+                      Rendering{"point 300", scene::ProxyKind::point, 300, ""},
+                      Rendering{"point 1000", scene::ProxyKind::point, 1000, ""},
+                      Rendering{"point 1000, premium", scene::ProxyKind::point, 1000, kPremium},
+                      Rendering{"point apart 300", scene::ProxyKind::point, 300, "",
+                                frame::PointFriction::apart},
+                      Rendering{"point apart 1000", scene::ProxyKind::point, 1000, "",
+                                frame::PointFriction::apart},
+                      Rendering{"point apart 1000, premium", scene::ProxyKind::point, 1000,
+                                kPremium, frame::PointFriction::apart}));
 
 TEST(EnergyGuard, TellsThatSlowDynamicsFindAFastHandLate) {
     // a world that steps every 10 ms is calm in a grasp; at 0.6 m/s a wall is found up to 6 mm
     // late, which is then given back: at most k / 2 (6 mm)^2 = 36 mJ
-    Settings settings;
+    frame::Settings settings;
     settings.dynamics.every = 10;
     const Energy grasp = observe(block_on_table(), lifting_hand(), settings);
     EXPECT_EQ(grasp.status & kEnergyGenerated, 0u);
@@ -345,24 +346,24 @@ TEST(EnergyGuard, TellsThatSlowDynamicsFindAFastHandLate) {
 
 TEST(EnergyGuard, TamesACouplingThatWouldShakeTheHand) {
     // the hand has 3 N*s/m: with -5 the handle shakes more and more, until it leaves the wall
-    Settings settings;
-    settings.proxy.kind = haptics::ProxyKind::point;
-    settings.proxy.friction = haptics::PointFriction::apart;
+    frame::Settings settings;
+    settings.proxy.kind = scene::ProxyKind::point;
+    settings.proxy.friction = frame::PointFriction::apart;
     settings.coupling.damping = -5;
-    const auto shaking = [&](haptics::EnergyGuardMode mode, uint32_t& status) {
+    const auto shaking = [&](frame::EnergyGuardMode mode, uint32_t& status) {
         settings.safety.energy_guard = mode;
         Session session(wall(), pressing_hand(-0.01, 0.015), settings);
         double speed = 0;
         for (int i = 0; i < 2500; ++i) {
-            const Frame& frame = session.tick();
+            const frame::Frame& frame = session.tick();
             status |= frame.status;
             if (i > 2000) speed = std::max(speed, frame.fingers[0].v_WH.norm());
         }
         return speed;
     };
     uint32_t warned = 0, acted = 0;
-    const double shakes = shaking(haptics::EnergyGuardMode::warn, warned);
-    const double tamed = shaking(haptics::EnergyGuardMode::act, acted);
+    const double shakes = shaking(frame::EnergyGuardMode::warn, warned);
+    const double tamed = shaking(frame::EnergyGuardMode::act, acted);
     EXPECT_GT(shakes, 0.2);
     EXPECT_LT(tamed, shakes / 3);
     EXPECT_NE(warned & kEnergyGenerated, 0u);

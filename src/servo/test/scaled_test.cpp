@@ -36,8 +36,8 @@ struct Rest {
     uint32_t status = 0;
 };
 
-Rest press(double scale, const Settings& given = {}) {
-    Settings settings = given;
+Rest press(double scale, const frame::Settings& given = {}) {
+    frame::Settings settings = given;
     settings.coupling.stiffness = kStiffness;
     scene::Scene scene = block_on_table();
     scene.bodies.resize(1);  // the table
@@ -55,13 +55,13 @@ Rest press(double scale, const Settings& given = {}) {
     Servo servo(scene, settings, rig::make_devices(rig, {finger}, context),
                 rig::poses(rig, {finger}));
     servo.activate();
-    const Frame* frame = nullptr;
+    const frame::Frame* frame = nullptr;
     uint32_t status = 0;
     for (int i = 0; i < 3000; ++i) {
         frame = &servo.tick(i * std::chrono::milliseconds(1), {});
         status |= frame->status;
     }
-    const FingerFrame& f = frame->fingers[0];
+    const frame::FingerFrame& f = frame->fingers[0];
     Rest out;
     out.status = status;
     out.world_force = f.f_sent_W.z();
@@ -93,7 +93,7 @@ TEST(ScaledRig, WallIsAsStiffUnderTheHandAndInTheWorldAsTheSceneSays) {
 }
 
 TEST(ScaledRig, LimitsAreThoseOfTheHandsForce) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.max_force = 1;
     for (const double scale : {3.0, 0.5}) {
         const Rest rest = press(scale, settings);

@@ -24,7 +24,7 @@ struct Grasp {
     using Wrap =
         std::function<std::unique_ptr<devices::DeviceGroup>(std::unique_ptr<devices::DeviceGroup>)>;
 
-    explicit Grasp(const Settings& settings = {}, const std::string& options = "",
+    explicit Grasp(const frame::Settings& settings = {}, const std::string& options = "",
                    const Wrap& wrap = {}) {
         hand.script.push_back({"hold", 0.3, {}, Vec3::Zero(), false});
         const auto fingers = scene::finger_names(scene);
@@ -46,8 +46,8 @@ struct Grasp {
                                         rig::poses(rig, fingers));
         servo->activate();
     }
-    const Frame& run(double from, double to, const FrameSink& sink = {}) {
-        const Frame* frame = nullptr;
+    const frame::Frame& run(double from, double to, const frame::FrameSink& sink = {}) {
+        const frame::Frame* frame = nullptr;
         for (double t = from; t < to - 1e-9; t += 1e-3) {
             frame = &servo->tick(from_seconds(t), {});
             if (sink) sink(*frame);
@@ -59,32 +59,32 @@ struct Grasp {
 /// The fingers sag by half the weight through 300 and 1000 N/m in series.
 constexpr double kLiftedHeight = 0.07 - 0.1 * 9.81 / 2 / (300.0 * 1000 / 1300);
 
-class TwoPoints : public ::testing::TestWithParam<haptics::PointFriction> {
+class TwoPoints : public ::testing::TestWithParam<frame::PointFriction> {
   protected:
-    Settings settings;
+    frame::Settings settings;
     TwoPoints() {
-        settings.proxy.kind = haptics::ProxyKind::point;
+        settings.proxy.kind = scene::ProxyKind::point;
         settings.proxy.friction = GetParam();
     }
-    bool apart() const { return GetParam() == haptics::PointFriction::apart; }
+    bool apart() const { return GetParam() == frame::PointFriction::apart; }
 };
 INSTANTIATE_TEST_SUITE_P(Servo, TwoPoints,
-                         ::testing::Values(haptics::PointFriction::together,
-                                           haptics::PointFriction::apart),
+                         ::testing::Values(frame::PointFriction::together,
+                                           frame::PointFriction::apart),
                          [](const auto& of) { return std::string(enum_name(of.param)); });
 
 TEST_P(TwoPoints, LiftABlockAndMeasureTheGrasp) {
     Grasp grasp(settings);
     double momentum = 0;
     Vec3 impulse = Vec3::Zero();
-    const Frame& frame = grasp.run(0, 1.1, [&](const Frame& f) {
+    const frame::Frame& frame = grasp.run(0, 1.1, [&](const frame::Frame& f) {
         // the block gets the force that the hands get, for apart points in the next step; alike
         // from either side
         momentum = f.bodies[1].v_WB.x() * 0.1;
         if (apart()) {
             EXPECT_NEAR(impulse.x(), momentum, 1e-6);
         }
-        for (const FingerFrame& finger : f.fingers) {
+        for (const frame::FingerFrame& finger : f.fingers) {
             impulse -= finger.f_contact_W * 1e-3;
             EXPECT_EQ(finger.f_asked_W, finger.f_contact_W);
         }
@@ -114,7 +114,7 @@ TEST_P(TwoPoints, AllocateNothingInATick) {
 
 TEST(Servo, LiftsABlockAndMeasuresTheGrasp) {
     Grasp grasp;
-    const Frame& frame = grasp.run(0, 1.1);
+    const frame::Frame& frame = grasp.run(0, 1.1);
     EXPECT_EQ(frame.status, 0u);
     EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), kLiftedHeight, 1e-4);
     // targets 7.5 mm beyond contact, through 300 and 1000 N/m in series
@@ -129,8 +129,8 @@ TEST(Servo, LiftsABlockAndMeasuresTheGrasp) {
 TEST(Servo, TheForceWrittenBelongsToThePositionRead) {
     // pressing a wall at speed: the force of a tick is that of the tick's own depth
     Grasp grasp;
-    grasp.run(0, 0.25, [](const Frame& frame) {
-        const FingerFrame& thumb = frame.fingers[0];
+    grasp.run(0, 0.25, [](const frame::Frame& frame) {
+        const frame::FingerFrame& thumb = frame.fingers[0];
         if (thumb.normal_force <= 0) return;
         const double stretch = thumb.p_WP.x() - thumb.p_WH.x();
         const double spring = 1000 * stretch + 0.5 * (thumb.v_WP.x() - thumb.v_WH.x());
@@ -141,23 +141,23 @@ TEST(Servo, TheForceWrittenBelongsToThePositionRead) {
 TEST(Servo, IsTheSameWhereverTheDevicesStand) {
     Grasp here;
     Grasp there;  // the second device of both is turned: compare the fingers with each other
-    const Frame& frame = here.run(0, 1.1);
+    const frame::Frame& frame = here.run(0, 1.1);
     EXPECT_NEAR(frame.fingers[0].f_sent_W.x(), -frame.fingers[1].f_sent_W.x(), 1e-6);
     EXPECT_NEAR(frame.fingers[0].f_sent_W.z(), frame.fingers[1].f_sent_W.z(), 1e-6);
 }
 
 TEST(Servo, AllocatesNothingAfterActivation) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
-    for (const auto kind : {haptics::CouplingKind::implicit, haptics::CouplingKind::dual_spring,
-                            haptics::CouplingKind::velocity_impulse}) {
+    for (const auto kind : {frame::CouplingKind::implicit, frame::CouplingKind::dual_spring,
+                            frame::CouplingKind::velocity_impulse}) {
         for (const char* options : {"", "preset: premium_1_0\ndelay_ticks: 1\n"}) {
-            Settings settings;
+            frame::Settings settings;
             settings.coupling.kind = kind;
             settings.coupling.stiffness = 500;
             settings.coupling.onset = 0.05;
             Grasp grasp(settings, options);
-            const Director director = [](const Frame&, std::span<const haptics::Handle>,
-                                         Commands& commands) {
+            const frame::Director director = [](const frame::Frame&, std::span<const frame::Handle>,
+                                                frame::Commands& commands) {
                 commands.phase = 1;
                 add(commands.task.loads, {1, {0, 0, 0.01}, Vec3::Zero()});
             };
@@ -173,9 +173,8 @@ TEST(Servo, TheAllocationGuardSeesADirectorThatAllocates) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     Grasp grasp;
     std::vector<int> grows;
-    const Director director = [&](const Frame&, std::span<const haptics::Handle>, Commands&) {
-        grows.push_back(1);
-    };
+    const frame::Director director = [&](const frame::Frame&, std::span<const frame::Handle>,
+                                         frame::Commands&) { grows.push_back(1); };
     const testing::AllocationGuard guard;
     grasp.servo->tick(Time(0), director);
     EXPECT_GT(guard.count(), 0u);
@@ -183,20 +182,20 @@ TEST(Servo, TheAllocationGuardSeesADirectorThatAllocates) {
 
 TEST(Servo, RepeatsItselfToTheBit) {
     Grasp a, b;
-    const Frame& last_a = a.run(0, 1.1);
-    const Frame& last_b = b.run(0, 1.1);
+    const frame::Frame& last_a = a.run(0, 1.1);
+    const frame::Frame& last_b = b.run(0, 1.1);
     EXPECT_EQ(last_a.fingers[0].f_sent_W, last_b.fingers[0].f_sent_W);
     EXPECT_EQ(last_a.bodies[1].X_WB.p, last_b.bodies[1].X_WB.p);
 }
 
 TEST(Servo, KeepsTheForceWithinItsLimitsAndSaysSo) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.max_force = 1.0;
     settings.safety.max_force_rate = 20;
     Grasp grasp(settings);
     Vec3 last = Vec3::Zero();
     uint32_t status = 0;
-    grasp.run(0, 0.6, [&](const Frame& frame) {
+    grasp.run(0, 0.6, [&](const frame::Frame& frame) {
         const Vec3& f = frame.fingers[0].f_sent_W;
         EXPECT_LE(f.norm(), 1.0 + 1e-12);
         EXPECT_LE((f - last).norm(), 20 * 1e-3 + 1e-12);
@@ -215,7 +214,8 @@ TEST(Servo, TellsOfHandlesOutsideTheirWorkspace) {
 TEST(Servo, TellsThatABodyDiverged) {
     Grasp grasp;
     grasp.run(0, 0.05);
-    const Director push = [&](const Frame&, std::span<const haptics::Handle>, Commands& commands) {
+    const frame::Director push = [&](const frame::Frame&, std::span<const frame::Handle>,
+                                     frame::Commands& commands) {
         add(commands.task.loads, {1, {1e300, 0, 0}, Vec3::Zero()});
     };
     uint32_t status = 0;
@@ -225,22 +225,22 @@ TEST(Servo, TellsThatABodyDiverged) {
 }
 
 TEST(Servo, OrdersLastOrAreForOneTickAsTheirTypesSay) {
-    Settings settings;
+    frame::Settings settings;
     settings.coupling.stiffness = 700;
-    settings.dynamics.solver = dynamics::Solver::staggered_projections;
+    settings.dynamics.solver = contact::Solver::staggered_projections;
     Grasp grasp(settings);
-    const Frame& frame = grasp.servo->tick(Time(0), {});
+    const frame::Frame& frame = grasp.servo->tick(Time(0), {});
     EXPECT_EQ(frame.stiffness, 700);
     EXPECT_TRUE(std::isnan(frame.damping));
-    EXPECT_EQ(frame.solver, dynamics::Solver::staggered_projections);
-    const Knobs before = frame;
+    EXPECT_EQ(frame.solver, contact::Solver::staggered_projections);
+    const frame::Knobs before = frame;
     grasp.servo->tick(std::chrono::milliseconds(1),
-                      [](const Frame&, std::span<const haptics::Handle>, Commands& c) {
+                      [](const frame::Frame&, std::span<const frame::Handle>, frame::Commands& c) {
                           c.trial = 3;
                           c.knobs.stiffness = 900;
                           c.knobs.damping = 2;
                           c.knobs.friction_scale = 0.5;
-                          c.knobs.solver = dynamics::Solver::newton;
+                          c.knobs.solver = contact::Solver::newton;
                           c.stop = true;
                           c.task.marker = 7;
                       });
@@ -254,53 +254,54 @@ TEST(Servo, OrdersLastOrAreForOneTickAsTheirTypesSay) {
     EXPECT_EQ(frame.damping, 2);
     EXPECT_EQ(frame.smoothing, before.smoothing);
     EXPECT_EQ(frame.friction_scale, 0.5);
-    EXPECT_EQ(frame.solver, dynamics::Solver::newton);
+    EXPECT_EQ(frame.solver, contact::Solver::newton);
 }
 
 TEST(Servo, DynamicsMayBeSlower) {
-    Settings settings;
+    frame::Settings settings;
     settings.dynamics.every = 10;
     Grasp grasp(settings);
-    const Frame& frame = grasp.run(0, 1.1);
+    const frame::Frame& frame = grasp.run(0, 1.1);
     EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), kLiftedHeight, 1e-4);
     EXPECT_NEAR(frame.load_force / (0.1 * 9.81), 1, 0.01);
 }
 
 TEST(Servo, LoadsOfTheDirectorActOnBodies) {
     Grasp grasp;
-    const Director push = [](const Frame&, std::span<const haptics::Handle>, Commands& commands) {
+    const frame::Director push = [](const frame::Frame&, std::span<const frame::Handle>,
+                                    frame::Commands& commands) {
         add(commands.task.loads, {1, {0, 0, 2 * 0.1 * 9.81}, Vec3::Zero()});
     };
     for (int i = 0; i < 100; ++i) grasp.servo->tick(i * std::chrono::milliseconds(1), push);
-    const Frame& frame = grasp.servo->tick(std::chrono::milliseconds(100), push);
+    const frame::Frame& frame = grasp.servo->tick(std::chrono::milliseconds(100), push);
     EXPECT_NEAR(frame.bodies[1].v_WB.z(), 9.81 * 0.101, 1e-6);
 }
 
 /// Settings with proxies that may change between rigid bodies and points.
-class Changeable : public ::testing::TestWithParam<haptics::PointFriction> {
+class Changeable : public ::testing::TestWithParam<frame::PointFriction> {
   protected:
-    Settings settings;
+    frame::Settings settings;
     Changeable() {
         settings.proxy.friction = GetParam();
         settings.proxy.changeable = true;
     }
 };
 INSTANTIATE_TEST_SUITE_P(Servo, Changeable,
-                         ::testing::Values(haptics::PointFriction::together,
-                                           haptics::PointFriction::apart),
+                         ::testing::Values(frame::PointFriction::together,
+                                           frame::PointFriction::apart),
                          [](const auto& of) { return std::string(enum_name(of.param)); });
 
 TEST_P(Changeable, ProxiesAreAsIfTheyHadAlwaysBeenOfTheirKind) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     // the kind of proxy, and whether it was changed to that kind
-    const auto lift = [&](haptics::ProxyKind kind, bool changed) {
-        Settings own = settings;
-        const auto other = kind == haptics::ProxyKind::rigid ? haptics::ProxyKind::point
-                                                             : haptics::ProxyKind::rigid;
+    const auto lift = [&](scene::ProxyKind kind, bool changed) {
+        frame::Settings own = settings;
+        const auto other =
+            kind == scene::ProxyKind::rigid ? scene::ProxyKind::point : scene::ProxyKind::rigid;
         own.proxy.kind = changed ? other : kind;
         Grasp grasp(own);
-        const Director order = [&](const Frame&, std::span<const haptics::Handle>,
-                                   Commands& commands) {
+        const frame::Director order = [&](const frame::Frame&, std::span<const frame::Handle>,
+                                          frame::Commands& commands) {
             if (changed) commands.knobs.proxy = kind;
         };
         const testing::AllocationGuard guard;
@@ -308,9 +309,9 @@ TEST_P(Changeable, ProxiesAreAsIfTheyHadAlwaysBeenOfTheirKind) {
         EXPECT_EQ(guard.count(), 0u);
         return grasp.servo->tick(std::chrono::milliseconds(1100), order);
     };
-    for (const auto kind : {haptics::ProxyKind::rigid, haptics::ProxyKind::point}) {
-        const Frame always = lift(kind, false);
-        const Frame since = lift(kind, true);
+    for (const auto kind : {scene::ProxyKind::rigid, scene::ProxyKind::point}) {
+        const frame::Frame always = lift(kind, false);
+        const frame::Frame since = lift(kind, true);
         EXPECT_EQ(always.proxy, kind);
         EXPECT_EQ(since.proxy, kind);
         EXPECT_GT(always.bodies[1].X_WB.p.z(), 0.06);
@@ -323,13 +324,13 @@ TEST_P(Changeable, ProxiesPassThroughNothingAndHoldNothingBackAsTheyChangeToAndF
     Grasp grasp(settings);
     double most = 0;
     for (int i = 0; i < 100; ++i) {  // in the air, before the fingers close
-        const Director order = [&](const Frame&, std::span<const haptics::Handle>,
-                                   Commands& commands) {
+        const frame::Director order = [&](const frame::Frame&, std::span<const frame::Handle>,
+                                          frame::Commands& commands) {
             commands.knobs.proxy =
-                i / 10 % 2 == 0 ? haptics::ProxyKind::rigid : haptics::ProxyKind::point;
+                i / 10 % 2 == 0 ? scene::ProxyKind::rigid : scene::ProxyKind::point;
         };
-        const Frame& frame = grasp.servo->tick(i * std::chrono::milliseconds(1), order);
-        for (const FingerFrame& finger : frame.fingers) {
+        const frame::Frame& frame = grasp.servo->tick(i * std::chrono::milliseconds(1), order);
+        for (const frame::FingerFrame& finger : frame.fingers) {
             most = std::max(most, finger.f_sent_W.norm());
             EXPECT_LT((finger.p_WP - finger.p_WH).norm(), 1e-3);
         }
@@ -344,11 +345,13 @@ TEST(Run, VirtualTimeStopsWhenToldAndCountsTicks) {
     TickTimes times;
     times.reserve(2000);
     int frames = 0;
-    const Director director = [](const Frame& last, std::span<const haptics::Handle>,
-                                 Commands& commands) { commands.stop = last.sequence == 98; };
+    const frame::Director director = [](const frame::Frame& last, std::span<const frame::Handle>,
+                                        frame::Commands& commands) {
+        commands.stop = last.sequence == 98;
+    };
     run_virtual(
-        *grasp.servo, director, [&](const Frame&) { ++frames; }, std::chrono::seconds(10), stop,
-        &times);
+        *grasp.servo, director, [&](const frame::Frame&) { ++frames; }, std::chrono::seconds(10),
+        stop, &times);
     EXPECT_EQ(frames, 100);
     EXPECT_EQ(times.count(), 100u);
     EXPECT_GT(times.quantile(1), 0);
@@ -357,13 +360,13 @@ TEST(Run, VirtualTimeStopsWhenToldAndCountsTicks) {
 TEST(Servo, HoldsTheSameGraspAtEveryRate) {
     // the hand feels statics only, at any rate: the block's weight, and the two springs in series
     for (const double rate : {1000.0, 2000.0, 4000.0}) {
-        Settings settings;
+        frame::Settings settings;
         settings.rate = rate;
         Grasp grasp(settings);
         const std::atomic<bool> stop{false};
-        Frame frame;
+        frame::Frame frame;
         run_virtual(
-            *grasp.servo, {}, [&](const Frame& last) { frame = last; },
+            *grasp.servo, {}, [&](const frame::Frame& last) { frame = last; },
             from_seconds(grasp.driver->duration()), stop);
         EXPECT_EQ(frame.time, from_seconds(1.1)) << rate;
         EXPECT_EQ(frame.sequence, std::lround(1.1 * rate)) << rate;
@@ -379,7 +382,7 @@ TEST(Servo, HoldsTheSameGraspAtEveryRate) {
 TEST(Servo, FreeFallIsTheSameAtEveryRate) {
     // in semi-implicit steps h a body falls exactly g t (t + h) / 2
     for (const double rate : {1000.0, 2000.0, 4000.0}) {
-        Settings settings;
+        frame::Settings settings;
         settings.rate = rate;
         Grasp grasp(settings);
         dynamics::World& world = grasp.servo->world();
@@ -399,7 +402,7 @@ TEST(Run, RealTimeKeepsPhaseAfterAnOverrun) {
     Timing timing;
     timing.reserve(1000);
     struct Seen {
-        Frame frame;
+        frame::Frame frame;
         std::chrono::steady_clock::time_point ended;
     };
     std::vector<Seen> seen;
@@ -407,7 +410,7 @@ TEST(Run, RealTimeKeepsPhaseAfterAnOverrun) {
     const Time first = std::chrono::milliseconds(7);
     run_real(
         *grasp.servo, {},
-        [&](const Frame& frame) {
+        [&](const frame::Frame& frame) {
             if (frame.sequence == 50)
                 std::this_thread::sleep_for(std::chrono::microseconds(20300));  // an overrun
             seen.push_back({frame, std::chrono::steady_clock::now()});
@@ -424,7 +427,7 @@ TEST(Run, RealTimeKeepsPhaseAfterAnOverrun) {
     auto zero = seen.front().ended - seen.front().frame.time;
     for (const Seen& s : seen) zero = std::min(zero, s.ended - s.frame.time);
     for (size_t i = 0; i < seen.size(); ++i) {
-        const Frame& frame = seen[i].frame;
+        const frame::Frame& frame = seen[i].frame;
         EXPECT_EQ((frame.time - first) % grasp.servo->period(), Time(0));
         EXPECT_GE(frame.lateness, 0);
         recorded += (frame.status & kOverrun) != 0;
@@ -450,7 +453,7 @@ TEST(Run, RealTimeAllocatesNothing) {
     size_t count = 1;
     run_real(
         *grasp.servo, {},
-        [&](const Frame& frame) {
+        [&](const frame::Frame& frame) {
             if (frame.sequence == 0) guard.emplace();
             if (frame.sequence == 20)
                 std::this_thread::sleep_for(std::chrono::milliseconds(3));  // includes overruns
@@ -489,7 +492,7 @@ TEST(Run, IsPacedByDevicesThatDoAndTimeIsThatOfTheirTicks) {
     times.reserve(1000);
     const Time first = std::chrono::milliseconds(7);
     run_real(
-        *grasp.servo, {}, [&](const Frame& frame) { times.push_back(frame.time); }, first,
+        *grasp.servo, {}, [&](const frame::Frame& frame) { times.push_back(frame.time); }, first,
         first + std::chrono::milliseconds(100), stop, timing);
     ASSERT_GT(times.size(), 2u);
     EXPECT_EQ(times.front(), first);

@@ -102,8 +102,8 @@ class BlockingGroup final : public devices::DeviceGroup {
     int activations = 0;
 
   private:
-    static devices::DeviceInfo info(bool simulated) {
-        devices::DeviceInfo out;
+    static frame::DeviceInfo info(bool simulated) {
+        frame::DeviceInfo out;
         out.simulated = simulated;
         return out;
     }
@@ -139,7 +139,7 @@ struct Blocked {
         scene.fingers.resize(1);
         auto group = std::make_unique<BlockingGroup>(50, can_stop, simulated);
         devices = group.get();
-        servo = std::make_unique<Servo>(scene, Settings{}, std::move(group),
+        servo = std::make_unique<Servo>(scene, frame::Settings{}, std::move(group),
                                         std::vector<Pose>{Pose{Quat::Identity(), {0, 0, 0.2}}});
         servo->activate();
         timing.reserve(4000);
@@ -160,7 +160,7 @@ TEST(WatchdogInRealTime, StopsDevicesThatBlockAndTheRunEndsWithAFault) {
               std::string::npos);
     // the tick after the one that blocked is late by its own clock, as in a replay
     EXPECT_EQ(blocked.servo->fault().kind, haptics::FaultKind::late);
-    EXPECT_GT(blocked.servo->fault().value, Settings{}.safety.max_pause);
+    EXPECT_GT(blocked.servo->fault().value, frame::Settings{}.safety.max_pause);
     EXPECT_LT(blocked.timing.reached, std::chrono::seconds(3));  // one second after the fault
 }
 

@@ -17,7 +17,7 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kTick = 1e-3;
 
-double rate(const Frame& last, double goal) {
+double rate(const frame::Frame& last, double goal) {
     return WorkspaceTurn::rate_toward(goal, last.workspace_turn + kTick * last.workspace_rate);
 }
 
@@ -32,14 +32,14 @@ class Desk final : public devices::DeviceGroup {
     std::vector<Wrench> told;
 
   private:
-    static std::vector<devices::DeviceInfo> infos(size_t count, bool orientation) {
-        devices::DeviceInfo info;
+    static std::vector<frame::DeviceInfo> infos(size_t count, bool orientation) {
+        frame::DeviceInfo info;
         info.model = "desk";
         info.peak_force = 20;
         info.workspace = Vec3(0.3, 0.2, 0.2);
         info.measures_orientation = orientation;
         info.peak_torque = orientation ? 1 : 0;
-        return std::vector<devices::DeviceInfo>(count, info);
+        return std::vector<frame::DeviceInfo>(count, info);
     }
     void do_activate() override {}
     void do_deactivate() override {}
@@ -60,7 +60,7 @@ struct Air {
     Time next{0};
     Time period = std::chrono::milliseconds(1);  ///< at which ticks come; the servo's is 1 ms
 
-    explicit Air(bool orientation = false, const Settings& settings = {}) {
+    explicit Air(bool orientation = false, const frame::Settings& settings = {}) {
         for (const char* name : {"thumb", "index"}) {
             scene::Finger finger;
             finger.name = name;
@@ -76,13 +76,14 @@ struct Air {
         servo = std::make_unique<Servo>(scene, settings, std::move(devices), X_WD);
         servo->activate();
     }
-    const Frame& tick(double goal, const Vec3& force_W = Vec3::Zero()) {
+    const frame::Frame& tick(double goal, const Vec3& force_W = Vec3::Zero()) {
         next += period;
-        return servo->tick(next - period, [&](const Frame& last, std::span<const haptics::Handle>,
-                                              Commands& commands) {
-            commands.knobs.workspace_rate = last.sequence < 0 ? 0 : rate(last, goal);
-            add(commands.task.loads, {servo->world().scene_size(), force_W, Vec3::Zero()});
-        });
+        return servo->tick(
+            next - period, [&](const frame::Frame& last, std::span<const frame::Handle>,
+                               frame::Commands& commands) {
+                commands.knobs.workspace_rate = last.sequence < 0 ? 0 : rate(last, goal);
+                add(commands.task.loads, {servo->world().scene_size(), force_W, Vec3::Zero()});
+            });
     }
     /// Mean of the devices' origins.
     Vec3 axis() const { return (X_WD[0].p + X_WD[1].p) / 2; }
@@ -146,12 +147,12 @@ TEST(WorkspaceTurn, ReadingsTurnAboutTheDevicesMiddle) {
             reading.R_DH = Quat(Eigen::AngleAxisd(0.4 * t, Vec3(1, 2, 2) / 3));
             reading.w_DH = 0.4 * Vec3(1, 2, 2) / 3;
         }
-        const Frame& frame = turning.tick(kPi / 2);
+        const frame::Frame& frame = turning.tick(kPi / 2);
         const Quat T = about_z(frame.workspace_turn);
         for (size_t d = 0; d < 2; ++d) {
             const devices::Reading& reading = turning.desk->readings[d];
             const Pose& X_WD = turning.X_WD[d];
-            const FingerFrame& finger = frame.fingers[d];
+            const frame::FingerFrame& finger = frame.fingers[d];
             const Vec3 arm = T * (X_WD * reading.p_DH - turning.axis());
             ASSERT_LT((finger.p_WH - turning.axis() - arm).norm(), 1e-12);
             const Vec3 v = T * (X_WD.R * reading.v_DH) + Vec3(0, 0, led).cross(arm);
@@ -175,15 +176,15 @@ TEST(WorkspaceTurn, ReadingsTurnAboutTheDevicesMiddle) {
 }
 
 TEST(WorkspaceTurn, ForcesTurnBackAndGiveTheSamePowerInBothAxes) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.soft_start = 0;
     Air air(false, settings);
     air.desk->readings[0].v_DH = {0.1, -0.2, 0.3};
     const Vec3 force(1.5, -0.5, 2);
     double led = 0;
     for (int i = 0; i < 5000; ++i) {
-        const Frame& frame = air.tick(kPi / 2, force);
-        const FingerFrame& finger = frame.fingers[0];
+        const frame::Frame& frame = air.tick(kPi / 2, force);
+        const frame::FingerFrame& finger = frame.fingers[0];
         if (i > 10) {
             ASSERT_LT((finger.f_sent_W - force).norm(), 1e-12);
             const Quat R_WD = about_z(frame.workspace_turn) * air.X_WD[0].R;
@@ -196,17 +197,17 @@ TEST(WorkspaceTurn, ForcesTurnBackAndGiveTheSamePowerInBothAxes) {
     }
     // once the turn has stopped, the power is that of the whole velocity
     EXPECT_EQ(led, 0);
-    const FingerFrame& finger = air.tick(kPi / 2, force).fingers[0];
+    const frame::FingerFrame& finger = air.tick(kPi / 2, force).fingers[0];
     EXPECT_NEAR(finger.f_sent_W.dot(finger.v_WH), air.desk->told[0].force.dot(finger.v_DH), 1e-12);
 }
 
 TEST(WorkspaceTurn, TheWallStaysWithTheDevice) {
-    Settings settings;
+    frame::Settings settings;
     settings.safety.soft_start = 0;
     Air air(false, settings);
     air.desk->readings[0].p_DH = {0.152, 0, 0};  // 2 mm beyond
     for (int i = 0; i < 4000; ++i) {
-        const Frame& frame = air.tick(2.5);
+        const frame::Frame& frame = air.tick(2.5);
         if (i > 10) {
             // as for a handle at rest, however the world turns around it
             EXPECT_LT((air.desk->told[0].force - Vec3(-1, 0, 0)).norm(), 1e-9) << i;
@@ -217,18 +218,18 @@ TEST(WorkspaceTurn, TheWallStaysWithTheDevice) {
 }
 
 TEST(WorkspaceTurn, ProxiesFollowInTheAirAndTurnWithoutALagOrAStep) {
-    for (const auto kind : {haptics::CouplingKind::implicit, haptics::CouplingKind::dual_spring,
-                            haptics::CouplingKind::velocity_impulse}) {
-        Settings settings;
+    for (const auto kind : {frame::CouplingKind::implicit, frame::CouplingKind::dual_spring,
+                            frame::CouplingKind::velocity_impulse}) {
+        frame::Settings settings;
         settings.coupling.kind = kind;
         Air air(false, settings);
         Vec3 before = Vec3::Zero();
         for (int i = 0; i < 4000; ++i) {
-            const Frame& frame = air.tick(kPi / 2);
-            const FingerFrame& finger = frame.fingers[0];
+            const frame::Frame& frame = air.tick(kPi / 2);
+            const frame::FingerFrame& finger = frame.fingers[0];
             if (i > 0) {
                 // within what the handle moves in a step, and the lag of a dual spring
-                const double lag = kind == haptics::CouplingKind::dual_spring ? 2e-3 : 0.3e-3;
+                const double lag = kind == frame::CouplingKind::dual_spring ? 2e-3 : 0.3e-3;
                 ASSERT_LT((finger.p_WP - finger.p_WH).norm(), lag) << enum_name(kind) << i;
                 ASSERT_LT((finger.v_WP - before).norm(), 2e-3) << enum_name(kind) << i;
             }
@@ -248,7 +249,7 @@ struct Held {
     std::unique_ptr<Servo> servo;
     int next = 0;
 
-    explicit Held(const Settings& settings) {
+    explicit Held(const frame::Settings& settings) {
         hand::HandSpec hand = lifting_hand();
         hand.script.push_back({"hold", 10, {}, Vec3::Zero(), false});
         const auto fingers = scene::finger_names(scene);
@@ -265,26 +266,25 @@ struct Held {
                                         rig::poses(rig, fingers));
         servo->activate();
     }
-    const Frame& tick(double goal) {
+    const frame::Frame& tick(double goal) {
         return servo->tick(
             next++ * std::chrono::milliseconds(1),
-            [&](const Frame& last, std::span<const haptics::Handle>, Commands& commands) {
-                commands.knobs.workspace_rate = rate(last, goal);
-            });
+            [&](const frame::Frame& last, std::span<const frame::Handle>,
+                frame::Commands& commands) { commands.knobs.workspace_rate = rate(last, goal); });
     }
 };
 
 struct Holding {
-    haptics::ProxyKind proxy;
-    haptics::CouplingKind coupling;
+    scene::ProxyKind proxy;
+    frame::CouplingKind coupling;
 };
 class AnyHand : public ::testing::TestWithParam<Holding> {};
 INSTANTIATE_TEST_SUITE_P(
     WorkspaceTurn, AnyHand,
-    ::testing::Values(Holding{haptics::ProxyKind::rigid, haptics::CouplingKind::implicit},
-                      Holding{haptics::ProxyKind::rigid, haptics::CouplingKind::dual_spring},
-                      Holding{haptics::ProxyKind::rigid, haptics::CouplingKind::velocity_impulse},
-                      Holding{haptics::ProxyKind::point, haptics::CouplingKind::implicit}),
+    ::testing::Values(Holding{scene::ProxyKind::rigid, frame::CouplingKind::implicit},
+                      Holding{scene::ProxyKind::rigid, frame::CouplingKind::dual_spring},
+                      Holding{scene::ProxyKind::rigid, frame::CouplingKind::velocity_impulse},
+                      Holding{scene::ProxyKind::point, frame::CouplingKind::implicit}),
     [](const auto& of) {
         return std::string(enum_name(of.param.proxy)) + "_" +
                std::string(enum_name(of.param.coupling));
@@ -292,17 +292,17 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(AnyHand, HoldsABlockWhileTheWorkspaceTurnsByARightAngle) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
-    Settings settings;
+    frame::Settings settings;
     settings.proxy.kind = GetParam().proxy;
     settings.coupling.kind = GetParam().coupling;
     // stiffer, it shakes blocks loose with or without a turn
-    if (settings.coupling.kind == haptics::CouplingKind::dual_spring)
+    if (settings.coupling.kind == frame::CouplingKind::dual_spring)
         settings.coupling.stiffness = 300;
     Held held(settings);
     for (int i = 0; i < 1300; ++i) held.tick(0);
     const Pose before = held.tick(0).bodies[1].X_WB;
     ASSERT_GT(before.p.z(), 0.06);
-    const Frame* frame = nullptr;
+    const frame::Frame* frame = nullptr;
     std::vector<Vec3> last(2);
     double most = 0;
     uint32_t status = 0;
@@ -329,7 +329,7 @@ TEST_P(AnyHand, HoldsABlockWhileTheWorkspaceTurnsByARightAngle) {
     const Vec3 arm = before.p - c;
     const Vec3 expected = c + Vec3(-arm.y(), arm.x(), arm.z());
     EXPECT_LT((after.p - expected).norm(), 1e-3);
-    if (GetParam().proxy == haptics::ProxyKind::rigid) {
+    if (GetParam().proxy == scene::ProxyKind::rigid) {
         EXPECT_NEAR(angle_between(before.R, after.R), kPi / 2, 0.01);
     }
 }

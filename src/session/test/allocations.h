@@ -17,9 +17,9 @@ inline void expect_no_allocation(const Plan& plan, double longest,
     if (between != nullptr) task.decide_by(*between);
     plan.seeing->restart();
     servo->activate();
-    const servo::Director director =
-        [&](const servo::Frame& last, std::span<const haptics::Handle> handles,
-            servo::Commands& commands) { task(last, handles, commands); };
+    const frame::Director director =
+        [&](const frame::Frame& last, std::span<const frame::Handle> handles,
+            frame::Commands& commands) { task(last, handles, commands); };
     Time now{0};
     const testing::AllocationGuard guard;
     while (!servo->stopped() && seconds(now) < longest) {

@@ -131,7 +131,7 @@ inline Request extreme_request(uint64_t seed) {
         "scenes/bead-on-string.yaml",   "experiments/reach-to-grasp.yaml"};
     static const std::vector<SettingLister::Setting> kSettings = [] {
         SettingLister lister;
-        servo::Settings settings;
+        frame::Settings settings;
         settings.visit(lister);
         return lister.settings;
     }();
@@ -146,8 +146,8 @@ inline Request extreme_request(uint64_t seed) {
         const SettingLister::Setting& setting = one_of(random, kSettings);
         out.set.push_back(setting.key + "=" + extreme_value(random, setting));
     }
-    const auto solvers = enum_names(dynamics::Solver{});
-    const auto couplings = enum_names(haptics::CouplingKind{});
+    const auto solvers = enum_names(contact::Solver{});
+    const auto couplings = enum_names(frame::CouplingKind{});
     if (random.uniform(0, 1) < 0.7)
         out.set.push_back(fmt::format("coupling.kind={}", couplings[seed % couplings.size()]));
     if (random.uniform(0, 1) < 0.5)
@@ -171,10 +171,10 @@ inline Ending run_extreme(const Request& request, Time longest) {
     bool sound = true;
     servo::run_virtual(
         *servo, {},
-        [&](const servo::Frame& frame) {
-            for (const servo::FingerFrame& finger : frame.fingers) {
+        [&](const frame::Frame& frame) {
+            for (const frame::FingerFrame& finger : frame.fingers) {
                 const double force = finger.f_sent_W.norm();
-                const bool off = (frame.status & servo::kForceOff) != 0;
+                const bool off = (frame.status & kForceOff) != 0;
                 sound = sound && (off ? force == 0 : force <= 100 * (1 + 1e-9));
             }
         },

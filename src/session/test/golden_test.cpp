@@ -55,7 +55,7 @@ class Hash {
     uint64_t value_ = 0xcbf29ce484222325;
 };
 
-Plan plan_of(const std::string& file, dynamics::Solver solver) {
+Plan plan_of(const std::string& file, contact::Solver solver) {
     Request request;
     request.file = file;
     request.participant = "S07";
@@ -66,7 +66,7 @@ Plan plan_of(const std::string& file, dynamics::Solver solver) {
     return plan;
 }
 
-std::string hash_of(const std::string& file, dynamics::Solver solver) {
+std::string hash_of(const std::string& file, contact::Solver solver) {
     const testing::TemporaryFolder folder;
     Hash hash;
     int64_t unbalanced = 0;
@@ -74,10 +74,10 @@ std::string hash_of(const std::string& file, dynamics::Solver solver) {
     const int64_t ticks = ticks_of(file);
     RunOptions options;
     options.out = folder.path();
-    options.in_place_of_log = [&](const auto&, const auto&, const auto&) -> servo::FrameSink {
-        return [&](const servo::Frame& frame) {
+    options.in_place_of_log = [&](const auto&, const auto&, const auto&) -> frame::FrameSink {
+        return [&](const frame::Frame& frame) {
             if (frame.sequence < ticks) hash.add(outcome_of(frame));
-            unbalanced += (frame.status & servo::kUnbalanced) != 0;
+            unbalanced += (frame.status & kUnbalanced) != 0;
             stop = frame.sequence >= ticks;
         };
     };
@@ -104,8 +104,8 @@ TEST_P(Golden, HashesAreThoseThatWereKept) {
         GTEST_SKIP() << "without FMA the C library's sines differ in their last bit";
     const bool renews = std::getenv("DIHAPTIC_RENEW_GOLDEN") != nullptr;
     Hashes hashes = read();
-    for (size_t i = 0; i < enum_names(dynamics::Solver{}).size(); ++i) {
-        const auto solver = static_cast<dynamics::Solver>(i);
+    for (size_t i = 0; i < enum_names(contact::Solver{}).size(); ++i) {
+        const auto solver = static_cast<contact::Solver>(i);
         const std::string name = GetParam() + " " + std::string(enum_name(solver));
         const std::string hash = hash_of(GetParam(), solver);
         if (renews) {

@@ -120,11 +120,11 @@ Found lift(const Grasp& g) {
     recording::RawLogReader log(recording::SessionFolder::open(result.folder).raw_log());
     analysis::GraspTrace trace(kBlock, log.head().tick);
     std::vector<Seen> seen;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         trace.add(*frame);
-        const servo::BodyFrame& block = frame->bodies[kBlock];
+        const frame::BodyFrame& block = frame->bodies[kBlock];
         Seen s{seconds(frame->time), block.X_WB.p.z(), 0, 0};
-        for (const servo::ContactFrame& c : frame->contacts) {
+        for (const frame::ContactFrame& c : frame->contacts) {
             if (c.a != kBlock && c.b != kBlock) continue;
             (c.a + c.b - kBlock == kTable ? s.table : s.fingers) += c.normal_force;
         }

@@ -23,7 +23,7 @@ class Desk {
   public:
     explicit Desk(const Request& request) {
         plan = make_plan(request);
-        knobs = servo::Knobs::of(plan.settings);
+        knobs = frame::Knobs::of(plan.settings);
         RunOptions options;
         options.out = folder_.path();
         options.clock = Clock::real;
@@ -41,9 +41,9 @@ class Desk {
     }
 
     /// The newest frame, once session time has reached `t` or the thread has had ten seconds.
-    const servo::Frame& at(double t) {
+    const frame::Frame& at(double t) {
         for (int i = 0; i < 10000; ++i) {
-            const servo::Frame& frame = live.frame.read();
+            const frame::Frame& frame = live.frame.read();
             if (frame.sequence >= 0 && seconds(frame.time) >= t) return frame;
             std::this_thread::sleep_for(milliseconds(1));
         }
@@ -71,7 +71,7 @@ class Desk {
 
     Live live;
     Plan plan;
-    servo::Knobs knobs;  // those that the watching thread wants
+    frame::Knobs knobs;  // those that the watching thread wants
     RunResult result;
 
   private:
@@ -87,10 +87,10 @@ Request block(bool mouse) {
     return request;
 }
 
-std::vector<servo::Frame> frames_of(const std::string& session) {
-    std::vector<servo::Frame> frames;
+std::vector<frame::Frame> frames_of(const std::string& session) {
+    std::vector<frame::Frame> frames;
     recording::RawLogReader log(session + "/raw.log");
-    while (const servo::Frame* frame = log.next()) frames.push_back(*frame);
+    while (const frame::Frame* frame = log.next()) frames.push_back(*frame);
     return frames;
 }
 
@@ -107,18 +107,18 @@ TEST(Live, TimeStandsStillInAPauseAndForceComesOnSoftlyAfterIt) {
     EXPECT_FALSE(desk.result.interrupted);
     EXPECT_EQ(desk.result.fault, "");
 
-    const std::vector<servo::Frame> frames = frames_of(desk.result.folder);
+    const std::vector<frame::Frame> frames = frames_of(desk.result.folder);
     int resumed = 0;
     for (size_t i = 2; i < frames.size(); ++i) {
         // missed ticks have no frame; the pause is not in session time
         EXPECT_LT(seconds(frames[i].time - frames[i - 1].time), 0.2);
-        if ((frames[i].status & servo::kResumed) == 0) continue;
+        if ((frames[i].status & kResumed) == 0) continue;
         ++resumed;
-        EXPECT_NE(frames[i].status & servo::kSoftStarted, 0u);
+        EXPECT_NE(frames[i].status & kSoftStarted, 0u);
         EXPECT_LT(frames[i].fingers[0].f_sent_W.norm(), 0.05);
-        EXPECT_NE(frames[i - 1].status & servo::kPaused, 0u);
-        EXPECT_EQ(frames[i - 1].status & servo::kForceOff, 0u);
-        for (const servo::FingerFrame& finger : frames[i - 1].fingers)
+        EXPECT_NE(frames[i - 1].status & kPaused, 0u);
+        EXPECT_EQ(frames[i - 1].status & kForceOff, 0u);
+        for (const frame::FingerFrame& finger : frames[i - 1].fingers)
             EXPECT_EQ(finger.f_sent_W,
                       Vec3::Zero());  // already in the last tick before the resumption
         EXPECT_GT(frames[i - 2].fingers[0].f_sent_W.norm(), 0.5);
@@ -133,12 +133,12 @@ TEST(Live, AMouseGripsAndLiftsTheBlockAndItsSessionIsWhole) {
     desk.squeeze(0.034);
     desk.at(0.8);
     desk.lift(0.06);
-    const servo::Frame& frame = desk.at(desk.now() + 0.3);
+    const frame::Frame& frame = desk.at(desk.now() + 0.3);
     EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), 0.08, 0.005);
-    desk.knobs.solver = dynamics::Solver::stewart_trinkle;
+    desk.knobs.solver = contact::Solver::stewart_trinkle;
     desk.live.knobs.publish(desk.knobs);
-    const servo::Frame& after = desk.at(desk.now() + 0.3);
-    EXPECT_EQ(after.solver, dynamics::Solver::stewart_trinkle);
+    const frame::Frame& after = desk.at(desk.now() + 0.3);
+    EXPECT_EQ(after.solver, contact::Solver::stewart_trinkle);
     EXPECT_NEAR(after.bodies[1].X_WB.p.z(), 0.08, 0.005);
     desk.end();
     EXPECT_FALSE(desk.result.interrupted);
@@ -158,7 +158,7 @@ TEST(Live, WorkspacesTurnAndFrictionChangesWhileABlockIsHeldAndTheReplayIsExact)
     desk.knobs.friction_scale = 1.5;
     desk.knobs.workspace_turn = std::numbers::pi / 2;
     desk.live.knobs.publish(desk.knobs);
-    const servo::Frame& frame = desk.at(desk.now() + 3);
+    const frame::Frame& frame = desk.at(desk.now() + 3);
     EXPECT_NEAR(frame.workspace_turn, std::numbers::pi / 2, 0.02);
     EXPECT_EQ(frame.friction_scale, 1.5);
     EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), before, 0.003);
@@ -177,14 +177,14 @@ TEST(Live, ProxiesChangeOnceTheyAreClearOfEverythingAndTheReplayIsExact) {
     const double open = desk.plan.mouse->goal().aperture;
     desk.squeeze(0.034);
     EXPECT_GT(desk.at(desk.now() + 0.8).grip_force, 0.3);
-    desk.knobs.proxy = haptics::ProxyKind::point;
+    desk.knobs.proxy = scene::ProxyKind::point;
     desk.live.knobs.publish(desk.knobs);
     // unchanged while the fingers hold the block
-    EXPECT_EQ(desk.at(desk.now() + 0.2).proxy, haptics::ProxyKind::rigid);
+    EXPECT_EQ(desk.at(desk.now() + 0.2).proxy, scene::ProxyKind::rigid);
     desk.squeeze(open);
-    EXPECT_EQ(desk.at(desk.now() + 0.8).proxy, haptics::ProxyKind::point);
+    EXPECT_EQ(desk.at(desk.now() + 0.8).proxy, scene::ProxyKind::point);
     desk.squeeze(0.03);  // points close on the block as pads do
-    const servo::Frame& held = desk.at(desk.now() + 1);
+    const frame::Frame& held = desk.at(desk.now() + 1);
     EXPECT_GT(held.grip_force, 0.3);
     desk.end();
     EXPECT_EQ(desk.result.fault, "");
@@ -210,18 +210,18 @@ TEST(Live, AfterAFaultTheSessionWaitsAndTheTrialIsDoneAgainOnceItGoesOn) {
     desk.live.paused = false;
     desk.at(at + 0.3);
     desk.end();
-    const std::vector<servo::Frame> frames = frames_of(desk.result.folder);
+    const std::vector<frame::Frame> frames = frames_of(desk.result.folder);
     int resumed = 0;
     bool off = false;
     int attempt = 0;
-    for (const servo::Frame& frame : frames) {
-        if ((frame.status & servo::kResumed) == 0) {
-            off = off || (frame.status & servo::kForceOff) != 0;
+    for (const frame::Frame& frame : frames) {
+        if ((frame.status & kResumed) == 0) {
+            off = off || (frame.status & kForceOff) != 0;
             continue;
         }
         ++resumed;
         EXPECT_TRUE(off);
-        EXPECT_EQ(frame.status & servo::kForceOff, 0u);
+        EXPECT_EQ(frame.status & kForceOff, 0u);
         EXPECT_EQ(frame.trial, 1);
         attempt = frame.task.attempt;
     }
@@ -241,7 +241,7 @@ TEST(Live, ATrialThatAPauseInterruptsBeginsAnew) {
     desk.join();
     EXPECT_FALSE(desk.result.interrupted);
     int attempts = 0;
-    for (const servo::Frame& frame : frames_of(desk.result.folder)) {
+    for (const frame::Frame& frame : frames_of(desk.result.folder)) {
         if (frame.trial == 1) attempts = std::max(attempts, frame.task.attempt);
         if (frame.trial > 1) {
             EXPECT_LE(frame.task.attempt, 1);
@@ -274,17 +274,17 @@ TEST(Live, AWatcherThatFallsSilentTakesForceAwayWithinASecond) {
     desk.at(desk.now() + 0.5);
     desk.end();
     int off = 0;
-    for (const servo::Frame& frame : frames_of(desk.result.folder)) {
+    for (const frame::Frame& frame : frames_of(desk.result.folder)) {
         const double silence = seconds(frame.time) - last;
         const double force = frame.fingers[0].f_sent_W.norm();
         if (silence > 0 && silence < 0.9) {
             EXPECT_GT(force, 0.3) << silence;
         }
-        if ((frame.status & servo::kAbandoned) != 0) {
+        if ((frame.status & kAbandoned) != 0) {
             ++off;
             EXPECT_NEAR(silence, Live::kLongestSilence, 0.1);
         }
-        if ((frame.status & servo::kForceOff) != 0) {
+        if ((frame.status & kForceOff) != 0) {
             EXPECT_EQ(force, 0);
         }
     }
@@ -300,9 +300,9 @@ TEST(Live, ASkippedTrialIsOverAndNotDoneAgain) {
     desk.live.skip = true;
     desk.join();
     EXPECT_EQ(desk.live.done, 1);
-    const std::vector<servo::Frame> frames = frames_of(desk.result.folder);
+    const std::vector<frame::Frame> frames = frames_of(desk.result.folder);
     std::vector<std::string> outcomes;
-    for (const servo::Frame& frame : frames) {
+    for (const frame::Frame& frame : frames) {
         if (frame.task.outcome < 0) continue;
         EXPECT_EQ(frame.task.attempt, 1);
         outcomes.push_back(desk.result.info.outcomes[static_cast<size_t>(frame.task.outcome)]);
@@ -404,25 +404,25 @@ TEST(Live, AScriptThatIsEndedEarlyIsInterruptedWithoutAFault) {
 
 TEST(Live, EasesWhatHoldsSomethingAndTurnsTheRestAtOnce) {
     Live live;
-    const servo::Frame last;
+    const frame::Frame last;
     constexpr double kTick = 1e-3;
-    servo::Knobs now = servo::Knobs::of({});
+    frame::Knobs now = frame::Knobs::of({});
     const auto turn = [&](int ticks) {
         for (int i = 0; i < ticks; ++i) live.knobs.turn(last, kTick, now);
     };
     turn(10);
     EXPECT_EQ(now.stiffness, 1000);  // nobody wants anything yet
-    servo::Knobs wanted = now;
+    frame::Knobs wanted = now;
     wanted.stiffness = 2000;
     wanted.smoothing = 0.5;
-    wanted.proxy = haptics::ProxyKind::point;
+    wanted.proxy = scene::ProxyKind::point;
     live.knobs.publish(wanted);
     turn(100);
     EXPECT_NEAR(now.stiffness, 1500, 1e-6);
     EXPECT_TRUE(std::isnan(now.damping));
     EXPECT_EQ(now.smoothing, 0.5);
-    EXPECT_EQ(now.proxy, haptics::ProxyKind::rigid);  // the session lets none change
-    wanted.friction_scale = 2;                        // on the way, which begins not anew
+    EXPECT_EQ(now.proxy, scene::ProxyKind::rigid);  // the session lets none change
+    wanted.friction_scale = 2;                      // on the way, which begins not anew
     live.knobs.publish(wanted);
     turn(1);
     EXPECT_EQ(now.friction_scale, 2);
@@ -437,8 +437,8 @@ TEST(Live, EasesWhatHoldsSomethingAndTurnsTheRestAtOnce) {
 
 TEST(Live, GivesASecondWatcherTheSameFrames) {
     Live live;
-    live.second = std::make_shared<Latest<servo::Frame>>();
-    servo::Frame frame;
+    live.second = std::make_shared<Latest<frame::Frame>>();
+    frame::Frame frame;
     for (int i = 0; i < 10; ++i) {
         frame.sequence = i;
         frame.time = i * milliseconds(1);
@@ -450,7 +450,7 @@ TEST(Live, GivesASecondWatcherTheSameFrames) {
 
 TEST(Live, TellsOfEachPictureInAHeadsetWhereTheHeadWasAndOfEachTickOnceThatItWasShown) {
     Live live;
-    servo::Frame frame;
+    frame::Frame frame;
     frame.time = milliseconds(500);
     live.show(frame);
     const Pose X_WV{rotation_xyz({0.1, 0, 0}), {0.1, -0.4, 0.3}};
@@ -482,14 +482,14 @@ TEST(Live, EndsInAPause) {
     EXPECT_EQ(desk.result.fault, "");
     // in session time: a busy machine leaves ticks out
     EXPECT_GE(desk.result.simulated, 0.1);
-    const std::vector<servo::Frame> frames = frames_of(desk.result.folder);
+    const std::vector<frame::Frame> frames = frames_of(desk.result.folder);
     ASSERT_FALSE(frames.empty());
-    EXPECT_NE(frames.back().status & servo::kPaused, 0u);
+    EXPECT_NE(frames.back().status & kPaused, 0u);
 }
 
 TEST(Live, HandsOverEachAttemptAsItEnds) {
     Live live;
-    servo::Frame frame;
+    frame::Frame frame;
     frame.fingers.resize(1);
     const auto tick = [&](int64_t sequence, int trial, int attempt, int outcome, double grip) {
         frame.sequence = sequence;

@@ -65,8 +65,8 @@ TEST(Onlookers, SeeTicksThatAllocateNothing) {
     servo->activate();
     char key = 0;
     double stiffness = 0;
-    const servo::Director director = [&](const servo::Frame& last, std::span<const haptics::Handle>,
-                                         servo::Commands& commands) {
+    const frame::Director director = [&](const frame::Frame& last, std::span<const frame::Handle>,
+                                         frame::Commands& commands) {
         onlookers.turn_knobs(last, seconds(servo->period()), commands.knobs);
         stiffness = commands.knobs.stiffness;
         key = std::max(key, onlookers.take_key());
@@ -137,7 +137,7 @@ TEST(Onlookers, AreToldEveryEndOfAnAttemptThoughTheyReadAfterTheSession) {
     onlooker.send(R"({"watch": [], "every_ms": 60000})");
     EXPECT_NE(onlooker.read().find("watching"), std::string::npos);
     servo->activate();
-    servo::Frame frame = servo->tick(Time{0}, {});
+    frame::Frame frame = servo->tick(Time{0}, {});
     frame.task.outcome = 0;
     constexpr int kEnds = 1000;  // the socket has room for some 300
     for (frame.trial = 1; frame.trial <= kEnds; ++frame.trial) {

@@ -93,8 +93,8 @@ TEST(Pacing, APauseAndSingleTicksChangeNothingOfWhatIsComputed) {
     EXPECT_EQ(session.result.ticks, same.ticks);
     recording::RawLogReader one(session.result.folder + "/raw.log");
     recording::RawLogReader other(same.folder + "/raw.log");
-    while (const servo::Frame* frame = one.next()) {
-        const servo::Frame* twin = other.next();
+    while (const frame::Frame* frame = one.next()) {
+        const frame::Frame* twin = other.next();
         ASSERT_NE(twin, nullptr);
         ASSERT_EQ(outcome_of(*frame), outcome_of(*twin)) << "tick " << frame->sequence;
     }

@@ -170,7 +170,7 @@ TEST(Plan, RefusesSharesThatContradictAreNoneOrAreOfNothing) {
                               "coupling: stiffness_N_m, or another rig."),
         std::string::npos)
         << ideal.messages();
-    servo::Settings settings;
+    frame::Settings settings;
     EXPECT_THROW(apply_setting(settings, "coupling.stiffness_share=0.5"), Error);
 }
 

@@ -89,7 +89,7 @@ TEST_P(RealDevices, AreOpenedOnceByTheirSessionAndByNothingBeforeIt) {
     const std::atomic<bool> stop{true};
     const RunResult result = run_session(plan, options, stop, {}, std::move(devices));
     EXPECT_EQ(opened(), (std::vector{1, 1}));
-    EXPECT_EQ(static_cast<const devices::DeviceInfo&>(result.info.devices[1]), plan.devices[1]);
+    EXPECT_EQ(static_cast<const frame::DeviceInfo&>(result.info.devices[1]), plan.devices[1]);
 }
 
 TEST_P(RealDevices, ThatAreNotThereAreMissedWhenTheyAreOpened) {
@@ -210,8 +210,8 @@ TEST_P(RealDevices, ASessionIsRecordedAndReplayedToTheBitWithADropOfForce) {
     EXPECT_NE(result.fault.find("does not answer"), std::string::npos) << result.fault;
     EXPECT_NE(result.fault.find("Its driver says: "), std::string::npos) << result.fault;
     EXPECT_EQ(result.info.clock, "real");
-    EXPECT_GE(result.figures.ticks_with(servo::kForceDropped), 1);
-    EXPECT_GE(result.figures.ticks_with(servo::kNotAnswering), 1);
+    EXPECT_GE(result.figures.ticks_with(kForceDropped), 1);
+    EXPECT_GE(result.figures.ticks_with(kNotAnswering), 1);
     const ReplayResult replay = replay_session(result.folder, stop, {});
     EXPECT_GT(replay.ticks, kLost);
     EXPECT_EQ(replay.different_ticks, 0);

@@ -73,7 +73,7 @@ TEST(Record, TellsOfWhatDoesNotBalanceWhereverTheSessionIsReadAgain) {
     RunOptions options;
     options.out = folder.file("sessions");
     const Recorded recorded = record(make_plan(request), options, kGoOn);
-    const int64_t ticks = recorded.figures.ticks_with(servo::kUnbalanced);
+    const int64_t ticks = recorded.figures.ticks_with(kUnbalanced);
     EXPECT_GT(ticks, 0);
     EXPECT_GT(recorded.figures.energy_imbalance, 1e-3);
     const std::string said = recorded.figures.describe_imbalance();
@@ -85,9 +85,9 @@ TEST(Record, TellsOfWhatDoesNotBalanceWhereverTheSessionIsReadAgain) {
     EXPECT_EQ(says(recorded.notes), 1) << said;
     const auto made = recording::SessionFolder::open(recorded.folder);
     EXPECT_EQ(says(made.read_info().notes), 1) << said;
-    EXPECT_NE(testing::read_file(made.file("events.csv"))
-                  .find(std::string(describe(servo::kUnbalanced).what)),
-              std::string::npos);
+    EXPECT_NE(
+        testing::read_file(made.file("events.csv")).find(std::string(describe(kUnbalanced).what)),
+        std::string::npos);
 }
 
 TEST(Record, TellsOfTheOperatorsStopOnce) {
@@ -104,7 +104,7 @@ TEST(Record, TellsOfTheOperatorsStopOnce) {
     EXPECT_FALSE(recorded.good());
     ASSERT_FALSE(recorded.notes.empty());
     EXPECT_EQ(recorded.notes.front(), "WARNING: " + recorded.fault);
-    const std::string again(describe(servo::kStopped).what);
+    const std::string again(describe(kStopped).what);
     for (size_t i = 1; i < recorded.notes.size(); ++i)
         EXPECT_EQ(recorded.notes[i].find(again), std::string::npos) << recorded.notes[i];
 }

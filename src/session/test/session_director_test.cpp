@@ -12,7 +12,7 @@ struct Bench {
     std::unique_ptr<servo::Servo> servo = make_servo(plan);
     RunOptions options;
     std::atomic<bool> stop{false};
-    servo::Frame last;
+    frame::Frame last;
 
     Bench() {
         for (const scene::Body& body : plan.scene.bodies)
@@ -20,9 +20,9 @@ struct Bench {
         last.fingers.resize(1);
         last.fingers[0].p_WP = {0, 0, 0.12};
     }
-    servo::Commands order(SessionDirector& director) {
-        const haptics::Handle handle{{0, 0, 0.12}};
-        servo::Commands commands;
+    frame::Commands order(SessionDirector& director) {
+        const frame::Handle handle{{0, 0, 0.12}};
+        frame::Commands commands;
         director(last, {&handle, 1}, commands);
         return commands;
     }

@@ -73,11 +73,11 @@ TEST(Session, TheDemoKeepsEachFingerUnderThePremiumsContinuousForce) {
     recording::RawLogReader log(result.folder + "/raw.log");
     double highest = 0;
     double force = 0;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         highest = std::max(highest, frame->bodies[1].X_WB.p.z());
-        for (const servo::FingerFrame& finger : frame->fingers)
+        for (const frame::FingerFrame& finger : frame->fingers)
             force = std::max(force, finger.f_sent_W.norm());
-        EXPECT_EQ(frame->status & servo::kOutsideWorkspace, 0u);
+        EXPECT_EQ(frame->status & kOutsideWorkspace, 0u);
     }
     EXPECT_GT(highest - 0.02, 0.095);
     EXPECT_LT(force, 1.4);
@@ -92,7 +92,7 @@ TEST(Session, SoftFingersHoldARodByItsEndAndLetItSwingWhenTheyEaseOff) {
     std::array<double, 8> most{};
     std::array<double, 8> last{};
     double speed = 0;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         const Vec3 along = frame->bodies[2].X_WB.R * Vec3::UnitY();
         const auto phase = static_cast<size_t>(frame->phase);
         last[phase] = std::asin(-along.z()) * 180 / std::numbers::pi;
@@ -117,7 +117,7 @@ TEST(Session, ARealClockSessionReplaysToTheBit) {
 }
 
 /// Writes the session's log anew, with changed frames and a changed head.
-void rewrite_log(const std::string& folder, const std::function<bool(servo::Frame&)>& change,
+void rewrite_log(const std::string& folder, const std::function<bool(frame::Frame&)>& change,
                  const std::function<void(recording::LogHead&)>& change_head = {}) {
     const std::string file = folder + "/raw.log";
     fs::rename(file, file + ".old");
@@ -126,8 +126,8 @@ void rewrite_log(const std::string& folder, const std::function<bool(servo::Fram
     if (change_head) change_head(head);
     recording::RawLogWriter log(file, head);
     std::vector<std::byte> bytes(recording::most_bytes(head.layout(), 100));
-    while (const servo::Frame* recorded = old.next()) {
-        servo::Frame frame = *recorded;
+    while (const frame::Frame* recorded = old.next()) {
+        frame::Frame frame = *recorded;
         if (!change(frame)) continue;
         const size_t size = recording::encode(frame, bytes, recording::Bodies::all);
         log.add(std::span(bytes).first(size));
@@ -138,7 +138,7 @@ void rewrite_log(const std::string& folder, const std::function<bool(servo::Fram
 TEST(Session, ReplaySeesForcesThatDiffer) {
     const testing::TemporaryFolder folder;
     const RunResult result = run("scenes/frictionless-plane.yaml", folder.path());
-    rewrite_log(result.folder, [](servo::Frame& frame) {
+    rewrite_log(result.folder, [](frame::Frame& frame) {
         if (frame.sequence >= 100 && frame.sequence < 103) frame.fingers[0].f_sent_W.x() += 1e-15;
         return true;
     });
@@ -168,7 +168,7 @@ TEST(Session, ReplayEndsAtAGapAndSaysWhatIsMissing) {
     const testing::TemporaryFolder folder;
     const RunResult result = run("scenes/frictionless-plane.yaml", folder.path());
     const int64_t ticks = result.ticks;
-    rewrite_log(result.folder, [&](servo::Frame& frame) {
+    rewrite_log(result.folder, [&](frame::Frame& frame) {
         return frame.sequence < 200 || (frame.sequence >= 207 && frame.sequence < ticks - 10);
     });
     const ReplayResult replay = replay_session(result.folder, kGoOn, {});
@@ -250,15 +250,15 @@ TEST(Session, TheOperatorsStopOnTheRealClockIsRecordedAndReplayed) {
     EXPECT_TRUE(result.interrupted);
     EXPECT_NE(result.fault.find("stopped by the operator"), std::string::npos) << result.fault;
     recording::RawLogReader log(result.folder + "/raw.log");
-    servo::Frame last;
-    while (const servo::Frame* frame = log.next()) last = *frame;
-    EXPECT_NE(last.status & servo::kStopped, 0u);
+    frame::Frame last;
+    while (const frame::Frame* frame = log.next()) last = *frame;
+    EXPECT_NE(last.status & kStopped, 0u);
     EXPECT_EQ(last.fingers[0].f_sent_W, Vec3::Zero());
     EXPECT_TRUE(replay_session(result.folder, kGoOn, {}).good());
 }
 
 /// Runs a scene on devices with these options, and replays it. `more`: more lines of the rig file.
-std::vector<servo::Frame> run_and_replay(const std::string& options, std::vector<std::string> set,
+std::vector<frame::Frame> run_and_replay(const std::string& options, std::vector<std::string> set,
                                          const std::string& more = "") {
     const testing::TemporaryFolder folder;
     Request request;
@@ -274,29 +274,28 @@ std::vector<servo::Frame> run_and_replay(const std::string& options, std::vector
     const RunResult result = run_session(make_plan(request), run, kGoOn, {});
     const ReplayResult replay = replay_session(result.folder, kGoOn, {});
     EXPECT_TRUE(replay.good()) << "first at " << replay.first_difference << " s";
-    std::vector<servo::Frame> frames;
+    std::vector<frame::Frame> frames;
     recording::RawLogReader log(result.folder + "/raw.log");
-    while (const servo::Frame* frame = log.next()) frames.push_back(*frame);
+    while (const frame::Frame* frame = log.next()) frames.push_back(*frame);
     return frames;
 }
 
-uint32_t status_of(const std::vector<servo::Frame>& frames) {
+uint32_t status_of(const std::vector<frame::Frame>& frames) {
     uint32_t status = 0;
-    for (const servo::Frame& frame : frames) status |= frame.status;
+    for (const frame::Frame& frame : frames) status |= frame.status;
     return status;
 }
 
 TEST(Session, ReplaysWhatTheDevicesLimitsAndTheSwitchDid) {
-    EXPECT_NE(status_of(run_and_replay("{continuous_force_N: 0.5}", {})) & servo::kHeatLimited, 0u);
-    EXPECT_NE(status_of(run_and_replay("{workspace_mm: [80, 80, 80]}", {})) & servo::kPushedInward,
-              0u);
+    EXPECT_NE(status_of(run_and_replay("{continuous_force_N: 0.5}", {})) & kHeatLimited, 0u);
+    EXPECT_NE(status_of(run_and_replay("{workspace_mm: [80, 80, 80]}", {})) & kPushedInward, 0u);
     const auto held = run_and_replay("{buttons: 2}",
                                      {"safety.dead_man_finger=index", "safety.dead_man_button=1"});
-    EXPECT_EQ(status_of(held) & servo::kSwitchedOff, 0u);
+    EXPECT_EQ(status_of(held) & kSwitchedOff, 0u);
     const auto loose = run_and_replay("{buttons: 2}", {"safety.dead_man_finger=index"});
     double force = 0;
-    for (const servo::Frame& frame : loose) {
-        EXPECT_NE(frame.status & servo::kSwitchedOff, 0u);
+    for (const frame::Frame& frame : loose) {
+        EXPECT_NE(frame.status & kSwitchedOff, 0u);
         force = std::max(force, frame.fingers[0].f_sent_W.norm());
     }
     EXPECT_EQ(force, 0);
@@ -324,19 +323,19 @@ TEST(Session, AWallThatIsNotWhereTheWorkIsIsWarnedOf) {
 }
 
 TEST(Session, TheRigsWallKeepsHandsInAndReplays) {
-    const auto highest = [](const std::vector<servo::Frame>& frames) {
+    const auto highest = [](const std::vector<frame::Frame>& frames) {
         double height = 0;
-        for (const servo::Frame& frame : frames)
+        for (const frame::Frame& frame : frames)
             height = std::max(height, frame.fingers[0].p_WH.z());
         return height;
     };
     const auto wide = run_and_replay("{workspace_mm: [600, 600, 600]}", {});
-    EXPECT_EQ(status_of(wide) & servo::kPushedInward, 0u);
+    EXPECT_EQ(status_of(wide) & kPushedInward, 0u);
     // a wall in place of the box that the devices say they reach
     const auto low =
         run_and_replay("{workspace_mm: [600, 600, 600]}", {"safety.workspace_stiffness_N_m=2000"},
                        "wall: {centre_mm: [0, 0, 10], size_mm: [600, 600, 80]}\n");
-    EXPECT_NE(status_of(low) & servo::kPushedInward, 0u);
+    EXPECT_NE(status_of(low) & kPushedInward, 0u);
     EXPECT_GT(highest(wide), 0.065);
     EXPECT_LT(highest(low), 0.055);
 }
@@ -346,13 +345,13 @@ TEST(Session, ReplaysWhatTheEnergyGuardDid) {
     const auto frames =
         run_and_replay("{}", {"coupling.kind=dual_spring", "coupling.stiffness_N_m=4000",
                               "safety.energy_guard=act", "safety.soft_start_s=0"});
-    EXPECT_NE(status_of(frames) & servo::kEnergyDamped, 0u);
+    EXPECT_NE(status_of(frames) & kEnergyDamped, 0u);
 }
 
 TEST(Session, AFaultEndsItAfterASecond) {
     const auto frames = run_and_replay("{}", {"safety.max_speed_m_s=0.01"});
-    const auto first = std::find_if(frames.begin(), frames.end(), [](const servo::Frame& frame) {
-        return (frame.status & servo::kForceOff) != 0;
+    const auto first = std::find_if(frames.begin(), frames.end(), [](const frame::Frame& frame) {
+        return (frame.status & kForceOff) != 0;
     });
     ASSERT_NE(first, frames.end());
     EXPECT_EQ(frames.back().time - first->time, servo::kGrace);
@@ -377,7 +376,7 @@ TEST(Session, ThreeFingersLiftABlockAndGripItAsEachSideDoes) {
     recording::RawLogReader log(result.folder + "/raw.log");
     constexpr double kWeight = 0.15 * 9.81;
     int held = 0;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         if (frame->phase != 2) continue;
         ++held;
         // the hand's springs and the couplings' give way to the weight
@@ -412,9 +411,9 @@ TEST(Session, EachFingerHasTheProxyThatTheSceneGivesIt) {
     recording::RawLogReader log(result.folder + "/raw.log");
     double stirred = 0;
     double mug = 0;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         const auto n = static_cast<int>(frame->bodies.size());
-        for (const servo::ContactFrame& c : frame->contacts) {
+        for (const frame::ContactFrame& c : frame->contacts) {
             if (c.a == n + 1 || c.b == n + 1) {
                 // a point proxy touches at its own position; it has since moved on by a tick
                 EXPECT_LT((c.p_WC - frame->fingers[1].p_WP).norm(), 1e-3);
@@ -431,10 +430,10 @@ TEST(Session, EachFingerHasTheProxyThatTheSceneGivesIt) {
 /// Largest change of any sent force from tick to tick, over the largest allowed.
 double worst_force_rate(const std::string& folder) {
     recording::RawLogReader log(folder + "/raw.log");
-    const double most = servo::Settings{}.safety.max_force_rate * log.head().tick;
+    const double most = frame::Settings{}.safety.max_force_rate * log.head().tick;
     std::vector<Vec3> last(log.head().fingers.size(), Vec3::Zero());
     double worst = 0;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         for (size_t i = 0; i < last.size(); ++i) {
             worst = std::max(worst, (frame->fingers[i].f_sent_W - last[i]).norm() / most);
             last[i] = frame->fingers[i].f_sent_W;
@@ -451,7 +450,7 @@ TEST(Movement, TheShippedOneIsGraspedWithoutAForceSpike) {
     EXPECT_TRUE(fs::exists(result.folder + "/movement-faults.csv"));
     recording::RawLogReader log(result.folder + "/raw.log");
     double grip = 0;
-    while (const servo::Frame* frame = log.next()) grip = std::max(grip, frame->grip_force);
+    while (const frame::Frame* frame = log.next()) grip = std::max(grip, frame->grip_force);
     EXPECT_GT(grip, 0.5);
 }
 
@@ -473,7 +472,7 @@ TEST(Movement, EveryRecordedOneRunsTwiceTheSameAndWithoutAForceSpike) {
         ++count;
         recording::RawLogReader log(a.folder + "/raw.log");
         double grip = 0;
-        while (const servo::Frame* frame = log.next()) grip = std::max(grip, frame->grip_force);
+        while (const frame::Frame* frame = log.next()) grip = std::max(grip, frame->grip_force);
         if (grip > 0.2) ++touched;
     }
     EXPECT_EQ(count, 30);

@@ -16,7 +16,7 @@ using analysis::EpisodeKind;
 
 constexpr double kGravity = 9.81;
 
-class Skills : public ::testing::TestWithParam<dynamics::Solver> {
+class Skills : public ::testing::TestWithParam<contact::Solver> {
   protected:
     std::vector<Episode> run(const std::string& experiment) {
         Request request;
@@ -29,7 +29,7 @@ class Skills : public ::testing::TestWithParam<dynamics::Solver> {
         session = recorded.folder;
         figures = recorded.figures;
         EXPECT_FALSE(figures.failed());
-        EXPECT_EQ(figures.ticks_with(servo::kForceLimited), 0);
+        EXPECT_EQ(figures.ticks_with(kForceLimited), 0);
         return figures.episodes;
     }
     double end() const { return figures.duration - 2 * figures.tick; }
@@ -39,10 +39,10 @@ class Skills : public ::testing::TestWithParam<dynamics::Solver> {
     analysis::SessionFigures figures;
 };
 INSTANTIATE_TEST_SUITE_P(Session, Skills,
-                         ::testing::Values(dynamics::Solver::sequential_impulse,
-                                           dynamics::Solver::stewart_trinkle,
-                                           dynamics::Solver::staggered_projections,
-                                           dynamics::Solver::newton),
+                         ::testing::Values(contact::Solver::sequential_impulse,
+                                           contact::Solver::stewart_trinkle,
+                                           contact::Solver::staggered_projections,
+                                           contact::Solver::newton),
                          [](const auto& of) { return std::string(enum_name(of.param)); });
 
 TEST_P(Skills, ABlockThatIsPushedFeelsFrictionAndSlidesOnAsFarAsItLets) {
@@ -117,7 +117,7 @@ TEST_P(Skills, ABlockChangesHandsWithoutFalling) {
     double before = 0;
     double after = 0;
     recording::RawLogReader log(session + "/raw.log");
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         const double z = frame->bodies[1].X_WB.p.z();
         if (frame->time < std::chrono::milliseconds(2000)) before = z;
         if (frame->time < std::chrono::milliseconds(4500)) after = z;
@@ -134,7 +134,7 @@ TEST_P(Skills, ABlockOnASpatulaIsFeltAsItsWeightTimesItsDistance) {
     // level, and tilted by 10 degrees; the weight turns it in addition
     for (const double when : {2.9, 4.9}) {
         recording::RawLogReader log(session + "/raw.log");
-        const servo::Frame* frame = log.next();
+        const frame::Frame* frame = log.next();
         while (seconds(frame->time) < when) frame = log.next();
         const double distance = frame->bodies[3].X_WB.p.x() - frame->fingers[0].p_WH.x();
         const Vec3& torque = frame->turns.at(0).t_sent_W;

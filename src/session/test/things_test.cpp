@@ -14,33 +14,33 @@ namespace dihaptic::session::things_test {
 namespace {
 
 /// Calls f(frame) for each tick of a scene's script.
-void play(const std::string& scene, const std::function<void(const servo::Frame&)>& f) {
+void play(const std::string& scene, const std::function<void(const frame::Frame&)>& f) {
     const testing::TemporaryFolder folder;
     Request request;
     request.file = "scenes/" + scene + ".yaml";
     RunOptions options;
     options.out = folder.path();
-    options.in_place_of_log = [&](const auto&, const auto&, const auto&) -> servo::FrameSink {
-        return [&](const servo::Frame& frame) { f(frame); };
+    options.in_place_of_log = [&](const auto&, const auto&, const auto&) -> frame::FrameSink {
+        return [&](const frame::Frame& frame) { f(frame); };
     };
     std::atomic<bool> stop{false};
     const RunResult result = run_session(make_plan(request), options, stop, {});
     EXPECT_TRUE(result.fault.empty()) << result.fault;
 }
 
-double seconds_of(const servo::Frame& frame) {
+double seconds_of(const frame::Frame& frame) {
     return std::chrono::duration<double>(frame.time).count();
 }
 
 /// Force of both fingers on what they hold, and the least of the two.
-double grip_of(const servo::Frame& frame) {
+double grip_of(const frame::Frame& frame) {
     return std::min(frame.fingers[0].f_contact_W.norm(), frame.fingers[1].f_contact_W.norm());
 }
 
 TEST(Things, ADrawerIsPulledOpenAndStays) {
     double most = 0;
     double last = 0;
-    play("drawer", [&](const servo::Frame& frame) {
+    play("drawer", [&](const frame::Frame& frame) {
         most = std::max(most, last = frame.joints[0].displacement);
         EXPECT_GE(last, -1e-6);
     });
@@ -52,7 +52,7 @@ TEST(Things, ADrawerIsPulledOpenAndStays) {
 
 TEST(Things, ADoorIsOpenedByItsHandleAndItsHingesStayTogether) {
     double most = 0;
-    play("door", [&](const servo::Frame& frame) {
+    play("door", [&](const frame::Frame& frame) {
         most = std::max(most, frame.joints[0].angle);
         for (size_t i = 1; i < 3; ++i) {
             EXPECT_NEAR(frame.joints[i].angle, frame.joints[0].angle, 1e-6);
@@ -66,7 +66,7 @@ TEST(Things, APendulumIsLetGoAndSwings) {
     double longest = 0;
     double least = 1;
     double most = -1;
-    play("pendulum", [&](const servo::Frame& frame) {
+    play("pendulum", [&](const frame::Frame& frame) {
         longest = std::max(longest, frame.joints[0].displacement);
         if (seconds_of(frame) < 3) return;
         least = std::min(least, frame.bodies[2].X_WB.p.y());
@@ -80,7 +80,7 @@ TEST(Things, APendulumIsLetGoAndSwings) {
 TEST(Things, ScissorsCloseAndOpen) {
     double most = 0;
     double last = 0;
-    play("scissors", [&](const servo::Frame& frame) {
+    play("scissors", [&](const frame::Frame& frame) {
         last = frame.joints[0].angle;
         most = std::max(most, last);
     });
@@ -91,7 +91,7 @@ TEST(Things, ScissorsCloseAndOpen) {
 TEST(Things, ASpringBetweenTwoPlatesIsFelt) {
     double stretch = 0;
     double grip = 0;
-    play("spring-between-plates", [&](const servo::Frame& frame) {
+    play("spring-between-plates", [&](const frame::Frame& frame) {
         if (seconds_of(frame) < 2.3 || seconds_of(frame) > 2.4) return;
         stretch = frame.joints[0].displacement;
         grip = grip_of(frame);
@@ -103,7 +103,7 @@ TEST(Things, ASpringBetweenTwoPlatesIsFelt) {
 
 TEST(Things, APoleFallsOver) {
     double most = 0;
-    play("pole", [&](const servo::Frame& frame) {
+    play("pole", [&](const frame::Frame& frame) {
         most = std::max(most, std::abs(frame.joints[0].angle));
         EXPECT_LT(std::abs(frame.joints[0].angle), 60.5 * kDegree);
     });
@@ -113,10 +113,10 @@ TEST(Things, APoleFallsOver) {
 TEST(Things, ASpongeGivesWayWhereAStoneDoesNot) {
     double sponge = 1;
     double stone = 1;
-    const auto between = [](const servo::Frame& frame) {
+    const auto between = [](const frame::Frame& frame) {
         return (frame.fingers[1].p_WP - frame.fingers[0].p_WP).norm() - 0.005;
     };
-    play("sponge-and-stone", [&](const servo::Frame& frame) {
+    play("sponge-and-stone", [&](const frame::Frame& frame) {
         if (grip_of(frame) < 0.5) return;
         double& least = seconds_of(frame) < 4 ? sponge : stone;
         least = std::min(least, between(frame));
@@ -128,7 +128,7 @@ TEST(Things, ASpongeGivesWayWhereAStoneDoesNot) {
 TEST(Things, ABallBouncesOnARacketLowerEachTime) {
     std::vector<double> heights;
     double before = 0;
-    play("bouncing-ball", [&](const servo::Frame& frame) {
+    play("bouncing-ball", [&](const frame::Frame& frame) {
         if (seconds_of(frame) > 1) return;  // then the racket moves
         const double v = frame.bodies[2].v_WB.z();
         if (before > 0 && v <= 0)
@@ -143,7 +143,7 @@ TEST(Things, ABallBouncesOnARacketLowerEachTime) {
 TEST(Things, ATowerStandsWhenABarIsPulledOut) {
     double out = 0;
     double roof = 1;
-    play("tower", [&](const servo::Frame& frame) {
+    play("tower", [&](const frame::Frame& frame) {
         out = frame.bodies[5].X_WB.p.y();
         roof = std::min(roof, frame.bodies[7].X_WB.p.z());
     });

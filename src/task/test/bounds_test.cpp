@@ -2,8 +2,8 @@
 // and that a value that overflows by its unit is refused.
 #include <gtest/gtest.h>
 
+#include "frame/settings.h"
 #include "rig/rig.h"
-#include "servo/settings.h"
 #include "task/experiment.h"
 #include "testing/bounds.h"
 
@@ -13,7 +13,7 @@ namespace {
 using testing::expect_bounds;
 
 TEST(Bounds, AreOfEverySettingAndOfScenesAndHands) {
-    expect_bounds<servo::Settings>();
+    expect_bounds<frame::Settings>();
     expect_bounds<scene::Scene>();
     expect_bounds<hand::HandSpec>();
     for (size_t kind = 0; kind < enum_names(scene::ShapeKind{}).size(); ++kind) {
@@ -45,7 +45,7 @@ TEST(Bounds, AreOfExperimentsTasksAndProcedures) {
 /// Problems of reading a line of settings.
 std::string said_of(const std::string& line) {
     Diagnostics diagnostics;
-    servo::Settings settings;
+    frame::Settings settings;
     read_fields(settings, parse_yaml(line, "settings.yaml"), diagnostics);
     return diagnostics.problems().empty() ? "" : diagnostics.problems().front().text();
 }

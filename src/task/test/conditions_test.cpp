@@ -62,7 +62,7 @@ struct Waiting {
         return -1;
     }
     void press(int finger, double force = 1) {
-        servo::ContactFrame& contact = last.contacts.emplace_back();
+        frame::ContactFrame& contact = last.contacts.emplace_back();
         contact.a = kBlock;
         contact.b = finger;
         contact.normal_force = force;
@@ -70,9 +70,9 @@ struct Waiting {
 
     session::Plan plan;
     std::unique_ptr<TaskDirector> director;
-    servo::Frame last;
-    std::vector<haptics::Handle> handles{{{0, 0, 1}, Vec3::Zero()}, {{0.1, 0, 1}, Vec3::Zero()}};
-    servo::Commands commands;
+    frame::Frame last;
+    std::vector<frame::Handle> handles{{{0, 0, 1}, Vec3::Zero()}, {{0.1, 0, 1}, Vec3::Zero()}};
+    frame::Commands commands;
 };
 
 TEST(Conditions, AnExpressionEndsAState) {
@@ -176,7 +176,7 @@ TEST(Conditions, ShortFormsAndFunctionsAgree) {
             Waiting a(shorter);
             Waiting b(longer);
             for (int tick = 0; tick < 200; ++tick) {
-                for (haptics::Handle& handle : a.handles) {
+                for (frame::Handle& handle : a.handles) {
                     handle.p_WH = Vec3(0.1 + random.normal() * 0.02, 0, 0.02);
                     handle.v_WH = Vec3(random.normal() * 0.1, 0, 0);
                 }
@@ -217,7 +217,7 @@ TEST(Conditions, ASessionEndsItsStatesByThemAndIsReplayed) {
     const session::RunResult result = files.run(plan);
     recording::RawLogReader log(result.folder + "/raw.log");
     int reached = 0;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         if (frame->task.outcome < 0) continue;
         const std::string& name =
             plan.task->outcomes[static_cast<size_t>(frame->task.outcome)].name;

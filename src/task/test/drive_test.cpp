@@ -31,15 +31,15 @@ std::string state(const std::string& name, const std::string& next, const std::s
 }
 
 /// Frames of the first trial of an experiment with these states; what is recorded replays.
-std::vector<servo::Frame> frames_of(session::Files& files, const std::string& states) {
+std::vector<frame::Frame> frames_of(session::Files& files, const std::string& states) {
     files.experiment = "scene: scene.yaml\nhand: { centre_mm: [0, 0, 220] }\ntask:\n  states:\n" +
                        states + "  blocks: [{ name: all, repeats: 2 }]\n";
     const session::RunResult result = files.run(session::make_plan(files.request()));
     EXPECT_FALSE(result.interrupted) << result.fault;
     EXPECT_TRUE(session::replay_session(result.folder, session::kGoOn, {}).good());
-    std::vector<servo::Frame> out;
+    std::vector<frame::Frame> out;
     recording::RawLogReader log(result.folder + "/raw.log");
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         if (frame->trial == 1 && frame->phase > 0 && frame->task.outcome < 0) out.push_back(*frame);
     }
     return out;
@@ -57,7 +57,7 @@ TEST(Drive, GoesOnAMinimumJerkPathAndBack) {
     ASSERT_GT(frames.size(), 550u);
     int in_state = 0;
     int phase = 1;
-    for (const servo::Frame& frame : frames) {
+    for (const frame::Frame& frame : frames) {
         in_state = frame.phase == phase ? in_state + 1 : 1;
         phase = frame.phase;
         if (frame.sequence < 1) continue;

@@ -51,7 +51,7 @@ struct Grasp {
         quantities.set(Quantities::kTrial, 12);
     }
     void press(int a, int b, double force) {
-        servo::ContactFrame& contact = last.contacts.emplace_back();
+        frame::ContactFrame& contact = last.contacts.emplace_back();
         contact.a = a;
         contact.b = b;
         contact.normal_force = force;
@@ -72,9 +72,9 @@ struct Grasp {
          .joints = {"drawer", "hinge"},
          .regions = {"goal", "far side"},
          .hands = {{"left", scene::first_fingers(2)}, {"one", scene::finger_set(1)}}}};
-    servo::Frame last;
-    std::vector<haptics::Handle> handles{{{0, 0, 0.05}, {0.3, 0, 0.4}},
-                                         {{0.04, 0, 0.07}, {0.01, 0, 0}}};
+    frame::Frame last;
+    std::vector<frame::Handle> handles{{{0, 0, 0.05}, {0.3, 0, 0.4}},
+                                       {{0.04, 0, 0.07}, {0.01, 0, 0}}};
     Diagnostics diagnostics;
 };
 
@@ -448,11 +448,11 @@ TEST(Expression, AnyNumberOfFingersAreToldApart) {
         names.hands = {{"last", scene::finger_set(count - 1)}};
         Quantities quantities(names);
         Diagnostics diagnostics;
-        servo::Frame last;
+        frame::Frame last;
         last.bodies.resize(1);
         last.fingers.resize(count);
         last.contacts.resize(2);
-        std::vector<haptics::Handle> handles(count);
+        std::vector<frame::Handle> handles(count);
         for (size_t i = 0; i < count; ++i) handles[i].p_WH.x() = static_cast<double>(i);
         const auto value = [&](const std::string& text) {
             const Expression expression =

@@ -23,7 +23,7 @@ std::vector<Said> said_in(const session::RunResult& result) {
     std::vector<Said> out;
     recording::RawLogReader log(result.folder + "/raw.log");
     int running = 0;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         const std::string message =
             frame->task.message < 0 ? ""
                                     : log.head().messages[static_cast<size_t>(frame->task.message)];
@@ -98,7 +98,7 @@ TEST(Feedback, WhatIsPressedMeanwhileAnswersNoLaterTrial) {
                   "- { when: key, key: y, outcome: reached, feedback: Good }");
     const session::Plan plan = session::make_plan(files.request());
     test::RestingHand hand(plan);
-    const servo::Commands& commands = hand.commands;
+    const frame::Commands& commands = hand.commands;
     int tick = 0;
     const auto run = [&](double time, const char key) {
         for (; tick < time * 1e3; ++tick) {

@@ -105,19 +105,19 @@ TEST(Formulas, FollowDrawsFactorsAndVariablesInEachTrial) {
     std::map<int, double> began;
     int shown = 0;
     int changed = 0;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         if (frame->trial < 1 || frame->phase == kBetween) continue;
         const size_t row = rows.at(number_text(frame->trial));
         began.try_emplace(frame->trial, seconds(frame->time));
         const double in_trial = seconds(frame->time) - began[frame->trial];
         EXPECT_EQ(frame->phase == 1, in_trial < trials.number(row, "wait_s") - 5e-4);
-        for (const servo::TargetFrame& target : frame->task.targets) {
+        for (const frame::TargetFrame& target : frame->task.targets) {
             const double side = trials.number(row, "side");
             EXPECT_NEAR(target.p_WT.x(), side * reach[row] * 1e-3, 1e-12);
             EXPECT_EQ(target.radius, trials.text(row, "which") == "near" ? 0.006 : 0.008);
             ++shown;
         }
-        for (const servo::PropertiesFrame& block : frame->task.properties) {
+        for (const frame::PropertiesFrame& block : frame->task.properties) {
             EXPECT_EQ(block.turning_scale, trials.number(row, "mass_g") / 100);
             EXPECT_EQ(block.friction_scale, trials.text(row, "surface") == "silk" ? 0.5 : 1);
             ++changed;
@@ -214,13 +214,13 @@ TEST(Formulas, ARecoveredSessionHasItsColumnsAndAResumedOneGoesOnWithItsVariable
         cut.lock.reset();
         recording::RawLogReader all(cut.folder + "/raw.log");
         const recording::LogHead head = all.head();
-        std::vector<servo::Frame> frames;
+        std::vector<frame::Frame> frames;
         for (int i = 0; i < ticks; ++i) frames.push_back(*all.next());
         fs::remove(cut.folder + "/raw.log");
         {
             recording::RawLogWriter log(cut.folder + "/raw.log", head);
             std::vector<std::byte> bytes(recording::most_bytes(head.layout(), 100));
-            for (const servo::Frame& frame : frames) {
+            for (const frame::Frame& frame : frames) {
                 const size_t size = recording::encode(frame, bytes, recording::Bodies::all);
                 log.add(std::span(bytes).first(size));
             }

@@ -57,14 +57,14 @@ struct Jointed : session::Files {
                      (perturbation.empty() ? "" : ", kind: perturbed, perturb: changed") + " }]\n";
     }
     /// Frames of the trials' last ticks in the state, after a session that replays.
-    std::vector<servo::Frame> last_frames() {
+    std::vector<frame::Frame> last_frames() {
         const session::RunResult result = run(session::make_plan(request()));
         EXPECT_FALSE(result.interrupted) << result.fault;
         EXPECT_TRUE(session::replay_session(result.folder, session::kGoOn, {}).good());
-        std::vector<servo::Frame> out;
+        std::vector<frame::Frame> out;
         recording::RawLogReader log(result.folder + "/raw.log");
         int trial = 0;
-        while (const servo::Frame* frame = log.next()) {
+        while (const frame::Frame* frame = log.next()) {
             if (frame->phase != 1 || frame->task.outcome >= 0) continue;
             if (frame->trial != trial) out.emplace_back();
             trial = frame->trial;
@@ -102,7 +102,7 @@ TEST(JointsInTasks, BeginWhereATrialSaysWithAllThatHangsOnThem) {
     double last = start;
     bool first = true;
     double passed = 0;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         if (frame->phase == 0) continue;
         if (first) {  // a step of gravity later
             EXPECT_LT((frame->bodies[2].X_WB.p - Vec3(0.2, 0, 0.5) - kLength * down).norm(), 1e-5);
@@ -135,7 +135,7 @@ TEST(JointsInTasks, HaveTheSpringsThatTrialsGiveThem) {
     Jointed files;
     files.does("lines: []", "{ name: changed, joint: { joint: scale, stiffness_scale: k } }",
                "  cross: [{ factor: k, levels: [0.5, 1, 4] }]\n");
-    const std::vector<servo::Frame> last = files.last_frames();
+    const std::vector<frame::Frame> last = files.last_frames();
     ASSERT_EQ(last.size(), 3u);
     const double sag = 0.05 * kGravity / 50;
     for (size_t i = 0; i < 3; ++i) {
@@ -153,9 +153,9 @@ TEST(JointsInTasks, AreMovedByMotors) {
         "motors: [{ joint: drawer, displacement_mm: 40, duration_s: 0.5, most_force_N: 2 }, "
         "{ joint: shoulder, follow: 30 deg * sin(6.2831853 * time_in_state / (1 s)), "
         "most_torque_Nm: 1 }, { joint: scale, push: 2 N * time_in_state / (1 s) }]");
-    const std::vector<servo::Frame> last = files.last_frames();
+    const std::vector<frame::Frame> last = files.last_frames();
     ASSERT_EQ(last.size(), 1u);
-    const servo::Frame& end = last[0];
+    const frame::Frame& end = last[0];
     EXPECT_NEAR(end.joints[kDrawer].displacement, 0.04, 1e-6);
     EXPECT_NEAR(end.joints[kShoulder].angle, 0, 5e-3);  // after one turn of the sine
     EXPECT_NEAR(end.joints[kShoulder].angular_velocity, 30 * M_PI / 180 * 2 * M_PI, 0.02);
@@ -174,7 +174,7 @@ TEST(JointsInTasks, BeginWhereTheyArePlacedAlsoWithMotors) {
     ASSERT_FALSE(result.interrupted) << result.fault;
     recording::RawLogReader log(result.folder + "/raw.log");
     double least = 1e3, most = -1e3;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         if (frame->phase != 1) continue;
         least = std::min(least, frame->joints[kShoulder].angle);
         most = std::max(most, frame->joints[kShoulder].angle);
@@ -189,7 +189,7 @@ TEST(JointsInTasks, StayWhereAnExpressionHasNoValue) {
         "motors: [{ joint: shoulder, follow: 10 deg / (time_in_state - time_in_state) * (1 s), "
         "most_torque_Nm: 1, push: 1 Nm * (0 / share) }]",
         "", "  conditions: [{ name: one, places: [{ joint: shoulder, angle_deg: 30 }] }]\n");
-    const std::vector<servo::Frame> last = files.last_frames();
+    const std::vector<frame::Frame> last = files.last_frames();
     ASSERT_EQ(last.size(), 1u);
     EXPECT_NEAR(last[0].joints[kShoulder].angle, 30 * M_PI / 180, 1e-3);
     EXPECT_EQ(last[0].task.motors[0].push, 0);
@@ -208,7 +208,7 @@ TEST(JointsInTasks, BeginWithTheRateThatATrialSays) {
     ASSERT_FALSE(result.interrupted) << result.fault;
     EXPECT_TRUE(session::replay_session(result.folder, session::kGoOn, {}).good());
     recording::RawLogReader log(result.folder + "/raw.log");
-    const servo::Frame* frame = log.next();
+    const frame::Frame* frame = log.next();
     while (frame != nullptr && frame->phase != 1) frame = log.next();
     ASSERT_NE(frame, nullptr);
     const double rate = 90 * M_PI / 180;
@@ -236,7 +236,7 @@ TEST(JointsInTasks, AndBodiesAreThrownByStates) {
     recording::RawLogReader log(result.folder + "/raw.log");
     Vec3 last = Vec3::Zero();
     int ticks = 0;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         if (frame->phase != 2) continue;
         last = frame->bodies[1].X_WB.p;
         ++ticks;

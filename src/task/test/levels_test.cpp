@@ -231,8 +231,8 @@ TEST(Levels, AreWhereABodyIsPutInEachInterval) {
     std::map<int, double> x;  // by phase
     int trials = 0;
     for (int i = 0; !hand.commands.stop && i < 10000; ++i) {
-        const servo::TaskFrame& task = hand.tick().task;
-        for (const servo::PlacementFrame& placed : task.placements) {
+        const frame::TaskFrame& task = hand.tick().task;
+        for (const frame::PlacementFrame& placed : task.placements) {
             hand.last.bodies[static_cast<size_t>(placed.body)].X_WB = placed.X_WB;
             if (placed.body == 0) x[hand.commands.phase] = placed.X_WB.p.x();
         }

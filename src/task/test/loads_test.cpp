@@ -189,10 +189,10 @@ TEST(Profile, RisesStaysAndFallsAndItsIntegralIsThatOfATrapezium) {
 
 TEST(Motions, KeepWhatWasADelayAgo) {
     Motions motions(1, 1, 0.01, kTick);
-    servo::Frame last;
+    frame::Frame last;
     last.bodies.resize(1);
     last.sequence = -1;
-    std::vector<haptics::Handle> handles(1);
+    std::vector<frame::Handle> handles(1);
     const auto tick = [&](int i) {
         last.bodies[0].X_WB.p.x() = -i;
         handles[0].p_WH.x() = i;
@@ -235,11 +235,11 @@ struct InTheAir : session::Files {
             "  blocks: [{ name: all, kind: perturbed, perturb: " + perturb + " }]\n";
     }
     /// Frames of the trial but its last, in which nothing acts any more.
-    std::vector<servo::Frame> run() {
+    std::vector<frame::Frame> run() {
         const session::RunResult result = Files::run(session::make_plan(request()));
-        std::vector<servo::Frame> out;
+        std::vector<frame::Frame> out;
         recording::RawLogReader log(result.folder + "/raw.log");
-        while (const servo::Frame* frame = log.next()) {
+        while (const frame::Frame* frame = log.next()) {
             if (frame->trial == 1 && frame->task.outcome < 0) out.push_back(*frame);
         }
         EXPECT_TRUE(session::replay_session(result.folder, session::kGoOn, {}).good());
@@ -258,8 +258,8 @@ TEST(Load, ABodyOnASpringOscillatesWithItsPeriod) {
     const double sag = kMass * kGravity / 100;
     const double rate = std::sqrt(100 / kMass);  // a period of 0.2 s
     double t = 0;
-    const std::vector<servo::Frame> frames = files.run();
-    for (const servo::Frame& frame : frames) {
+    const std::vector<frame::Frame> frames = files.run();
+    for (const frame::Frame& frame : frames) {
         t += kTick;
         EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), 0.5 - sag * (1 - std::cos(rate * t)), 0.03 * sag);
     }
@@ -273,7 +273,7 @@ TEST(Load, ATorqueTurnsABodyByItsInertia) {
         "twist");
     const double inertia = kMass * 0.04 * 0.04 / 6;
     double t = 0;
-    for (const servo::Frame& frame : files.run()) {
+    for (const frame::Frame& frame : files.run()) {
         t += kTick;
         EXPECT_NEAR(frame.bodies[1].w_WB.z(), 1e-3 / inertia * t, 1e-6);
         EXPECT_NEAR(frame.bodies[1].X_WB.p.z(), 0.5, 1e-9);  // the force bears its weight
@@ -291,10 +291,10 @@ TEST(Load, ATorqueOnAHandleIsAddedToTheCouplings) {
         "rig.yaml",
         "devices: [{ finger: index, backend: simulated, options: { preset: sigma_7 } "
         "}]\n");
-    const std::vector<servo::Frame> frames = files.run();
+    const std::vector<frame::Frame> frames = files.run();
     ASSERT_GT(frames.size(), 300u);
     for (size_t i = 10; i < frames.size(); ++i) {
-        const servo::TurnFrame& turn = frames[i].turns.at(0);
+        const frame::TurnFrame& turn = frames[i].turns.at(0);
         EXPECT_LT((turn.t_sent_W - turn.t_asked_W - Vec3(0, 0, 0.02)).norm(), 1e-12) << i;
     }
     // the hand holds the handle by 1 N*m/rad
@@ -308,7 +308,7 @@ TEST(Load, ADelayedOneIsTheUndelayedShifted) {
         "        - { kind: viscous, on: block, damping_Ns_m: 0.1 }\n"
         "        - { kind: viscous, on: block, damping_Ns_m: 0.1, delay_ms: 25 }\n",
         "both");
-    const std::vector<servo::Frame> frames = files.run();
+    const std::vector<frame::Frame> frames = files.run();
     ASSERT_GT(frames.size(), 300u);
     for (size_t i = 25; i < frames.size(); ++i) {
         ASSERT_EQ(frames[i].task.loads.size(), 2u);
@@ -338,7 +338,7 @@ TEST(Perturbation, APulseFollowsItsProfileAcrossStatesAndNoOthers) {
     profile.fall = 0.04;
     int ticks = 0;  // since the second state was entered
     double impulse = 0;
-    for (const servo::Frame& frame : files.run()) {
+    for (const frame::Frame& frame : files.run()) {
         const bool acts = frame.phase == 2 || frame.phase == 3;
         const double share = acts ? profile.share(kTick * ticks) : 0;
         ticks += acts;
@@ -367,7 +367,7 @@ TEST(Perturbation, SeveralActTogetherAndAreToldApartInTheListOfTrials) {
     const session::RunResult result = files.run(plan);
     recording::RawLogReader log(result.folder + "/raw.log");
     int both = 0;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         if (frame->trial < 1) continue;
         const Trial& trial = plan.task->trials[static_cast<size_t>(frame->trial) - 1];
         if (frame->phase != 2 || trial.perturb.size() != 2 || frame->task.outcome >= 0) continue;
@@ -418,14 +418,14 @@ TEST(Perturbation, LoadsOfEveryKindWithDelaysAndProfilesAllocateNothing) {
     TaskDirector task(*plan.task, plan.seed, plan.settings.tick());
     plan.seeing->restart();
     servo->activate();
-    const servo::Director director =
-        [&](const servo::Frame& last, std::span<const haptics::Handle> handles,
-            servo::Commands& commands) { task(last, handles, commands); };
+    const frame::Director director =
+        [&](const frame::Frame& last, std::span<const frame::Handle> handles,
+            frame::Commands& commands) { task(last, handles, commands); };
     Time now{0};
     size_t most = 0;
     const testing::AllocationGuard guard;
     while (!servo->stopped() && seconds(now) < 5) {
-        const servo::Frame& frame = servo->tick(now, director);
+        const frame::Frame& frame = servo->tick(now, director);
         most = std::max(most, frame.task.loads.size());
         plan.seeing->see(frame);
         now += servo->period();

@@ -69,7 +69,7 @@ inline std::vector<IntervalTrial> observe(const session::Plan& plan,
     std::vector<IntervalTrial> out;
     std::map<int, double> felt;  // by phase
     while (out.size() < most) {
-        const servo::Commands& commands = hand.tick();
+        const frame::Commands& commands = hand.tick();
         if (!commands.task.properties.empty())
             felt[commands.phase] = commands.task.properties.front().friction_scale;
         if (commands.phase == 4 && commands.task.outcome < 0) {

@@ -8,8 +8,8 @@
 #include <set>
 
 #include "analysis/session_report.h"
+#include "frame/shown_texts.h"
 #include "recording/raw_log.h"
-#include "servo/shown_texts.h"
 #include "session/replay.h"
 #include "session/test/reaches.h"
 #include "task/task_director.h"
@@ -29,7 +29,7 @@ struct Asked {
         commands.task.reserve(last.bodies.size());
     }
     /// Runs until a time [s]; in its first tick a key is pressed, unless it is 0.
-    const servo::Commands& run(double until, char key = 0) {
+    const frame::Commands& run(double until, char key = 0) {
         for (; tick < until * 1e3; ++tick, key = 0) {
             last.sequence = tick;
             last.time = from_seconds(tick * 1e-3);
@@ -42,9 +42,9 @@ struct Asked {
 
     session::Plan plan;
     TaskDirector director{*plan.task, 1, 1e-3};
-    servo::Frame last;
-    std::vector<haptics::Handle> handles{{{0, 0, 0.12}, Vec3::Zero()}};
-    servo::Commands commands;
+    frame::Frame last;
+    std::vector<frame::Handle> handles{{{0, 0, 0.12}, Vec3::Zero()}};
+    frame::Commands commands;
     int tick = 0;
 };
 
@@ -58,7 +58,7 @@ TEST(Opening, PagesWaitForTheirKeyOrTheirTime) {
     asked.run(0.2);
     EXPECT_EQ(asked.commands.task.page, 0);
     EXPECT_EQ(asked.commands.phase, kBetween);
-    EXPECT_EQ(servo::shown_texts(asked.commands.task, asked.plan.task->messages),
+    EXPECT_EQ(frame::shown_texts(asked.commands.task, asked.plan.task->messages),
               std::vector<std::string>{"Hello. 9 trials"});
     asked.run(0.3, 'q');  // any key
     EXPECT_EQ(asked.commands.task.page, 1);
@@ -104,8 +104,8 @@ TEST(Opening, ASimulatedSessionGoesOnByItselfRestsAndReplays) {
     EXPECT_EQ(log.head().pages, (std::vector<std::string>{"bead.png", "Now it turns"}));
     std::map<std::string, int> ticks;
     std::vector<double> left;
-    while (const servo::Frame* frame = log.next()) {
-        const auto texts = servo::shown_texts(frame->task, messages);
+    while (const frame::Frame* frame = log.next()) {
+        const auto texts = frame::shown_texts(frame->task, messages);
         const std::string said = texts.empty() ? "" : texts.front();
         ++ticks[said];
         EXPECT_EQ(frame->task.page, said == "Hello" ? 0 : said == "Now it turns" ? 1 : -1);

@@ -38,7 +38,7 @@ TEST(OwnMeasures, AreTakenOfEachAttemptInItsStates) {
     };
     std::map<int, Expected> expected;  // by trial
     recording::RawLogReader log(result.folder + "/raw.log");
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         if (frame->phase == 0) continue;
         Expected& e = expected[frame->trial];
         const Vec3& p_W = frame->fingers[0].p_WH;

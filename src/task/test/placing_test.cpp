@@ -23,15 +23,15 @@ std::string state(const std::string& name, const std::string& next, const std::s
 
 /// Frames of the first trial of an experiment with these states, but the session's first, in which
 /// no state puts anything yet.
-std::vector<servo::Frame> frames_of(session::Files& files, const std::string& states) {
+std::vector<frame::Frame> frames_of(session::Files& files, const std::string& states) {
     files.experiment = "scene: scene.yaml\nhand: { centre_mm: [0, 0, 220] }\ntask:\n  states:\n" +
                        states + "  blocks: [{ name: all, repeats: 2 }]\n";
     const session::RunResult result = files.run(session::make_plan(files.request()));
     EXPECT_FALSE(result.interrupted) << result.fault;
     EXPECT_TRUE(session::replay_session(result.folder, session::kGoOn, {}).good());
-    std::vector<servo::Frame> out;
+    std::vector<frame::Frame> out;
     recording::RawLogReader log(result.folder + "/raw.log");
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         if (frame->trial == 1 && frame->sequence > 0 && frame->task.outcome < 0)
             out.push_back(*frame);
     }
@@ -46,7 +46,7 @@ TEST(Placing, HoldsABodyAndLetsItGo) {
                                "simulated_hand: [{ duration_s: 0.1 }]") +
                              state("drop", "outcome: done", ""));
     double t = 0;
-    for (const servo::Frame& frame : frames) {
+    for (const frame::Frame& frame : frames) {
         const double z = frame.bodies[1].X_WB.p.z();
         EXPECT_NEAR(frame.bodies[1].X_WB.p.x(), 0.1, 1e-9);
         EXPECT_EQ(frame.task.placements.size(), frame.phase == 1 ? 1u : 0u);
@@ -70,9 +70,9 @@ TEST(Placing, RemovesAndExchangesBodies) {
                   ", place: [{ body: block, removed: yes }, { body: ball, position_mm: [0, 0, "
                   "20] }]"));
     ASSERT_GT(frames.size(), 150u);
-    for (const servo::Frame& frame : frames) {
-        const servo::BodyFrame& here = frame.bodies[frame.phase == 1 ? 1 : 2];
-        const servo::BodyFrame& away = frame.bodies[frame.phase == 1 ? 2 : 1];
+    for (const frame::Frame& frame : frames) {
+        const frame::BodyFrame& here = frame.bodies[frame.phase == 1 ? 1 : 2];
+        const frame::BodyFrame& away = frame.bodies[frame.phase == 1 ? 2 : 1];
         EXPECT_LT((here.X_WB.p - Vec3(0, 0, 0.02)).norm(), 1e-4) << frame.phase;
         EXPECT_GT(away.X_WB.p.z(), 900);
     }
@@ -89,7 +89,7 @@ TEST(Placing, WaitsForAFingerThatIsInTheWay) {
             state("away", "outcome: done", ""));
     ASSERT_GT(frames.size(), 850u);
     size_t put = 0;
-    for (const servo::Frame& frame : frames) {
+    for (const frame::Frame& frame : frames) {
         EXPECT_EQ(frame.fingers[0].f_contact_W, Vec3::Zero());
         if (frame.task.placements.empty()) continue;
         EXPECT_EQ(frame.phase, 1);
@@ -125,7 +125,7 @@ TEST(Placing, PutsAFixedBodyWhereAConditionHasItAndBackWhereTheOtherDoesNot) {
     EXPECT_TRUE(session::replay_session(result.folder, session::kGoOn, {}).good());
     std::map<std::string, int> ticks;
     recording::RawLogReader log(result.folder + "/raw.log");
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         if (frame->trial < 1 || frame->phase == 0) continue;
         const Trial& trial = plan.task->trials[static_cast<size_t>(frame->trial) - 1];
         const bool near =
@@ -157,7 +157,7 @@ TEST(Placing, IsByFormulasOfTheTrialAndOfFixedBodiesToo) {
     EXPECT_TRUE(session::replay_session(result.folder, session::kGoOn, {}).good());
     recording::RawLogReader log(result.folder + "/raw.log");
     int seen = 0;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         if (frame->trial < 1 || frame->phase == 0 || frame->sequence < 2) continue;
         const double gap = 1e-3 * plan.task->trials[static_cast<size_t>(frame->trial) - 1].draws[0];
         const Vec3& wall = frame->bodies[1].X_WB.p;

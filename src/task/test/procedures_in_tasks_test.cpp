@@ -73,7 +73,7 @@ std::vector<Answered> answer(const session::Plan& plan, const std::vector<Attemp
     test::RestingHand hand(plan, done);
     std::vector<Answered> out;
     while (out.size() < most) {
-        const servo::Commands& commands = hand.tick();
+        const frame::Commands& commands = hand.tick();
         if (commands.task.outcome >= 0) {
             const Trial& trial = plan.task->trials[static_cast<size_t>(commands.trial) - 1];
             out.push_back(

@@ -110,13 +110,13 @@ TEST(Rating, ByMouseIsTheFirstClickOnTheLine) {
 }
 
 /// Runs the director, with the hand at `p_WH`, and presses the keys one after the other.
-std::vector<servo::TaskFrame> run(const session::Plan& plan, const std::string& keys,
+std::vector<frame::TaskFrame> run(const session::Plan& plan, const std::string& keys,
                                   const Vec3& p_WH = {0, 0, 0.12}) {
     test::RestingHand hand(plan, {}, p_WH);
-    std::vector<servo::TaskFrame> out;
+    std::vector<frame::TaskFrame> out;
     size_t at = 0;
     for (int i = 0; i < 20000; ++i) {
-        const servo::Commands& commands = hand.tick();
+        const frame::Commands& commands = hand.tick();
         out.push_back(commands.task);
         if (commands.phase == 1 && commands.task.outcome < 0 && at < keys.size())
             hand.director.press(keys[at++]);
@@ -131,7 +131,7 @@ TEST(Rating, IsAVariableOfTheTrialAndANumberInItsLine) {
     ASSERT_EQ(plan.task->start.size(), 2u);
     std::vector<double> answers;
     std::vector<double> sums;
-    for (const servo::TaskFrame& task : run(plan, "37")) {
+    for (const frame::TaskFrame& task : run(plan, "37")) {
         if (task.outcome < 0) continue;
         answers.push_back(task.variables[1].value);
         sums.push_back(task.variables[0].value);
@@ -153,7 +153,7 @@ TEST(Rating, ByMouseIsTakenInATrialAndBetweenTrialsNot) {
     test::RestingHand hand(plan);
     std::vector<double> answers;
     for (int i = 0; !hand.commands.stop && i < 20000; ++i) {
-        const servo::Commands& commands = hand.tick();
+        const frame::Commands& commands = hand.tick();
         if (commands.task.outcome >= 0) answers.push_back(commands.task.variables[1].value);
         const bool asked = commands.phase == 1 && commands.task.outcome < 0;
         hand.director.click(asked ? 0.4 : 0.9);
@@ -168,7 +168,7 @@ TEST(Rating, ByTheCursorIsWhereTheHandIsWhenTheStateEnds) {
     files.replace("when: answered", "when: still, hold_s: 0.1");
     const session::Plan plan = session::make_plan(files.request());
     int trials = 0;
-    for (const servo::TaskFrame& task : run(plan, "", {0.03, 0.01, 0.15})) {
+    for (const frame::TaskFrame& task : run(plan, "", {0.03, 0.01, 0.15})) {
         if (task.outcome < 0) continue;
         EXPECT_NEAR(task.variables[1].value, 80, 1e-9);
         EXPECT_EQ(plan.task->outcomes[static_cast<size_t>(task.outcome)].name, "rated");

@@ -16,8 +16,8 @@ scene::Scene block_and_fingers() {
     return scene;
 }
 
-servo::Frame frame() {
-    servo::Frame out;
+frame::Frame frame() {
+    frame::Frame out;
     out.grip_force = 3;
     out.load_force = 1.5;
     out.fingers.resize(2);

@@ -13,10 +13,10 @@
 
 #include "base/field_writer.h"
 #include "base/number.h"
+#include "frame/settings.h"
 #include "person/population.h"
 #include "rig/kinds.h"
 #include "scene/kinds.h"
-#include "servo/settings.h"
 #include "task/experiment.h"
 #include "task/kinds.h"
 #include "testing/files.h"
@@ -291,7 +291,7 @@ std::string tables() {
     page.part<Experiment>("Experiment", "An experiment file.");
     page.part<scene::Scene>("Scene", "A scene file.");
     page.part<rig::Rig>("Rig", "A rig file.");
-    page.part<servo::Settings>("Settings",
+    page.part<frame::Settings>("Settings",
                                "What `settings` of scene, rig and experiment have, and `--set`.");
     page.part<hand::HandSpec>("Hand", "What `hand` of scene and experiment have.");
     page.part<person::Population>("Population", "A file of people for rehearsals.");

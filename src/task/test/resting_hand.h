@@ -11,9 +11,9 @@ namespace dihaptic::task::test {
 
 struct RestingHand {
     TaskDirector director;
-    servo::Frame last;
-    haptics::Handle handle;
-    servo::Commands commands;
+    frame::Frame last;
+    frame::Handle handle;
+    frame::Commands commands;
 
     explicit RestingHand(const session::Plan& plan, const std::vector<Attempt>& done = {},
                          const Vec3& p_WH = {0, 0, 0.12})
@@ -27,7 +27,7 @@ struct RestingHand {
     }
 
     /// What the director commands in the next tick.
-    const servo::Commands& tick() {
+    const frame::Commands& tick() {
         last.task = commands.task;
         commands.clear();
         director(last, std::span(&handle, 1), commands);

@@ -9,9 +9,9 @@
 #include "analysis/session_report.h"
 #include "base/field_writer.h"
 #include "base/number.h"
+#include "frame/displayed.h"
+#include "frame/shown_texts.h"
 #include "recording/raw_log.h"
-#include "servo/displayed.h"
-#include "servo/shown_texts.h"
 #include "session/replay.h"
 #include "session/test/reaches.h"
 #include "task/test/resting_hand.h"
@@ -25,7 +25,7 @@ constexpr int kReach = 2;
 const char* const kRotation = "about: start, axis: [0, 0, 1], angle_deg: 30 }";
 
 struct Told {
-    std::vector<servo::Frame> frames;
+    std::vector<frame::Frame> frames;
     recording::LogHead head;
     std::string folder;
 };
@@ -39,7 +39,7 @@ Told tell(session::Files& files) {
     out.folder = result.folder;
     recording::RawLogReader log(result.folder + "/raw.log");
     out.head = log.head();
-    while (const servo::Frame* frame = log.next()) out.frames.push_back(*frame);
+    while (const frame::Frame* frame = log.next()) out.frames.push_back(*frame);
     return out;
 }
 
@@ -51,8 +51,8 @@ std::map<std::string, std::set<std::string>> events_of(const Told& told,
     return out;
 }
 
-bool finger_is_displayed(const servo::Frame& frame) {
-    return servo::is_displayed(frame, servo::proxy_of(frame, 0));
+bool finger_is_displayed(const frame::Frame& frame) {
+    return frame::is_displayed(frame, frame::proxy_of(frame, 0));
 }
 
 TEST(Seen, AStateHidesCursorObjectAndBodies) {
@@ -62,24 +62,24 @@ TEST(Seen, AStateHidesCursorObjectAndBodies) {
                   "show: { targets: [target], cursor: no, bodies: { table: no } }");
     int hidden = 0;
     int begun = 0;
-    for (const servo::Frame& frame : tell(files).frames) {
+    for (const frame::Frame& frame : tell(files).frames) {
         if (frame.phase != kBetween) begun = frame.phase;
         if (frame.phase == kReach) {
             EXPECT_EQ(frame.task.targets.size(), frame.task.outcome < 0 ? 1u : 0u);
         }
         // between trials everything stays as the last state had it
         EXPECT_EQ(finger_is_displayed(frame), begun != kReach);
-        EXPECT_EQ(servo::is_displayed(frame, 0), begun != kReach);
-        EXPECT_TRUE(servo::is_displayed(frame, 1));
+        EXPECT_EQ(frame::is_displayed(frame, 0), begun != kReach);
+        EXPECT_TRUE(frame::is_displayed(frame, 1));
         hidden += begun == kReach ? 1 : 0;
     }
     EXPECT_GT(hidden, 200);
     session::Files object;
     object.keep_first_block();
     object.replace("show: [target]", "show: { object: no, cursor: no, fingers: { index: yes } }");
-    for (const servo::Frame& frame : tell(object).frames) {
+    for (const frame::Frame& frame : tell(object).frames) {
         if (frame.phase != kReach) continue;
-        EXPECT_FALSE(servo::is_displayed(frame, 1));
+        EXPECT_FALSE(frame::is_displayed(frame, 1));
         EXPECT_TRUE(finger_is_displayed(frame));
         EXPECT_TRUE(frame.task.targets.empty());
     }
@@ -116,14 +116,14 @@ TEST(Seen, AHeldCursorStaysWhereItWasWhenTheStateBegan) {
     int ends = 0;
     bool moved = false;
     for (size_t i = 1; i < told.frames.size(); ++i) {
-        const servo::Frame& frame = told.frames[i];
+        const frame::Frame& frame = told.frames[i];
         if (frame.phase != kEnd) continue;
         if (told.frames[i - 1].phase != kEnd) {
             ++ends;
-            held = servo::mapped_proxy(told.frames[i - 1], 0);  // as perturbed as it was there
+            held = frame::mapped_proxy(told.frames[i - 1], 0);  // as perturbed as it was there
         }
         EXPECT_TRUE(finger_is_displayed(frame));
-        EXPECT_EQ(servo::displayed_proxy(frame, 0).p, held.p);
+        EXPECT_EQ(frame::displayed_proxy(frame, 0).p, held.p);
         moved = moved || (frame.fingers[0].p_WP - held.p).norm() > 1e-3;
     }
     EXPECT_EQ(ends, 9);
@@ -136,15 +136,15 @@ TEST(Seen, ADelayedCursorIsWhereItWasThatLongAgo) {
     const Told told = tell(files);
     std::set<int> delays;
     for (size_t i = 200; i < told.frames.size(); ++i) {
-        const servo::Frame& frame = told.frames[i];
+        const frame::Frame& frame = told.frames[i];
         if (frame.task.displaced.empty()) continue;
         ASSERT_EQ(frame.task.visual.size(), 1u);
         const double delay = frame.task.visual[0].delay;
         EXPECT_NEAR(delay, 0.08 * frame.task.share, 1e-12);  // half in the first trial of the ramp
         const auto ticks = static_cast<size_t>(std::lround(delay / 1e-3));
         delays.insert(static_cast<int>(ticks));
-        EXPECT_EQ(servo::displayed_proxy(frame, 0).p,
-                  servo::mapped_proxy(told.frames[i - ticks], 0).p);
+        EXPECT_EQ(frame::displayed_proxy(frame, 0).p,
+                  frame::mapped_proxy(told.frames[i - ticks], 0).p);
     }
     EXPECT_EQ(delays, (std::set<int>{40, 80}));
 }
@@ -157,11 +157,11 @@ TEST(Seen, NoiseShakesTheCursorAsTheSeedHasIt) {
     ASSERT_EQ(told.frames.size(), again.frames.size());
     std::vector<Vec3> shakes;
     for (size_t i = 1; i < told.frames.size(); ++i) {
-        const servo::Frame& frame = told.frames[i];
+        const frame::Frame& frame = told.frames[i];
         if (frame.task.displaced.empty()) continue;
         const Vec3 shake =
-            servo::displayed_proxy(frame, 0).p - servo::mapped_proxy(told.frames[i - 1], 0).p;
-        EXPECT_EQ(servo::displayed_proxy(again.frames[i], 0).p, servo::displayed_proxy(frame, 0).p);
+            frame::displayed_proxy(frame, 0).p - frame::mapped_proxy(told.frames[i - 1], 0).p;
+        EXPECT_EQ(frame::displayed_proxy(again.frames[i], 0).p, frame::displayed_proxy(frame, 0).p);
         EXPECT_NEAR(shake.z(), 0, 1e-15);
         const Vec3 whole = shake / frame.task.share;
         if (shakes.empty() || (whole - shakes.back()).norm() > 1e-9) shakes.push_back(whole);
@@ -189,16 +189,16 @@ TEST(Seen, ConditionsAndStatesColourAndSizeThings) {
                   "colour: \"#000000\" }, { body: block, colour: \"#0000ff\", scale: 1.5 }]\n");
     const session::Plan plan = session::make_plan(files.request());
     std::set<int> conditions;
-    for (const servo::Frame& frame : tell(files).frames) {
+    for (const frame::Frame& frame : tell(files).frames) {
         if (frame.phase != kReach || frame.task.outcome >= 0) continue;
         const int condition = plan.task->trials[static_cast<size_t>(frame.trial - 1)].condition;
         conditions.insert(condition);
         ASSERT_EQ(frame.task.targets.size(), 1u);
         EXPECT_EQ(frame.task.targets[0].colour, condition == 1 ? 0x00ff00 : -1);
         EXPECT_NEAR(frame.task.targets[0].radius, 0.009, 1e-12);
-        EXPECT_EQ(servo::item_of(frame.task.looks, servo::proxy_of(frame, 0))->colour, 0);
-        EXPECT_EQ(servo::item_of(frame.task.looks, 1)->colour, 0x0000ff);
-        EXPECT_NEAR(servo::displayed_size(frame, 1), condition == 1 ? 3 : 1.5, 1e-12);
+        EXPECT_EQ(frame::item_of(frame.task.looks, frame::proxy_of(frame, 0))->colour, 0);
+        EXPECT_EQ(frame::item_of(frame.task.looks, 1)->colour, 0x0000ff);
+        EXPECT_NEAR(frame::displayed_size(frame, 1), condition == 1 ? 3 : 1.5, 1e-12);
     }
     EXPECT_EQ(conditions.size(), 2u);
 }
@@ -219,8 +219,8 @@ TEST(Seen, TextsHaveLinesNumbersAndACountdown) {
     const std::vector<std::string> messages = log.head().messages;
     int homes = 0;
     int good = 0;
-    while (const servo::Frame* frame = log.next()) {
-        const auto texts = servo::shown_texts(frame->task, messages);
+    while (const frame::Frame* frame = log.next()) {
+        const auto texts = frame::shown_texts(frame->task, messages);
         const std::string trial = "Trial " + number_text(frame->trial) + " of 9";
         const int block = frame->trial < 3 ? 1 : frame->trial < 8 ? 2 : 3;
         const std::string where = "Block " + number_text(block) + "/3";
@@ -255,8 +255,8 @@ TEST(Seen, TextsNameVariablesDrawsAndWhatIsMeasured) {
     const std::vector<std::string> messages = log.head().messages;
     int homes = 0;
     double z = 0.12;
-    while (const servo::Frame* frame = log.next()) {
-        const auto texts = servo::shown_texts(frame->task, messages);
+    while (const frame::Frame* frame = log.next()) {
+        const auto texts = frame::shown_texts(frame->task, messages);
         if (frame->phase == kHome && frame->task.outcome < 0) {
             ++homes;
             const Trial& trial = plan.task->trials[static_cast<size_t>(frame->trial - 1)];

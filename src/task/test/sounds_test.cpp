@@ -43,7 +43,7 @@ TEST(Sounds, BeginInTheTickInWhichTheirStateBeginsOrTheirExitIsTaken) {
     EXPECT_EQ(log.head().sounds, (std::vector<std::string>{"go", "good", "hum", "wind"}));
     int phase = 0;
     std::vector<int> begun(4), ended(4);
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         std::set<std::pair<int, int>> wanted;
         if (frame->sequence == 0) wanted.insert({kWind, 1});
         if (frame->phase == 1 && phase != 1) wanted.insert({kHum, 1});
@@ -51,7 +51,7 @@ TEST(Sounds, BeginInTheTickInWhichTheirStateBeginsOrTheirExitIsTaken) {
         // the trial's last tick is still of its last state
         if (frame->task.outcome >= 0) wanted.insert({{kGood, 1}, {kHum, 0}});
         std::set<std::pair<int, int>> found;
-        for (const servo::SoundFrame& sound : frame->task.sounds) {
+        for (const frame::SoundFrame& sound : frame->task.sounds) {
             found.insert({sound.sound, static_cast<int>(sound.on)});
             ++(sound.on != 0 ? begun : ended)[static_cast<size_t>(sound.sound)];
         }

@@ -50,7 +50,7 @@ TEST(Task, RunsItsTrialsRecordsThemAndReplaysToTheBit) {
     const session::Plan plan = session::make_plan(files.request());
     const session::RunResult result = files.run(plan);
     const analysis::SessionFigures figures = finish(result);
-    EXPECT_EQ(figures.status & ~uint32_t{servo::kSoftStarted}, 0u);
+    EXPECT_EQ(figures.status & ~uint32_t{kSoftStarted}, 0u);
     EXPECT_EQ(column(result.folder, "outcome"), std::vector<std::string>(9, "reached"));
     const auto number = column(result.folder, "trial_num");
     for (size_t i = 0; i < 9; ++i) EXPECT_EQ(number[i], number_text(i + 1));
@@ -85,10 +85,10 @@ TEST(Task, AChannelPushesBackByItsStiffnessTimesTheDeviation) {
     recording::RawLogReader log(result.folder + "/raw.log");
     int pushed = 0;
     double most = 0;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         if (frame->trial != 8 || frame->task.loads.empty()) continue;
         ++pushed;
-        const servo::FingerFrame& finger = frame->fingers[0];  // condition right: along x
+        const frame::FingerFrame& finger = frame->fingers[0];  // condition right: along x
         const Vec3 off(0, finger.p_WH.y(), finger.p_WH.z() - 0.12);
         const Vec3 across(0, finger.v_WH.y(), finger.v_WH.z());
         EXPECT_LT((frame->task.loads[0].force_W + 1000 * off + 5 * across).norm(), 1e-12);
@@ -101,7 +101,7 @@ TEST(Task, AChannelPushesBackByItsStiffnessTimesTheDeviation) {
 }
 
 /// The block's frames in the first trial, while it falls freely for 0.2 s through a field.
-std::vector<servo::BodyFrame> fall_through(const std::string& field) {
+std::vector<frame::BodyFrame> fall_through(const std::string& field) {
     session::Files files;
     files.scene.replace(files.scene.find("position_mm: [0, 0, 20]"), 23,
                         "position_mm: [200, 0, 500]");
@@ -115,9 +115,9 @@ std::vector<servo::BodyFrame> fall_through(const std::string& field) {
         "simulated_hand: [{ duration_s: 0.2 }] }\n"
         "  blocks: [{ name: all, kind: perturbed, perturb: field }]\n";
     const session::RunResult result = files.run(session::make_plan(files.request()));
-    std::vector<servo::BodyFrame> out;
+    std::vector<frame::BodyFrame> out;
     recording::RawLogReader log(result.folder + "/raw.log");
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         // in the trial's last tick nothing is perturbed any more
         if (frame->trial == 1 && frame->task.outcome < 0) out.push_back(frame->bodies[1]);
     }
@@ -131,7 +131,7 @@ constexpr double kGravity = 9.81;
 TEST(Task, ABodyFallsThroughAViscousFieldTowardItsTerminalVelocity) {
     const double b = 1;  // reaches terminal velocity after about 0.1 s
     double t = 0;
-    for (const servo::BodyFrame& block : fall_through("kind: viscous, damping_Ns_m: 1")) {
+    for (const frame::BodyFrame& block : fall_through("kind: viscous, damping_Ns_m: 1")) {
         t += 1e-3;
         const double closed = -kMass * kGravity / b * (1 - std::exp(-b * t / kMass));
         EXPECT_NEAR(block.v_WB.z(), closed, 0.006);  // a tick changes v by 10 mm/s at first
@@ -144,7 +144,7 @@ TEST(Task, ABodyFallsThroughACurlFieldOnACycloid) {
     const double rate = 2 / kMass;
     const double drift = kGravity / rate;
     double t = 0;
-    for (const servo::BodyFrame& block :
+    for (const frame::BodyFrame& block :
          fall_through("kind: curl, axis: [0, 1, 0], damping_Ns_m: 2")) {
         t += 1e-3;
         // e = y: dv_x = rate v_z, dv_z = -g - rate v_x
@@ -197,7 +197,7 @@ task:
     double force = 0;
     int placed = 0;
     int trial = 0;
-    while (const servo::Frame* frame = log.next()) {
+    while (const frame::Frame* frame = log.next()) {
         const double x = frame->bodies[1].X_WB.p.x();
         farthest = std::max(farthest, x);
         force = std::max(force, frame->fingers[0].f_sent_W.norm());
@@ -225,9 +225,9 @@ TEST(Task, ConditionsPutObjectsInPlacesOfTheirOwn) {
     std::set<int> seen;
     Time now{0};
     while (!servo->stopped() && seconds(now) < 60) {
-        const servo::Frame& frame =
-            servo->tick(now, [&](const servo::Frame& last, std::span<const haptics::Handle> handles,
-                                 servo::Commands& commands) { task(last, handles, commands); });
+        const frame::Frame& frame =
+            servo->tick(now, [&](const frame::Frame& last, std::span<const frame::Handle> handles,
+                                 frame::Commands& commands) { task(last, handles, commands); });
         plan.seeing->see(frame);
         now += servo->period();
         if (frame.phase < 1) continue;
@@ -263,13 +263,13 @@ TEST(Task, GoesOnAtTheRightTrialAfterAnInterruption) {
         const session::RunResult cut = files.run(session::make_plan(files.request()));
         recording::RawLogReader all(cut.folder + "/raw.log");
         const recording::LogHead head = all.head();
-        std::vector<servo::Frame> frames;
+        std::vector<frame::Frame> frames;
         for (int i = 0; i < ticks; ++i) frames.push_back(*all.next());
         fs::remove(cut.folder + "/raw.log");
         {
             recording::RawLogWriter log(cut.folder + "/raw.log", head);
             std::vector<std::byte> bytes(recording::most_bytes(head.layout(), 100));
-            for (const servo::Frame& frame : frames) {
+            for (const frame::Frame& frame : frames) {
                 const size_t size = recording::encode(frame, bytes, recording::Bodies::all);
                 log.add(std::span(bytes).first(size));
             }
@@ -308,10 +308,10 @@ TEST(Task, AKeyEndsAState) {
     for (int i = 0; i < 600 && outcome < 0; ++i) {
         if (i == 400) task.press('n');
         if (i == 500) task.press('y');
-        const servo::Frame& frame =
+        const frame::Frame& frame =
             servo->tick(i * std::chrono::milliseconds(1),
-                        [&](const servo::Frame& last, std::span<const haptics::Handle> handles,
-                            servo::Commands& commands) { task(last, handles, commands); });
+                        [&](const frame::Frame& last, std::span<const frame::Handle> handles,
+                            frame::Commands& commands) { task(last, handles, commands); });
         plan.seeing->see(frame);
         outcome = frame.task.outcome;
         if (outcome >= 0) {
@@ -330,7 +330,7 @@ struct Asked {
         last.bodies[1].X_WB.p = {0.2, 0, 0.1};
         commands.task.reserve(2);
     }
-    const servo::Commands& tick() {
+    const frame::Commands& tick() {
         commands.task.clear();
         director(last, handles, commands);
         return commands;
@@ -338,9 +338,9 @@ struct Asked {
 
     session::Plan plan;
     TaskDirector director{*plan.task, 1, 1e-3};
-    servo::Frame last;
-    std::vector<haptics::Handle> handles{{{0.23, 0, 0.1}, Vec3::Zero()}};
-    servo::Commands commands;
+    frame::Frame last;
+    std::vector<frame::Handle> handles{{{0.23, 0, 0.1}, Vec3::Zero()}};
+    frame::Commands commands;
 };
 
 TEST(Task, ATriggerEndsAStateAndComesOnceASecondToASimulatedSession) {
@@ -379,12 +379,12 @@ TEST(Task, DoesNotTakeAnObjectOutOfFingersThatPressIt) {
     asked.last.contacts[0].a = 1;
     asked.last.contacts[0].b = 2;  // the finger
     asked.last.contacts[0].normal_force = 1;
-    const servo::Commands& held = asked.tick();
+    const frame::Commands& held = asked.tick();
     EXPECT_TRUE(held.task.placements.empty());
     EXPECT_EQ(held.phase, kBetween);
     EXPECT_EQ(held.task.message, asked.plan.task->move_away);
     asked.last.contacts.clear();
-    const servo::Commands& released = asked.tick();
+    const frame::Commands& released = asked.tick();
     EXPECT_EQ(released.task.placements.size(), 1u);
     EXPECT_EQ(released.phase, 1);
 }
@@ -393,7 +393,7 @@ TEST(Task, ATrialThatIsSkippedBeforeItBeginsHasARowAndIsNotDoneAgain) {
     session::Files files;
     Asked asked(files);
     asked.director.skip();
-    const servo::Commands& skipped = asked.tick();
+    const frame::Commands& skipped = asked.tick();
     EXPECT_EQ(skipped.trial, 1);
     EXPECT_EQ(skipped.task.outcome, asked.plan.task->skipped);
     EXPECT_NE(skipped.phase, kBetween);  // frames between trials belong to no trial
@@ -447,14 +447,14 @@ TEST(ShippedTask, CarriesABlockWhoseInertiaAndNotWeightIsThreefold) {
     Vec3 v = Vec3::Zero();
     int carried = 0;
     int perturbed = 0;
-    while (const servo::Frame* frame = log.next()) {
-        const servo::BodyFrame& block = frame->bodies[1];
+    while (const frame::Frame* frame = log.next()) {
+        const frame::BodyFrame& block = frame->bodies[1];
         const Vec3 a = (block.v_WB - v) / 1e-3;
         v = block.v_WB;
         if (frame->phase != 3) continue;
         // the fingers' contact forces are m a, with the m of each axis, less the unchanged weight
         Vec3 force = Vec3::Zero();
-        for (const servo::FingerFrame& finger : frame->fingers) force -= finger.f_contact_W;
+        for (const frame::FingerFrame& finger : frame->fingers) force -= finger.f_contact_W;
         const bool heavy = !frame->task.properties.empty();
         const double inertia = heavy ? 0.3 : 0.1;
         EXPECT_NEAR(force.x(), inertia * a.x(), 1e-6);

@@ -6,14 +6,14 @@
 
 #include "base/image.h"
 #include "base/number.h"
+#include "frame/frame.h"
 #include "scene/scene.h"
-#include "servo/frame.h"
 
 namespace dihaptic::view {
 
 struct Balls {
     scene::Scene scene;
-    servo::Frame frame;
+    frame::Frame frame;
 
     /// Adds one there, of that radius [m].
     void add(const Vec3& p_W, double radius = 0.0025) {
@@ -27,9 +27,9 @@ struct Balls {
         frame.bodies.push_back({ball.pose()});
     }
     /// The frame without any of them in sight.
-    servo::Frame away() const {
-        servo::Frame out = frame;
-        for (servo::BodyFrame& body : out.bodies) body.X_WB.p = {0, 0, -50};
+    frame::Frame away() const {
+        frame::Frame out = frame;
+        for (frame::BodyFrame& body : out.bodies) body.X_WB.p = {0, 0, -50};
         return out;
     }
 };

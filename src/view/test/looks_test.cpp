@@ -27,13 +27,13 @@ scene::Scene table_with_block(const std::string& colour) {
     return scene;
 }
 
-servo::Frame start(const scene::Scene& scene) {
-    servo::Frame frame;
+frame::Frame start(const scene::Scene& scene) {
+    frame::Frame frame;
     for (const scene::Body& body : scene.bodies) frame.bodies.push_back({body.pose()});
     return frame;
 }
 
-Image picture(const scene::Scene& scene, const servo::Frame& frame) {
+Image picture(const scene::Scene& scene, const frame::Frame& frame) {
     Camera camera;
     camera.look_at = {0, 0, 0.03};
     camera.position = {0.1, -0.3, 0.3};
@@ -59,19 +59,19 @@ int different(const Image& a, const Image& b) {
 
 TEST(Looks, AHiddenBodyIsNotSeenNorItsShadow) {
     const scene::Scene scene = table_with_block("#0072b2");
-    servo::Frame frame = start(scene);
+    frame::Frame frame = start(scene);
     const Image whole = picture(scene, frame);
     frame.task.looks = {{1, 1, -1, 1}};
     const Image hidden = picture(scene, frame);
     EXPECT_GT(different(whole, hidden), 1000);  // the block and its shadow
     // a block that is so far below the table that neither it nor a shadow of it can be seen
-    servo::Frame without = start(scene);
+    frame::Frame without = start(scene);
     without.bodies[1].X_WB.p = {0, 0, -0.5};
     EXPECT_LT(different(picture(scene, without), hidden), 20);
 }
 
 TEST(Looks, AColourAndASizeTakeTheSceneSPlace) {
-    servo::Frame frame = start(table_with_block("#0072b2"));
+    frame::Frame frame = start(table_with_block("#0072b2"));
     frame.task.looks = {{1, 0, 0xd55e00, 1}};
     const Image coloured = picture(table_with_block("#0072b2"), frame);
     const Image given = picture(table_with_block("#d55e00"), start(table_with_block("#d55e00")));
@@ -82,7 +82,7 @@ TEST(Looks, AColourAndASizeTakeTheSceneSPlace) {
 
 TEST(Looks, ADisplacedBodyIsDrawnWhereItIsShown) {
     const scene::Scene scene = table_with_block("#0072b2");
-    servo::Frame frame = start(scene);
+    frame::Frame frame = start(scene);
     frame.bodies[1].X_WB.p = {0.05, 0, 0.06};
     const Image moved = picture(scene, frame);
     frame = start(scene);
@@ -92,7 +92,7 @@ TEST(Looks, ADisplacedBodyIsDrawnWhereItIsShown) {
 
 TEST(Looks, ATargetHasTheColourThatItIsGiven) {
     const scene::Scene scene = table_with_block("#0072b2");
-    servo::Frame frame = start(scene);
+    frame::Frame frame = start(scene);
     frame.task.targets = {{0, {-0.05, 0, 0.06}, 0.02}};
     const Image usual = picture(scene, frame);
     frame.task.targets[0].colour = 0xd55e00;

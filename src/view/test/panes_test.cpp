@@ -17,19 +17,19 @@ constexpr int kDisplays = 20;
 constexpr int kWidth = 960, kHeight = 720;
 
 /// A display somewhere before the person, tilted and off to a side, in any way that a rig may be.
-rig::Display random_display(Random& random, int i) {
+display::Display random_display(Random& random, int i) {
     const auto vector = [&](double most) {
         return Vec3(random.uniform(-most, most), random.uniform(-most, most),
                     random.uniform(-most, most));
     };
-    rig::Display out;
+    display::Display out;
     const Quat R = rotation_xyz(Vec3(std::numbers::pi / 4, 0, 0) + vector(0.6));
     const double width = random.uniform(0.35, 0.6), height = random.uniform(0.25, 0.4);
     out.lower_left = vector(0.1) - R * Vec3(width / 2, height / 2, 0);
     out.lower_right = out.lower_left + R * Vec3(width, 0, 0);
     out.upper_left = out.lower_left + R * Vec3(0, height, 0);
-    out.mirrored = static_cast<rig::Mirrored>(i % 3);
-    out.stereo = static_cast<rig::Stereo>(i % 4);
+    out.mirrored = static_cast<display::Mirrored>(i % 3);
+    out.stereo = static_cast<display::Stereo>(i % 4);
     out.eyes.position = R * Vec3(0, 0, random.uniform(0.4, 0.7)) + vector(0.2);
     out.eyes.along = R * Vec3::UnitX() + vector(0.2);
     out.eyes.distance = random.uniform(0.05, 0.075);
@@ -38,19 +38,19 @@ rig::Display random_display(Random& random, int i) {
 
 /// Where the line from an eye to a point passes through the screen, in pixels from the picture's
 /// upper left: by similar triangles, with the mirror and the eyes' parts of the screen.
-Eigen::Vector2d pinhole(const rig::Display& display, bool right_eye, const Vec3& p_W) {
-    const Vec3 eye = display.stereo == rig::Stereo::none ? display.eyes.position
-                     : right_eye                         ? display.eyes.right()
-                                                         : display.eyes.left();
+Eigen::Vector2d pinhole(const display::Display& display, bool right_eye, const Vec3& p_W) {
+    const Vec3 eye = display.stereo == display::Stereo::none ? display.eyes.position
+                     : right_eye                             ? display.eyes.right()
+                                                             : display.eyes.left();
     const Vec3 n = display.right().cross(display.up()).normalized();
     const double share = n.dot(eye - display.lower_left) / n.dot(eye - p_W);
     const Vec3 at = eye + share * (p_W - eye) - display.lower_left;
     double u = at.dot(display.right()) / display.right().squaredNorm();
     double v = at.dot(display.up()) / display.up().squaredNorm();
-    if (display.mirrored == rig::Mirrored::left_right) u = 1 - u;
-    if (display.mirrored == rig::Mirrored::up_down) v = 1 - v;
-    if (display.stereo == rig::Stereo::side_by_side) u = (u + (right_eye ? 1 : 0)) / 2;
-    if (display.stereo == rig::Stereo::top_bottom) v = (v + (right_eye ? 0 : 1)) / 2;
+    if (display.mirrored == display::Mirrored::left_right) u = 1 - u;
+    if (display.mirrored == display::Mirrored::up_down) v = 1 - v;
+    if (display.stereo == display::Stereo::side_by_side) u = (u + (right_eye ? 1 : 0)) / 2;
+    if (display.stereo == display::Stereo::top_bottom) v = (v + (right_eye ? 0 : 1)) / 2;
     return {u * kWidth, (1 - v) * kHeight};
 }
 
@@ -62,7 +62,7 @@ Eigen::Vector2d drawn_at(const Pane& pane, const Vec3& p_W) {
 }
 
 /// A point before or behind the screen that both eyes see on it.
-Vec3 random_point(Random& random, const rig::Display& display) {
+Vec3 random_point(Random& random, const display::Display& display) {
     const Vec3 on_screen = display.lower_left + random.uniform(0.2, 0.8) * display.right() +
                            random.uniform(0.2, 0.8) * display.up();
     return on_screen + random.uniform(-0.2, 0.15) * (display.eyes.position - on_screen);
@@ -71,12 +71,12 @@ Vec3 random_point(Random& random, const rig::Display& display) {
 TEST(Panes, PutPointsWhereAPinholeWould) {
     Random random(7, "panes");
     for (int i = 0; i < kDisplays; ++i) {
-        const rig::Display display = random_display(random, i);
+        const display::Display display = random_display(random, i);
         Diagnostics diagnostics;
         check(display, diagnostics);
         ASSERT_TRUE(diagnostics.problems().empty()) << diagnostics.problems()[0].text();
         const std::vector<Pane> all = panes(display, 1);
-        ASSERT_EQ(all.size(), display.stereo == rig::Stereo::none ? 1 : 2);
+        ASSERT_EQ(all.size(), display.stereo == display::Stereo::none ? 1 : 2);
         for (int k = 0; k < 1000; ++k) {
             const Vec3 p_W = random_point(random, display);
             for (size_t eye = 0; eye < all.size(); ++eye)
@@ -88,7 +88,7 @@ TEST(Panes, PutPointsWhereAPinholeWould) {
 TEST(Panes, HaveDepthsThatGrowBehindTheScreenAndBefore) {
     Random random(8, "panes");
     for (int i = 0; i < kDisplays; ++i) {
-        const rig::Display display = random_display(random, i);
+        const display::Display display = random_display(random, i);
         for (const Pane& pane : panes(display, 2)) {
             const Vec3 eye = pane.viewpoint.eye_W;
             const Vec3 way = random_point(random, display) - eye;
@@ -105,7 +105,7 @@ TEST(Panes, HaveDepthsThatGrowBehindTheScreenAndBefore) {
 }
 
 /// Balls at points that are drawn apart from each other, whichever eye sees them.
-Balls balls_before(Random& random, const rig::Display& display) {
+Balls balls_before(Random& random, const display::Display& display) {
     Balls out;
     std::vector<Eigen::Vector2d> taken;
     for (int tried = 0; tried < 4000 && out.scene.bodies.size() < 50; ++tried) {
@@ -128,7 +128,7 @@ TEST(Panes, AreDrawnWhereAPinholeWouldForEachEye) {
     int points = 0;
     double worst = 0;
     for (int i = 0; i < kDisplays; ++i) {
-        const rig::Display display = random_display(random, i);
+        const display::Display display = random_display(random, i);
         const Balls balls = balls_before(random, display);
         SceneView view(balls.scene);
         view.draw(balls.away(), display, kWidth, kHeight);

@@ -38,14 +38,14 @@ scene::Scene on_table(const std::vector<scene::Body>& bodies) {
     return scene;
 }
 
-servo::Frame start(const scene::Scene& scene) {
-    servo::Frame frame;
+frame::Frame start(const scene::Scene& scene) {
+    frame::Frame frame;
     for (const scene::Body& body : scene.bodies) frame.bodies.push_back({body.pose()});
     frame.fingers.resize(scene.fingers.size());
     return frame;
 }
 
-Image picture(const scene::Scene& scene, const servo::Frame& frame, const Camera& camera, int width,
+Image picture(const scene::Scene& scene, const frame::Frame& frame, const Camera& camera, int width,
               int height, const Overlays& overlays = {}) {
     const Offscreen offscreen = software_offscreen(width, height);
     SceneView view(scene);
@@ -236,7 +236,7 @@ scene::Scene shipped(const char* file) {
 /// The shipped block, held between two pads.
 struct Held {
     scene::Scene scene = shipped("scenes/block-on-table.yaml");
-    servo::Frame frame = start(scene);
+    frame::Frame frame = start(scene);
 
     explicit Held(double lifted = 0.05) {
         frame.sequence = 1234;
@@ -244,11 +244,11 @@ struct Held {
         const Vec3 p(0, 0, 0.02 + lifted);
         frame.bodies[1].X_WB.p = p;
         for (const int side : {0, 1}) {
-            servo::FingerFrame& finger = frame.fingers[static_cast<size_t>(side)];
+            frame::FingerFrame& finger = frame.fingers[static_cast<size_t>(side)];
             const Vec3 out((side - 0.5) * 2, 0, 0);
             finger.p_WP = p + 0.0225 * out;
             finger.p_WH = p + 0.0180 * out;
-            servo::ContactFrame contact;
+            frame::ContactFrame contact;
             contact.a = 1;
             contact.b = 2 + side;
             contact.p_WC = p + 0.02 * out;
@@ -273,7 +273,7 @@ TEST(SceneView, PicturesAreLikeStoredOnes) {
     hand.hand = true;
     expect_like(picture(held.scene, held.frame, held.camera(), 192, 120, hand), "hand");
     const scene::Scene tools = shipped("scenes/tools.yaml");
-    servo::Frame frame = start(tools);
+    frame::Frame frame = start(tools);
     for (size_t i = 0; i < frame.fingers.size(); ++i)
         frame.fingers[i].p_WP = Vec3(-0.12 + 0.08 * static_cast<double>(i), -0.08, 0.05);
     expect_like(picture(tools, frame, cameras(tools).front(), 192, 120), "tools");
@@ -333,7 +333,7 @@ TEST(SceneView, EachOverlayShowsAndLeavesNothing) {
 TEST(SceneView, APickedBodyHasABoxAboutItWhereItIsShown) {
     scene::Scene scene = on_table({box("block", {0.04, 0.06, 0.02}, {0, 0, 0.01})});
     scene.bodies[1].colour = "#b0b0b0";
-    servo::Frame frame = start(scene);
+    frame::Frame frame = start(scene);
     frame.bodies[1].X_WB.p = {0.03, -0.01, 0.05};
     Camera camera;
     camera.position = {0, -0.2, 0.3};
@@ -417,11 +417,11 @@ TEST(SceneView, DrawsWhatIsKnown) {
 /// Bodies that an experiment displays elsewhere are drawn as if they were there.
 TEST(SceneView, DrawsTheDisplayedWorld) {
     const Held held;
-    servo::Frame moved = held.frame;
+    frame::Frame moved = held.frame;
     moved.contacts.clear();
-    servo::Frame mapped = moved;
-    servo::VisualMap map;
-    map.moves = servo::kMovesObject;
+    frame::Frame mapped = moved;
+    frame::VisualMap map;
+    map.moves = frame::kMovesObject;
     map.object = 1;
     map.scale = {1, 1, 1.25};
     mapped.task.visual.push_back(map);
@@ -444,8 +444,8 @@ TEST(SceneView, DrawsTargets) {
 TEST(SceneView, DrawsThePatchInItsCorner) {
     const scene::Scene scene = on_table({});
     constexpr int kWidth = 200, kHeight = 100, kEdge = 20;
-    for (const auto corner : {rig::Corner::lower_left, rig::Corner::lower_right,
-                              rig::Corner::upper_left, rig::Corner::upper_right}) {
+    for (const auto corner : {display::Corner::lower_left, display::Corner::lower_right,
+                              display::Corner::upper_left, display::Corner::upper_right}) {
         for (const bool white : {false, true}) {
             Overlays overlays;
             overlays.patch = PatchLook{{corner, 0.2}, white};
@@ -453,9 +453,9 @@ TEST(SceneView, DrawsThePatchInItsCorner) {
             const Image plain = picture(scene, start(scene), camera, kWidth, kHeight);
             const Image image = picture(scene, start(scene), camera, kWidth, kHeight, overlays);
             const bool right =
-                corner == rig::Corner::lower_right || corner == rig::Corner::upper_right;
+                corner == display::Corner::lower_right || corner == display::Corner::upper_right;
             const bool upper =
-                corner == rig::Corner::upper_left || corner == rig::Corner::upper_right;
+                corner == display::Corner::upper_left || corner == display::Corner::upper_right;
             for (int y = 0; y < kHeight; ++y) {
                 for (int x = 0; x < kWidth; ++x) {
                     const bool in = (right ? x >= kWidth - kEdge : x < kEdge) &&

@@ -27,13 +27,13 @@ scene::Scene one_body(const Vec3& size) {
     return scene;
 }
 
-servo::Frame start(const scene::Scene& scene) {
-    servo::Frame frame;
+frame::Frame start(const scene::Scene& scene) {
+    frame::Frame frame;
     for (const scene::Body& body : scene.bodies) frame.bodies.push_back({body.pose()});
     return frame;
 }
 
-Image picture(const scene::Scene& scene, const servo::Frame& frame, const Camera& camera) {
+Image picture(const scene::Scene& scene, const frame::Frame& frame, const Camera& camera) {
     const Offscreen offscreen = software_offscreen(kSize, kSize);
     SceneView view(scene);
     view.draw(frame, camera, kSize, kSize);
@@ -264,7 +264,7 @@ TEST(OwnColours, AndPicturesGiveWayToATasksColour) {
         plain.bodies[0].colour = "#00a000";
         look(plain.bodies[0]);
         look(scene.bodies[0]);
-        servo::Frame frame = start(scene);
+        frame::Frame frame = start(scene);
         EXPECT_NE(picture(scene, frame, camera).rgb, picture(plain, frame, camera).rgb);
         frame.task.looks = {{0, 0, 0x00a000, 1}};
         return picture(scene, frame, camera).rgb != picture(plain, frame, camera).rgb;

@@ -49,7 +49,7 @@ TEST(LiftCurves, AreAlignedAtLiftOffByConditionAndPerturbation) {
     session.lifts += "1,1,complete,2\n2,1,complete,5\n3,1,not lifted,\n";
     const SessionData data = session.data();
     LiftCurves curves(data, kTick);
-    servo::Frame frame;
+    frame::Frame frame;
     for (int i = 0; i < 8000; ++i) {
         frame.sequence = i;
         frame.time = std::chrono::milliseconds(i);
@@ -75,7 +75,7 @@ TEST(LiftCurves, LeaveOutTicksThatAreMissing) {
     session.lifts += "1,1,complete,2\n";
     const SessionData data = session.data();
     LiftCurves curves(data, kTick);
-    servo::Frame frame;
+    frame::Frame frame;
     for (int i = 0; i < 4000; ++i) {
         if (i > 1404 && i < 1435) continue;
         frame.time = std::chrono::milliseconds(i);
@@ -102,7 +102,7 @@ TEST(ReachPaths, AreTurnedSoThatTheTargetIsAbove) {
     recording::LogHead head;
     head.fingers = {"thumb", "index"};
     ReachPaths paths(data, head);
-    servo::Frame frame;
+    frame::Frame frame;
     frame.fingers.resize(2);
     frame.task.attempt = 1;
     for (int trial = 1; trial <= 2; ++trial) {
@@ -135,7 +135,7 @@ TEST(ReachPaths, AreNoneOfATaskWithoutReaches) {
     Session session;
     const SessionData data = session.data();
     ReachPaths paths(data, {});
-    servo::Frame frame;
+    frame::Frame frame;
     frame.trial = 1;
     paths.see(frame);
     Page page("t", "w", "o");

@@ -6,6 +6,7 @@
 #include "devices/openhaptics/hd.h"
 #include "devices/test/making.h"
 #include "fake_hd.h"
+#include "model/phantom_arm.h"
 #include "testing/bounds.h"
 
 namespace dihaptic::devices::openhaptics::openhaptics_test {
@@ -43,7 +44,7 @@ TEST(OpenHaptics, ReadsWhatTheDevicesAreAndCan) {
     FakeHd& fake = fake_hd();
     fake.devices[1].input_dof = 6;
     const auto group = make({kTwo[0], kTwo[1]});
-    const DeviceInfo& info = group->info(0);
+    const frame::DeviceInfo& info = group->info(0);
     EXPECT_EQ(info.model, "PHANToM Premium 1.0, serial 40123");
     EXPECT_EQ(info.peak_force, 8.5);
     EXPECT_EQ(info.continuous_force, 1.4);

@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "base/geometry.h"
+#include "frame/term.h"
 #include "scene/finger_set.h"
-#include "servo/term.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::frame {
 
 /// What a visual map moves: a sum of these.
 enum Moves : uint32_t { kMovesProxies = 1, kMovesObject = 2, kMovesTargets = 4 };
@@ -365,4 +365,4 @@ void add(std::vector<T>& list, const T& item) noexcept {
     if (list.size() < list.capacity()) list.push_back(item);
 }
 
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::frame

@@ -6,12 +6,10 @@
 #include "base/field.h"
 #include "contact/solver_settings.h"
 
-namespace dihaptic::dynamics {
+namespace dihaptic::frame {
 
-using contact::Solver;
-
-struct Settings {
-    Solver solver = Solver::newton;
+struct DynamicsSettings {
+    contact::Solver solver = contact::Solver::newton;
     int every = 1;            ///< number of the servo's ticks per step of the world
     int iterations = 200;     ///< limit of iterations in a step, for sequential_impulse
     double tolerance = 1e-7;  ///< sequential_impulse ends when an iteration changes no contact's
@@ -58,4 +56,4 @@ struct Settings {
     }
 };
 
-}  // namespace dihaptic::dynamics
+}  // namespace dihaptic::frame

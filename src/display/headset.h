@@ -8,7 +8,7 @@
 #include "base/field.h"
 #include "base/geometry.h"
 
-namespace dihaptic::rig {
+namespace dihaptic::display {
 
 /// OpenXR's reference spaces that are of use to a seated person.
 enum class HeadsetSpace { stage, local };
@@ -43,4 +43,4 @@ struct Headset {
     }
 };
 
-}  // namespace dihaptic::rig
+}  // namespace dihaptic::display

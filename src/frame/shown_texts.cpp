@@ -1,4 +1,4 @@
-#include "servo/shown_texts.h"
+#include "frame/shown_texts.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 
 #include "base/number.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::frame {
 namespace {
 
 /// Reads ":.Nf" up to the closing brace, which is not part of `format`; false if it is nothing of
@@ -103,4 +103,4 @@ std::vector<std::string> shown_texts(const TaskFrame& task,
     return out;
 }
 
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::frame

@@ -8,7 +8,7 @@
 #include "base/diagnostics.h"
 #include "base/field.h"
 
-namespace dihaptic::rig {
+namespace dihaptic::display {
 
 enum class SoundTo { speakers, file, nowhere };
 constexpr auto enum_names(SoundTo) {
@@ -40,4 +40,4 @@ struct SoundOutput {
     }
 };
 
-}  // namespace dihaptic::rig
+}  // namespace dihaptic::display

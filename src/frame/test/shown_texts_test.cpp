@@ -1,13 +1,13 @@
 // Tests texts with numbers in them, and how the things of a Frame are shown.
-#include "servo/shown_texts.h"
+#include "frame/shown_texts.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "servo/displayed.h"
+#include "frame/displayed.h"
 
-namespace dihaptic::servo::shown_texts_test {
+namespace dihaptic::frame::shown_texts_test {
 namespace {
 
 std::string fill(const std::string& text, const std::vector<NumberFrame>& numbers) {
@@ -85,4 +85,4 @@ TEST(Displayed, IsAsTheFrameSaysOfEachBodyAndProxy) {
 }
 
 }  // namespace
-}  // namespace dihaptic::servo::shown_texts_test
+}  // namespace dihaptic::frame::shown_texts_test

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "base/unmeasured.h"
-#include "servo/settings.h"
+#include "frame/settings.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::frame {
 
 /// What is known of a knob besides its value.
 struct Knob {
@@ -45,19 +45,19 @@ struct Knob {
 };
 
 struct Knobs {
-    haptics::CouplingKind coupling{};
+    CouplingKind coupling{};
     double stiffness = 0;  ///< k [N/m]
     double damping = 0;    ///< c [N*s/m]; NaN: k h / 2
     double smoothing = 0;  ///< alpha
     /// Of fingers whose kind may change and is not set by the scene. Who orders another kind makes
     /// sure that these fingers touch nothing.
-    haptics::ProxyKind proxy{};
+    scene::ProxyKind proxy{};
     double friction_scale = 1;  ///< of every coefficient of friction
     /// Angle of WorkspaceTurn in the tick [rad]. It follows from the rate: to order it does
     /// nothing.
     double workspace_turn = 0;
     double workspace_rate = 0;  ///< rate of that angle until the next tick [rad/s]
-    dynamics::Solver solver{};  ///< from the next step of the world on
+    contact::Solver solver{};   ///< from the next step of the world on
 
     /// Calls v(member, Knob) for each, in the order of the log.
     template <class Visitor>
@@ -105,14 +105,14 @@ struct Knobs {
         out.solver = settings.dynamics.solver;
         return out;
     }
-    void set_coupling(const haptics::CouplingSettings& settings) noexcept {
+    void set_coupling(const CouplingSettings& settings) noexcept {
         coupling = settings.kind;
         stiffness = settings.stiffness;
         damping = settings.damping.value_or(kUnmeasured);
         smoothing = settings.smoothing;
     }
     /// The settings with these knobs in place of their own.
-    haptics::CouplingSettings coupled(haptics::CouplingSettings settings) const noexcept {
+    CouplingSettings coupled(CouplingSettings settings) const noexcept {
         settings.kind = coupling;
         settings.stiffness = stiffness;
         settings.damping = std::isnan(damping) ? std::nullopt : std::optional(damping);
@@ -134,4 +134,4 @@ std::string words(const Knob& /*knob*/, E value) {
     return std::string(enum_name(value));
 }
 
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::frame

@@ -9,9 +9,9 @@
 #include "base/diagnostics.h"
 #include "base/field.h"
 #include "base/geometry.h"
-#include "rig/registration.h"
+#include "display/registration.h"
 
-namespace dihaptic::rig {
+namespace dihaptic::display {
 
 /// How a mirror turns the screen's picture round, which is drawn the other way round for it.
 enum class Mirrored { no, left_right, up_down };
@@ -126,4 +126,4 @@ struct Display {
 /// Checks that it is a rectangle that its eyes see from the front.
 void check(const Display& display, Diagnostics& diagnostics);
 
-}  // namespace dihaptic::rig
+}  // namespace dihaptic::display

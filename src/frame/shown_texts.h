@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "servo/task_frame.h"
+#include "frame/task_frame.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::frame {
 
 /// A place for a number in a text.
 struct Placeholder {
@@ -31,4 +31,4 @@ std::string filled(std::string_view text, std::span<const NumberFrame>& numbers)
 std::vector<std::string> shown_texts(const TaskFrame& task,
                                      const std::vector<std::string>& messages);
 
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::frame

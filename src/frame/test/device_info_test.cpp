@@ -1,11 +1,11 @@
-#include "devices/device_info.h"
+#include "frame/device_info.h"
 
 #include <gtest/gtest.h>
 
 #include "base/field_reader.h"
 #include "base/field_writer.h"
 
-namespace dihaptic::devices::device_info_test {
+namespace dihaptic::frame::device_info_test {
 namespace {
 
 DeviceInfo written_and_read(const DeviceInfo& info) {
@@ -56,4 +56,4 @@ TEST(DeviceInfo, OfAScaledWorldHasForcesAndReachInItsMeasure) {
 }
 
 }  // namespace
-}  // namespace dihaptic::devices::device_info_test
+}  // namespace dihaptic::frame::device_info_test

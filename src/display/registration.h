@@ -10,7 +10,7 @@
 #include "base/field.h"
 #include "base/geometry.h"
 
-namespace dihaptic::rig {
+namespace dihaptic::display {
 
 struct Display;
 
@@ -68,4 +68,4 @@ std::string describe(const RegistrationResult& result);
 /// for the mirror, and for both eyes alike.
 std::string cross_picture(const Display& display);
 
-}  // namespace dihaptic::rig
+}  // namespace dihaptic::display

@@ -1,4 +1,4 @@
-#include "rig/registration.h"
+#include "display/registration.h"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "base/unit.h"
-#include "rig/display.h"
+#include "display/display.h"
 
-namespace dihaptic::rig {
+namespace dihaptic::display {
 namespace {
 
 constexpr int kColumns = 5, kRows = 4;
@@ -104,4 +104,4 @@ std::string cross_picture(const Display& display) {
         width, height, fmt::format(fmt::runtime(turned), width, height), arm, marks);
 }
 
-}  // namespace dihaptic::rig
+}  // namespace dihaptic::display

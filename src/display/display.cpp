@@ -1,4 +1,4 @@
-#include "rig/display.h"
+#include "display/display.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 
 #include "base/unit.h"
 
-namespace dihaptic::rig {
+namespace dihaptic::display {
 namespace {
 
 constexpr double kSmallest = 0.02, kLargest = 20;  // edges [m]
@@ -84,4 +84,4 @@ void check(const Display& display, Diagnostics& diagnostics) {
     }
 }
 
-}  // namespace dihaptic::rig
+}  // namespace dihaptic::display

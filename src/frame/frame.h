@@ -9,13 +9,13 @@
 #include "base/geometry.h"
 #include "base/status.h"
 #include "base/unmeasured.h"
-#include "servo/knobs.h"
-#include "servo/task_frame.h"
-#include "servo/term.h"
+#include "frame/knobs.h"
+#include "frame/task_frame.h"
+#include "frame/term.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::frame {
 
-using enum Status;  // as servo::kStopped: the bits of a Frame
+using enum Status;  // as kStopped: the bits of a Frame
 
 struct FingerFrame {
     Vec3 p_DH = Vec3::Zero();
@@ -244,4 +244,4 @@ struct Frame : Knobs {
     }
 };
 
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::frame

@@ -2,9 +2,9 @@
 // use only these functions.
 #pragma once
 
-#include "servo/frame.h"
+#include "frame/frame.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::frame {
 
 /// The visual map in force if it moves `what`, or null.
 inline const VisualMap* map_of(const Frame& frame, Moves what) noexcept {
@@ -100,4 +100,4 @@ inline Vec3 displayed_target(const Frame& frame, size_t i) noexcept {
     return map != nullptr ? map->displayed(p_WT) : p_WT;
 }
 
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::frame

@@ -7,9 +7,9 @@
 #include <string>
 
 #include "base/field.h"
-#include "scene/scene.h"
+#include "scene/proxy_kind.h"
 
-namespace dihaptic::haptics {
+namespace dihaptic::frame {
 
 /// Upper limits: the stiffest admittance displays render about 5e4 N/m and 1e3 N*s/m, and no hand
 /// is asked to bear more than a kilonewton.
@@ -113,8 +113,6 @@ struct CouplingSettings {
     }
 };
 
-using scene::ProxyKind;
-
 /// Where a point's friction is computed: together with all that it acts on in the step of the
 /// world, or apart from it, as OpenHaptics' HL did.
 enum class PointFriction { together, apart };
@@ -124,7 +122,7 @@ constexpr auto enum_names(PointFriction) {
 
 /// How fingers are represented in the world.
 struct ProxySettings {
-    ProxyKind kind = ProxyKind::rigid;  ///< of fingers for which the scene gives none
+    scene::ProxyKind kind = scene::ProxyKind::rigid;  ///< of fingers for which the scene gives none
     PointFriction friction = PointFriction::together;  ///< point
     double sliding_friction = 1;  ///< point: dynamic friction relative to static friction
     /// Point: a body that is pressed harder than this yields, and is not felt again until the point
@@ -149,7 +147,10 @@ struct ProxySettings {
         v("changeable", changeable, says("Whether the kind may change while a session runs."));
     }
 
-    ProxyKind of(const scene::Finger& finger) const { return finger.proxy.value_or(kind); }
+    /// That of a finger with this kind of its own, or none.
+    scene::ProxyKind of(const std::optional<scene::ProxyKind>& own) const {
+        return own.value_or(kind);
+    }
 };
 
 enum class EnergyGuardMode { off, warn, act };
@@ -249,4 +250,4 @@ struct SafetySettings {
     }
 };
 
-}  // namespace dihaptic::haptics
+}  // namespace dihaptic::frame

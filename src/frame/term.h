@@ -3,7 +3,7 @@
 // plots.
 #pragma once
 
-namespace dihaptic::servo {
+namespace dihaptic::frame {
 
 struct Term {
     const char* name;
@@ -12,4 +12,4 @@ struct Term {
     const char* meaning;  ///< one sentence
 };
 
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::frame

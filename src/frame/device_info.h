@@ -8,9 +8,9 @@
 
 #include "base/field.h"
 #include "base/geometry.h"
-#include "model/phantom_arm.h"
+#include "model/phantom_links.h"
 
-namespace dihaptic::devices {
+namespace dihaptic::frame {
 
 struct DeviceInfo {
     std::string model;
@@ -78,4 +78,4 @@ struct DeviceInfo {
     bool operator==(const DeviceInfo&) const = default;
 };
 
-}  // namespace dihaptic::devices
+}  // namespace dihaptic::frame

@@ -3,18 +3,18 @@
 // (session/safety_limits.h).
 #pragma once
 
-#include "dynamics/settings.h"
-#include "haptics/settings.h"
+#include "frame/dynamics_settings.h"
+#include "frame/haptics_settings.h"
 
-namespace dihaptic::servo {
+namespace dihaptic::frame {
 
 struct Settings {
     double rate = 1000;           ///< tick rate [Hz]
     int real_time_priority = 80;  ///< of SCHED_FIFO, above the kernel's interrupt threads (50)
-    dynamics::Settings dynamics;
-    haptics::ProxySettings proxy;
-    haptics::CouplingSettings coupling;
-    haptics::SafetySettings safety;
+    DynamicsSettings dynamics;
+    ProxySettings proxy;
+    CouplingSettings coupling;
+    SafetySettings safety;
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -35,4 +35,4 @@ struct Settings {
     double step() const { return tick() * dynamics.every; }  ///< time step of the world [s]
 };
 
-}  // namespace dihaptic::servo
+}  // namespace dihaptic::frame

@@ -1,0 +1,57 @@
+// What a tick is told, and who hears of it: the director's orders, and the sink of Frames.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <utility>
+
+#include "frame/frame.h"
+#include "frame/handle.h"
+
+namespace dihaptic::frame {
+
+/// Orders that hold until the director changes them.
+struct LastingOrders {
+    int32_t trial = 0;
+    int32_t phase = 0;
+    Knobs knobs;  ///< at first those of the settings
+};
+
+/// Orders for one tick: none are given before the director is called.
+struct TickOrders {
+    bool stop = false;       ///< this tick is the last
+    bool force_off = false;  ///< from this tick on, for good, as the operator wishes
+    bool rest = false;       ///< no force in this tick, which is the last until resume(): a pause
+    /// Time for which the window that watches the session has not answered, if that is too long:
+    /// force is then off from this tick on [s].
+    double abandoned = 0;
+    TaskFrame task;
+
+    /// Resets to no orders; keeps the memory.
+    void clear() noexcept {
+        TaskFrame memory = std::move(task);
+        memory.clear();
+        *this = {};
+        task = std::move(memory);
+    }
+};
+
+/// What the director orders in a tick.
+struct Commands : LastingOrders, TickOrders {};
+
+/// Fills in the orders of the tick that begins.
+///
+/// It is called in each tick once the devices have been read, before forces are computed: with the
+/// Frame of the last tick, and with the handles as they are now. `commands` holds the lasting
+/// orders as the director left them, those of the settings at first, and no orders for the tick.
+/// In the first tick there is no last Frame: `last.sequence` is -1, and the lists of `last` are as
+/// long as the scene's, with nothing measured in them. As a part of the tick the director must not
+/// allocate, lock, wait or throw.
+using Director =
+    std::function<void(const Frame& last, std::span<const Handle> handles, Commands& commands)>;
+
+/// Receives each Frame at the end of its tick; the Frame is valid until the next. On the real clock
+/// it is called in the servo's thread, where it must not allocate, lock, wait or throw.
+using FrameSink = std::function<void(const Frame&)>;
+
+}  // namespace dihaptic::frame
