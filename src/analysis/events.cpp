@@ -55,8 +55,7 @@ void EventFinder::add_trial(const frame::Frame& frame) {
 
 void EventFinder::add_task(const frame::Frame& frame) {
     const frame::TaskFrame& task = frame.task;
-    const bool perturbed = !(task.visual.empty() && task.properties.empty() &&
-                             task.joint_properties.empty() && task.loads.empty());
+    const bool perturbed = task.perturbed();
     if (perturbed != perturbed_) say(frame, "perturbation", perturbed ? "on" : "off");
     perturbed_ = perturbed;
     if (task.marker != 0) say(frame, "marker", number_text(task.marker));

@@ -252,8 +252,59 @@ struct NumberFrame {
     }
 };
 
+/// What the index of a list's items names: their `body`, `joint` or `object`. -1 stands for none.
+enum class Names { nothing, bodies, bodies_and_proxies, joints };
+
+/// On which the lengths of lists depend.
+struct Sizes {
+    size_t bodies = 0;  ///< of the scene
+    size_t fingers = scene::kMostFingers;
+};
+
+/// What is known of a list of the TaskFrame besides its items.
+struct TaskList {
+    const char* name;
+    const char* meaning;  ///< one sentence
+    Names names = Names::nothing;
+    size_t fixed = 0;
+    bool per_body = false, per_finger = false;
+    bool perturbs = false;  ///< what is in it is a perturbation of the trial
+
+    /// Its largest length in a tick.
+    constexpr size_t most(const Sizes& sizes) const {
+        return fixed + (per_body ? sizes.bodies : 0) + (per_finger ? sizes.fingers : 0);
+    }
+    constexpr TaskList of(Names what) const {
+        TaskList out = *this;
+        out.names = what;
+        return out;
+    }
+    constexpr TaskList up_to(size_t count) const {
+        TaskList out = *this;
+        out.fixed = count;
+        return out;
+    }
+    constexpr TaskList one_for_each_body() const {
+        TaskList out = *this;
+        out.per_body = true;
+        return out;
+    }
+    constexpr TaskList one_for_each_finger() const {
+        TaskList out = *this;
+        out.per_finger = true;
+        return out;
+    }
+    constexpr TaskList is_perturbation() const {
+        TaskList out = *this;
+        out.perturbs = true;
+        return out;
+    }
+};
+
+/// Its lists are named once, in visit_lists(): their lengths, checks, and the event "perturbation"
+/// follow from that.
 struct TaskFrame {
-    /// Limits of the numbers in a tick; there may be as many placements as bodies.
+    /// Limits of the numbers in a tick.
     static constexpr size_t kMostTargets = 16;
     static constexpr size_t kMostProperties = 8;
     static constexpr size_t kMostLoads = 16;
@@ -284,21 +335,13 @@ struct TaskFrame {
     std::vector<LineFrame> lines;
     std::vector<NumberFrame> numbers;
 
-    void reserve(size_t bodies) {
-        visual.reserve(1);
-        targets.reserve(kMostTargets);
-        properties.reserve(kMostProperties);
-        joint_properties.reserve(kMostProperties);
-        loads.reserve(kMostLoads);
-        placements.reserve(bodies);
-        drives.reserve(bodies);
-        motors.reserve(kMostMotors);
-        variables.reserve(kMostVariables);
-        looks.reserve(bodies + scene::kMostFingers);
-        displaced.reserve(1 + scene::kMostFingers);
-        sounds.reserve(kMostSounds);
-        lines.reserve(kMostLines);
-        numbers.reserve(kMostNumbers);
+    /// Reserves memory for all lists of a tick.
+    void reserve(const Sizes& sizes) {
+        visit_lists(*this, [&](auto& list, const TaskList& is) { list.reserve(is.most(sizes)); });
+    }
+    /// Makes all lists as long as they can be, and gives their items no meaning.
+    void fill(const Sizes& sizes) {
+        visit_lists(*this, [&](auto& list, const TaskList& is) { list.resize(is.most(sizes)); });
     }
     /// Resets to no orders; keeps the memory.
     void clear() noexcept {
@@ -306,20 +349,22 @@ struct TaskFrame {
         outcome = message = page = -1;
         marker = 0;
         share = 0;
-        visual.clear();
-        targets.clear();
-        properties.clear();
-        joint_properties.clear();
-        loads.clear();
-        placements.clear();
-        drives.clear();
-        motors.clear();
-        variables.clear();
-        looks.clear();
-        displaced.clear();
-        sounds.clear();
-        lines.clear();
-        numbers.clear();
+        visit_lists(*this, [](auto& list, const TaskList&) { list.clear(); });
+    }
+    /// Whether a perturbation acts.
+    bool perturbed() const noexcept {
+        bool out = false;
+        visit_lists(*this, [&](const auto& list, const TaskList& is) {
+            out |= is.perturbs && !list.empty();
+        });
+        return out;
+    }
+
+    /// Calls v(list, TaskList) for each list, in the order of the log.
+    template <class Self, class Visitor>
+    static void visit_lists(Self& t, Visitor&& v) {
+        visit_acting(t, v);
+        visit_shown(t, v);
     }
 
     template <class Self, class Visitor>
@@ -331,30 +376,77 @@ struct TaskFrame {
         v(t.marker, {"marker", "1", "", "Event code of the tick, 1 to 255; 0: none."});
         v(t.share, {"share", "1", "", "Share of the trial's perturbation that acts."});
         v(t.page, {"page", "1", "", "Index of the shown page in the session's list."});
-        v.each("visual", t.visual,
-               "The visual map, if any: the difference between what is shown and what is there.");
-        v.each("targets", t.targets, "One for each target, which is shown as a sphere.");
-        v.each("properties", t.properties,
-               "One for each body whose properties differ from the scene's.");
-        v.each("joint_properties", t.joint_properties,
-               "One for each joint whose properties differ from the scene's.");
-        v.each("loads", t.loads, "One for each force on a body or a handle.");
-        v.each("placements", t.placements, "One for each body that is put at a pose.");
-        v.each("drives", t.drives, "One for each body that is driven: where it gets in the tick.");
-        v.each("motors", t.motors, "One for each joint that a motor turns or moves.");
-        v.each(
-            "variables", t.variables,
-            "One for each variable of the task: its value in this trial, and in the trial's last "
-            "tick its value in the next.");
-        v.each(
-            "looks", t.looks,
-            "One for each body or proxy that is hidden, or drawn otherwise than the scene has it.");
-        v.each("displaced", t.displaced,
-               "One for each body or proxy that is shown late, shaken, or where it was.");
-        v.each("sounds", t.sounds, "One for each sound that begins or ends in the tick.");
-        v.each("lines", t.lines, "One for each text that is shown below the message.");
-        v.each("numbers", t.numbers,
-               "One for each number in the shown texts, the message's first, then the lines'.");
+        visit_lists(t, [&](auto& list, const TaskList& is) { v.each(is.name, list, is.meaning); });
+    }
+
+  private:
+    template <class Self, class Visitor>
+    static void visit_acting(Self& t, Visitor& v) {
+        using enum Names;
+        v(t.visual,
+          TaskList{
+              "visual",
+              "The visual map, if any: the difference between what is shown and what is there."}
+              .of(bodies)
+              .up_to(1)
+              .is_perturbation());
+        v(t.targets, TaskList{"targets", "One for each target, which is shown as a sphere."}.up_to(
+                         kMostTargets));
+        v(t.properties,
+          TaskList{"properties", "One for each body whose properties differ from the scene's."}
+              .of(bodies_and_proxies)
+              .up_to(kMostProperties)
+              .is_perturbation());
+        v(t.joint_properties,
+          TaskList{"joint_properties",
+                   "One for each joint whose properties differ from the scene's."}
+              .of(joints)
+              .up_to(kMostProperties)
+              .is_perturbation());
+        v(t.loads, TaskList{"loads", "One for each force on a body or a handle."}
+                       .of(bodies_and_proxies)
+                       .up_to(kMostLoads)
+                       .is_perturbation());
+        v(t.placements, TaskList{"placements", "One for each body that is put at a pose."}
+                            .of(bodies)
+                            .one_for_each_body());
+        v(t.drives,
+          TaskList{"drives", "One for each body that is driven: where it gets in the tick."}
+              .of(bodies)
+              .one_for_each_body());
+        v(t.motors,
+          TaskList{"motors", "One for each joint that a motor turns or moves."}.of(joints).up_to(
+              kMostMotors));
+    }
+    template <class Self, class Visitor>
+    static void visit_shown(Self& t, Visitor& v) {
+        using enum Names;
+        v(t.variables,
+          TaskList{"variables",
+                   "One for each variable of the task: its value in this trial, and in the trial's "
+                   "last tick its value in the next."}
+              .up_to(kMostVariables));
+        v(t.looks,
+          TaskList{"looks",
+                   "One for each body or proxy that is hidden, or drawn otherwise than the "
+                   "scene has it."}
+              .of(bodies_and_proxies)
+              .one_for_each_body()
+              .one_for_each_finger());
+        v(t.displaced,
+          TaskList{"displaced",
+                   "One for each body or proxy that is shown late, shaken, or where it was."}
+              .of(bodies_and_proxies)
+              .up_to(1)
+              .one_for_each_finger());
+        v(t.sounds, TaskList{"sounds", "One for each sound that begins or ends in the tick."}.up_to(
+                        kMostSounds));
+        v(t.lines, TaskList{"lines", "One for each text that is shown below the message."}.up_to(
+                       kMostLines));
+        v(t.numbers,
+          TaskList{"numbers",
+                   "One for each number in the shown texts, the message's first, then the lines'."}
+              .up_to(kMostNumbers));
     }
 };
 

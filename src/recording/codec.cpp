@@ -74,20 +74,7 @@ size_t most_bytes(const Layout& layout, size_t contacts) {
     frame.bodies.resize(layout.bodies);
     frame.joints.resize(layout.joints);
     frame.contacts.resize(contacts);
-    frame.task.visual.resize(1);
-    frame.task.targets.resize(frame::TaskFrame::kMostTargets);
-    frame.task.properties.resize(frame::TaskFrame::kMostProperties);
-    frame.task.joint_properties.resize(frame::TaskFrame::kMostProperties);
-    frame.task.loads.resize(frame::TaskFrame::kMostLoads);
-    frame.task.placements.resize(layout.bodies);
-    frame.task.drives.resize(layout.bodies);
-    frame.task.motors.resize(frame::TaskFrame::kMostMotors);
-    frame.task.variables.resize(frame::TaskFrame::kMostVariables);
-    frame.task.looks.resize(layout.bodies + layout.fingers);
-    frame.task.displaced.resize(1 + layout.fingers);
-    frame.task.sounds.resize(frame::TaskFrame::kMostSounds);
-    frame.task.lines.resize(frame::TaskFrame::kMostLines);
-    frame.task.numbers.resize(frame::TaskFrame::kMostNumbers);
+    frame.task.fill({layout.bodies, layout.fingers});
     std::vector<std::byte> bytes(8192 + 512 * layout.fingers + 256 * layout.turns +
                                  448 * layout.bodies + 128 * layout.joints + 256 * contacts);
     return encode(frame, bytes, Bodies::all);

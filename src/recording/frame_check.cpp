@@ -32,22 +32,42 @@ bool is_possible(const frame::ContactFrame& contact, size_t all) noexcept {
            is_index(contact.b, all);
 }
 
+/// The index of what an item is about.
+template <class Item>
+int32_t index_of(const Item& item) noexcept {
+    if constexpr (requires { item.body; })
+        return item.body;
+    else if constexpr (requires { item.joint; })
+        return item.joint;
+    else if constexpr (requires { item.object; })
+        return item.object;
+    else
+        return -1;
+}
+
+size_t count(frame::Names what, const Layout& layout) noexcept {
+    switch (what) {
+        case frame::Names::bodies:
+            return layout.bodies;
+        case frame::Names::bodies_and_proxies:
+            return layout.bodies + layout.fingers;
+        case frame::Names::joints:
+            return layout.joints;
+        case frame::Names::nothing:
+            break;
+    }
+    return 0;
+}
+
 bool is_possible(const frame::TaskFrame& task, const Layout& layout) noexcept {
-    const size_t bodies = layout.bodies;
-    const size_t all = layout.bodies + layout.fingers;
-    const auto each = [](const auto& list, size_t count) {
-        return std::all_of(list.begin(), list.end(),
-                           [count](const auto& item) { return is_index(item.body, count); });
-    };
-    const auto of_joints = [&](const auto& list) {
-        return std::all_of(list.begin(), list.end(),
-                           [&](const auto& item) { return is_index(item.joint, layout.joints); });
-    };
-    return each(task.properties, all) && each(task.loads, all) && each(task.placements, bodies) &&
-           each(task.drives, bodies) && each(task.looks, all) && each(task.displaced, all) &&
-           of_joints(task.joint_properties) && of_joints(task.motors) &&
-           std::all_of(task.visual.begin(), task.visual.end(),
-                       [&](const frame::VisualMap& map) { return is_index(map.object, bodies); });
+    bool possible = true;
+    frame::TaskFrame::visit_lists(task, [&](const auto& list, const frame::TaskList& is) {
+        possible = possible && (is.names == frame::Names::nothing ||
+                                std::all_of(list.begin(), list.end(), [&](const auto& item) {
+                                    return is_index(index_of(item), count(is.names, layout));
+                                }));
+    });
+    return possible;
 }
 
 }  // namespace

@@ -157,7 +157,7 @@ void Servo::activate() {
     frame_ = {};
     frame_.sequence = -1;
     reserve(frame_);
-    commands_.task.reserve(frame_.bodies.size());
+    commands_.task.reserve({frame_.bodies.size(), frame_.fingers.size()});
     devices_->activate();
     active_ = true;
     stopped_ = false;
@@ -169,7 +169,7 @@ void Servo::reserve(frame::Frame& frame) const {
     frame.bodies.resize(static_cast<size_t>(world_.scene_size()));
     frame.joints.resize(world_.joints().size());
     frame.changed.reserve(frame.bodies.size());
-    frame.task.reserve(frame.bodies.size());
+    frame.task.reserve({frame.bodies.size(), frame.fingers.size()});
     frame.contacts.reserve(64 + 8 * static_cast<size_t>(world_.size()));
 }
 

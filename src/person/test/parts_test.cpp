@@ -16,7 +16,7 @@ TEST(Eyes, SeeWhereThingsAreShownAWhileAgo) {
     Eyes eyes(0.1, 2, 1e-3);
     frame::Frame frame;
     frame.fingers.resize(2);
-    frame.task.reserve(1);
+    frame.task.reserve({1});
     frame::VisualMap map;
     map.moves = frame::kMovesProxies;
     map.scale = Vec3(2, 1, 1);

@@ -44,7 +44,7 @@ struct Waiting {
         last.bodies.resize(2);
         last.bodies[kBlock].X_WB.p = {0, 0, 0.02};
         last.fingers[0].p_WP = last.fingers[1].p_WP = {0, 0, 1};
-        commands.task.reserve(2);
+        commands.task.reserve({2});
         tick();  // begins the trial
     }
     /// Returns whether the exit is taken.

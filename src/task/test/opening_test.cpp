@@ -26,7 +26,7 @@ struct Asked {
         last.fingers.resize(1);
         for (const scene::Body& body : plan.scene.bodies) last.bodies.push_back({body.pose()});
         last.fingers[0].p_WP = handles[0].p_WH;
-        commands.task.reserve(last.bodies.size());
+        commands.task.reserve({last.bodies.size()});
     }
     /// Runs until a time [s]; in its first tick a key is pressed, unless it is 0.
     const frame::Commands& run(double until, char key = 0) {

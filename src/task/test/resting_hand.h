@@ -22,8 +22,8 @@ struct RestingHand {
         last.fingers[0].p_WP = p_WH;
         for (const scene::Body& body : plan.scene.bodies)
             last.bodies.emplace_back().X_WB = body.pose();
-        last.task.reserve(last.bodies.size());
-        commands.task.reserve(last.bodies.size());
+        last.task.reserve({last.bodies.size()});
+        commands.task.reserve({last.bodies.size()});
     }
 
     /// What the director commands in the next tick.

@@ -328,7 +328,7 @@ struct Asked {
         last.fingers.resize(1);
         last.bodies.resize(2);
         last.bodies[1].X_WB.p = {0.2, 0, 0.1};
-        commands.task.reserve(2);
+        commands.task.reserve({2});
     }
     const frame::Commands& tick() {
         commands.task.clear();
