@@ -28,6 +28,19 @@ std::string start_container(const std::string& option) {
     return fmt::format("docker run {} ...    # starts the container anew", option);
 }
 
+/// The release of a kernel that Debian's package has put there; "" if there is none.
+std::string real_time_kernel_on_disk(const std::string& root) {
+    const std::string begin = "vmlinuz-";
+    const std::string end = fmt::format("-rt-{}", kArchitecture);
+    std::error_code failed;
+    for (fs::directory_iterator i(root + "/boot", failed), none; !failed && i != none;
+         i.increment(failed)) {
+        const std::string name = i->path().filename().string();
+        if (name.starts_with(begin) && name.ends_with(end)) return name.substr(begin.size());
+    }
+    return "";
+}
+
 Finding kernel(const std::string& root) {
     const std::string release = text_of(root + "/proc/sys/kernel/osrelease");
     const bool real_time = text_of(root + "/sys/kernel/realtime") == "1" ||
@@ -39,10 +52,20 @@ Finding kernel(const std::string& root) {
             release +
                 " has PREEMPT_RT, which keeps drivers and other programs from holding a tick up",
             {}};
+    const std::string lacking =
+        release + " has no PREEMPT_RT: drivers and other programs can hold a tick up";
+    if (const std::string other = real_time_kernel_on_disk(root); !other.empty())
+        return {
+            Verdict::lacks,
+            "kernel",
+            fmt::format("{}. {}, which has it, is installed", lacking, other),
+            {fmt::format("sudo reboot    # if {} starts again, choose {} in the boot menu, under "
+                         "Advanced options",
+                         release, other)}};
     const bool inside = !container(root).empty();
     return {Verdict::lacks,
             "kernel",
-            release + " has no PREEMPT_RT: drivers and other programs can hold a tick up",
+            lacking,
             {fmt::format("sudo apt install linux-image-rt-{}    # {}then restart", kArchitecture,
                          inside ? "on the container's host; " : "")}};
 }

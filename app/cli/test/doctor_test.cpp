@@ -108,6 +108,44 @@ TEST(Doctor, KnowsAKernelThatKeepsTimeByItsVersionToo) {
               std::string::npos);
 }
 
+// What Debian's packages of kernels say, by the version string in their /boot/vmlinuz-*. The
+// standard kernel of Debian 13 is built without PREEMPT_RT too, though the source has it.
+TEST(Doctor, TellsDebiansKernelsApart) {
+    const GoodMachine machine;
+    fs::remove(machine.root() + "/sys/kernel/realtime");
+    for (const auto& [version, verdict] :
+         {std::pair{"6.1.0-50-amd64 #1 SMP PREEMPT_DYNAMIC Debian 6.1.176-1 (2026-07-02)",
+                    Verdict::lacks},
+          {"6.1.0-50-rt-amd64 #1 SMP PREEMPT_RT Debian 6.1.176-1 (2026-07-02)", Verdict::ok},
+          {"6.12.118+deb13-amd64 #1 SMP PREEMPT_DYNAMIC Debian 6.12.118-1 (2026-11-20)",
+           Verdict::lacks},
+          {"6.12.118+deb13-rt-amd64 #1 SMP PREEMPT_RT Debian 6.12.118-1 (2026-11-20)",
+           Verdict::ok}}) {
+        machine.put("/proc/version", std::string("Linux version ") + version + "\n");
+        EXPECT_EQ(of(real_time(machine.root(), all_rights()), "kernel").verdict, verdict)
+            << version;
+    }
+}
+
+TEST(Doctor, AsksForARestartWhereAKernelForRealTimeIsInstalled) {
+    const GoodMachine machine;
+    fs::remove(machine.root() + "/sys/kernel/realtime");
+    machine.put("/proc/sys/kernel/osrelease", "6.12.118+deb13-amd64\n");
+    machine.put("/proc/version", "Linux version 6.12.118+deb13-amd64 #1 SMP PREEMPT_DYNAMIC\n");
+    machine.put("/boot/vmlinuz-6.12.118+deb13-amd64", "");
+    EXPECT_EQ(commands(of(real_time(machine.root(), all_rights()), "kernel")).find("sudo apt"), 0u);
+#if defined(__aarch64__)
+    const std::string other = "6.12.118+deb13-rt-arm64";
+#else
+    const std::string other = "6.12.118+deb13-rt-amd64";
+#endif
+    machine.put("/boot/vmlinuz-" + other, "");
+    const Finding kernel = of(real_time(machine.root(), all_rights()), "kernel");
+    EXPECT_EQ(kernel.verdict, Verdict::lacks);
+    EXPECT_NE(kernel.found.find(other + ", which has it, is installed"), std::string::npos);
+    EXPECT_EQ(commands(kernel).find("sudo reboot"), 0u) << commands(kernel);
+}
+
 TEST(Doctor, HasACommandForEachRightThatIsRefused) {
     const GoodMachine machine;
     const Findings found = real_time(machine.root(), no_rights());
