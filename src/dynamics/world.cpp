@@ -104,8 +104,8 @@ World& World::operator=(World&&) noexcept = default;
 
 BodyIndex World::add_proxy(const scene::Finger& finger, const Vec3& p_WP, bool turns) {
     impl_->add(finger.name, finger.shape, finger.mass, finger.friction, finger.torsion_radius,
-               {rotation_xyz(finger.rotation), p_WP}, Vec3::Ones(),
-               turns ? Vec3::Ones() : Vec3::Zero(), turns);
+               {rotation_xyz(finger.rotation), p_WP}, Vec3::Ones(), Vec3::Constant(turns ? 1 : 0),
+               turns);
     impl_->items.back().surface = finger.surface;
     impl_->items.back().is_proxy = true;
     return {size() - 1};
@@ -136,7 +136,7 @@ BodyIndex World::add_point(const scene::Finger& finger, const Vec3& p_WP, bool t
     // a point has no shape, but its body must have one
     impl_->add(finger.name, scene::Shape::sphere(scene::kSmallest), finger.mass, finger.friction,
                finger.torsion_radius, {rotation_xyz(finger.rotation), p_WP}, Vec3::Ones(),
-               turns ? Vec3::Ones() : Vec3::Zero(), turns);
+               Vec3::Constant(turns ? 1 : 0), turns);
     impl_->items.back().surface = finger.surface;
     impl_->items.back().is_proxy = true;
     impl_->items.back().is_point = true;

@@ -1,5 +1,8 @@
 #include "task/task_plan.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <bit>
 #include <cmath>
 #include <set>

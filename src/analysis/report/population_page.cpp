@@ -1,6 +1,7 @@
 #include "analysis/report/population_page.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
