@@ -1,6 +1,7 @@
 """Environments for learners: two fingers lift and turn, four hand over, with the program's contact.
 
-They have the interface that learners use (reset, step, spaces), and depend on no library of theirs.
+They have the interface of gymnasium (reset, step, spaces). Where gymnasium 1.1 or later is installed, they are its environments,
+which `gymnasium.make("Dihaptic/Lift-v0")` and `gymnasium.make_vec` make.
 
 >>> import dihaptic as dh
 >>> environment = dh.env.Grasp("lift", seed=1)
@@ -14,7 +15,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import numpy.typing as npt
@@ -54,6 +55,48 @@ class Box:
         return given.shape == self.shape and bool(((given >= self.low) & (given <= self.high)).all())
 
 
+class _Env:
+    """What is used of gymnasium.Env and gymnasium.vector.VectorEnv, where they are not installed."""
+
+    metadata: dict[str, Any] = {}
+    render_mode: str | None = None
+    _np_random: np.random.Generator
+
+    def reset(self, *, seed: int | None = None, options: Info | None = None) -> Any:
+        if seed is not None:
+            self._np_random = np.random.default_rng(seed)
+
+    def close(self) -> None:
+        """Nothing is left open."""
+
+
+_VectorEnv = _Env
+_AUTORESET: dict[str, Any] = {}
+gymnasium: Any = None
+if not TYPE_CHECKING:
+    try:
+        import gymnasium
+        from gymnasium.vector import AutoresetMode
+    except ImportError:  # it is not there, or older
+        gymnasium = None
+    else:
+        _Env, _VectorEnv = gymnasium.Env, gymnasium.vector.VectorEnv
+        _AUTORESET = {"autoreset_mode": AutoresetMode.DISABLED}
+
+
+def _space(low: float, high: float, shape: tuple[int, ...], seed: int) -> Box:
+    if gymnasium is None:
+        return Box(low, high, shape, seed)
+    space: Box = gymnasium.spaces.Box(low, high, shape, np.float64, seed)
+    return space
+
+
+def _refuse_options(options: Info | None, *known: str) -> None:
+    for name in set(options or {}) - set(known):
+        remedy = f"It may have: {', '.join(known)}." if known else "Leave it out."
+        raise error(f"has '{name}'", remedy, key="options")
+
+
 #: Of each task: its scene, the range of its goal, and how near counts as there.
 _TASKS: dict[str, tuple[str, tuple[float, float], float]] = {
     "lift": ("scenes/block-on-table.yaml", (0.03, 0.1), 0.005),  # height [m]
@@ -64,7 +107,7 @@ _FASTEST = 0.3  # of a finger's target [m/s]
 _HOLD = 0.2  # for so long it has to be there [s]
 
 
-class Grasps:
+class Grasps(_VectorEnv):
     """Many worlds with the same task, stepped side by side on all processors.
 
     `task`: "lift" an object to a height, "turn" it by an angle, "hand_over" from the first hand to
@@ -81,10 +124,14 @@ class Grasps:
     >>> seen, info = many.reset()
     >>> seen.shape
     (3, 34)
+    >>> many.action_space.shape, many.single_action_space.shape
+    ((3, 6), (6,))
     >>> seen, reward, terminated, truncated, info = many.step(np.zeros((3, 6)))
     >>> bool((np.abs(reward + 1) < 0.01).all())
     True
     """
+
+    metadata = {"render_modes": [], **_AUTORESET}
 
     def __init__(
         self, task: str = "lift", n: int = 1, *, seed: int = 1, ticks: int = 10, time: float = 5.0, jobs: int | None = None
@@ -100,10 +147,13 @@ class Grasps:
         self.time = time
         self.step_time = ticks * self.worlds[0].tick
         fingers = len(self.worlds[0].fingers)
-        self.action_space = Box(-1, 1, (3 * fingers,), seed)
-        self.observation_space = Box(-np.inf, np.inf, (10 * fingers + 14,), seed)
+        self.num_envs = n
+        self.single_action_space = _space(-1, 1, (3 * fingers,), seed)
+        self.single_observation_space = _space(-np.inf, np.inf, (10 * fingers + 14,), seed)
+        self.action_space = _space(-1, 1, (n, 3 * fingers), seed)
+        self.observation_space = _space(-np.inf, np.inf, (n, 10 * fingers + 14), seed)
         self._jobs = jobs or os.cpu_count() or 1
-        self._random = np.random.default_rng(seed)
+        super().reset(seed=seed)
         self._fingers = fingers
         self._inner = [world._world for world in self.worlds]
         self._targets = np.zeros((n, fingers, 6))
@@ -113,17 +163,26 @@ class Grasps:
         self._passed = np.zeros(n)
         self._began = np.zeros(n, dtype=bool)
 
-    def reset(self, which: Sequence[int] | npt.NDArray[Any] | None = None, *, seed: int | None = None) -> tuple[Array, Info]:
+    def reset(
+        self,
+        which: Sequence[int] | npt.NDArray[Any] | None = None,
+        *,
+        seed: int | None = None,
+        options: Info | None = None,
+    ) -> tuple[Array, Info]:
         """Begins all episodes anew, or those of `which` worlds (their numbers, or an array such as
-        `terminated | truncated`); each gets a goal of its own."""
-        if seed is not None:
-            self._random = np.random.default_rng(seed)
+        `terminated | truncated`); each gets a goal of its own. An episode that has ended begins
+        anew in no other way. gymnasium's name of `which` is `options={"reset_mask": which}`."""
+        _refuse_options(options, "reset_mask")
+        if options and which is None:
+            which = options["reset_mask"]
+        super().reset(seed=seed)
         chosen = self._chosen(which if self._began.all() else None)
         for i in chosen:
             self.worlds[i].reset()
             self.worlds[i].step()
         self._began[:] = True
-        self._goal[chosen] = self._random.uniform(*self._goals, size=len(chosen))
+        self._goal[chosen] = self._np_random.uniform(*self._goals, size=len(chosen))
         self._held[chosen] = 0
         self._passed[chosen] = 0
         seen = _native.observe(self._inner)
@@ -195,7 +254,7 @@ class Grasps:
         return {"distance": self._distance(seen), "success": self._held >= _HOLD - 1e-9}
 
 
-class Grasp:
+class Grasp(_Env):
     """One world with a task: Grasps with n = 1, without its first axis.
 
     >>> import dihaptic as dh
@@ -205,15 +264,21 @@ class Grasp:
     True
     """
 
+    metadata = {"render_modes": []}
+
     def __init__(self, task: str = "lift", *, seed: int = 1, ticks: int = 10, time: float = 5.0) -> None:
+        super().reset(seed=seed)
         self._one = Grasps(task, 1, seed=seed, ticks=ticks, time=time, jobs=1)
-        self.action_space = self._one.action_space
-        self.observation_space = self._one.observation_space
+        self.action_space = self._one.single_action_space
+        self.observation_space = self._one.single_observation_space
         self.world = self._one.worlds[0]
 
     def reset(self, *, seed: int | None = None, options: Info | None = None) -> tuple[Array, Info]:
-        """Begins an episode with a goal of its own; `options` are ignored."""
-        seen, info = self._one.reset(seed=seed)
+        """Begins an episode with a goal of its own; `options` has to be empty."""
+        _refuse_options(options)
+        super().reset(seed=seed)
+        self._one._np_random = self._np_random
+        seen, info = self._one.reset()
         return seen[0], _first(info)
 
     def step(self, action: npt.ArrayLike) -> tuple[Array, float, bool, bool, Info]:
@@ -224,3 +289,17 @@ class Grasp:
 
 def _first(info: Info) -> Info:
     return {key: value[0].item() for key, value in info.items()}
+
+
+def _many(num_envs: int, **given: Any) -> Grasps:
+    return Grasps(n=num_envs, **given)
+
+
+if gymnasium is not None:
+    for _task in _TASKS:
+        gymnasium.register(
+            f"Dihaptic/{_task.title().replace('_', '')}-v0",
+            entry_point="dihaptic.env:Grasp",
+            vector_entry_point="dihaptic.env:_many",
+            kwargs={"task": _task},
+        )

@@ -1,10 +1,17 @@
 """Environments keep the interface that learners use, and can be solved."""
 
+import importlib.util
+import subprocess
+import sys
 import unittest
+import warnings
 
 import numpy as np
 
 import dihaptic as dh
+
+NO_GYMNASIUM = "python3-gymnasium is not installed, which Debian 12 and 13 do not have"
+TASKS = {"lift": "Lift", "turn": "Turn", "hand_over": "HandOver"}
 
 
 def toward(environment, places, seconds):
@@ -116,6 +123,8 @@ class Environments(unittest.TestCase):
         np.testing.assert_array_equal(after[0, :-1], seen[0, :-1])
         self.assertFalse(np.array_equal(after[1, :-1], seen[1, :-1]))
         self.assertEqual(many.worlds[1].t, 0)
+        again, _ = many.reset(options={"reset_mask": np.array([False, True])})
+        np.testing.assert_array_equal(again[:, :-1], after[:, :-1])
 
     def test_bad_input_is_told(self):
         with self.assertRaisesRegex(dh.Error, "task: is 'juggle'. There are: lift, turn, hand_over"):
@@ -131,10 +140,84 @@ class Environments(unittest.TestCase):
             many.step(np.zeros(5))
         with self.assertRaisesRegex(dh.Error, "no number"):
             many.step(np.full((2, 6), np.nan))
+        with self.assertRaisesRegex(dh.Error, "options: has 'goal'. It may have: reset_mask"):
+            many.reset(options={"goal": 0.1})
+        with self.assertRaisesRegex(dh.Error, "options: has 'goal'. Leave it out"):
+            dh.env.Grasp("lift").reset(options={"goal": 0.1})
         many.step(np.zeros((2, 6)))  # it is as if that had not been
         for which in ([0.7], [5], [-1], [True], "x"):
             with self.subTest(which), self.assertRaisesRegex(dh.Error, "which: is"):
                 many.reset(which)
+
+    def test_many_have_spaces_of_all_and_of_one(self):
+        many = dh.env.Grasps("turn", 3)
+        self.assertEqual(many.num_envs, 3)
+        for all_of_them, one in ((many.action_space, many.single_action_space), (many.observation_space, many.single_observation_space)):
+            self.assertEqual(all_of_them.shape, (3, *one.shape))
+        seen, _ = many.reset()
+        self.assertTrue(many.observation_space.contains(seen))
+        seen, *_ = many.step(many.action_space.sample())
+        self.assertTrue(many.single_observation_space.contains(seen[1]))
+
+    def test_do_the_same_without_gymnasium(self):
+        code = """
+import sys
+{}
+import numpy as np
+import dihaptic as dh
+one, many = dh.env.Grasp("turn", seed=3), dh.env.Grasps("lift", 2, seed=3)
+print([base.__module__ for base in (*type(one).__bases__, *type(many).__bases__)], file=sys.stderr)
+print(one.render_mode, one.metadata["render_modes"], many.reset()[0].sum(), one.reset()[0].sum(), one.reset(seed=5)[0].sum())
+for _ in range(20):
+    seen = one.step(np.full(6, 0.5))[0]
+print(seen.sum(), many.step(np.full((2, 6), 0.5))[0].sum())
+one.close(), many.close()
+"""
+        said = []
+        for hide in ("", "sys.modules['gymnasium'] = None"):
+            done = subprocess.run([sys.executable, "-c", code.format(hide)], capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            said.append(done.stdout)
+        self.assertIn("dihaptic.env", done.stderr)
+        self.assertEqual(said[0], said[1])
+
+
+@unittest.skipIf(importlib.util.find_spec("gymnasium") is None, NO_GYMNASIUM)
+class OfGymnasium(unittest.TestCase):
+    def test_pass_its_own_check(self):
+        import gymnasium
+        from gymnasium.utils.env_checker import check_env
+
+        for task, name in TASKS.items():
+            with self.subTest(task), warnings.catch_warnings(record=True) as warned:
+                warnings.simplefilter("always")
+                made = gymnasium.make(f"Dihaptic/{name}-v0", time=2.0)
+                self.assertIsInstance(made.unwrapped, dh.env.Grasp)
+                self.assertEqual(made.action_space.shape, (3 * len(made.unwrapped.world.fingers),))
+                check_env(made.unwrapped)
+                # where a hand and a block are has no bounds
+                told = [str(one.message) for one in warned]
+                self.assertEqual([text for text in told if "observation space m" not in text], [])
+                self.assertEqual(len(told), 2)
+
+    def test_many_are_made_by_one_call(self):
+        import gymnasium
+
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            many = gymnasium.make_vec("Dihaptic/Turn-v0", num_envs=3, seed=7, time=0.1)
+            self.assertIsInstance(many, dh.env.Grasps)
+            self.assertIsInstance(many, gymnasium.vector.VectorEnv)
+            self.assertEqual(many.metadata["autoreset_mode"], gymnasium.vector.AutoresetMode.DISABLED)
+            many = gymnasium.wrappers.vector.RecordEpisodeStatistics(many)
+            many.reset(seed=3)
+            for _ in range(10):
+                seen, reward, terminated, truncated, info = many.step(many.action_space.sample())
+            self.assertTrue(truncated.all())
+            self.assertEqual(info["episode"]["l"].tolist(), [10, 10, 10])
+            many.reset(options={"reset_mask": truncated})
+            self.assertFalse(many.step(many.action_space.sample())[3].any())
+            many.close()
 
 
 if __name__ == "__main__":
