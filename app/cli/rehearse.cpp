@@ -37,7 +37,8 @@ struct RehearseOptions {
     std::optional<person::Population> population;
     int people = 1;
     int jobs = 1;
-    int slurm = 0;  ///< number of shards that Slurm is to do; 0: done here
+    int slurm = 0;          ///< number of shards that Slurm is to do; 0: done here
+    std::string container;  ///< file of Apptainer's whose program does them; empty: this one
     bool real_objects = false;
     bool keep_recordings = false;
 };
@@ -245,7 +246,8 @@ std::string command_again(const RehearseOptions& options) {
                            options.population_file,
                            options.real_objects,
                            options.keep_recordings,
-                           options.jobs}
+                           options.jobs,
+                           options.container}
         .text();
 }
 
@@ -285,6 +287,18 @@ void print_next(const RehearseOptions& options, const Shard& shard) {
                    all ? "" : ", when the other shards are", shell_file(options.out));
     } else {
         fmt::print("some are missing in {}: the same command goes on with those\n", options.out);
+    }
+}
+
+void check_container(const RehearseOptions& options) {
+    if (options.slurm == 0) {
+        throw Error({"--container", 0}, "", "is for --slurm alone",
+                    "Add --slurm, or put apptainer exec and the file before dihaptic.");
+    }
+    std::error_code unreadable;
+    if (!fs::is_regular_file(options.container, unreadable)) {
+        throw Error({"--container", 0}, options.container, "is not a file",
+                    "Make one by: apptainer build dihaptic.sif oci-archive:dihaptic.tar");
     }
 }
 
@@ -328,6 +342,23 @@ void rehearse(RehearseOptions& options) {
     print_next(options, shard);
 }
 
+constexpr const char* kFooter =
+    "\nA folder holds one experiment, seed and population: into another one it refuses to go.\n"
+    "Who is there already is not done again: after a break the same command goes on.\n"
+    "Results are the same to the byte whatever --jobs, --shard and --slurm.\n"
+    "--slurm checks all files, then writes slurm.sh into the folder and submits it by sbatch. "
+    "collect\nnames the shards of which somebody is missing, and what to type to have those "
+    "done.\n"
+    "\nExamples:\n"
+    "  dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 --jobs 2\n"
+    "  dihaptic rehearse experiments/rotation-reversal.yaml --population patients.yaml "
+    "--people "
+    "40 --out patients\n"
+    "  parallel dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 --shard "
+    "{}/4 ::: 1 2 3 4\n"
+    "  dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 --slurm 8\n"
+    "  dihaptic collect rehearsals/visuomotor-rotation_1";
+
 }  // namespace
 
 void add_rehearse(CLI::App& app) {
@@ -354,6 +385,8 @@ void add_rehearse(CLI::App& app) {
         ->add_option("--slurm", options->slurm,
                      "hand so many shards to the cluster, as an array of Slurm's: see below")
         ->check(CLI::Range(1, session::kMostPeople));
+    command->add_option("--container", options->container,
+                        "with --slurm: Apptainer file (SIF) whose dihaptic does the shards");
     command->add_option("--out", options->out, "folder; default: rehearsals/EXPERIMENT_SEED");
     command->add_option("--seed", options->request.seed, "of everything random")
         ->check(seed_range())
@@ -365,23 +398,9 @@ void add_rehearse(CLI::App& app) {
         ->excludes("--population");
     command->add_flag("--keep-recordings", options->keep_recordings,
                       "keep raw.log and session.nwb of each: hundreds of MB");
-    command->footer(
-        "\nA folder holds one experiment, seed and population: into another one it refuses to go.\n"
-        "Who is there already is not done again: after a break the same command goes on.\n"
-        "Results are the same to the byte whatever --jobs, --shard and --slurm.\n"
-        "--slurm checks all files, then writes slurm.sh into the folder and submits it by sbatch. "
-        "collect\nnames the shards of which somebody is missing, and what to type to have those "
-        "done.\n"
-        "\nExamples:\n"
-        "  dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 --jobs 2\n"
-        "  dihaptic rehearse experiments/rotation-reversal.yaml --population patients.yaml "
-        "--people "
-        "40 --out patients\n"
-        "  parallel dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 --shard "
-        "{}/4 ::: 1 2 3 4\n"
-        "  dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 --slurm 8\n"
-        "  dihaptic collect rehearsals/visuomotor-rotation_1");
+    command->footer(kFooter);
     command->callback([options, command] {
+        if (command->count("--container") > 0) check_container(*options);
         if (options->slurm == 0) return rehearse(*options);
         if (command->count("--shard") + command->count("--jobs") > 0) {
             throw Error({"--slurm", 0}, "", "goes with neither --shard nor --jobs",

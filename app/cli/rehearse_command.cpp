@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <vector>
 
@@ -17,6 +18,21 @@ std::string whole(const std::string& file) {
     std::string out = fs::absolute(file).lexically_normal().string();
     while (out.size() > 1 && out.ends_with('/')) out.pop_back();
     return out;
+}
+
+std::string word(const std::string& file) {
+    return shell_word(whole(file));
+}
+
+/// What starts the program: this one, or that of a container.
+std::string program(std::string container) {
+    // set inside of one; names a folder if Apptainer has unpacked the file for this command alone
+    const char* const here = std::getenv("APPTAINER_CONTAINER");
+    std::error_code unreadable;
+    if (container.empty() && here != nullptr && fs::is_regular_file(here, unreadable))
+        container = here;
+    if (container.empty()) return word(fs::read_symlink("/proc/self/exe"));
+    return "apptainer exec " + word(container) + " dihaptic";
 }
 
 /// A number from 1 to `most`; nullopt if the word is none.
@@ -50,7 +66,9 @@ std::optional<size_t> take(const std::vector<std::string>& words, size_t at,
 }
 
 std::optional<RehearseCommand> parse(const std::string& text) {
-    const auto words = shell_words(text);
+    auto words = shell_words(text);
+    if (words && words->size() > 4 && (*words)[0] == "apptainer" && (*words)[1] == "exec")
+        words->erase(words->begin(), words->begin() + 3);  // a container is a stranger's program
     if (!words || words->size() < 3 || (*words)[1] != "rehearse" || !(*words)[2].starts_with('/'))
         return std::nullopt;
     RehearseCommand out;
@@ -66,10 +84,8 @@ std::optional<RehearseCommand> parse(const std::string& text) {
 }  // namespace
 
 std::string RehearseCommand::text() const {
-    const auto word = [](const std::string& path) { return shell_word(whole(path)); };
-    std::string text =
-        fmt::format("{} rehearse {} --people {} --seed {} --out {}",
-                    word(fs::read_symlink("/proc/self/exe")), word(file), people, seed, word(out));
+    std::string text = fmt::format("{} rehearse {} --people {} --seed {} --out {}",
+                                   program(container), word(file), people, seed, word(out));
     if (!population.empty()) text += " --population " + word(population);
     if (real_objects) text += " --real-objects";
     if (keep_recordings) text += " --keep-recordings";

@@ -20,8 +20,10 @@ struct RehearseCommand {
     bool real_objects = false;
     bool keep_recordings = false;
     int jobs = 1;
+    std::string container;  ///< file of Apptainer's whose program does it; empty: this one
 
-    /// What to type, from any folder, with the path of this very program.
+    /// What to type, from any folder, with the path of this very program, which may be in a
+    /// container itself, or of `container`.
     std::string text() const;
 };
 

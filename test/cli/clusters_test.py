@@ -6,6 +6,7 @@ import glob
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import signal
 import subprocess
@@ -68,6 +69,14 @@ class Slurm(InShards):
 
     def by_slurm(self, *arguments, **environment):
         return self.rehearse("--slurm", "8", *arguments, env=dict(self.environment, **environment))
+
+    def tools(self):
+        """A folder for PATH in which there is no sbatch."""
+        tools = self.folder + "/tools"
+        os.mkdir(tools)
+        for name in ("sh", "env"):
+            os.symlink(shutil.which(name), f"{tools}/{name}")
+        return tools
 
     def submitted(self):
         file = pathlib.Path(self.slurm, "submitted")
@@ -136,11 +145,7 @@ class Slurm(InShards):
                       f"sbatch '{self.out}/slurm.sh'\n", result.stderr)
 
     def test_without_sbatch_the_script_is_written_and_parallel_named(self):
-        tools = self.folder + "/tools"
-        os.mkdir(tools)
-        for name in ("sh", "env"):
-            os.symlink(shutil.which(name), f"{tools}/{name}")
-        result = self.rehearse("--slurm", "3", "--people", "5", env=dict(os.environ, PATH=tools))
+        result = self.rehearse("--slurm", "3", "--people", "5", env=dict(os.environ, PATH=self.tools()))
         self.assertEqual(result.returncode, 2)
         self.assertIn("slurm.sh: error: is written, but there is no sbatch on this machine to submit it", result.stderr)
         self.assertIn('--shard "$SLURM_ARRAY_TASK_ID/3"', pathlib.Path(self.out, "slurm.sh").read_text())
@@ -161,12 +166,73 @@ class Slurm(InShards):
         self.assertFalse(os.path.exists(self.out))
         self.assertEqual(self.submitted(), [])
 
+    def with_container(self):
+        """An apptainer that knows one file, and runs what follows outside of it; `dihaptic` is found in that alone."""
+        container = self.folder + "/50%a $(of) it's.sif"
+        pathlib.Path(container).touch()
+        os.mkdir(self.slurm + "/inside")
+        os.symlink(os.path.abspath(PROGRAM), self.slurm + "/inside/dihaptic")
+        apptainer = pathlib.Path(self.slurm, "apptainer")
+        apptainer.write_text(f"""#!/bin/sh
+[ "$1" = exec ] && [ "$2" = {shlex.quote(container)} ] || exit 9
+shift 2
+echo "$@" >>{shlex.quote(self.slurm)}/contained
+PATH={shlex.quote(self.slurm)}/inside:$PATH APPTAINER_CONTAINER={shlex.quote(container)} exec "$@"
+""")
+        apptainer.chmod(0o755)
+        return container
+
+    def test_a_container_does_the_shards(self):
+        container = self.with_container()
+        result = self.by_slurm("--container", os.path.relpath(container))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        contained = pathlib.Path(self.slurm, "contained").read_text().splitlines()
+        self.assertEqual(sorted(line.rpartition(" ")[2] for line in contained), [f"{n}/8" for n in range(1, 9)])
+        self.assertTrue(all(line.startswith("dihaptic rehearse /") for line in contained), contained)
+        self.assertEqual(collect(self.out).returncode, 0)
+        self.assertEqual(tables(self.out), self.unsharded_tables(self.experiment, 12))
+        script = pathlib.Path(self.out, "slurm.sh")
+        script.write_text(script.read_text().replace("#SBATCH", "#SBATCH --account=lab\n#SBATCH", 1))
+        shutil.rmtree(f"{self.out}/sim-004")
+        # a folder may be a stranger's, and the container that it names his program: the user's own is what may be typed
+        self.assertIn(".sif", pathlib.Path(self.out, "rehearsal.yaml").read_text())
+        self.assertRegex(collect(self.out).stdout, r"working on them: /\S*/dihaptic rehearse .* --shard 4/8\n")
+        unpacked = collect(self.out, env=dict(os.environ, APPTAINER_CONTAINER=self.slurm))
+        self.assertNotIn("apptainer", unpacked.stdout)
+        inside = collect(self.out, env=dict(os.environ, APPTAINER_CONTAINER=PROGRAM))
+        self.assertIn(f"working on them: apptainer exec {PROGRAM} dihaptic rehearse ", inside.stdout)
+        inside = collect(self.out, env=dict(os.environ, APPTAINER_CONTAINER=container))
+        self.assertIn(f"working on them: sbatch --array=4 '{self.out}/slurm.sh'\n", inside.stdout)
+        self.assertEqual(self.by_slurm("--container", container).returncode, 0)
+        self.assertEqual(self.submitted(), ["1-8", "4"])
+        self.assertIn("--account=lab", script.read_text())
+        self.assertEqual(collect(self.out).returncode, 0)
+        shutil.rmtree(f"{self.out}/sim-004")
+        self.assertEqual(self.by_slurm().returncode, 0)
+        self.assertNotIn("apptainer", script.read_text())  # it was not asked for this time
+
+    def test_without_sbatch_a_container_is_named_for_parallel(self):
+        container = self.with_container()
+        result = self.rehearse("--slurm", "3", "--people", "5", "--container", container,
+                               env=dict(self.environment, PATH=self.tools()))
+        self.assertEqual(result.returncode, 2)
+        parallel = result.stderr.splitlines()[-1]
+        result = subprocess.run(parallel, shell=True, capture_output=True, text=True, cwd="/", env=self.environment)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(len(pathlib.Path(self.slurm, "contained").read_text().splitlines()), 3)
+        self.assertEqual(collect(self.out).returncode, 0)
+
     def test_refuses_what_cannot_be(self):
         for arguments, message in [
                 (["--slurm", "0"], "--slurm"),
                 (["--slurm", "13"], "asks for 13 shards of 12 people. Ask for at most as many as there are people"),
                 (["--slurm", "4", "--shard", "1/4"], "goes with neither --shard nor --jobs. Leave them out"),
                 (["--slurm", "4", "--jobs", "2"], "goes with neither --shard nor --jobs. Leave them out"),
+                (["--slurm", "4", "--container", self.folder + "/no.sif"],
+                 "no.sif: is not a file. Make one by: apptainer build dihaptic.sif oci-archive:"),
+                (["--slurm", "4", "--container", self.folder], "is not a file"),
+                (["--slurm", "4", "--container", ""], "--container: error: is not a file"),
+                (["--container", self.experiment], "--container: error: is for --slurm alone. Add --slurm, or put"),
                 (["--slurm", "4", "--out", self.folder + '/a "b"'], "Choose a folder without \", \\ and control")]:
             with self.subTest(arguments):
                 out = [] if "--out" in arguments else ["--out", self.out]
