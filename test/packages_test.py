@@ -1,4 +1,4 @@
-"""The packages of the last commit: two builds of them, bare Debians that have them, and a machine that boots them.
+"""The packages of the last commit: two builds of them, bare Debians that have them, a container, and a machine that boots them.
 
 Usage: packages_test.py [TEST ...], from the project's folder; half an hour each.
 """
@@ -43,6 +43,12 @@ class Packages(unittest.TestCase):
             shell("build/release/dihaptic", "run", "experiments/first-trials.yaml", "--simulate", "--participant", "sim-001",
                   "--out", folder)
             shell("packaging/reader/chroot-test", next(pathlib.Path(folder).iterdir()))
+
+    @unittest.skipUnless(os.geteuid() == 0, "wants root")
+    def test_of_an_oci_image_run_in_a_container(self):
+        built()
+        shell("./dev", "oci")
+        shell("packaging/oci/try")
 
     @unittest.skipUnless(os.geteuid() == 0 and shutil.which("lb") and shutil.which("qemu-system-x86_64"),
                          "wants root, live-build and qemu: sudo apt install live-build qemu-system-x86")
