@@ -12,6 +12,10 @@ import tempfile
 import time
 import unittest
 
+import needs
+
+needs.program("pgrep", "procps")
+
 from felt import Felt
 from patience import patient
 

@@ -11,6 +11,10 @@ import re
 import subprocess
 import unittest
 
+import needs
+
+needs.program("ctags", "universal-ctags")
+
 MOST_LINES = 60
 MOST_COMPLEX = 15
 # what even an exception may not be

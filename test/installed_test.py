@@ -8,6 +8,8 @@ import sys
 import tempfile
 import unittest
 
+import needs
+
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve().parent
 SOURCE = pathlib.Path.cwd()
 
@@ -81,8 +83,7 @@ print(len(dh.run("experiments/lift-block.yaml", out="by-python").lifts))
                                         "1"])
 
     def test_octave_reads_a_session(self):
-        if shutil.which("octave") is None:
-            self.skipTest("Octave is not installed: ./dev build installs it")
+        needs.for_this_test("octave", "octave")
         self.run_here("dihaptic", "run", "experiments/lift-block.yaml", "--out", "for-octave")
         session = next((self.work / "for-octave").iterdir())
         said = self.run_here("octave", "--no-gui", "--quiet", "--path", f"{self.prefix}/share/dihaptic/octave", "--eval",

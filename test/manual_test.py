@@ -10,6 +10,8 @@ import subprocess
 import sys
 import unittest
 
+import needs
+
 MANUAL = pathlib.Path("docs/manual")
 sys.path.append(str(MANUAL / "make"))
 from pages import all_pages, blocks, faults, script, unlike
@@ -53,8 +55,7 @@ class Words(unittest.TestCase):
     def test_are_spelled_as_a_dictionary_or_the_list_has_them(self):
         words = (MANUAL / "words.txt").read_text().split()
         self.assertEqual(words, sorted(set(words), key=lambda word: (word.lower(), word)))
-        if shutil.which("hunspell") is None:
-            self.fail("hunspell is not installed: ./dev build installs it")
+        needs.for_this_test("hunspell", "hunspell-en-gb")
         unknown = {}
         for page in all_pages():
             said = subprocess.run(["hunspell", "-d", "en_GB", "-i", "utf-8", "-l"], input=prose(page), text=True,

@@ -12,6 +12,7 @@ import sys
 import tempfile
 import unittest
 
+import needs
 from patience import patient
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
@@ -25,6 +26,7 @@ def dihaptic(*arguments):
 
 def chromium(page, *arguments):
     """What the browser says of a page on standard output."""
+    needs.for_this_test("chromium", "chromium")
     return subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=10000",
                            "--window-size=1100,3000", *arguments, pathlib.Path(page).resolve().as_uri()],
                           capture_output=True, text=True, timeout=300, check=True).stdout

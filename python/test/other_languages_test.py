@@ -6,6 +6,7 @@ import pathlib
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -13,6 +14,9 @@ import numpy as np
 
 import dihaptic as dh
 from dihaptic.program import program
+
+sys.path.append("test")
+import needs  # noqa: E402
 
 FUNCTIONS = pathlib.Path(os.environ["PYTHONPATH"]).absolute().parent / "octave"
 OCTAVE = pathlib.Path("python/test/octave").absolute()  # stands in for what Octave 7 has not
@@ -49,8 +53,7 @@ class OtherLanguages(unittest.TestCase):
         np.testing.assert_allclose(found["mean"], self.aligned, rtol=1e-4, atol=1e-5)
 
     def test_r(self):
-        if shutil.which("Rscript") is None:
-            self.skipTest("R is not installed: ./dev build installs it")
+        needs.for_this_test("Rscript", "r-cran-hdf5r")
         script = blocks("read-in-r", "r")
         keep = {"grip": "grip", "z": "position[3, ]", "time": "time", "mean": "rowMeans(aligned)"}
         script += [f'write(format({what}, digits = 9), "{name}.txt", ncolumns = 1)' for name, what in keep.items()]
@@ -58,8 +61,7 @@ class OtherLanguages(unittest.TestCase):
         self.compare(self.run_in(["Rscript"], "\n".join(script), "R"))
 
     def test_matlab_s_in_octave(self):
-        if shutil.which("octave") is None:
-            self.skipTest("Octave is not installed")
+        needs.for_this_test("octave", "octave")
         script = blocks("read-in-matlab", "matlab")
         keep = {"grip": "grip", "z": "position(3, :)'", "time": "time", "mean": "mean(aligned, 2)"}
         script += [f"fid = fopen('{name}.txt', 'w'); fprintf(fid, '%.9g\\n', {what}); fclose(fid);"
@@ -67,8 +69,7 @@ class OtherLanguages(unittest.TestCase):
         self.compare(self.run_in(["octave", "--no-gui", "--quiet", "--path", str(OCTAVE)], "\n".join(script), "m"))
 
     def octave(self, script, code=0):
-        if shutil.which("octave") is None:
-            self.skipTest("Octave is not installed")
+        needs.for_this_test("octave", "octave")
         here = pathlib.Path(self.folder.name)
         (here / "read.m").write_text(script)
         environment = {**os.environ, "PATH": f"{pathlib.Path(program()).parent}:{os.environ['PATH']}"}

@@ -16,6 +16,8 @@ import unittest
 
 from program import PROGRAM, dihaptic, patient
 
+import needs  # program.py says where it is
+
 TABLES = ["trials.csv", "people.csv", "adaptation.csv", "fits.csv"]
 
 
@@ -145,6 +147,7 @@ class Slurm(InShards):
                       f"sbatch '{self.out}/slurm.sh'\n", result.stderr)
 
     def test_without_sbatch_the_script_is_written_and_parallel_named(self):
+        needs.for_this_test("parallel", "parallel")
         result = self.rehearse("--slurm", "3", "--people", "5", env=dict(os.environ, PATH=self.tools()))
         self.assertEqual(result.returncode, 2)
         self.assertIn("slurm.sh: error: is written, but there is no sbatch on this machine to submit it", result.stderr)
@@ -212,6 +215,7 @@ PATH={shlex.quote(self.slurm)}/inside:$PATH APPTAINER_CONTAINER={shlex.quote(con
         self.assertNotIn("apptainer", script.read_text())  # it was not asked for this time
 
     def test_without_sbatch_a_container_is_named_for_parallel(self):
+        needs.for_this_test("parallel", "parallel")
         container = self.with_container()
         result = self.rehearse("--slurm", "3", "--people", "5", "--container", container,
                                env=dict(self.environment, PATH=self.tools()))
@@ -245,6 +249,7 @@ PATH={shlex.quote(self.slurm)}/inside:$PATH APPTAINER_CONTAINER={shlex.quote(con
 
 class Parallel(InShards):
     def setUp(self):
+        needs.for_this_test("parallel", "parallel")
         super().setUp()
         # where the example's paths lead, and its folder rehearsals/ may be made
         for name in ("experiments", "scenes", "rigs", "movements", "meshes", "populations"):

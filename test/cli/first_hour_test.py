@@ -14,6 +14,8 @@ import unittest
 
 from program import PROGRAM, dihaptic, patient, with_largest_file
 
+import needs  # program.py says where it is
+
 HERE = pathlib.Path(PROGRAM).resolve()
 MADE_FROM = pathlib.Path("app/cli/new_study").resolve()
 FILES = ["README.md", "experiment.yaml", "rig.yaml", "scene.yaml"]
@@ -138,6 +140,8 @@ class Readme(FirstHour):
                               capture_output=True, text=True, timeout=patient(300))
 
     def open_a_display(self):
+        needs.for_this_test("Xvfb", "xvfb")
+        needs.for_this_test("xdotool", "xdotool")
         read, write = os.pipe()
         display = subprocess.Popen(["Xvfb", "-displayfd", str(write), "-noreset"], pass_fds=[write],
                                    stderr=subprocess.DEVNULL)

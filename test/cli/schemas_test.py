@@ -14,8 +14,12 @@ import sys
 import tempfile
 import unittest
 
-import jsonschema
-import yaml
+sys.path.append("test")
+import needs  # noqa: E402
+
+needs.module("jsonschema", "python3-jsonschema")
+import jsonschema  # noqa: E402
+import yaml  # noqa: E402
 
 from broken_experiments_test import GOOD, SCENE
 from program import dihaptic

@@ -20,7 +20,11 @@ import h5py
 import numpy as np
 
 sys.path.append("test")  # felt.py, patience.py
+import needs
 from patience import SLOWNESS, patient
+
+needs.program("Xvfb", "xvfb")
+needs.program("xdotool", "xdotool")
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
 SCREENSHOTS = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/screenshots"

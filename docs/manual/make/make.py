@@ -147,6 +147,9 @@ def run_pages(program, out):
 
 def main(program, out, ran=None):
     program, out = pathlib.Path(program).resolve(), pathlib.Path(out)
+    pages.needs.program("sphinx-build", "python3-sphinx")
+    for page in pages.all_pages():  # without one, its pictures are missing
+        pages.skip_where_tools_are_missing(page)
     if ran is None:
         ran = out / "ran"
         run_pages(program, ran)

@@ -14,8 +14,15 @@ import shutil
 import subprocess
 import sys
 
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[3] / "test"))
+import needs  # noqa: E402
+
 HERE = pathlib.Path(__file__).resolve().parent
 MANUAL = HERE.parent
+#: What a page's command begins with, the program that it needs beside ours, and whose package.
+TOOLS = [("octave", "octave", "octave"), ("matlab", "octave", "octave"),  # which stands in for it
+         ("Rscript", "Rscript", "r-cran-hdf5r"), ("dihaptic gui", "Xvfb", "xvfb"),
+         ("dihaptic gui", "xdotool", "xdotool")]
 PROJECT = MANUAL.parent.parent
 DIRECTIVES = {"note", "warning", "tip", "toctree"}  # blocks that are prose
 FAKES = {"libfake_hd.so": ["libHD.so"], "libfake_dhd.so": ["libdhd.so.3", "libdrd.so.3"]}
@@ -151,7 +158,16 @@ def all_pages():
     return sorted(str(path.relative_to(MANUAL).with_suffix("")) for path in MANUAL.rglob("*.md"))
 
 
+def skip_where_tools_are_missing(page):
+    """Ends a test of a page whose commands need a program that is not installed."""
+    text = (MANUAL / (page + ".md")).read_text()
+    for command, program, package in TOOLS:
+        if re.search(rf"^{command} ", text, re.MULTILINE):
+            needs.program(program, package)
+
+
 if __name__ == "__main__":
+    skip_where_tools_are_missing(sys.argv[2])
     try:
         run(*sys.argv[1:4])
     except ValueError as error:

@@ -1,0 +1,38 @@
+"""Skips tests that need what is not installed here. Each says so on a line that `./dev test` repeats at its end."""
+import importlib.util
+import shutil
+import sys
+import unittest
+
+#: By which ctest knows a test that did not run.
+NOT_RUN = 77
+
+
+def _missing(program, package):
+    return f"{program} is not installed; it is in the Debian package {package}"
+
+
+def program(name, package):
+    """Ends a file of tests all of which need this program, if it is missing."""
+    if shutil.which(name) is None:
+        print(f"SKIPPED: {_missing(name, package)}", flush=True)
+        sys.exit(NOT_RUN)
+
+
+def module(name, package):
+    """The same of a module of Python."""
+    if importlib.util.find_spec(name) is None:
+        print(f"SKIPPED: {_missing(name, package)}", flush=True)
+        sys.exit(NOT_RUN)
+
+
+def for_this_test(name, package):
+    """Skips the test that runs, if this program is missing."""
+    if shutil.which(name) is None:
+        skip(_missing(name, package))
+
+
+def skip(why):
+    """Skips the test that runs, for this reason."""
+    print(f"SKIPPED: {why}", flush=True)
+    raise unittest.SkipTest(why)
