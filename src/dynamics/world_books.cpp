@@ -17,7 +17,7 @@ Books::Body World::Impl::account_of(const Item& item, const Vec3& gravity) {
     Books::Body out;
     out.moves = item.moves;
     out.turns = item.turns;
-    out.is_led = item.is_point || item.is_driven || item.drive_to;
+    out.is_led = item.is_point || item.is_led();
     out.is_outside = item.is_proxy || out.is_led;
     if (item.is_proxy) {  // its mass changes with its coupling
         out.masses.setConstant(item.body->getMass());

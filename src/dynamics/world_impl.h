@@ -62,11 +62,11 @@ struct World::Impl {
         bool bounces = false;         // in this step
         btVector3 v_leaves{0, 0, 0};  // if so: velocities after it
         btVector3 w_leaves{0, 0, 0};
+        /// Whether it goes where it is driven in this step, whatever it meets.
+        bool is_led() const { return is_driven || drive_to; }
         /// Whether its angular velocity changes while its angular momentum stays. A proxy has the
         /// same inertia about all axes, and what turns about one is held there.
-        bool turns_freely() const {
-            return !is_proxy && turns == Vec3::Ones() && !is_driven && !drive_to;
-        }
+        bool turns_freely() const { return !is_proxy && turns == Vec3::Ones() && !is_led(); }
     };
 
     scene::Scene scene;
@@ -178,12 +178,27 @@ struct World::Impl {
     contact::SolveStats solve_island(double h, bool held);
     /// Solves the island again for the velocities after the step, where something bounces.
     void let_bounce(const contact::SolveSettings& how, double h, contact::SolveStats& stats);
+    /// Velocity and angular velocity of a body after the step's loads, before contacts and joints
+    /// act.
+    contact::Vec6 velocity_before(size_t i) const;
+    /// Twice the kinetic energy that the island's bodies may have after the step [J], springs
+    /// apart: what they had, and what the loads of this step and the next may add while a contact
+    /// waits.
+    double most_energy() const;
+    /// Slows the island's bodies down where an answer that missed would give them energy.
+    void forbid_gain();
+    /// How much of the way from the first answer, after which nothing bounces, to that of the
+    /// bounces the island goes: all of it, unless this would give it energy. Newton's law asks each
+    /// contact by itself, so with friction and joints it may (Kane and Levinson 1985).
+    double share_of_bounce() const;
     contact::Solver solver_of_island() const;
     /// Solves the island's problem, again while its joints' rows follow from another guess of the
     /// velocities at the end of the step.
     contact::SolveStats solve_guessing(const contact::SolveSettings& how, double h);
     /// Angular momentum about the centre of mass, in W, at this angular velocity.
     static Vec3 momentum(const Item& item, const Vec3& w_W);
+    /// Momentum, and angular momentum, at this velocity and angular velocity.
+    static contact::Vec6 momentum(const Item& item, const contact::Vec6& v_W);
     /// Mean angular velocity of a step that begins with w_start and is free (free_turn.h).
     static Vec3 mean_velocity(const Item& item, const Vec3& w_start, double h);
     /// Finds anew how the island's bodies turn if contacts and joints change their velocities by

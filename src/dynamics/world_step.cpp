@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <numbers>
 
 #include "dynamics/free_turn.h"
@@ -171,7 +172,7 @@ void World::Impl::collect_awake(std::vector<BodyState>& states) {
 
 contact::Mat6 World::Impl::inverse_mass_of(const Item& item) const {
     contact::Mat6 out = contact::Mat6::Zero();
-    if (item.is_driven || item.drive_to) return out;
+    if (item.is_led()) return out;
     // its inertia may differ by the world's axes
     out.diagonal().head<3>() = item.properties.mass.cwiseInverse() * item.body->getInvMass();
     out.bottomRightCorner<3, 3>() = from_bullet(item.body->getInvInertiaTensorWorld());
@@ -186,6 +187,13 @@ Vec3 World::Impl::momentum(const Item& item, const Vec3& w_W) {
     const Quat R_WM = from_bullet(item.body->getWorldTransform()).R;
     const Vec3 inertia = from_bullet(item.body->getLocalInertia());
     return R_WM * Vec3(inertia.cwiseProduct(R_WM.conjugate() * w_W));
+}
+
+contact::Vec6 World::Impl::momentum(const Item& item, const contact::Vec6& v_W) {
+    contact::Vec6 out;
+    out.head<3>() = item.properties.mass.cwiseProduct(v_W.head<3>()) / item.body->getInvMass();
+    out.tail<3>() = momentum(item, Vec3(v_W.tail<3>()));
+    return out;
 }
 
 Vec3 World::Impl::mean_velocity(const Item& item, const Vec3& w_start, double h) {
@@ -220,7 +228,7 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
         item.w_last = body.getAngularVelocity();
         by_loads[i].setZero();
         item.bounces = false;
-        if (item.is_driven || item.drive_to) {
+        if (item.is_led()) {
             drive(item, h);
             continue;
         }
@@ -539,6 +547,7 @@ contact::SolveStats World::Impl::solve_island(double h, bool held) {
     island_change.clear();
     for (size_t i = 0; i < island_bodies.size(); ++i)
         island_change.push_back(solvers.velocity_change(static_cast<int>(i)));
+    if (stats.missed && !island_joints.empty()) forbid_gain();
     problem.store(joints, island_joints, island_change, h);
     for (size_t i = 0; i < island_bodies.size(); ++i) {
         btRigidBody& body = *btRigidBody::upcast(island_bodies[i]);
@@ -555,13 +564,20 @@ contact::SolveStats World::Impl::solve_island(double h, bool held) {
 void World::Impl::let_bounce(const contact::SolveSettings& how, double h,
                              contact::SolveStats& stats) {
     contact::SolveStats after;
+    problem.keep();
     solvers.solve(solver_of_island(), how, problem.problem(), problem.impulses(),
                   problem.joint_impulses(), after);
-    problem.store(island_contacts);
+    const double share = share_of_bounce();
+    problem.mix(share);
     stats.join(after);
-    island_change.clear();
-    for (size_t i = 0; i < island_bodies.size(); ++i)
-        island_change.push_back(solvers.velocity_change(static_cast<int>(i)));
+    problem.store(island_contacts);
+    for (size_t i = 0; i < island_bodies.size(); ++i) {
+        const contact::Vec6 bounced = solvers.velocity_change(static_cast<int>(i));
+        // by its last digit bounced would not be first + (bounced - first)
+        island_change[i] =
+            share == 1 ? bounced
+                       : contact::Vec6(island_change[i] + share * (bounced - island_change[i]));
+    }
     problem.store(joints, island_joints, island_change, h);
     for (size_t i = 0; i < island_bodies.size(); ++i) {
         btRigidBody& body = *btRigidBody::upcast(island_bodies[i]);
@@ -572,6 +588,63 @@ void World::Impl::let_bounce(const contact::SolveSettings& how, double h,
         const btVector3 w = item.w_free + to_bullet(Vec3(change.tail<3>()));
         item.w_leaves = to_bullet(limited(from_bullet(w), h));
     }
+}
+
+contact::Vec6 World::Impl::velocity_before(size_t i) const {
+    const Item& item = items[i];
+    contact::Vec6 out;
+    out << from_bullet(item.v_before), from_bullet(item.w_start);
+    return out;
+}
+
+double World::Impl::most_energy() const {
+    double before = 0;
+    double loads = 0;
+    for (const btCollisionObject* body : island_bodies) {
+        const auto i = static_cast<size_t>(body->getUserIndex());
+        if (items[i].is_led()) return std::numeric_limits<double>::infinity();
+        const contact::Vec6 v = velocity_before(i);
+        before += v.dot(momentum(items[i], v));
+        loads += by_loads[i].dot(momentum(items[i], by_loads[i]));
+    }
+    const double most = std::sqrt(before) + 2 * std::sqrt(loads);
+    return most * most;
+}
+
+void World::Impl::forbid_gain() {
+    double after = 0;
+    for (size_t i = 0; i < island_bodies.size(); ++i) {
+        const auto at = static_cast<size_t>(island_bodies[i]->getUserIndex());
+        const contact::Vec6 v = velocity_before(at) + island_change[i];
+        after += v.dot(momentum(items[at], v));
+    }
+    const double most = most_energy();
+    if (after <= most) return;
+    const double share = std::sqrt(most / after);
+    for (size_t i = 0; i < island_bodies.size(); ++i) {
+        const contact::Vec6 v =
+            velocity_before(static_cast<size_t>(island_bodies[i]->getUserIndex()));
+        island_change[i] = share * (v + island_change[i]) - v;
+    }
+}
+
+double World::Impl::share_of_bounce() const {
+    double first = 0;  // twice the energy of the first answer
+    double product = 0;
+    double added = 0;
+    for (size_t i = 0; i < island_bodies.size(); ++i) {
+        const auto at = static_cast<size_t>(island_bodies[i]->getUserIndex());
+        const contact::Vec6 v = velocity_before(at) + island_change[i];
+        const contact::Vec6 change =
+            solvers.velocity_change(static_cast<int>(i)) - island_change[i];
+        first += v.dot(momentum(items[at], v));
+        product += change.dot(momentum(items[at], v));
+        added += change.dot(momentum(items[at], change));
+    }
+    const double room = std::max(most_energy() - first, 1e-9 * first);  // springs may add to it
+    if (2 * product + added <= room) return 1;
+    // added s^2 + 2 product s = room
+    return (std::sqrt(product * product + added * room) - product) / added;
 }
 
 contact::Solver World::Impl::solver_of_island() const {
@@ -643,10 +716,9 @@ void World::Impl::integrate_positions(double h) {
             item.L_W = momentum(item, limited(from_bullet(item.w_start + change), h));
         }
         btTransform next;
-        const bool is_led = item.is_driven || item.drive_to;
         btTransformUtil::integrateTransform(body.getWorldTransform(), body.getLinearVelocity(),
                                             body.getAngularVelocity(),
-                                            is_led ? h : h * body.getHitFraction(), next);
+                                            item.is_led() ? h : h * body.getHitFraction(), next);
         if (body.getHitFraction() == 1) item.stood = 0;
         body.setHitFraction(1);
         body.setWorldTransform(next);

@@ -136,6 +136,8 @@ void ManifoldProblem::reserve(std::vector<double> torsion_radii, int contacts,
     problem_.bodies.reserve(torsion_radii_.size());
     problem_.contacts.reserve(static_cast<size_t>(contacts));
     impulses_.reserve(static_cast<size_t>(contacts));
+    kept_impulses_.reserve(static_cast<size_t>(contacts));
+    kept_joint_impulses_.reserve(joint_elements);
     leaves_.reserve(static_cast<size_t>(contacts));
     index_.assign(torsion_radii_.size(), kFixed);
 }
@@ -260,6 +262,20 @@ bool ManifoldProblem::bounce(std::span<btPersistentManifold*> manifolds,
     if (!bounces) return false;
     for (size_t j = 0; j < leaves_.size(); ++j) problem_.contacts[j].bias = -leaves_[j];
     return true;
+}
+
+void ManifoldProblem::keep() noexcept {
+    kept_impulses_ = impulses_;
+    kept_joint_impulses_ = joint_impulses_;
+}
+
+void ManifoldProblem::mix(double share) noexcept {
+    if (share == 1) return;
+    for (size_t j = 0; j < impulses_.size(); ++j)
+        impulses_[j] = kept_impulses_[j] + share * (impulses_[j] - kept_impulses_[j]);
+    for (size_t j = 0; j < joint_impulses_.size(); ++j)
+        joint_impulses_[j] =
+            kept_joint_impulses_[j] + share * (joint_impulses_[j] - kept_joint_impulses_[j]);
 }
 
 void ManifoldProblem::store(Joints& joints, std::span<const size_t> which,

@@ -35,6 +35,11 @@ class ManifoldProblem {
     bool bounce(std::span<btPersistentManifold*> manifolds,
                 std::span<const contact::Vec6> by_loads) noexcept;
 
+    /// Remembers the impulses, for mix().
+    void keep() noexcept;
+    /// Goes this share of the way from the impulses that were kept to the present ones.
+    void mix(double share) noexcept;
+
     /// Adds rows of joints between bodies of the problem, as build() was told to start.
     void add_joints(Joints& joints, std::span<const size_t> which, double h,
                     bool warm_start) noexcept;
@@ -62,6 +67,8 @@ class ManifoldProblem {
     contact::ContactProblem problem_;
     std::vector<contact::Impulse> impulses_;
     std::vector<Vec3> joint_impulses_;
+    std::vector<contact::Impulse> kept_impulses_;
+    std::vector<Vec3> kept_joint_impulses_;
     std::vector<double> leaves_;  // normal velocities after the step, where something bounces [m/s]
     std::vector<int> index_;      // index in the problem, by a body's user index
     std::vector<double> torsion_radii_;

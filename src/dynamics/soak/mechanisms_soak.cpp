@@ -127,12 +127,12 @@ TEST_P(MechanismsSoak, AMillionStepsHarmNothing) {
                 worst_unreported = std::max(worst_unreported, world.solve_stats().residual);
             for (const BodyState& state : world.states()) {
                 ASSERT_TRUE(state.X_WB.p.allFinite() && state.v_WB.allFinite()) << n << " " << i;
-                // 20 N take a jaw of 0.2 kg to 70 m/s in 0.7 s where nothing is in its way
                 fastest = std::max(fastest, state.v_WB.norm());
             }
         }
     }
-    EXPECT_LT(fastest, 100);
+    // 20 N take a jaw of 0.2 kg to 70 m/s in 0.7 s where nothing is in its way
+    EXPECT_LT(fastest, 70);
     EXPECT_LE(worst_unreported, 1.0001e-8);
     EXPECT_LT(missed, kScenes * kSteps / 100);
     std::printf("missed and said so: %d of %d; fastest %.1f m/s; worst residual otherwise %.1e\n",

@@ -239,6 +239,53 @@ TEST(BouncingSurfaces, ThrowABlockBackFromAllItsCornersWithoutTurningIt) {
     EXPECT_LT(world.state(kBody).w_WB.norm(), 1e-6);
 }
 
+TEST(BouncingSurfaces, GiveADoublePendulumThatStrikesATableNoEnergy) {
+    // Kane and Levinson (1985): with friction, Newton's law alone makes it faster
+    Random random(11, "strikes");
+    for (int i = 0; i < 300; ++i) {
+        const double a = random.uniform(5, 60) * kDegree;  // from the vertical
+        const double b = random.uniform(5, 75) * kDegree;
+        constexpr double kLength = 0.1;
+        const Vec3 elbow = kLength * Vec3(std::sin(a), 0, -std::cos(a));
+        const Vec3 arm = kLength * Vec3(std::sin(b), 0, -std::cos(b));
+        const Vec3 shoulder(0, 0, 0.012 - (elbow + arm).z());
+        scene::Scene scene;
+        scene.gravity.setZero();
+        const double friction = random.uniform(0.2, 2);
+        scene.bodies = {box("upper", {0.004, 0.004, kLength}, shoulder + elbow / 2, 0.05),
+                        box("lower", {0.004, 0.004, kLength}, shoulder + elbow + arm / 2,
+                            random.uniform(0.02, 0.1), friction),
+                        table(friction)};
+        scene.bodies[0].rotation = {0, -a, 0};
+        scene.bodies[1].rotation = {0, -b, 0};
+        scene.bodies[1].surface.restitution = random.uniform(0.2, 1);
+        scene::Joint joint;
+        joint.axis = Vec3::UnitY();
+        joint.name = "shoulder";
+        joint.between = {"upper"};
+        joint.position = shoulder;
+        scene.joints.push_back(joint);
+        joint.name = "elbow";
+        joint.between = {"upper", "lower"};
+        joint.position = shoulder + elbow;
+        scene.joints.push_back(joint);
+        World world(scene, awake());
+        world.activate();
+        const Vec3 turn(0, random.uniform(-20, 20), 0);
+        const Vec3 turn_lower(0, random.uniform(-20, 20), 0);
+        world.set_motion({0}, turn.cross(elbow / 2), turn);
+        world.set_motion({1}, turn.cross(elbow) + turn_lower.cross(arm / 2), turn_lower);
+        world.step(kStep);
+        double before = world.balance().kinetic;
+        for (int step = 0; step < 60; ++step) {
+            world.step(kStep);
+            const double now = world.balance().kinetic;
+            EXPECT_LT(now, 1.005 * before) << i << " " << step;
+            before = now;
+        }
+    }
+}
+
 TEST(BouncingSurfaces, ExchangeTheVelocitiesOfEqualBalls) {
     scene::Scene scene;
     scene.gravity.setZero();
