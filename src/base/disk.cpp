@@ -31,4 +31,19 @@ void sync_to_disk(const std::string& name) {
     ::close(descriptor);
 }
 
+std::string make_room(int error) {
+    switch (error) {
+        case EDQUOT:
+            return "free some of your quota";
+        case EFBIG:
+            return "no file may get so large there (4 GB on a stick with FAT, or what 'ulimit -f' "
+                   "says), so copy the folder to another disk";
+        case EIO:
+        case EROFS:
+            return "the disk fails, so copy the folder to another one";
+        default:
+            return "free some space";
+    }
+}
+
 }  // namespace dihaptic

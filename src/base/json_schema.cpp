@@ -178,8 +178,9 @@ Json JsonSchema::mapping(std::string_view key, const std::vector<std::string_vie
 
 SchemaKeys JsonSchema::either(SchemaKeys one, const SchemaKeys& other) {
     for (auto& [name, schema] : one.keys) {
-        const auto same = std::find_if(other.keys.begin(), other.keys.end(),
-                                       [&](const auto& key) { return key.name == name; });
+        const auto same =
+            std::find_if(other.keys.begin(), other.keys.end(),
+                         [&name = name](const auto& key) { return key.name == name; });
         assert(same != other.keys.end());
         if (same->schema == schema) continue;
         Json both{{"description", schema.value("description", "")}};

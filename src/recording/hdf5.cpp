@@ -1,5 +1,6 @@
 #include "recording/hdf5.h"
 
+#include <cstdlib>
 #include <optional>
 
 namespace dihaptic::recording::hdf5 {
@@ -9,27 +10,31 @@ constexpr hsize_t kChunkRows = 4096;
 constexpr unsigned kDeflate = 3;  // with shuffling; higher levels cost much time for little
 
 /// Why a call of this thread has failed since its last create_file(), if one has.
-thread_local std::optional<std::string> failure;
+thread_local std::optional<WriteFailure> failure;
 
-/// Keeps the system's message from HDF5's stack of errors, e.g. "No space left on device".
+/// Keeps the system's message from HDF5's stack of errors: "errno = 28, error message = 'No space
+/// left on device'".
 void note_failure() {
     if (failure) return;
-    failure = "HDF5 gives no reason";
+    failure.emplace("HDF5 gives no reason", 0);
     const auto look = [](unsigned, const H5E_error2_t* error, void* data) -> herr_t {
         const std::string text = error->desc == nullptr ? "" : error->desc;
-        const std::string key = "error message = '";
-        const size_t from = text.find(key);
-        if (from == std::string::npos) return 0;
-        const size_t begin = from + key.size();
-        *static_cast<std::string*>(data) = text.substr(begin, text.find('\'', begin) - begin);
+        const auto after = [&](const std::string& key) {
+            const size_t from = text.find(key);
+            return from == std::string::npos ? std::string() : text.substr(from + key.size());
+        };
+        const std::string message = after("error message = '");
+        if (message.empty()) return 0;
+        static_cast<std::optional<WriteFailure>*>(data)->emplace(
+            message.substr(0, message.find('\'')), std::atoi(after("errno = ").c_str()));
         return 1;
     };
-    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &*failure);
+    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &failure);
 }
 
 void check(herr_t status) {
     if (status < 0) note_failure();
-    if (failure) throw WriteFailure(*failure);
+    if (failure) throw *failure;
 }
 
 Id string_type() {

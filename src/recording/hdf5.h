@@ -15,9 +15,10 @@ namespace dihaptic::recording::hdf5 {
 // create_file() again, nor is anything closed at the program's end. The leak is small, and the file
 // gives its space back when it is truncated to zero length, as write_nwb() does.
 
-/// Why a file could not be written.
+/// Why a file could not be written, and the system's errno; 0 where HDF5 gives none.
 struct WriteFailure : std::runtime_error {
-    using std::runtime_error::runtime_error;
+    WriteFailure(const std::string& why, int errno_of) : std::runtime_error(why), error(errno_of) {}
+    int error;
 };
 
 /// Owns an identifier of any kind. Throws WriteFailure when HDF5 gave an invalid one.

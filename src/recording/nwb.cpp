@@ -452,22 +452,22 @@ void write_nwb(const SessionFolder& folder, const NwbContent& content,
     remove_dead_parts(folder.nwb());
     Output output(folder.nwb());
     const Emptied emptied{output.path()};
-    const auto failed = [&](const std::string& why) {
+    const auto failed = [&](const std::string& why, int error) {
         return Error({folder.nwb(), 0}, "", "cannot be written: " + why,
-                     "raw.log has all of it: free some space, then run: dihaptic recover " +
-                         shell_file(folder.path()));
+                     "raw.log has all of it: " + make_room(error) +
+                         ", then run: dihaptic recover " + shell_file(folder.path()));
     };
     try {
         const std::string session =
             std::filesystem::path(folder.path()).lexically_normal().filename();
         write_file(output.path(), session, log, content, progress);
     } catch (const hdf5::WriteFailure& e) {
-        throw failed(e.what());
+        throw failed(e.what(), e.error);
     }
     try {
         sync_to_disk(output.path());  // until then a file system may keep to itself that it is full
     } catch (const Error& e) {
-        throw failed(e.problems().front().what);
+        throw failed(e.problems().front().what, 0);
     }
     output.keep();
     if (progress) progress(1);

@@ -29,9 +29,8 @@ void write_all(int descriptor, const void* data, size_t size, const std::string&
         if (n < 0 && errno == EINTR) continue;
         if (n < 0) {
             throw Error({file, 0}, "", fmt::format("cannot be written: {}", std::strerror(errno)),
-                        "What was written before is kept: free some space, then run 'dihaptic "
-                        "recover' on the "
-                        "session's folder.");
+                        "What was written before is kept: " + make_room(errno) +
+                            ", then run 'dihaptic recover' on the session's folder.");
         }
         at += n;
         size -= static_cast<size_t>(n);

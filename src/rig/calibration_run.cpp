@@ -44,7 +44,7 @@ class CalibrationHand final : public hand::Driver {
         double end = 0;
         size_t device = 0;  // joined to the first, or touching the jig
         int point = -1;     // of the jig; -1: none
-        enum { link, jig, together } what = link;
+        enum class What { link, jig, together } what = What::link;
     };
 
     CalibrationHand(size_t devices, const Ball& ball, const std::vector<Vec3>& jig, uint64_t seed)
@@ -54,17 +54,18 @@ class CalibrationHand final : public hand::Driver {
             stretches_.push_back({t, t + duration, device, point, what});
             t += duration;
         };
-        for (size_t device = 1; device < devices; ++device) add(kCarry, device, -1, Stretch::link);
+        for (size_t device = 1; device < devices; ++device)
+            add(kCarry, device, -1, Stretch::What::link);
         for (size_t device = 0; device < devices; ++device) {
             for (size_t point = 0; point < jig.size(); ++point)
-                add(kMove + kTouch, device, static_cast<int>(point), Stretch::jig);
+                add(kMove + kTouch, device, static_cast<int>(point), Stretch::What::jig);
             if (!jig.empty())
                 add(kMove, device, static_cast<int>(jig.size()),
-                    Stretch::jig);  // back to the middle
+                    Stretch::What::jig);  // back to the middle
         }
         // fingers are held together in the middle, where all wait
         for (size_t device = 1; device < devices; ++device)
-            add(kMove + kHold, device, -1, Stretch::together);
+            add(kMove + kHold, device, -1, Stretch::What::together);
         duration_ = t;
         Random random(seed, "slips");
         for (double from = 0; from < t; from += kSlipping) {
@@ -83,7 +84,7 @@ class CalibrationHand final : public hand::Driver {
     }
     bool samples(double t) const noexcept {
         const Stretch& stretch = at(t);
-        if (stretch.what == Stretch::link)
+        if (stretch.what == Stretch::What::link)
             return t - stretch.start > kRaise && stretch.end - t > kRaise;
         return t - stretch.start > kMove + 0.1;  // at rest
     }
@@ -103,7 +104,8 @@ class CalibrationHand final : public hand::Driver {
             const Vec3 to = point == jig_.size() ? ball_.centre : jig_[point];
             return from + model::minimum_jerk((t - now.start) / kMove).share * (to - from);
         }
-        const bool carries = now.what == Stretch::link && (device == 0 || device == now.device);
+        const bool carries =
+            now.what == Stretch::What::link && (device == 0 || device == now.device);
         if (!carries) return ball_.centre;
         // the link's movement starts and ends in the middle, where both fingers wait
         const double raised = model::minimum_jerk((t - now.start) / kRaise).share *
@@ -223,13 +225,13 @@ CalibrationInput simulate_calibration(const Rig& rig, uint64_t seed,
         if (!hand.samples(seconds(now))) continue;
         const CalibrationHand::Stretch& stretch = hand.at(seconds(now));
         switch (stretch.what) {
-            case CalibrationHand::Stretch::link:
+            case CalibrationHand::Stretch::What::link:
                 sampler.add_link(stretch.device);
                 break;
-            case CalibrationHand::Stretch::together:
+            case CalibrationHand::Stretch::What::together:
                 sampler.add_together(stretch.device);
                 break;
-            case CalibrationHand::Stretch::jig:
+            case CalibrationHand::Stretch::What::jig:
                 sampler.add_touch(stretch.device, static_cast<size_t>(stretch.point));
         }
     }

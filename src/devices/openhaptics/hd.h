@@ -14,9 +14,9 @@ constexpr HdHandle kNoHandle = 0xFFFFFFFF;
 /// The newest error of the stack that all threads share. A stack that never empties must not hold
 /// the program up: at most kMostErrors are taken at a time.
 struct HdErrorInfo {
-    unsigned code = 0;  ///< HdError
-    int internal = 0;
-    HdHandle device = 0;
+    unsigned code;  ///< HdError
+    int internal;
+    HdHandle device;
 };
 
 constexpr int kMostErrors = 64;
