@@ -140,7 +140,7 @@ void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& opt
 }
 
 Drawer::Drawer(const Showing& showing, const ViewOptions& options)
-    : showing_(showing), object_(showing.scene.object_index()) {
+    : object_(showing.scene.object_index()) {
     const std::vector<view::Camera> cameras = view::cameras(showing.scene);
     camera_ = options.camera.empty() ? cameras.front() : view::find_camera(cameras, options.camera);
     if (options.display) display_ = rig::display_of(showing.rig, *options.display);

@@ -55,7 +55,6 @@ class Drawer {
     int height() const { return offscreen_->height(); }
 
   private:
-    const Showing& showing_;
     view::Camera camera_;
     std::optional<display::Display> display_;  // in place of the camera
     view::Overlays overlays_;

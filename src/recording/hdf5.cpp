@@ -1,7 +1,8 @@
 #include "recording/hdf5.h"
 
-#include <cstdlib>
 #include <optional>
+
+#include "base/number.h"
 
 namespace dihaptic::recording::hdf5 {
 namespace {
@@ -25,8 +26,10 @@ void note_failure() {
         };
         const std::string message = after("error message = '");
         if (message.empty()) return 0;
+        const std::string number = after("errno = ");
         static_cast<std::optional<WriteFailure>*>(data)->emplace(
-            message.substr(0, message.find('\'')), std::atoi(after("errno = ").c_str()));
+            message.substr(0, message.find('\'')),
+            whole_number<int>(number.substr(0, number.find(','))).value_or(0));
         return 1;
     };
     H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, look, &failure);
