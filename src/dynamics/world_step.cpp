@@ -598,17 +598,32 @@ contact::Vec6 World::Impl::velocity_before(size_t i) const {
 }
 
 double World::Impl::most_energy() const {
+    constexpr double kNoBound = std::numeric_limits<double>::infinity();
+    if (std::any_of(island_joints.begin(), island_joints.end(),
+                    [&](size_t joint) { return joints.is_driven(joint); }))
+        return kNoBound;
     double before = 0;
     double loads = 0;
     for (const btCollisionObject* body : island_bodies) {
         const auto i = static_cast<size_t>(body->getUserIndex());
-        if (items[i].is_led()) return std::numeric_limits<double>::infinity();
+        if (items[i].is_led()) return kNoBound;
         const contact::Vec6 v = velocity_before(i);
         before += v.dot(momentum(items[i], v));
         loads += by_loads[i].dot(momentum(items[i], by_loads[i]));
     }
+    double springs = 0;
+    for (const size_t joint : island_joints) springs += joints.stored(joint);
+    for (const btPersistentManifold* manifold : island_contacts) {
+        for (int i = 0; i < manifold->getNumContacts(); ++i) {
+            const ContactLaw& law = carried(manifold->getContactPoint(i)).law;
+            if (law.compliance > 0) return kNoBound;
+            if (law.stiffness == 0) continue;
+            const double gap = std::min(gap_of(manifold->getContactPoint(i)), 0.0);
+            springs += law.stiffness / law.sharing * gap * gap / 2;
+        }
+    }
     const double most = std::sqrt(before) + 2 * std::sqrt(loads);
-    return most * most;
+    return most * most + 2 * springs;
 }
 
 void World::Impl::forbid_gain() {
@@ -641,7 +656,7 @@ double World::Impl::share_of_bounce() const {
         product += change.dot(momentum(items[at], v));
         added += change.dot(momentum(items[at], change));
     }
-    const double room = std::max(most_energy() - first, 1e-9 * first);  // springs may add to it
+    const double room = std::max(most_energy() - first, 1e-9 * first);
     if (2 * product + added <= room) return 1;
     // added s^2 + 2 product s = room
     return (std::sqrt(product * product + added * room) - product) / added;

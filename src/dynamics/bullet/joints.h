@@ -60,6 +60,11 @@ class Joints {
     bool set(size_t i, const JointProperties& properties) noexcept;
     /// In the coming step.
     void drive(size_t i, const Motor& motor) noexcept;
+    bool is_driven(size_t i) const noexcept { return joints_[i].motor.has_value(); }
+    /// Energy of a joint's springs where the step began [J].
+    double stored(size_t i) const noexcept {
+        return stored(joints_[i], 0, Vec3::Zero(), Vec3::Zero());
+    }
     /// What the coordinate's unit force does to the first and to the second body: a force at its
     /// centre of mass and a torque; zero without a coordinate.
     std::pair<contact::Vec6, contact::Vec6> along(size_t i) const noexcept;

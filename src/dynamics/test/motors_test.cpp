@@ -47,6 +47,24 @@ TEST(Motor, PushesBothBodiesOfASliderOppositely) {
     EXPECT_NEAR(world.joints()[0].velocity, before, 1e-12);
 }
 
+TEST(Motor, GivesWhatBouncesOffItsBodyTwiceItsSpeed) {
+    for (const double restitution : {0.5, 1.0}) {
+        scene::Body ball;
+        ball.name = "ball";
+        ball.shape = scene::Shape::sphere(0.02);
+        ball.mass = 0.02;
+        ball.position = {0.1, 0, 0.2};
+        ball.surface.restitution = restitution;
+        World world = make({block({0, 0, 0.2}), ball}, rail(), Vec3::Zero());
+        constexpr double kSpeed = 0.5;
+        for (int i = 1; i <= 250; ++i) {
+            world.drive_joint(0, {kSpeed * kStep * i, 1e4, 0});
+            world.step(kStep);
+        }
+        EXPECT_NEAR(world.states()[1].v_WB.x(), (1 + restitution) * kSpeed, 0.01 * kSpeed);
+    }
+}
+
 TEST(Motor, TurnsAHingeByItsTorque) {
     World world = make({block({0, 0, 0})},
                        joint(scene::JointKind::hinge, {"block"}, Vec3::Zero(), Vec3::UnitZ()));

@@ -239,6 +239,27 @@ TEST(BouncingSurfaces, ThrowABlockBackFromAllItsCornersWithoutTurningIt) {
     EXPECT_LT(world.state(kBody).w_WB.norm(), 1e-6);
 }
 
+TEST(BouncingSurfaces, TakeWhatASpringGivesMeanwhile) {
+    // a paddle on a spring, let go at -x0, hits a ball at rest at -x0 / 2
+    constexpr double kMass = 0.1, kRate = 400, kStretch = 0.01;
+    scene::Scene scene;
+    scene.gravity.setZero();
+    scene::Body paddle = box("paddle", Vec3::Constant(0.04), {-kStretch, 0, 0}, kMass);
+    scene::Body thrown = ball(0, 1);
+    thrown.mass = 0.01;
+    thrown.position = {0.04 - kStretch / 2, 0, 0};
+    scene.bodies = {paddle, thrown};
+    scene::Joint slider = joint(scene::JointKind::slider, {"paddle"}, Vec3::Zero(), Vec3::UnitX());
+    slider.stiffness = kMass * kRate * kRate;
+    slider.rest = kStretch;
+    scene.joints = {slider};
+    World world(scene, awake());
+    world.activate();
+    for (int i = 0; i < 60; ++i) world.step(1e-4);
+    const double hits = kRate * kStretch * std::sqrt(0.75);
+    EXPECT_NEAR(world.state({1}).v_WB.x(), 2 * kMass / (kMass + 0.01) * hits, 0.03 * hits);
+}
+
 TEST(BouncingSurfaces, GiveADoublePendulumThatStrikesATableNoEnergy) {
     // Kane and Levinson (1985): with friction, Newton's law alone makes it faster
     Random random(11, "strikes");
