@@ -181,10 +181,10 @@ struct World::Impl {
     /// Velocity and angular velocity of a body after the step's loads, before contacts and joints
     /// act.
     contact::Vec6 velocity_before(size_t i) const;
-    /// Twice the kinetic energy that the island's bodies may have after the step [J]: what they had,
-    /// what the loads of this step and the next may add while a contact waits, and what springs of
-    /// joints and soft surfaces hold. Without a bound where a body or a joint is driven, which gives
-    /// what it takes, and where a soft fingertip presses.
+    /// Twice the kinetic energy that the island's bodies may have after the step [J]: what they
+    /// had, what the loads of this step and the next may add while a contact waits, and what
+    /// springs of joints and soft surfaces hold. Without a bound where a body or a joint is driven,
+    /// which gives what it takes, and where a soft fingertip presses.
     double most_energy() const;
     /// Slows the island's bodies down where an answer that missed would give them energy.
     void forbid_gain();
