@@ -95,6 +95,7 @@ class Head(Window):
         self.send(0, 900, 0)  # behind the screen
         self.wait("the eyes at rest", lambda: (self.pixels(0, 0, 640, 480) == here).all())
         self.send(*LEANS)
+        self.wait("the stream again", lambda: (self.pixels(0, 0, 640, 480) == there).all())
         self.xdotool("windowfocus", self.name)
         self.start()
         time.sleep(1)
