@@ -13,7 +13,7 @@ void sync_to_disk(const std::string& name);
 /// As sync_to_disk(name), for an open file, which messages call `name`.
 void sync_to_disk(int descriptor, const std::string& name);
 
-/// What to do about a write that failed with this errno, as the words of an advice: "free some
+/// What to do about a write that failed with this errno, as the middle of a sentence: "free some
 /// space".
 std::string make_room(int error);
 

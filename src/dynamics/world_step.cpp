@@ -13,6 +13,8 @@ namespace {
 constexpr int kMostWork = 4000;
 /// How many times a step may be solved again, with contacts that turn out to be lacking.
 constexpr int kMostPasses = 4;
+/// Of an energy.
+constexpr double kNoBound = std::numeric_limits<double>::infinity();
 /// A body that contacts move by more than this may meet things that it could not meet otherwise
 /// [m].
 constexpr double kKnocked = 1e-3;
@@ -598,7 +600,6 @@ contact::Vec6 World::Impl::velocity_before(size_t i) const {
 }
 
 double World::Impl::most_energy() const {
-    constexpr double kNoBound = std::numeric_limits<double>::infinity();
     if (std::any_of(island_joints.begin(), island_joints.end(),
                     [&](size_t joint) { return joints.is_driven(joint); }))
         return kNoBound;
@@ -627,13 +628,14 @@ double World::Impl::most_energy() const {
 }
 
 void World::Impl::forbid_gain() {
+    const double most = most_energy();
+    if (most == kNoBound) return;
     double after = 0;
     for (size_t i = 0; i < island_bodies.size(); ++i) {
         const auto at = static_cast<size_t>(island_bodies[i]->getUserIndex());
         const contact::Vec6 v = velocity_before(at) + island_change[i];
         after += v.dot(momentum(items[at], v));
     }
-    const double most = most_energy();
     if (after <= most) return;
     const double share = std::sqrt(most / after);
     for (size_t i = 0; i < island_bodies.size(); ++i) {
@@ -644,6 +646,8 @@ void World::Impl::forbid_gain() {
 }
 
 double World::Impl::share_of_bounce() const {
+    const double most = most_energy();
+    if (most == kNoBound) return 1;
     double first = 0;  // twice the energy of the first answer
     double product = 0;
     double added = 0;
@@ -656,7 +660,7 @@ double World::Impl::share_of_bounce() const {
         product += change.dot(momentum(items[at], v));
         added += change.dot(momentum(items[at], change));
     }
-    const double room = std::max(most_energy() - first, 1e-9 * first);
+    const double room = std::max(most - first, 1e-9 * first);
     if (2 * product + added <= room) return 1;
     // added s^2 + 2 product s = room
     return (std::sqrt(product * product + added * room) - product) / added;

@@ -17,7 +17,7 @@ namespace dihaptic::recording::hdf5 {
 
 /// Why a file could not be written, and the system's errno; 0 where HDF5 gives none.
 struct WriteFailure : std::runtime_error {
-    WriteFailure(const std::string& why, int errno_of) : std::runtime_error(why), error(errno_of) {}
+    WriteFailure(const std::string& why, int number) : std::runtime_error(why), error(number) {}
     int error;
 };
 

@@ -82,6 +82,23 @@ TEST(Driven, ThrowsWhatItLeavesBehind) {
     EXPECT_NEAR(highest, z + v * v / (2 * kGravity), 3e-4);
 }
 
+TEST(Driven, GivesWhatBouncesOffItTwiceItsSpeed) {
+    for (const double restitution : {0.5, 1.0}) {
+        scene::Scene scene;
+        scene.gravity.setZero();
+        scene.bodies = {platform(), block({0, 0, 0.05})};
+        scene.bodies[1].surface.restitution = restitution;
+        World world(scene, awake());
+        world.activate();
+        constexpr double kSpeed = 0.5;
+        for (int i = 1; i <= 150; ++i) {
+            world.drive(kPlatform, {Quat::Identity(), {0, 0, -0.02 + kSpeed * kStep * i}});
+            world.step(kStep);
+        }
+        EXPECT_NEAR(world.state(kBlock).v_WB.z(), (1 + restitution) * kSpeed, 0.01 * kSpeed);
+    }
+}
+
 TEST(Driven, DragsWhatStandsOnItUpToFriction) {
     for (const double acceleration : {4.0, 7.0}) {
         World world = with_block();
