@@ -61,6 +61,17 @@ class Conventions(unittest.TestCase):
                 uses = re.search(r"\bUSES ((?:[a-z]+ *)+)", pathlib.Path("src", room, "CMakeLists.txt").read_text())[1]
                 self.assertEqual(set(uses.split()) & set(makers.split("|")), set())
 
+    def test_columns_are_looked_up_by_name_where_tables_are_read_alone(self):
+        """A session's tables are read into the structs of src/rows; a table that a person hands in has no struct."""
+        given = {"app/cli/fit.cpp", "src/task/sampled_path.h", "src/task/sampled_path.cpp"}
+        for path in [*pathlib.Path("src").rglob("*"), *pathlib.Path("app").rglob("*")]:
+            if path.suffix not in (".h", ".cpp") or {"test", "soak", "fuzz"} & set(path.parts):
+                continue
+            if path.is_relative_to("src/base") or path.is_relative_to("src/rows") or path.as_posix() in given:
+                continue
+            with self.subTest(path.as_posix()):
+                self.assertNotIn("CsvFile", path.read_text())
+
 
 if __name__ == "__main__":
     unittest.main()

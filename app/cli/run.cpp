@@ -202,8 +202,7 @@ namespace {
 
 double peak_force(const analysis::SessionFigures& figures) {
     double force = 0;
-    for (const analysis::PhaseFigures& phase : figures.phases)
-        force = std::max(force, phase.peak_force);
+    for (const rows::PhaseRow& phase : figures.phases) force = std::max(force, phase.peak_force);
     return force;
 }
 
@@ -253,9 +252,9 @@ void find_handling(MovementFigures& out, const std::vector<analysis::Episode>& e
     out.held = out.slid = out.flown = 0;
     for (const analysis::Episode& e : episodes) {
         const double lasted = e.end - e.start;
-        if (e.kind == analysis::EpisodeKind::slide) out.slid += e.distance;
-        if (e.kind == analysis::EpisodeKind::flight) out.flown += lasted;
-        if (e.kind != analysis::EpisodeKind::hold || lasted <= out.held) continue;
+        if (e.kind == rows::EpisodeKind::slide) out.slid += e.distance;
+        if (e.kind == rows::EpisodeKind::flight) out.flown += lasted;
+        if (e.kind != rows::EpisodeKind::hold || lasted <= out.held) continue;
         out.held = lasted;
         out.hold_slip = e.slip;
     }
@@ -275,7 +274,7 @@ MovementFigures run_movement(const SessionOptions& options, const std::string& n
     out.mostly_bridged = report.bridged_share > hand::kMuchBridged;
     out.faults = report.faults.size();
     out.block = report.block_width;
-    if (const analysis::PhaseFigures* grasp = figures.phase("grasp")) {
+    if (const rows::PhaseRow* grasp = figures.phase("grasp")) {
         out.mean_grip = grasp->mean_grip;
         out.peak_grip = grasp->peak_grip;
     }

@@ -150,7 +150,7 @@ void print_phases(const analysis::SessionFigures& figures) {
     fmt::print("\n{:10s} {:>7s} {:>7s}  {:>9s} {:>9s} {:>9s}  {:>10s} {:>10s}  {:>8s}  {:>9s}{}\n",
                "phase", "from s", "to s", "grip N", "peak N", "load N", "finger N", "peak N",
                "slip mm", "weight", turns ? "  torque mN m" : "");
-    for (const analysis::PhaseFigures& p : figures.phases) {
+    for (const rows::PhaseRow& p : figures.phases) {
         fmt::print(
             "{:10s} {:7.2f} {:7.2f}  {:>9s} {:>9s} {:>9s}  {:>10s} {:>10s}  {:>8s}  {:>9s}{}\n",
             p.name, p.start, p.end, number(p.mean_grip, 3), number(p.peak_grip, 3),

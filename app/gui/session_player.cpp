@@ -22,12 +22,15 @@
 #include <filesystem>
 #include <optional>
 
-#include "base/table.h"
 #include "edited_file.h"
 #include "film.h"
 #include "help_page.h"
 #include "layers_menu.h"
 #include "recording/log_scene.h"
+#include "rows/episode_row.h"
+#include "rows/event_row.h"
+#include "rows/lift_row.h"
+#include "rows/trial_row.h"
 #include "time_chart.h"
 
 namespace dihaptic::gui {
@@ -36,12 +39,31 @@ namespace {
 constexpr int kSliderSteps = 100000;
 constexpr int kPicture = 16;  // between pictures while it plays [ms]
 
-/// A session's table; nullopt if it has none of that name.
-std::optional<CsvFile> table_of(const recording::SessionFolder& folder, const char* name) {
+/// The rows of a session's table; none if it has no table of that name.
+template <class Row>
+std::vector<Row> rows_of(const recording::SessionFolder& folder, const char* name) {
     const std::string file = folder.file(name);
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored)) return {};
-    return CsvFile(file);
+    const rows::RowFile<Row> table(file);
+    return {table.begin(), table.end()};
+}
+
+/// The words that are not empty, one after the other.
+QString joined(std::initializer_list<QString> words) {
+    QStringList out(words);
+    out.removeAll(QString());
+    return out.join(' ');
+}
+
+/// E.g. "slip 0.12 mm"; nothing where it was not measured. `length`: [m].
+QString in_mm(const char* what, double length) {
+    if (std::isnan(length)) return {};
+    return QString("%1 %2 mm").arg(what).arg(1000 * length, 0, 'f', 2);
+}
+
+QString text(const std::string& of) {
+    return QString::fromStdString(of);
 }
 
 scene::Scene scene_of(const recording::SessionFolder& folder) {
@@ -188,18 +210,28 @@ void SessionPlayer::make_moments() {
     list_->setRootIsDecorated(false);
     list_->setHeaderLabels({"s", tr("what")});
     list_->setFocusPolicy(Qt::ClickFocus);
-    if (const auto trials = table_of(folder_, "trials.csv")) {
-        read_starts(*trials);
-        add_moments(*trials, "start_time", tr("trial"), {"trial_num", "condition", "outcome"});
+    for (const rows::TrialRow& row : rows_of<rows::TrialRow>(folder_, "trials.csv")) {
+        if (std::isfinite(row.head.start) && row.asked.trial > 0)
+            starts_.push_back({row.head.start, row.asked.trial});
+        list_moment(row.head.start,
+                    joined({tr("trial"), QString::number(row.asked.trial),
+                            text(row.asked.condition), text(row.measures.outcome)}));
     }
-    if (const auto events = table_of(folder_, "events.csv"))
-        add_moments(*events, "time_s", "", {"event", "detail"}, "trial");  // listed already
-    if (const auto episodes = table_of(folder_, "episodes.csv"))
-        add_moments(*episodes, "start_time", "", {"episode", "slip_mm", "rise_mm"});
-    if (const auto lifts = table_of(folder_, "lifts.csv")) {
+    std::sort(starts_.begin(), starts_.end(),
+              [](const Start& a, const Start& b) { return a.time < b.time; });
+    for (const rows::EventRow& event : rows_of<rows::EventRow>(folder_, "events.csv")) {
+        if (event.name != "trial")  // it is listed already
+            list_moment(event.time, joined({text(event.name), text(event.detail)}));
+    }
+    for (const rows::EpisodeRow& episode : rows_of<rows::EpisodeRow>(folder_, "episodes.csv")) {
+        list_moment(episode.start,
+                    joined({text(std::string(enum_name(episode.kind))), in_mm("slip", episode.slip),
+                            in_mm("rise", episode.rise)}));
+    }
+    for (const rows::LiftRow& lift : rows_of<rows::LiftRow>(folder_, "lifts.csv")) {
         // touch, lift-off, replacement and release are among the events
-        add_moments(*lifts, "load_onset_s", tr("load onset, trial"), {"trial_num"});
-        add_moments(*lifts, "first_slip_s", tr("first slip, trial"), {"trial_num"});
+        list_moment(lift.load_onset, tr("load onset, trial %1").arg(lift.trial));
+        list_moment(lift.first_slip, tr("first slip, trial %1").arg(lift.trial));
     }
     list_->sortItems(0, Qt::AscendingOrder);
     list_->header()->resizeSection(0, 80);
@@ -211,16 +243,6 @@ void SessionPlayer::make_moments() {
     dock->setWidget(list_);
     addDockWidget(Qt::RightDockWidgetArea, dock);
     resizeDocks({dock}, {300}, Qt::Horizontal);
-}
-
-void SessionPlayer::read_starts(const CsvFile& trials) {
-    for (size_t i = 0; i < trials.rows(); ++i) {
-        const double time = trials.number(i, "start_time"), trial = trials.number(i, "trial_num");
-        if (std::isfinite(time) && std::isfinite(trial))
-            starts_.push_back({time, static_cast<int>(trial)});
-    }
-    std::sort(starts_.begin(), starts_.end(),
-              [](const Start& a, const Start& b) { return a.time < b.time; });
 }
 
 SessionPlayer::Moment SessionPlayer::moment() const {
@@ -252,26 +274,8 @@ void SessionPlayer::set_together(bool together) {
     together_->setChecked(together);
 }
 
-void SessionPlayer::add_moments(const CsvFile& table, const char* time, const QString& first,
-                                const std::vector<const char*>& what, const char* but) {
-    for (size_t i = 0; i < table.rows(); ++i) {
-        const double seconds = table.number(i, time);
-        if (!std::isfinite(seconds) || table.text(i, what.front()) == but) continue;
-        QStringList words;
-        if (!first.isEmpty()) words += first;
-        for (const char* name : what) {
-            const QString value = QString::fromStdString(table.text(i, name));
-            if (value.isEmpty()) continue;
-            words += QString(name).endsWith("_mm") ? QString("%1 %2 mm")
-                                                         .arg(QString(name).chopped(3))
-                                                         .arg(value.toDouble(), 0, 'f', 2)
-                                                   : value;
-        }
-        list_moment(seconds, words.join(" "));
-    }
-}
-
 void SessionPlayer::list_moment(double seconds, const QString& what) {
+    if (!std::isfinite(seconds)) return;
     const bool limit = what.startsWith("limit ");
     if (QTreeWidgetItem* const same = limit ? limits_[what] : nullptr) {
         const int times = same->data(1, Qt::UserRole).toInt() + 1;

@@ -21,10 +21,6 @@ class QSlider;
 class QTreeWidget;
 class QTreeWidgetItem;
 
-namespace dihaptic {
-class CsvFile;
-}
-
 namespace dihaptic::gui {
 
 class SceneWidget;
@@ -62,12 +58,8 @@ class SessionPlayer : public QMainWindow {
     void make_menus();
     QWidget* make_controls();
     void make_moments();
-    void read_starts(const CsvFile& trials);
-    /// Lists each row at the time of a column, by the words `first` and those of the columns
-    /// `what`, unless the first of these is `but`.
-    void add_moments(const CsvFile& table, const char* time, const QString& first,
-                     const std::vector<const char*>& what, const char* but = "\n");
-    /// A limit that was reached before is counted there.
+    /// Lists what happened at a time [s]; one that was not measured is left out. A limit that was
+    /// reached before is counted there.
     void list_moment(double seconds, const QString& what);
     void read_curves();
     /// False, and says why, if a text is no expression.

@@ -14,12 +14,13 @@
 
 #include "base/output.h"
 #include "base/regular_file.h"
-#include "base/table.h"
 #include "base/text_file.h"
 #include "note_dialog.h"
 #include "recording/raw_log.h"
 #include "recording/seal.h"
 #include "recording/session.h"
+#include "rows/lift_row.h"
+#include "rows/trial_row.h"
 
 namespace dihaptic::gui {
 namespace {
@@ -41,10 +42,11 @@ constexpr const char* kNote = "note.txt";
 constexpr int kLooked = 20;  // sessions after which columns have the widths that they need
 
 /// Reads a table of a session's; calls `count` with it, if it is there and whole.
-QString counted_in(const QString& file, const std::function<QString(const CsvFile&)>& count) {
+template <class Row>
+QString counted_in(const QString& file, QString (*count)(const rows::RowFile<Row>&)) {
     if (!is_there(file.toStdString())) return "";
     try {
-        return count(CsvFile(file.toStdString()));
+        return count(rows::RowFile<Row>(file.toStdString()));
     } catch (const Error&) {
         return "?";
     }
@@ -53,17 +55,17 @@ QString counted_in(const QString& file, const std::function<QString(const CsvFil
 /// Number of attempts at trials.
 QString trials_in(const QString& session) {
     if (!QFileInfo::exists(session + "/trial-list.csv")) return "";
-    return counted_in(session + "/trials.csv",
-                      [](const CsvFile& table) { return QString::number(table.rows()); });
+    return counted_in<rows::TrialRow>(session + "/trials.csv", [](const rows::TrialFile& trials) {
+        return QString::number(trials.size());
+    });
 }
 
 /// Number of whole lifts, of how many.
 QString lifts_in(const QString& session) {
-    return counted_in(session + "/lifts.csv", [](const CsvFile& table) {
-        int complete = 0;
-        for (size_t i = 0; i < table.rows(); ++i)
-            complete += table.text(i, "lift") == "complete" ? 1 : 0;
-        return SessionsDialog::tr("%1 of %2").arg(complete).arg(table.rows());
+    return counted_in<rows::LiftRow>(session + "/lifts.csv", [](const rows::LiftFile& lifts) {
+        return SessionsDialog::tr("%1 of %2")
+            .arg(std::ranges::count_if(lifts, &rows::LiftRow::complete))
+            .arg(lifts.size());
     });
 }
 

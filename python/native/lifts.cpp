@@ -84,8 +84,8 @@ py::dict find_lift(const Array& grip, const Array& load, const Array& height, do
     analysis::GraspTrace trace(0, tick);
     Forces forces(grip, load, height, tick);
     for (py::ssize_t i = 0; i < grip.shape(0); ++i) trace.add(forces.at(i));
-    const analysis::Lift lift =
-        analysis::find_lift(trace, {0, 0, -9.81}, friction, analysis::EventRule::force);
+    const rows::LiftRow lift =
+        analysis::find_lift(trace, {0, 0, -9.81}, friction, rows::EventRule::force);
     const FigureLister figures = list_figures(lift);
     py::dict out;
     for (size_t i = 0; i < figures.columns.size(); ++i)

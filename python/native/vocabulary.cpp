@@ -79,10 +79,10 @@ py::list meanings(const Columns& columns) {
 py::dict table_columns() {
     py::dict out;
     out["trials.csv"] = meanings(analysis::trial_columns());
-    out["phases.csv"] = meanings(list_figures(analysis::PhaseFigures{}).columns);
-    out["events.csv"] = meanings(list_figures(analysis::Event{}).columns);
-    out["episodes.csv"] = meanings(list_figures(analysis::Episode{}).columns);
-    out["lifts.csv"] = meanings(list_figures(analysis::Lift{}).columns);
+    out["phases.csv"] = meanings(list_figures(rows::PhaseRow{}).columns);
+    out["events.csv"] = meanings(list_figures(rows::EventRow{}).columns);
+    out["episodes.csv"] = meanings(list_figures(rows::EpisodeRow{}).columns);
+    out["lifts.csv"] = meanings(list_figures(rows::LiftRow{}).columns);
     return out;
 }
 

@@ -15,6 +15,9 @@ namespace {
 constexpr size_t kFew = 8;
 
 using Trial = AdaptationCurve::Trial;
+using rows::TrialFile;
+using rows::TrialKind;
+using rows::TrialRow;
 
 /// Compensations of the trials that `meant` selects, in their order.
 template <class Meant>
@@ -64,39 +67,35 @@ Window difference(std::span<const double> a, std::span<const double> b, double s
     return out;
 }
 
-bool of_kind(const Trial& trial, const char* kind) {
-    return trial.kind == kind;
+std::vector<double> measured_kind(const Stretch& stretch, TrialKind kind) {
+    return measured(stretch.trials, [&](const Trial& t) { return t.kind == kind; });
 }
 
-std::vector<double> measured_kind(const Stretch& stretch, const char* kind) {
-    return measured(stretch.trials, [&](const Trial& t) { return of_kind(t, kind); });
-}
-
-bool has_kind(const Stretch& s, const char* kind) {
+bool has_kind(const Stretch& s, TrialKind kind) {
     return std::any_of(s.trials.begin(), s.trials.end(),
-                       [&](const Trial& t) { return of_kind(t, kind); });
+                       [&](const Trial& t) { return t.kind == kind; });
 }
 
 bool is_perturbed(const Stretch& s) {
-    return has_kind(s, "perturbed");
+    return has_kind(s, TrialKind::perturbed);
 }
 
 /// Compensations that show what was learned in a block's trials of a kind: those of the channels
 /// among them, or else their own.
-std::vector<double> learned_in(const Stretch& stretch, const char* kind, bool in_channels) {
+std::vector<double> learned_in(const Stretch& stretch, TrialKind kind, bool in_channels) {
     if (!in_channels) return measured_kind(stretch, kind);
     return has_kind(stretch, kind) ? stretch.compensation : std::vector<double>{};
 }
 
 bool only_catches(const Stretch& s) {
     return std::all_of(s.trials.begin(), s.trials.end(),
-                       [](const Trial& t) { return of_kind(t, "catch"); });
+                       [](const Trial& t) { return t.kind == TrialKind::catch_trial; });
 }
 
 /// Trial::under of its perturbed trials; "" if there is none.
 std::string under(const Stretch& s) {
     for (const Trial& t : s.trials)
-        if (of_kind(t, "perturbed") && !t.under.empty()) return t.under;
+        if (t.kind == TrialKind::perturbed && !t.under.empty()) return t.under;
     return "";
 }
 
@@ -136,22 +135,21 @@ Window rebound(const std::vector<Stretch>& stretches) {
 }
 
 /// The last attempt at each trial, which alone counts: the others were to be done again.
-std::map<int, int> last_attempts(const CsvFile& trials) {
+std::map<int, int> last_attempts(const TrialFile& trials) {
     std::map<int, int> out;
-    for (size_t i = 0; i < trials.rows(); ++i) {
-        int& last = out[trials.whole(i, "trial_num")];
-        last = std::max(last, trials.whole(i, "attempt"));
+    for (const TrialRow& row : trials) {
+        int& last = out[row.asked.trial];
+        last = std::max(last, row.measures.attempt);
     }
     return out;
 }
 
-/// Takes an adaptation index from a row of trials.csv. A channel shows no error, and of a trial
+/// Takes an adaptation index from an attempt's row. A channel shows no error, and of a trial
 /// without one only the field is known.
-void take_index(Trial& trial, const CsvFile& trials, size_t i) {
-    const double share = trials.number(i, "field_share");
-    trial.compensation = 100 * trials.number(i, kAdaptationIndex);
-    trial.clamp = is_clamp(trial.kind) || std::isnan(share);
-    trial.perturbation = trial.clamp ? 0 : 100 * share;
+void take_index(Trial& trial, double index, double field_share) {
+    trial.compensation = 100 * index;
+    trial.clamp = is_clamp(trial.kind) || std::isnan(field_share);
+    trial.perturbation = trial.clamp ? 0 : 100 * field_share;
 }
 
 /// Says of what the curves are, in percent.
@@ -171,16 +169,16 @@ void leave_out_unmeasured(Trial& trial, double share) {
 }
 
 /// Takes an angle or an extent; returns whether it is an extent.
-bool take_reach(Trial& trial, const CsvFile& trials, size_t i) {
-    const double way = trials.number(i, "hand_extent_mm");
+bool take_reach(Trial& trial, const rows::TrialMeasures& reach) {
+    const double way = reach.hand_extent_mm;
     double shown;
     if (std::isnan(way)) {
-        const double hand = trials.number(i, "hand_angle_deg");
+        const double hand = reach.hand_angle_deg;
         trial.compensation = -hand;
-        shown = std::remainder(trials.number(i, "shown_angle_deg") - hand, 360);
+        shown = std::remainder(reach.shown_angle_deg - hand, 360);
     } else {
-        trial.compensation = in_percent(trials.number(i, "wanted_extent_mm"), way);
-        shown = in_percent(trials.number(i, "shown_extent_mm"), way);
+        trial.compensation = in_percent(reach.wanted_extent_mm, way);
+        shown = in_percent(reach.shown_extent_mm, way);
     }
     // a reach that fell short was not seen to err, and a clamp does not show the true error
     trial.clamp = is_clamp(trial.kind) || std::isnan(trial.compensation);
@@ -190,9 +188,10 @@ bool take_reach(Trial& trial, const CsvFile& trials, size_t i) {
 
 }  // namespace
 
-bool has_adaptation_index(const CsvFile& trials) {
-    for (size_t i = 0; i < trials.rows(); ++i) {
-        if (!std::isnan(trials.number(i, kAdaptationIndex))) return true;
+bool has_adaptation_index(const TrialFile& trials) {
+    const auto index = trials.column(kAdaptationIndex);
+    for (size_t i = 0; i < trials.size(); ++i) {
+        if (!std::isnan(trials.number(i, index))) return true;
     }
     return false;
 }
@@ -207,7 +206,7 @@ std::vector<AdaptationCurve::Stretch> AdaptationCurve::stretches() const {
         Stretch& stretch = out.back();
         stretch.trials.push_back(trial);
         stretch.clamp = stretch.clamp && is_clamp(trial.kind);
-        if (trial.kind == "catch") continue;
+        if (trial.kind == TrialKind::catch_trial) continue;
         if (std::abs(trial.perturbation) > std::abs(stretch.perturbation))
             stretch.perturbation = trial.perturbation;
         if (!std::isnan(trial.compensation)) stretch.compensation.push_back(trial.compensation);
@@ -243,13 +242,14 @@ std::vector<AdaptationCurve::Block> AdaptationCurve::blocks() const {
     std::vector<Block> out;
     for (const Stretch& stretch : stretches()) {
         const auto own = measured(stretch.trials, [&](const Trial& t) {
-            return !of_kind(t, "catch") && (in_channels() || stretch.clamp || !is_clamp(t.kind));
+            return t.kind != TrialKind::catch_trial &&
+                   (in_channels() || stretch.clamp || !is_clamp(t.kind));
         });
         Block& block = out.emplace_back();
         block.name = stretch.block;
         block.first = window(first_of(own, kFew));
         block.last = window(last_of(own, kFew));
-        block.catch_trials = window(measured_kind(stretch, "catch"));
+        block.catch_trials = window(measured_kind(stretch, TrialKind::catch_trial));
         if (!stretch.clamp && !in_channels())
             block.inserted_clamps =
                 window(measured(stretch.trials, [](const Trial& t) { return is_clamp(t.kind); }));
@@ -265,12 +265,12 @@ AdaptationCurve::Windows AdaptationCurve::windows() const {
     const auto first = std::find_if(parts.begin(), parts.end(), is_perturbed);
     std::vector<double> baseline;
     for (auto part = parts.begin(); part != first; ++part) {
-        const auto own = learned_in(*part, "baseline", in_channels());
+        const auto own = learned_in(*part, TrialKind::baseline, in_channels());
         baseline.insert(baseline.end(), own.begin(), own.end());
     }
     out.baseline = window(baseline);
     if (first == parts.end()) return out;
-    out.early = window(first_of(learned_in(*first, "perturbed", in_channels()), kFew));
+    out.early = window(first_of(learned_in(*first, TrialKind::perturbed, in_channels()), kFew));
     auto last = first;
     for (auto part = first; part != parts.end(); ++part) {
         if (is_perturbed(*part) && alike(*part, *first)) {
@@ -279,10 +279,10 @@ AdaptationCurve::Windows AdaptationCurve::windows() const {
             break;
         }
     }
-    out.late = window(last_of(learned_in(*last, "perturbed", in_channels()), kFew));
+    out.late = window(last_of(learned_in(*last, TrialKind::perturbed, in_channels()), kFew));
     std::vector<double> catches;
     for (auto part = first; part != last + 1; ++part) {
-        const auto own = measured_kind(*part, "catch");
+        const auto own = measured_kind(*part, TrialKind::catch_trial);
         catches.insert(catches.end(), own.begin(), own.end());
     }
     out.catch_trials = window(catches);
@@ -292,7 +292,7 @@ AdaptationCurve::Windows AdaptationCurve::windows() const {
         out.clamp_last = window(last_of(clamp->compensation, kFew));
     }
     for (auto part = first; part != parts.end(); ++part) {
-        const auto own = learned_in(*part, "washout", in_channels());
+        const auto own = learned_in(*part, TrialKind::washout, in_channels());
         if (own.empty()) continue;
         out.washout_first = window(first_of(own, kFew));
         break;
@@ -363,33 +363,34 @@ std::string y_label(const AdaptationCurve& curve) {
     return (curve.in_channels() ? curve.measure : "compensation") + " [" + curve.unit + "]";
 }
 
-std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials,
+std::vector<AdaptationCurve> adaptation_curves(const TrialFile& trials,
                                                const Unmeasured& unmeasured) {
     std::vector<AdaptationCurve> curves;
     const std::map<int, int> last = last_attempts(trials);
     const bool by_index = has_adaptation_index(trials);
+    const auto index = trials.column(kAdaptationIndex), field = trials.column(kFieldShare);
     bool any = false;
     bool extents = false;
-    for (size_t i = 0; i < trials.rows(); ++i) {
+    for (size_t i = 0; i < trials.size(); ++i) {
+        const rows::AskedRow& asked = trials[i].asked;
         Trial trial;
-        trial.number = trials.whole(i, "trial_num");
-        trial.block = trials.text(i, "block");
-        const std::string perturbation = trials.text(i, "perturbation");
-        trial.kind = kind_of(trials.text(i, "kind"), perturbation, unmeasured);
+        trial.number = asked.trial;
+        trial.block = asked.block;
+        trial.kind = kind_of(asked, unmeasured);
         if (by_index) {
-            take_index(trial, trials, i);
+            take_index(trial, trials.number(i, index), trials.number(i, field));
         } else {
-            extents = take_reach(trial, trials, i) || extents;
+            extents = take_reach(trial, trials[i].measures) || extents;
         }
         // the error seen in an attempt that is done again stays; its compensation does not count
-        if (trials.number(i, "attempt") < last.at(trial.number)) trial.compensation = kUnmeasured;
+        if (trials[i].measures.attempt < last.at(trial.number)) trial.compensation = kUnmeasured;
         any = any || !std::isnan(trial.compensation);
-        trial.under = unmeasured_in(perturbation, unmeasured);
-        if (trial.under.empty() && trial.kind == "force_channel" && !by_index)
+        trial.under = unmeasured_in(asked.perturbation, unmeasured);
+        if (trial.under.empty() && trial.kind == TrialKind::force_channel && !by_index)
             trial.under = kForceChannel;
-        leave_out_unmeasured(trial, trials.number(i, "share"));
-        const std::string round = trials.text(i, "round");
-        if (curves.empty() || curves.back().round != round) curves.emplace_back().round = round;
+        leave_out_unmeasured(trial, asked.share);
+        if (curves.empty() || curves.back().round != asked.round)
+            curves.emplace_back().round = asked.round;
         curves.back().trials.push_back(trial);
     }
     if (!any) curves.clear();
@@ -398,13 +399,14 @@ std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials,
     return curves;
 }
 
-std::vector<AdaptationCurve> error_curves(const CsvFile& trials, const std::string& column) {
+std::vector<AdaptationCurve> error_curves(const TrialFile& trials, const std::string& column) {
     std::vector<AdaptationCurve> curves;
     const std::map<int, int> last = last_attempts(trials);
-    for (size_t i = 0; i < trials.rows(); ++i) {
-        std::string round = trials.text(i, "round");
-        const std::string direction = trials.text(i, "condition");
-        if (!direction.empty()) round += (round.empty() ? "" : ", ") + direction;
+    const auto error = trials.column(column);
+    for (size_t i = 0; i < trials.size(); ++i) {
+        const rows::AskedRow& asked = trials[i].asked;
+        std::string round = asked.round;
+        if (!asked.condition.empty()) round += (round.empty() ? "" : ", ") + asked.condition;
         const auto own = [&](const AdaptationCurve& c) { return c.round == round; };
         auto curve = std::find_if(curves.begin(), curves.end(), own);
         if (curve == curves.end()) {
@@ -412,16 +414,16 @@ std::vector<AdaptationCurve> error_curves(const CsvFile& trials, const std::stri
             curve->round = round;
         }
         Trial& trial = curve->trials.emplace_back();
-        trial.number = trials.whole(i, "trial_num");
-        trial.block = trials.text(i, "block");
-        trial.kind = trials.text(i, "kind");
-        const bool acts = !trials.text(i, "perturbation").empty() && !is_clamp(trial.kind);
-        trial.perturbation = acts ? trials.number(i, "share") : 0;
-        trial.compensation = trials.number(i, column);  // the error, so far
-        // who did not move saw no error; one that is done again taught something, and does not
-        // count
+        trial.number = asked.trial;
+        trial.block = asked.block;
+        trial.kind = asked.kind;
+        const bool acts = !asked.perturbation.empty() && !is_clamp(trial.kind);
+        trial.perturbation = acts ? asked.share : 0;
+        trial.compensation = trials.number(i, error);  // the error, so far
+        // a person who did not move saw no error; an attempt that is done again taught something,
+        // and does not count
         trial.clamp = is_clamp(trial.kind) || std::isnan(trial.compensation);
-        if (trials.number(i, "attempt") < last.at(trial.number)) trial.compensation = kUnmeasured;
+        if (trials[i].measures.attempt < last.at(trial.number)) trial.compensation = kUnmeasured;
     }
     name_measure(curves, column.c_str());
     for (AdaptationCurve& curve : curves) {

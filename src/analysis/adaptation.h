@@ -20,6 +20,7 @@
 #include "analysis/fits/two_rate_fit.h"
 #include "analysis/perturbations.h"
 #include "base/figure.h"
+#include "rows/trial_row.h"
 
 namespace dihaptic::analysis {
 
@@ -28,7 +29,7 @@ struct AdaptationCurve {
     struct Trial {
         int number = 0;  ///< number in the session, from 1
         std::string block;
-        std::string kind;         ///< kind of trial, as in trials.csv
+        rows::TrialKind kind = rows::TrialKind::baseline;
         double perturbation = 0;  ///< f; 0 in a clamp
         bool clamp = false;       ///< no error was seen
         double compensation = 0;  ///< x; NaN where it was not measured
@@ -90,9 +91,11 @@ struct AdaptationCurve {
     void list_landmarks(FigureLister& row) const;
 };
 
+/// Columns of the measure that bears the first one's name (task/measures.h).
 inline constexpr const char* kAdaptationIndex = "adaptation_index";
+inline constexpr const char* kFieldShare = "field_share";
 /// Whether an adaptation index was measured in any of the trials of trials.csv.
-bool has_adaptation_index(const CsvFile& trials);
+bool has_adaptation_index(const rows::TrialFile& trials);
 
 /// Table with a row for each of blocks().
 Table block_table(const std::vector<AdaptationCurve>& curves);
@@ -101,11 +104,11 @@ Table block_table(const std::vector<AdaptationCurve>& curves);
 std::string y_label(const AdaptationCurve& curve);
 
 /// The curves by round, in the order in which rounds were done. Empty if no reach was measured.
-std::vector<AdaptationCurve> adaptation_curves(const CsvFile& trials,
+std::vector<AdaptationCurve> adaptation_curves(const rows::TrialFile& trials,
                                                const Unmeasured& unmeasured = {});
 /// Curves of the errors in that column of trials.csv, by round and condition, in percent of the
 /// perturbation.
-std::vector<AdaptationCurve> error_curves(const CsvFile& trials, const std::string& column);
+std::vector<AdaptationCurve> error_curves(const rows::TrialFile& trials, const std::string& column);
 
 /// Both models, fitted to the curve less its baseline's mean.
 struct AdaptationFits {

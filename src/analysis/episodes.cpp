@@ -16,7 +16,7 @@ constexpr double kHandSpeed = 0.05;    // below it, the hand stands still [m/s]
 
 /// The kind of episode that a sample is part of, if any.
 struct State {
-    std::optional<EpisodeKind> kind;
+    std::optional<rows::EpisodeKind> kind;
     PerFinger<char> touching;
     bool operator==(const State&) const = default;
 };
@@ -25,11 +25,11 @@ State state_of(const Sample& s, bool flies) {
     if (!s.awake || !s.X_WB.p.allFinite()) return {};
     if (s.on_support) {
         if (!(s.v_sliding.norm() > kSlideSpeed)) return {};
-        return {EpisodeKind::slide, s.touching};
+        return {rows::EpisodeKind::slide, s.touching};
     }
-    if (s.touched()) return {EpisodeKind::hold, s.touching};
+    if (s.touched()) return {rows::EpisodeKind::hold, s.touching};
     if (!flies) return {};
-    return {EpisodeKind::flight, s.touching};
+    return {rows::EpisodeKind::flight, s.touching};
 }
 
 struct Run {
@@ -49,7 +49,7 @@ std::vector<Run> runs_of(const GraspTrace& trace, bool flies) {
         while (last < samples.size() && state_of(samples[last], flies) == state) ++last;
         if (state.kind && last - first >= shortest) {
             const bool goes_on = !out.empty() && out.back().state == state &&
-                                 *state.kind != EpisodeKind::flight &&
+                                 *state.kind != rows::EpisodeKind::flight &&
                                  first - out.back().range.last < shortest;
             if (goes_on) {
                 out.back().range.last = last;
@@ -162,13 +162,13 @@ std::vector<Episode> find_episodes(const GraspTrace& trace, const ObjectFacts& o
             if (run.state.touching[finger]) episode.fingers.push_back(finger);
         }
         switch (episode.kind) {
-            case EpisodeKind::hold:
+            case rows::EpisodeKind::hold:
                 measure_hold(trace, episode);
                 break;
-            case EpisodeKind::slide:
+            case rows::EpisodeKind::slide:
                 measure_slide(trace, object, episode);
                 break;
-            case EpisodeKind::flight:
+            case rows::EpisodeKind::flight:
                 measure_flight(trace, object, episode);
                 break;
         }

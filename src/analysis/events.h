@@ -5,32 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "base/unmeasured.h"
 #include "recording/raw_log.h"
+#include "rows/event_row.h"
 
 namespace dihaptic::analysis {
-
-struct Event {
-    int64_t tick = 0;
-    double time = 0;  ///< [s]
-    int trial = 0;
-    std::string name;  ///< "touch", "release", "lift-off", "replaced", "phase", "limit", "setting",
-                       ///< "went on"; with a task "trial", "perturbation", "marker", "message",
-                       ///< "line", "page", "sound", "put back", "outcome"
-    std::string detail;          ///< fingers, bodies or values concerned
-    double shown = kUnmeasured;  ///< [s]
-    double heard = kUnmeasured;  ///< [s]
-
-    template <class Self, class Visitor>
-    static void visit(Self& f, Visitor& v) {
-        v("time", f.time, "s", "of its tick");
-        v("trial", f.trial, "1", "number, from 1");
-        v("event", f.name, "", "what happened");
-        v("detail", f.detail, "", "to whom, or what");
-        v("shown", f.shown, "s", "when the first picture of it came to the screen; empty: none");
-        v("heard", f.heard, "s", "when the sound left the loudspeaker; empty: it was not played");
-    }
-};
 
 class EventFinder {
   public:
@@ -43,7 +21,7 @@ class EventFinder {
         object_ = object;
     }
     void add(const frame::Frame& frame);
-    const std::vector<Event>& events() const { return events_; }
+    const std::vector<rows::EventRow>& events() const { return events_; }
 
   private:
     std::string name(int body) const;
@@ -79,7 +57,7 @@ class EventFinder {
     uint32_t status_ = 0;
     frame::Knobs told_;  // values in the last events
     frame::Knobs last_;  // values in the last frame
-    std::vector<Event> events_;
+    std::vector<rows::EventRow> events_;
 };
 
 }  // namespace dihaptic::analysis

@@ -6,7 +6,6 @@
 #include <map>
 #include <numbers>
 
-#include "analysis/perturbations.h"
 #include "base/geometry.h"
 #include "base/unmeasured.h"
 
@@ -43,23 +42,22 @@ Vec3 direction_of(const std::vector<task::ReachPlan>& reaches, int number) {
     return (reaches[i].to_W - reaches[i].from_W).normalized();
 }
 
-std::map<std::string, Round> rounds_of(const CsvFile& trials,
+std::map<std::string, Round> rounds_of(const rows::TrialFile& trials,
                                        const std::vector<task::ReachPlan>& reaches) {
     std::map<std::string, Round> rounds;
-    for (size_t i = 0; i < trials.rows(); ++i) {
-        Round& round = rounds[trials.text(i, "round")];
-        // where channels are, find_generalisation() is not asked
-        const std::string kind = kind_of(trials.text(i, "kind"), "", {});
-        const double compensation = -trials.number(i, "hand_angle_deg");
-        Direction& direction = round.directions[trials.text(i, "condition")];
-        direction.along_W = direction_of(reaches, trials.whole(i, "trial_num"));
-        if (kind == "perturbed") {
+    for (const rows::TrialRow& row : trials) {
+        const rows::TrialKind kind = row.asked.kind;
+        Round& round = rounds[row.asked.round];
+        const double compensation = -row.measures.hand_angle_deg;
+        Direction& direction = round.directions[row.asked.condition];
+        direction.along_W = direction_of(reaches, row.asked.trial);
+        if (kind == rows::TrialKind::perturbed) {
             direction.trained = true;
             round.trained = true;
         }
         if (std::isnan(compensation)) continue;
-        if (kind == "baseline") round.baseline.add(compensation);
-        const bool probe = is_clamp(kind) || kind == "catch";
+        if (kind == rows::TrialKind::baseline) round.baseline.add(compensation);
+        const bool probe = is_clamp(kind) || kind == rows::TrialKind::catch_trial;
         if (probe && round.trained) direction.probes.add(compensation);
     }
     return rounds;
@@ -102,7 +100,7 @@ std::vector<Generalisation> generalisation_of(const std::string& name, const Rou
 
 }  // namespace
 
-std::vector<Generalisation> find_generalisation(const CsvFile& trials,
+std::vector<Generalisation> find_generalisation(const rows::TrialFile& trials,
                                                 const std::vector<task::ReachPlan>& reaches) {
     std::vector<Generalisation> out;
     for (const auto& [name, round] : rounds_of(trials, reaches)) {

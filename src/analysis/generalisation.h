@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/table.h"
+#include "rows/trial_row.h"
 #include "task/reach_plan.h"
 
 namespace dihaptic::analysis {
@@ -31,7 +31,7 @@ struct Generalisation {
 
 /// Results by round, then angle; empty if no untrained condition was probed. `trials`: trials.csv;
 /// `reaches`: by trial.
-std::vector<Generalisation> find_generalisation(const CsvFile& trials,
+std::vector<Generalisation> find_generalisation(const rows::TrialFile& trials,
                                                 const std::vector<task::ReachPlan>& reaches);
 
 }  // namespace dihaptic::analysis

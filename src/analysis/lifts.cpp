@@ -148,7 +148,7 @@ std::optional<size_t> load_onset(const Signals& signals, const Signal& load, siz
 }
 
 /// Finds how often digits slid on the object, from when on, and how far at most.
-void find_slips(Lift& lift, const GraspTrace& trace, Range range) {
+void find_slips(rows::LiftRow& lift, const GraspTrace& trace, Range range) {
     lift.slip = 0;
     for (size_t f = 0; f < trace.fingers(); ++f) {
         lift.slip = std::max(lift.slip, trace.slip(range, f));
@@ -174,7 +174,7 @@ void find_slips(Lift& lift, const GraspTrace& trace, Range range) {
 }
 
 /// Coupling of grip and load while the digits loaded the object.
-void find_coupling(Lift& lift, const Signals& signals, const Signal& grip_rate,
+void find_coupling(rows::LiftRow& lift, const Signals& signals, const Signal& grip_rate,
                    const Signal& load_rate, Range loading) {
     if (loading.size() < signals.samples(0.02)) return;
     lift.grip_load_r = correlation(load_rate, grip_rate, loading, 0);
@@ -357,17 +357,18 @@ class ByContact {
 };
 
 /// Finds the events, and sets the rule that found them.
-Events find_events(Lift& lift, const GraspTrace& trace, const Signals& signals, Range high,
-                   std::optional<EventRule> rule) {
+Events find_events(rows::LiftRow& lift, const GraspTrace& trace, const Signals& signals, Range high,
+                   std::optional<rows::EventRule> rule) {
     const auto& samples = trace.samples();
     const bool seen = std::any_of(samples.begin(), samples.end(), stands);
-    if (rule.value_or(seen ? EventRule::contact : EventRule::force) == EventRule::contact) {
+    if (rule.value_or(seen ? rows::EventRule::contact : rows::EventRule::force) ==
+        rows::EventRule::contact) {
         if (auto events = ByContact(trace, signals, high).find()) {
-            lift.rule = EventRule::contact;
+            lift.rule = rows::EventRule::contact;
             return *std::move(events);
         }
     }
-    lift.rule = EventRule::force;
+    lift.rule = rows::EventRule::force;
     return ByForce(trace, signals, high).find();
 }
 
@@ -384,7 +385,8 @@ size_t lowering_of(const Signals& signals, Range high, size_t lift_off) {
 }
 
 /// Times and durations from touch to lift-off.
-void find_start(Lift& lift, const GraspTrace& trace, const Signals& signals, const Events& events) {
+void find_start(rows::LiftRow& lift, const GraspTrace& trace, const Signals& signals,
+                const Events& events) {
     const auto time = [&](size_t i) { return trace.samples()[i].time; };
     lift.lift_off = time(events.lift_off);
     lift.lift_off_grip = signals.grip[events.lift_off];
@@ -396,7 +398,7 @@ void find_start(Lift& lift, const GraspTrace& trace, const Signals& signals, con
 }
 
 /// Peaks of the forces from touch to lowering.
-void find_peaks(Lift& lift, const GraspTrace& trace, const Signals& signals, Range up) {
+void find_peaks(rows::LiftRow& lift, const GraspTrace& trace, const Signals& signals, Range up) {
     const auto grip = part(signals.grip, up);
     const auto peak = std::max_element(grip.begin(), grip.end());
     lift.peak_grip = *peak;
@@ -407,7 +409,7 @@ void find_peaks(Lift& lift, const GraspTrace& trace, const Signals& signals, Ran
 }
 
 /// Largest rates of the forces before lift-off, and their coupling.
-void find_rates(Lift& lift, const Signals& signals, const Events& events, size_t touched) {
+void find_rates(rows::LiftRow& lift, const Signals& signals, const Events& events, size_t touched) {
     const Signal grip_rate = savitzky_golay(signals.grip, signals.tick, kWindow, 1);
     const Signal load_rate = savitzky_golay(signals.load, signals.tick, kWindow, 1);
     const size_t end = events.lift_off + 1;
@@ -430,7 +432,7 @@ std::optional<Range> hold_of(const Signals& signals, size_t lift_off, size_t low
     return Range{lowered - early, lowered - late};
 }
 
-void average_hold(Lift& lift, const GraspTrace& trace, const Signals& signals, Range hold,
+void average_hold(rows::LiftRow& lift, const GraspTrace& trace, const Signals& signals, Range hold,
                   std::span<const double> friction) {
     lift.static_grip = mean(part(signals.grip, hold));
     lift.static_load = mean(part(signals.load, hold));
@@ -463,7 +465,7 @@ double slid_down(const GraspTrace& trace, Range air) {
 
 /// Finds replacement and release; the mark says which is missing, or "complete". `top`: the
 /// object's largest height.
-void find_end(Lift& lift, const GraspTrace& trace, const Events& events, double top) {
+void find_end(rows::LiftRow& lift, const GraspTrace& trace, const Events& events, double top) {
     lift.mark = "not put down";
     if (!events.replacement) return;
     lift.replacement = trace.samples()[*events.replacement].time;
@@ -510,9 +512,9 @@ std::vector<Range> lifts_in(const GraspTrace& trace, const Vec3& gravity) {
     return out;
 }
 
-Lift find_lift(const GraspTrace& trace, const Vec3& gravity, std::span<const double> friction,
-               std::optional<EventRule> rule) {
-    Lift lift;
+rows::LiftRow find_lift(const GraspTrace& trace, const Vec3& gravity,
+                        std::span<const double> friction, std::optional<rows::EventRule> rule) {
+    rows::LiftRow lift;
     lift.mark = "no touch";
     if (trace.samples().empty() || trace.fingers() == 0) return lift;
     if (was_paused(trace)) {

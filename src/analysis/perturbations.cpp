@@ -169,11 +169,11 @@ std::string unmeasured_in(const std::string& named, const Unmeasured& unmeasured
     return out;
 }
 
-std::string kind_of(const std::string& kind, const std::string& perturbation,
-                    const Unmeasured& unmeasured) {
-    if (kind != "error_clamp") return kind;
-    const std::string what = unmeasured_in(perturbation, unmeasured);
-    return what.find(kForceChannel) == std::string::npos ? "visual_clamp" : "force_channel";
+rows::TrialKind kind_of(const rows::AskedRow& asked, const Unmeasured& unmeasured) {
+    if (asked.kind != rows::TrialKind::visual_clamp) return asked.kind;
+    const std::string what = unmeasured_in(asked.perturbation, unmeasured);
+    return what.find(kForceChannel) == std::string::npos ? asked.kind
+                                                         : rows::TrialKind::force_channel;
 }
 
 }  // namespace dihaptic::analysis

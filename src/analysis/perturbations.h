@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/table.h"
+#include "rows/trial_row.h"
 #include "task/task.h"
 
 namespace dihaptic::analysis {
@@ -31,13 +32,8 @@ Table perturbation_table(const task::Task& task);
 /// in the order of their names. `named`: as trials.csv has it, several joined by " + ".
 std::string unmeasured_in(const std::string& named, const Unmeasured& unmeasured);
 
-/// The kind of a trial with these cells of trials.csv. Earlier versions called both kinds of clamp
-/// error_clamp; which of them it was follows from its perturbation.
-std::string kind_of(const std::string& kind, const std::string& perturbation,
-                    const Unmeasured& unmeasured);
-/// Whether no error is seen in trials of this kind.
-inline bool is_clamp(const std::string& kind) {
-    return kind == "visual_clamp" || kind == "force_channel";
-}
+/// The kind of a trial. Earlier versions called both kinds of clamp error_clamp, which is read as
+/// visual_clamp; it was a force_channel if its perturbation is one.
+rows::TrialKind kind_of(const rows::AskedRow& asked, const Unmeasured& unmeasured);
 
 }  // namespace dihaptic::analysis

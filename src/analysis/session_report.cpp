@@ -34,16 +34,16 @@ namespace {
 /// Results of reading the log once.
 struct Reading {
     SessionFigures figures;
-    std::vector<Event> events;
+    std::vector<rows::EventRow> events;
     Table fault;
     std::optional<TrialFinder> trials;  ///< if the session has a task
     std::optional<MeasureFinder> measures;
-    std::vector<Lift> lifts;
+    std::vector<rows::LiftRow> lifts;
     std::string why_no_facts;  ///< why ObjectFacts are not known; empty if they are
 };
 
-PhaseFigures figures_of(const GraspTrace& trace, Range range, double weight) {
-    PhaseFigures out;
+rows::PhaseRow figures_of(const GraspTrace& trace, Range range, double weight) {
+    rows::PhaseRow out;
     out.start = trace.samples()[range.first].time;
     out.end = trace.samples()[range.last - 1].time;
     out.mean_grip = trace.mean_grip(range);
@@ -115,10 +115,10 @@ std::vector<std::string> objects_of_trials(const recording::SessionFolder& folde
     }
     std::vector<std::string> out;
     if (by_round.empty() && by_condition.empty()) return out;
-    const CsvFile list(folder.file("trial-list.csv"));
-    for (size_t i = 0; i < list.rows(); ++i) {
-        const auto condition = by_condition.find(list.text(i, "condition"));
-        const auto round = by_round.find(list.text(i, "round"));
+    for (const rows::AskedRow& asked :
+         rows::RowFile<rows::AskedRow>(folder.file("trial-list.csv"))) {
+        const auto condition = by_condition.find(asked.condition);
+        const auto round = by_round.find(asked.round);
         out.push_back(condition != by_condition.end() ? condition->second
                       : round != by_round.end()       ? round->second
                                                       : usual);
@@ -196,7 +196,7 @@ struct SessionReader::Pass {
     /// An attempt at a trial is one lift; without trials, people lift as often as they like.
     void find_lifts() {
         const auto add = [&](const GraspTrace& of, int number) {
-            Lift lift = find_lift(of, facts.gravity, facts.finger_friction);
+            rows::LiftRow lift = find_lift(of, facts.gravity, facts.finger_friction);
             lift.trial = trial;
             lift.attempt = number;
             reading.lifts.push_back(std::move(lift));
@@ -210,7 +210,7 @@ struct SessionReader::Pass {
     void close_phase() {
         const Range range{first, trace.samples().size()};
         if (phase < 0 || range.size() == 0) return;
-        PhaseFigures figure = figures_of(trace, range, facts.mass * facts.gravity.norm());
+        rows::PhaseRow figure = figures_of(trace, range, facts.mass * facts.gravity.norm());
         figure.trial = trial;
         const auto i = static_cast<size_t>(phase);
         figure.name = i < names.size() ? names[i] : number_text(phase);
@@ -299,10 +299,10 @@ size_t SessionReader::ended_trials() const {
 namespace {
 
 Table trial_table(const SessionFigures& figures, const recording::SessionInfo& info) {
-    std::map<int, PlainTrial> trials;
-    for (const PhaseFigures& phase : figures.phases) {
+    std::map<int, rows::PlainTrialRow> trials;
+    for (const rows::PhaseRow& phase : figures.phases) {
         const auto [found, is_new] = trials.try_emplace(phase.trial);
-        PlainTrial& trial = found->second;
+        rows::PlainTrialRow& trial = found->second;
         if (is_new) trial.head = {phase.start, 0, info.title, info.participant.id};
         trial.trial = phase.trial;
         trial.head.end = phase.end;
@@ -316,17 +316,17 @@ Table trial_table(const SessionFigures& figures, const recording::SessionInfo& i
                         : done             ? "done"
                                            : "interrupted";
     }
-    std::vector<PlainTrial> rows;
+    std::vector<rows::PlainTrialRow> rows;
     for (const auto& [number, trial] : trials) rows.push_back(trial);
-    return figure_table<PlainTrial>(rows);
+    return figure_table<rows::PlainTrialRow>(rows);
 }
 
 /// Finds when each event was first seen on the screen.
-void find_shown(std::vector<Event>& events, const recording::Showings& showings) {
+void find_shown(std::vector<rows::EventRow>& events, const recording::Showings& showings) {
     // a message is seen only in pictures from before the next message
     int64_t gone = recording::Showings::kStays;
     for (size_t i = events.size(); i-- > 0;) {
-        Event& event = events[i];
+        rows::EventRow& event = events[i];
         const bool message = event.name == "message";
         event.shown =
             showings.onset(event.tick, event.time, message ? gone : recording::Showings::kStays);
@@ -335,11 +335,12 @@ void find_shown(std::vector<Event>& events, const recording::Showings& showings)
 }
 
 /// Finds when each sound was heard.
-void find_heard(std::vector<Event>& events, const std::vector<recording::Hearing>& hearings) {
+void find_heard(std::vector<rows::EventRow>& events,
+                const std::vector<recording::Hearing>& hearings) {
     std::map<std::pair<int64_t, std::string>, double> heard;
     for (const recording::Hearing& hearing : hearings)
         heard[{hearing.tick, hearing.sound}] = hearing.heard;
-    for (Event& event : events) {
+    for (rows::EventRow& event : events) {
         if (event.name != "sound") continue;
         const auto found = heard.find({event.tick, event.detail});
         if (found != heard.end()) event.heard = found->second;
@@ -359,13 +360,13 @@ Table as_intervals(const Table& events) {
     return table;
 }
 
-/// Latest time in a column of a session's table [s]; 0 if the table cannot be read.
-double last_time(const std::string& file, const std::string& column) {
+/// Latest time in a session's table [s]; 0 if the table cannot be read. `time`: of a row.
+template <class Row, class Time>
+double last_time(const std::string& file, Time time) {
     try {
-        const CsvFile table(file);
         double last = 0;
         // a cell without a number is no time
-        for (size_t i = 0; i < table.rows(); ++i) last = std::max(last, table.number(i, column));
+        for (const Row& row : rows::RowFile<Row>(file)) last = std::max(last, time(row));
         return last;
     } catch (const Error&) {
         return 0;
@@ -389,20 +390,22 @@ void keep_longer_files(const recording::SessionFolder& folder, const SessionFigu
         keep("session.nwb", fmt::format("{}; the log has {}", counted(ticks, "tick"),
                                         counted(figures.frames, "tick")));
     }
-    const std::pair<const char*, const char*> tables[] = {{"trials.csv", "stop_time"},
-                                                          {"phases.csv", "stop_time"},
-                                                          {"episodes.csv", "stop_time"},
-                                                          {"lifts.csv", "release_s"},
-                                                          {"events.csv", "time_s"}};
-    for (const auto& [name, column] : tables) {
-        // trials.csv also has the times of the sessions that this one resumes
-        if (std::string_view(name) == "trials.csv" && has_trials(folder)) continue;
-        const double last = last_time(folder.file(name), column);
+    const auto check = [&](const char* name, double last) {
         if (last > figures.duration + figures.tick / 2) {
             keep(name, fmt::format("it goes to {:.3f} s; the log ends at {:.3f} s", last,
                                    figures.duration));
         }
-    }
+    };
+    const auto end = [](const auto& row) { return row.end; };
+    // with a task, trials.csv also has the times of the sessions that this one resumes
+    if (!has_trials(folder))
+        check("trials.csv", last_time<rows::TrialHead>(folder.file("trials.csv"), end));
+    check("phases.csv", last_time<rows::PhaseRow>(folder.file("phases.csv"), end));
+    check("episodes.csv", last_time<rows::EpisodeRow>(folder.file("episodes.csv"), end));
+    check("lifts.csv", last_time<rows::LiftRow>(folder.file("lifts.csv"),
+                                                [](const auto& lift) { return lift.release; }));
+    check("events.csv", last_time<rows::EventRow>(folder.file("events.csv"),
+                                                  [](const auto& event) { return event.time; }));
     if (problems.empty()) return;
     for (const std::string& what : damage)
         problems.push_back({Severity::warning, {folder.raw_log(), 0}, "", what, ""});
@@ -449,8 +452,8 @@ Table read_settings(const recording::SessionFolder& folder) {
     return table;
 }
 
-const PhaseFigures* SessionFigures::phase(const std::string& name) const {
-    for (const PhaseFigures& phase : phases) {
+const rows::PhaseRow* SessionFigures::phase(const std::string& name) const {
+    for (const rows::PhaseRow& phase : phases) {
         if (phase.name == name) return &phase;
     }
     return nullptr;
@@ -482,7 +485,7 @@ SessionFigures write_tables(const recording::SessionFolder& folder, recording::S
     const auto by = [&](Table table) { return recording::marked(std::move(table), info.moved_by); };
     write_csv(by(figure_table<Episode>(out.episodes)), folder.file("episodes.csv"));
     if (!reading.lifts.empty())
-        write_csv(by(figure_table<Lift>(reading.lifts)), folder.file("lifts.csv"));
+        write_csv(by(figure_table<rows::LiftRow>(reading.lifts)), folder.file("lifts.csv"));
     write_csv(events, folder.file("events.csv"));
     if (!reading.fault.rows.empty()) write_csv(reading.fault, folder.file("fault.csv"));
     recording::seal(folder, info);
@@ -501,16 +504,16 @@ recording::NwbContent content_of(const Reading& reading, const recording::Sessio
     if (reading.measures) reading.measures->add_to(content.trials);
     content.trials = by(std::move(content.trials));
     if (reading.trials) number_session(content.trials, folder);
-    content.phases = by(figure_table<PhaseFigures>(reading.figures.phases));
+    content.phases = by(figure_table<rows::PhaseRow>(reading.figures.phases));
     return content;
 }
 
 Table events_of(const Reading& reading, const recording::SessionFolder& folder,
                 const recording::SessionInfo& info) {
-    std::vector<Event> events = reading.events;
+    std::vector<rows::EventRow> events = reading.events;
     find_shown(events, recording::Showings(folder));
     find_heard(events, recording::read_hearings(folder));
-    return recording::marked(figure_table<Event>(events), info.moved_by);
+    return recording::marked(figure_table<rows::EventRow>(events), info.moved_by);
 }
 
 }  // namespace

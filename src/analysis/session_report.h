@@ -15,42 +15,12 @@
 #include "recording/log_health.h"
 #include "recording/raw_log.h"
 #include "recording/session.h"
+#include "rows/phase_row.h"
 
 namespace dihaptic::analysis {
 
-/// The figures of one phase, in SI units.
-struct PhaseFigures {
-    double start = 0, end = 0;
-    int trial = 0;
-    std::string name;
-    double mean_grip = 0, peak_grip = 0, mean_load = 0, mean_force = 0, peak_force = 0, slip = 0;
-    double weight_felt = 0, mean_torque = 0, peak_torque = 0;
-
-    template <class Self, class Visitor>
-    static void visit(Self& f, Visitor& v) {
-        v("start_time", f.start, "s", "in the session");
-        v("stop_time", f.end, "s", "in the session");
-        v("trial", f.trial, "1", "number, from 1");
-        v("phase", f.name, "", "name");
-        v("mean_grip", f.mean_grip, "N",
-          "pinch component of the normal forces, mean of the digits; empty with one finger");
-        v("peak_grip", f.peak_grip, "N", "largest grip force");
-        v("mean_load", f.mean_load, "N",
-          "tangential contact forces along gravity, summed over the digits");
-        v("mean_force", f.mean_force, "N", "mean force on the busiest finger");
-        v("peak_force", f.peak_force, "N", "largest force on any finger");
-        v("slip", f.slip, "mm",
-          "largest slip of a finger on the object; empty unless all held it throughout");
-        v("weight_felt", f.weight_felt, "1",
-          "vertical handle forces over the object's weight; empty unless carried");
-        v("mean_torque", f.mean_torque, "N*m",
-          "largest torque on any handle, mean; empty without orientation");
-        v("peak_torque", f.peak_torque, "N*m", "largest torque on any handle");
-    }
-};
-
 struct SessionFigures {
-    std::vector<PhaseFigures> phases;
+    std::vector<rows::PhaseRow> phases;
     std::optional<Table> trials;    ///< a task's trials, with those of the session's earlier parts
     std::vector<Episode> episodes;  ///< the object's episodes
     int64_t frames = 0;
@@ -75,7 +45,7 @@ struct SessionFigures {
     int64_t ticks_with(Status bit) const { return status_ticks[place_of(bit)]; }
     int64_t& ticks_with(Status bit) { return status_ticks[place_of(bit)]; }
     /// The phase of that name; null if there is none.
-    const PhaseFigures* phase(const std::string& name) const;
+    const rows::PhaseRow* phase(const std::string& name) const;
     /// What kUnbalanced says of the session, in figures.
     std::string describe_imbalance() const;
 

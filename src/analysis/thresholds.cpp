@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "base/diagnostics.h"
-#include "base/field.h"
 #include "base/unmeasured.h"
 
 namespace dihaptic::analysis {
@@ -14,13 +13,6 @@ namespace {
 
 constexpr int kResamples = 500;
 constexpr size_t kLeast = 10;
-
-model::Sigmoid sigmoid_of(const std::string& name) {
-    const auto names = enum_names(model::Sigmoid{});
-    const auto found = std::find(names.begin(), names.end(), name);
-    return found == names.end() ? model::Sigmoid::normal
-                                : static_cast<model::Sigmoid>(found - names.begin());
-}
 
 }  // namespace
 
@@ -32,31 +24,31 @@ std::string ThresholdTrack::what() const {
     return number.empty() ? "share of " + perturbation : number;
 }
 
-std::vector<ThresholdTrack> threshold_tracks(const CsvFile& trials, const CsvFile& procedures) {
+std::vector<ThresholdTrack> threshold_tracks(const rows::TrialFile& trials,
+                                             const rows::ProcedureFile& procedures) {
     std::vector<ThresholdTrack> out;
-    for (size_t p = 0; p < procedures.rows(); ++p) {
+    for (const rows::ProcedureRow& p : procedures) {
         ThresholdTrack& track = out.emplace_back();
-        track.procedure = procedures.text(p, "procedure");
-        track.kind = procedures.text(p, "kind");
-        track.perturbation = procedures.text(p, "perturbation");
-        track.number = procedures.text(p, "level");
-        track.logarithmic = procedures.text(p, "logarithmic") == "yes";
-        track.model.sigmoid = sigmoid_of(procedures.text(p, "sigmoid"));
+        track.procedure = p.procedure;
+        track.kind = p.kind;
+        track.perturbation = p.perturbation;
+        track.number = p.level;
+        track.logarithmic = p.logarithmic;
+        track.model.sigmoid = p.sigmoid;
         // recordings before version 0.2 have no such column
-        const double shape = procedures.number(p, "shape");
-        if (std::isfinite(shape)) track.model.shape = shape;
-        track.model.guess = procedures.number(p, "guess");
-        track.model.guess_is_lapse = procedures.text(p, "guess_is_lapse") == "yes";
-        const std::string yes = procedures.text(p, "yes");
-        const std::string no = procedures.text(p, "no");
-        for (size_t i = 0; i < trials.rows(); ++i) {
-            if (trials.text(i, "procedure") != track.procedure) continue;
-            const std::string outcome = trials.text(i, "outcome");
-            const double share = trials.number(i, track.number.empty() ? "share" : track.number);
-            const double level = track.logarithmic ? std::log10(share) : share;
-            if ((outcome != yes && outcome != no) || !std::isfinite(level)) continue;
-            track.answers.push_back({level, outcome == yes});
-            track.trials.push_back(trials.whole(i, "trial_num"));
+        if (std::isfinite(p.shape)) track.model.shape = p.shape;
+        track.model.guess = p.guess;
+        track.model.guess_is_lapse = p.guess_is_lapse;
+        const auto chosen = trials.column(p.level);
+        for (size_t i = 0; i < trials.size(); ++i) {
+            const rows::TrialRow& row = trials[i];
+            if (row.asked.procedure != p.procedure) continue;
+            const std::string& outcome = row.measures.outcome;
+            const double share = p.level.empty() ? row.asked.share : trials.number(i, chosen);
+            const double level = p.logarithmic ? std::log10(share) : share;
+            if ((outcome != p.yes && outcome != p.no) || !std::isfinite(level)) continue;
+            track.answers.push_back({level, outcome == p.yes});
+            track.trials.push_back(row.asked.trial);
         }
     }
     return out;

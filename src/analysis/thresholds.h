@@ -7,7 +7,8 @@
 #include <vector>
 
 #include "analysis/fits/psychometric_fit.h"
-#include "base/table.h"
+#include "rows/procedure_row.h"
+#include "rows/trial_row.h"
 
 namespace dihaptic::analysis {
 
@@ -28,7 +29,8 @@ struct ThresholdTrack {
 
 /// One track per procedure. Answers that are neither yes nor no, and trials without a procedure,
 /// are left out.
-std::vector<ThresholdTrack> threshold_tracks(const CsvFile& trials, const CsvFile& procedures);
+std::vector<ThresholdTrack> threshold_tracks(const rows::TrialFile& trials,
+                                             const rows::ProcedureFile& procedures);
 
 /// The fit of a track, or why there is none.
 struct ThresholdFit {

@@ -9,6 +9,7 @@
 #include "base/number.h"
 #include "base/regular_file.h"
 #include "base/text_file.h"
+#include "base/unit.h"
 #include "base/unmeasured.h"
 #include "frame/displayed.h"
 #include "task/measures.h"
@@ -19,11 +20,12 @@ namespace {
 
 constexpr const char* kList = "trial-list.csv";
 constexpr const char* kBefore = "trials-before.csv";
-constexpr const char* kInterrupted = "interrupted";
+constexpr double kPerDegree = 1 / kDegree;  // of an angle in radians
+constexpr double kPerMm = 1000;             // of a length in m
 
 /// Description of a column of the list.
 std::string listed_as(const std::string& name) {
-    for (const Table::Column& c : task::kTrialListColumns) {
+    for (const Table::Column& c : list_figures(rows::AskedRow{}).columns) {
         if (c.name == name) return c.description;
     }
     return "of trial-list.csv";
@@ -148,7 +150,7 @@ void TrialFinder::add(const frame::Frame& frame) {
     if (frame.task.outcome >= 0) row.outcome = frame.task.outcome;
     // kept, since the perturbation may not act in all of the trial
     if (frame.task.share != 0) row.share = frame.task.share;
-    TrialMeasures& m = row.measures;
+    rows::TrialMeasures& m = row.measures;
     m.peak_grip = std::fmax(m.peak_grip, frame.grip_force);
     for (const frame::FingerFrame& finger : frame.fingers)
         m.peak_force = std::max(m.peak_force, finger.f_sent_W.norm());
@@ -168,9 +170,9 @@ void TrialFinder::measure_angle(Row& row, const Reach& reach, const frame::Frame
     if (arm.norm() < reach.plan.distance) return;
     const Vec3 way = reach.plan.to_W - reach.plan.from_W;
     row.measures.reach_time = row.end - row.start;
-    row.measures.hand_angle = angle_about(reach.plan.axis_W, way, arm);
+    row.measures.hand_angle_deg = kPerDegree * angle_about(reach.plan.axis_W, way, arm);
     const Vec3 shown = frame::displayed_handle(frame, reach.finger).p - reach.plan.from_W;
-    row.measures.shown_angle = angle_about(reach.plan.axis_W, way, shown);
+    row.measures.shown_angle_deg = kPerDegree * angle_about(reach.plan.axis_W, way, shown);
 }
 
 /// Extents are measured from where the handle set out, since a finger that holds something is not
@@ -186,25 +188,25 @@ void TrialFinder::measure_extent(Row& row, const Reach& reach, const frame::Fram
     const Vec3 along = way.normalized();
     if (!row.stroke.add(finger.v_WH.dot(along))) return;
     row.measures.reach_time = row.end - row.start;
-    row.measures.hand_extent = (finger.p_WH - *row.hand_start_W).dot(along);
-    row.measures.shown_extent = (shown_W - row.shown_start_W).dot(along);
-    row.measures.wanted_extent = way.norm();
+    row.measures.hand_extent_mm = kPerMm * (finger.p_WH - *row.hand_start_W).dot(along);
+    row.measures.shown_extent_mm = kPerMm * (shown_W - row.shown_start_W).dot(along);
+    row.measures.wanted_extent_mm = kPerMm * way.norm();
 }
 
 Table TrialFinder::table(const recording::SessionInfo& info) const {
     Table table;
-    table.columns = list_figures(TrialHead{}).columns;
+    table.columns = list_figures(rows::TrialHead{}).columns;
     // how a trial is measured is not repeated
     const size_t listed =
         std::min(column(list_, task::kFirstReachColumn), column(list_, task::kFirstMovementColumn));
     for (size_t k = 0; k < listed; ++k)
         table.columns.push_back({list_[0][k], listed_as(list_[0][k])});
     append(table.columns, columns_of_numbers(info));
-    append(table.columns, list_figures(TrialMeasures{}).columns);
+    append(table.columns, list_figures(rows::TrialMeasures{}).columns);
     check_columns(table, file_);
     for (const Row& r : rows_) {
         std::vector<Table::Cell> row =
-            list_figures(TrialHead{r.start, r.end, info.title, info.participant.id}).cells;
+            list_figures(rows::TrialHead{r.start, r.end, info.title, info.participant.id}).cells;
         const auto i = static_cast<size_t>(r.trial);
         for (size_t k = 0; k < listed; ++k) {
             const bool known = i < list_.size() && k < list_[i].size();
@@ -217,9 +219,9 @@ Table TrialFinder::table(const recording::SessionInfo& info) const {
         }
         append(row, cells_of_numbers(info, r.variables, r.last, r.decided));
         const auto outcome = static_cast<size_t>(r.outcome);
-        TrialMeasures measures = r.measures;
+        rows::TrialMeasures measures = r.measures;
         measures.outcome = r.outcome >= 0 && outcome < info.outcomes.size() ? info.outcomes[outcome]
-                                                                            : kInterrupted;
+                                                                            : rows::kInterrupted;
         append(row, list_figures(measures).cells);
         table.rows.push_back(row);
     }
@@ -232,24 +234,29 @@ size_t TrialFinder::ended() const {
 }
 
 std::vector<Table::Column> trial_columns() {
-    std::vector<Table::Column> out = list_figures(TrialHead{}).columns;
-    append(out, task::kTrialListColumns);
-    append(out, list_figures(TrialMeasures{}).columns);
+    std::vector<Table::Column> out = list_figures(rows::TrialHead{}).columns;
+    append(out, list_figures(rows::AskedRow{}).columns);
+    append(out, list_figures(rows::TrialMeasures{}).columns);
     append(out, recording::kMovedByColumns);
     return out;
 }
 
+int sessions_before(const recording::SessionFolder& folder) {
+    if (!is_there(folder.file(kBefore))) return 0;
+    int last = 1;
+    for (const rows::TrialRow& row : rows::TrialFile(folder.file(kBefore)))
+        last = std::max(last, row.head.session);
+    return last;
+}
+
 void number_session(Table& own, const recording::SessionFolder& folder) {
-    if (!is_there(folder.file(kBefore))) return;
-    const CsvFile before(folder.file(kBefore));
-    double last = 1;
-    for (size_t i = 0; i < before.rows(); ++i)
-        last = std::fmax(last, before.number(i, "session_num"));
+    const int last = sessions_before(folder);
+    if (last == 0) return;
     const auto number = static_cast<size_t>(
         std::find_if(own.columns.begin(), own.columns.end(),
                      [](const Table::Column& c) { return c.name == "session_num"; }) -
         own.columns.begin());
-    for (std::vector<Table::Cell>& row : own.rows) row.at(number) = last + 1;
+    for (std::vector<Table::Cell>& row : own.rows) row.at(number) = last + 1.0;
 }
 
 Table with_earlier(const Table& own, const recording::SessionFolder& folder) {
@@ -267,7 +274,7 @@ Table with_earlier(const Table& own, const recording::SessionFolder& folder) {
     for (const Table::Column& c : own.columns) places.push_back(column(before, c.name));
     for (size_t i = 1; i < before.size(); ++i) {
         if (before[i].size() != before[0].size()) continue;
-        if (before[i][outcome] == kInterrupted) continue;  // done again here
+        if (before[i][outcome] == rows::kInterrupted) continue;  // done again here
         std::vector<Table::Cell>& row = table.rows.emplace_back();
         for (const size_t place : places)
             row.push_back(cell(place < before[i].size() ? before[i][place] : ""));

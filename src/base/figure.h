@@ -96,6 +96,46 @@ Table figure_table(const Rows& rows) {
     return out;
 }
 
+/// Adds the columns of a struct to a table, and its cells to a row of that table.
+template <class Figures>
+void add_columns(Table& table) {
+    for (Table::Column& column : list_figures(Figures{}).columns)
+        table.columns.push_back(std::move(column));
+}
+template <class Figures>
+void add_cells(std::vector<Table::Cell>& row, const Figures& figures) {
+    for (Table::Cell& cell : list_figures(figures).cells) row.push_back(std::move(cell));
+}
+
+/// How a member of a struct is written: its column, and what the member is multiplied by.
+struct FigureColumn {
+    Table::Column column;
+    double scale = 1;
+};
+class FigureFinder {
+  public:
+    explicit FigureFinder(const void* member) : member_(member) {}
+    template <class T>
+    void operator()(std::string_view name, const T& value, std::string_view unit,
+                    std::string_view what) {
+        if (static_cast<const void*>(&value) != member_) return;
+        const FigureForm form = figure_form(name, unit);
+        found = {{form.key, std::string(what), std::string(unit == "1" ? "" : unit)}, form.scale};
+    }
+    FigureColumn found;
+
+  private:
+    const void* member_;
+};
+/// The column of a member that the struct lists.
+template <class Figures, class Member>
+FigureColumn figure_column(Member Figures::*member) {
+    const Figures figures{};
+    FigureFinder finder(&(figures.*member));
+    Figures::visit(figures, finder);
+    return finder.found;
+}
+
 /// Adds a row to a table, and sets the table's columns.
 void add_row(Table& table, FigureLister row);
 

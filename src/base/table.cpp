@@ -251,22 +251,27 @@ CsvFile CsvFile::given(const std::string& file, Diagnostics& diagnostics,
     return out;
 }
 
-size_t CsvFile::find(const std::string& column) const {
-    return static_cast<size_t>(std::find(header_.begin(), header_.end(), column) - header_.begin());
+std::optional<size_t> CsvFile::column(const std::string& name) const {
+    const auto found = std::find(header_.begin(), header_.end(), name);
+    if (found == header_.end()) return std::nullopt;
+    return static_cast<size_t>(found - header_.begin());
+}
+
+const std::string& CsvFile::text(size_t row, size_t column) const {
+    static const std::string missing;
+    return column < rows_[row].size() ? rows_[row][column] : missing;
 }
 
 std::string CsvFile::text(size_t row, const std::string& column) const {
-    const size_t i = find(column);
-    return i < rows_[row].size() ? rows_[row][i] : "";
+    return text(row, this->column(column).value_or(header_.size()));
+}
+
+double CsvFile::number(size_t row, size_t column) const {
+    return any_number(text(row, column)).value_or(kUnmeasured);
 }
 
 double CsvFile::number(size_t row, const std::string& column) const {
     return any_number(text(row, column)).value_or(kUnmeasured);
-}
-
-int CsvFile::whole(size_t row, const std::string& column) const {
-    const double value = number(row, column);
-    return std::abs(value) <= std::numeric_limits<int>::max() ? static_cast<int>(value) : 0;
 }
 
 }  // namespace dihaptic

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -65,12 +66,14 @@ class CsvFile {
     Place head() const { return {file_, head_}; }
     const std::vector<std::string>& columns() const { return header_; }
     size_t rows() const { return rows_.size(); }
-    bool has(const std::string& column) const { return find(column) < header_.size(); }
+    /// Position of the column of that name; nullopt if there is none.
+    std::optional<size_t> column(const std::string& name) const;
+    bool has(const std::string& name) const { return column(name).has_value(); }
+    const std::string& text(size_t row, size_t column) const;
     std::string text(size_t row, const std::string& column) const;
     /// NaN where the cell holds no number.
+    double number(size_t row, size_t column) const;
     double number(size_t row, const std::string& column) const;
-    /// A number without its decimals; 0 where the cell holds none, or one that is too large.
-    int whole(size_t row, const std::string& column) const;
     /// Gives a column of an earlier version's table the name that it has now.
     void rename(const std::string& was, const std::string& now) {
         std::replace(header_.begin(), header_.end(), was, now);
@@ -78,8 +81,6 @@ class CsvFile {
 
   private:
     CsvFile() = default;
-    size_t find(const std::string& column) const;
-
     std::string file_;
     int head_ = 1;
     std::vector<int> lines_;  // of a given table's rows

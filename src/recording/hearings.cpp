@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "base/regular_file.h"
-#include "base/table.h"
+#include "rows/row_file.h"
 
 namespace dihaptic::recording {
 
@@ -24,13 +24,8 @@ std::vector<Hearing> read_hearings(const SessionFolder& folder) {
     std::error_code unreadable;
     // the program may have been killed before it wrote the first line
     if (!is_there(file) || std::filesystem::file_size(file, unreadable) == 0) return {};
-    const CsvFile table(file);
     std::vector<Hearing> out;
-    for (size_t i = 0; i < table.rows(); ++i) {
-        const double tick = table.number(i, "tick");
-        const Hearing hearing{std::isfinite(tick) ? static_cast<int64_t>(tick) : -1,
-                              table.text(i, "sound"), table.number(i, "asked_s"),
-                              table.number(i, "heard_s")};
+    for (const Hearing& hearing : rows::RowFile<Hearing>(file)) {
         // the last line may be cut off, if the program was killed
         if (hearing.tick >= 0 && std::isfinite(hearing.heard)) out.push_back(hearing);
     }

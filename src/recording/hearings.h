@@ -6,16 +6,25 @@
 #include <string>
 #include <vector>
 
+#include "base/unmeasured.h"
 #include "recording/session.h"
 
 namespace dihaptic::recording {
 
 /// A sound that began.
 struct Hearing {
-    int64_t tick = 0;  ///< that asked for it
+    int64_t tick = -1;  ///< that asked for it
     std::string sound;
-    double asked = 0;  ///< the tick's session time [s]
-    double heard = 0;  ///< session time at which its first sample was heard [s]
+    double asked = kUnmeasured;  ///< the tick's session time [s]
+    double heard = kUnmeasured;  ///< session time at which its first sample was heard [s]
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("tick", f.tick, "1", "that asked for it");
+        v("sound", f.sound, "", "name");
+        v("asked", f.asked, "s", "the tick's time in the session");
+        v("heard", f.heard, "s", "when its first sample was heard");
+    }
 };
 
 class HearingsWriter {

@@ -7,8 +7,7 @@
 #include <filesystem>
 
 #include "base/regular_file.h"
-#include "base/table.h"
-#include "base/unmeasured.h"
+#include "rows/row_file.h"
 
 namespace dihaptic::recording {
 
@@ -25,13 +24,9 @@ Showings::Showings(const SessionFolder& folder) {
     std::error_code unreadable;
     // the program may have been killed before it wrote the first line
     if (!is_there(file) || std::filesystem::file_size(file, unreadable) == 0) return;
-    const CsvFile table(file);
-    for (size_t i = 0; i < table.rows(); ++i) {
-        const double tick = table.number(i, "tick");
-        const double time = table.number(i, "shown_s");
+    for (const Showing& showing : rows::RowFile<Showing>(file)) {
         // the last line may be cut off, if the program was killed
-        if (std::isfinite(tick) && std::isfinite(time))
-            showings_.push_back({static_cast<int64_t>(tick), time});
+        if (showing.tick >= 0 && std::isfinite(showing.time)) showings_.push_back(showing);
     }
 }
 

@@ -7,13 +7,20 @@
 #include <limits>
 #include <vector>
 
+#include "base/unmeasured.h"
 #include "recording/session.h"
 
 namespace dihaptic::recording {
 
 struct Showing {
-    int64_t tick = 0;
-    double time = 0;  ///< session time when the picture was handed to the screen [s]
+    int64_t tick = -1;
+    double time = kUnmeasured;  ///< session time when the picture was handed to the screen [s]
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("tick", f.tick, "1", "of the picture");
+        v("shown", f.time, "s", "when the picture was handed to the screen");
+    }
 };
 
 class ShowingsWriter {

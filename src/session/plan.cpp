@@ -12,12 +12,12 @@
 #include "base/named_file.h"
 #include "base/number.h"
 #include "base/regular_file.h"
-#include "base/table.h"
 #include "base/text_file.h"
 #include "person/person.h"
 #include "person/simulated_limits.h"
 #include "recording/seal.h"
 #include "rig/libraries.h"
+#include "rows/trial_row.h"
 #include "session/plan_checks.h"
 #include "session/safety_limits.h"
 #include "sound/player.h"
@@ -314,23 +314,21 @@ std::vector<task::Attempt> attempts_made(const task::TaskPlan& plan, const std::
     checksum = checksum_of(text);
     if (text.empty()) throw bad("is empty");
     if (!text.ends_with('\n')) throw bad("is cut off in its last line");
-    const CsvFile trials(file);
-    if (!trials.has("outcome")) throw bad("has no column 'outcome'");
+    const rows::TrialFile trials(file);
+    if (!trials.column("outcome")) throw bad("has no column 'outcome'");
     std::vector<task::Attempt> out;
-    for (size_t i = 0; i < trials.rows(); ++i) {
-        const double trial = trials.number(i, "trial_num");
-        const double attempt = trials.number(i, "attempt");
-        const auto all = static_cast<double>(plan.trials.size());
-        if (!(trial >= 1 && trial <= all && attempt >= 1 && attempt < INT_MAX))
+    for (size_t i = 0; i < trials.size(); ++i) {
+        const int trial = trials[i].asked.trial, attempt = trials[i].measures.attempt;
+        if (trial < 1 || static_cast<size_t>(trial) > plan.trials.size() || attempt < 1)
             throw bad("has a row without a trial of the session's, or its attempt");
-        const std::string outcome = trials.text(i, "outcome");
+        const std::string& outcome = trials[i].measures.outcome;
         const auto same = [&](const task::TaskPlan::Outcome& o) { return o.name == outcome; };
         const auto found = std::find_if(plan.outcomes.begin(), plan.outcomes.end(), same);
         out.push_back(
-            {static_cast<int>(trial) - 1, static_cast<int>(attempt),
+            {trial - 1, attempt,
              found == plan.outcomes.end() ? -1 : static_cast<int>(found - plan.outcomes.begin())});
         for (const task::Variable& variable : plan.task.variables) {
-            const double value = trials.number(i, task::next_column(variable.name));
+            const double value = trials.number(i, trials.column(task::next_column(variable.name)));
             if (!std::isfinite(value)) throw bad("has a row without the value of a variable");
             out.back().variables.push_back(value * split_unit(variable.name).si);
         }

@@ -12,9 +12,9 @@
 #include "base/plural.h"
 #include "base/regular_file.h"
 #include "base/shell_word.h"
-#include "base/table.h"
 #include "base/text_file.h"
 #include "recording/raw_log.h"
+#include "rows/trial_row.h"
 
 namespace dihaptic::session {
 namespace {
@@ -62,21 +62,22 @@ const char* who_goes_on(Mover mover) {
     }
 }
 
-/// The table in a file; nullopt if it is not there, or cannot be read.
-std::optional<CsvFile> table_in(const std::string& file) {
+/// The rows of a table; none if it is not there, or cannot be read.
+template <class Row>
+std::vector<Row> rows_in(const std::string& file) {
     try {
-        return CsvFile(file);
+        const rows::RowFile<Row> table(file);
+        return {table.begin(), table.end()};
     } catch (const Error&) {
-        return std::nullopt;
+        return {};
     }
 }
 
 /// Number of trials with at least one attempt that ended, even if the trial is to be done again.
 size_t trials_done(const recording::SessionFolder& folder) {
-    const auto trials = table_in(folder.file("trials.csv"));
-    std::set<std::string> done;  // a trial may have several attempts
-    for (size_t i = 0; trials && i < trials->rows(); ++i) {
-        if (trials->text(i, "outcome") != "interrupted") done.insert(trials->text(i, "trial_num"));
+    std::set<int> done;  // a trial may have several attempts
+    for (const rows::TrialRow& row : rows_in<rows::TrialRow>(folder.file("trials.csv"))) {
+        if (row.measures.outcome != rows::kInterrupted) done.insert(row.asked.trial);
     }
     return done.size();
 }
@@ -110,9 +111,8 @@ std::optional<Unfinished> unfinished(const recording::SessionFolder& folder,
     // a session that was killed has no tables yet
     const bool killed = info.state == SessionState::running;
     if (!killed && !may_go_on(folder)) return std::nullopt;
-    const auto list = table_in(folder.file("trial-list.csv"));
-    return Unfinished{folder.path(), info.started, trials_done(folder), list ? list->rows() : 0,
-                      info.moved_by};
+    const auto list = rows_in<rows::AskedRow>(folder.file("trial-list.csv"));
+    return Unfinished{folder.path(), info.started, trials_done(folder), list.size(), info.moved_by};
 }
 
 /// The session in the folder `parent` that goes on with the one of that name; "" if there is none.

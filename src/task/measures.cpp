@@ -194,26 +194,6 @@ class MeasureChecker {
     Place place_;
 };
 
-/// The columns of a movement, each with its cell.
-std::vector<std::pair<Table::Column, Table::Cell>> cells_of(const MovementPlan& movement) {
-    std::vector<std::pair<Table::Column, Table::Cell>> out;
-    const auto add = [&](const std::string& what, const char* unit, const Vec3& v,
-                         const char* description) {
-        for (int k = 0; k < 3; ++k)
-            out.push_back({{what + "xyz"[k] + unit, k == 0 ? description : ""}, v[k]});
-    };
-    add("movement_from_", "_mm", movement.from_W * 1e3, "of which measures are taken");
-    add("movement_to_", "_mm", movement.to_W * 1e3, "");
-    add("movement_axis_", "", movement.axis_W, "left is left of the line, seen from its tip");
-    out.push_back({{"movement_channel", "1: a channel holds it"}, movement.channel ? 1.0 : 0.0});
-    out.push_back({{"movement_field_share", "of the ideal field"}, movement.field_share});
-    for (int k = 0; k < 3; ++k) {
-        const std::string row = std::string("movement_ideal_") + "xyz"[k];
-        add(row, "_Ns_m", movement.ideal.row(k), "ideal field's force over velocity");
-    }
-    return out;
-}
-
 /// Whether the load is a channel that keeps what moves from going to the side: not the plane that
 /// it moves in. `regions_W`: centres of the regions [m].
 bool holds_to_line(const Load& load, std::span<const Vec3> regions_W,
@@ -236,7 +216,7 @@ void compare(MovementPlan& out, const Task& task, const TaskPlan::Cell& cell, co
     const PerturbationSpec* ideal = ideal_of(task, movement);
     if (ideal != nullptr)
         out.ideal = cell.perturbations[place_of(task.perturbations, ideal->name)].field_gain();
-    out.channel = false;
+    out.channel = 0;
     out.field_share = 0;
     Mat3 gain = Mat3::Zero();
     for (const int p : trial.perturb) {
@@ -245,10 +225,10 @@ void compare(MovementPlan& out, const Task& task, const TaskPlan::Cell& cell, co
         const bool holds = std::any_of(loads.begin(), loads.end(), [&](const Load& load) {
             return acts_on(load.spec(), movement) && holds_to_line(load, cell.p_W, out);
         });
-        out.channel = out.channel || holds;
+        if (holds) out.channel = 1;
         gain += cell.perturbations[i].field_gain();
     }
-    if (out.channel) {
+    if (out.channel == 1) {
         out.field_share = kUnmeasured;
     } else if (ideal != nullptr && !gain.isZero(0)) {
         out.field_share = gain.cwiseProduct(out.ideal).sum() / out.ideal.squaredNorm();
@@ -325,7 +305,7 @@ void check_measures(const TaskPlan& plan, const scene::Scene& scene, Diagnostics
 
 void add_movements(Table& list, const TaskPlan& plan, const scene::Scene& scene) {
     if ((needs_of(plan.task) & MeasureRow::movement) == 0) return;
-    for (const auto& [column, unused] : cells_of({})) list.columns.push_back(column);
+    add_columns<MovementPlan>(list);
     const Movement movement = movement_of(plan.task, scene.fingers.front().name);
     const size_t from = place_of(plan.task.regions, movement.from);
     const size_t to = place_of(plan.task.regions, movement.to);
@@ -339,30 +319,14 @@ void add_movements(Table& list, const TaskPlan& plan, const scene::Scene& scene)
         out.to_W = cell.p_W[to];
         out.axis_W = movement.axis ? movement.axis->normalized() : usual_axis(cell);
         compare(out, plan.task, cell, trial, movement);
-        for (const auto& [unused, value] : cells_of(out)) list.rows[i].push_back(value);
+        add_cells(list.rows[i], out);
     }
 }
 
 std::vector<MovementPlan> read_movements(const std::string& file) {
-    const CsvFile list(file);
-    std::vector<MovementPlan> out;
-    if (!list.has(kFirstMovementColumn)) return out;
-    for (size_t i = 0; i < list.rows(); ++i) {
-        const auto vector = [&](const std::string& what, const char* unit) {
-            Vec3 v;
-            for (int k = 0; k < 3; ++k) v[k] = list.number(i, what + "xyz"[k] + unit);
-            return v;
-        };
-        MovementPlan& movement = out.emplace_back();
-        movement.from_W = vector("movement_from_", "_mm") * 1e-3;
-        movement.to_W = vector("movement_to_", "_mm") * 1e-3;
-        movement.axis_W = vector("movement_axis_", "");
-        movement.channel = list.number(i, "movement_channel") == 1;
-        movement.field_share = list.number(i, "movement_field_share");
-        for (int k = 0; k < 3; ++k)
-            movement.ideal.row(k) = vector(std::string("movement_ideal_") + "xyz"[k], "_Ns_m");
-    }
-    return out;
+    const rows::RowFile<MovementPlan> list(file);
+    if (!list.column(kFirstMovementColumn)) return {};
+    return {list.begin(), list.end()};
 }
 
 }  // namespace dihaptic::task

@@ -12,6 +12,7 @@
 #include "base/field.h"
 #include "base/geometry.h"
 #include "base/table.h"
+#include "rows/row_file.h"
 
 namespace dihaptic::scene {
 struct Scene;
@@ -228,7 +229,7 @@ struct MovementPlan {
     Vec3 from_W = Vec3::Zero();
     Vec3 to_W = Vec3::Zero();
     Vec3 axis_W = Vec3::UnitZ();
-    bool channel = false;       ///< a channel holds it
+    int channel = 0;            ///< 1: a channel holds it
     double field_share = 0;     ///< the trial's field over the ideal one; NaN in a channel
     Mat3 ideal = Mat3::Zero();  ///< force of the ideal field over velocity [N*s/m]
 
@@ -236,6 +237,21 @@ struct MovementPlan {
     /// they are not defined.
     Vec3 along_W() const { return (to_W - from_W).normalized(); }
     Vec3 left_W() const;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        rows::visit_vector(v, "movement_from", f.from_W, "mm", "where its straight line begins");
+        rows::visit_vector(v, "movement_to", f.to_W, "mm", "where that leads");
+        rows::visit_vector(v, "movement_axis", f.axis_W, "1", "from whose tip left is left of it");
+        v("movement_channel", f.channel, "1", "1: a channel holds it");
+        v("movement_field_share", f.field_share, "1",
+          "the trial's field over the ideal one; empty in a channel");
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 3; ++column)
+                v(std::string("movement_ideal_") + "xyz"[row] + "xyz"[column], f.ideal(row, column),
+                  "N*s/m", "force of the ideal field over velocity");
+        }
+    }
 };
 
 struct Task;

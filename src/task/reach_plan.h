@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "rows/row_file.h"
 #include "task/task_plan.h"
 
 namespace dihaptic::task {
@@ -17,6 +18,17 @@ struct ReachPlan {
     Vec3 axis_W = Vec3::UnitZ();  ///< axis of the angles; unit vector
     int phase = -1;               ///< phase in which it is measured; -1: none
     Measure measure = Measure::angle;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("reach_finger", f.finger, "", "whose reach is measured");
+        v("reach_at", f.distance, "mm", "from its beginning");
+        rows::visit_vector(v, "reach_from", f.from_W, "mm", "where it begins");
+        rows::visit_vector(v, "reach_to", f.to_W, "mm", "where it leads");
+        rows::visit_vector(v, "reach_axis", f.axis_W, "1", "that angles are about");
+        v("reach_phase", f.phase, "1", "in which it is measured");
+        v("reach_measure", f.measure, "", "angle or extent");
+    }
 };
 
 /// Adds the columns of the reaches to a list with a row for each of the plan's trials. The task

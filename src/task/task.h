@@ -8,6 +8,7 @@
 #include <string>
 
 #include "hand/spec.h"
+#include "rows/trial_kind.h"
 #include "task/draws.h"
 #include "task/drive.h"
 #include "task/measures.h"
@@ -390,27 +391,7 @@ constexpr auto enum_names(Order) {
     return std::array{"sequential", "shuffled", "latin_square", "counterbalanced"};
 }
 
-/// visual_clamp: what is shown cannot err, and the hand is free; force_channel: the hand is held to
-/// a line, and what it presses against is measured.
-enum class TrialKind {
-    practice,
-    baseline,
-    perturbed,
-    catch_trial,
-    visual_clamp,
-    force_channel,
-    washout
-};
-constexpr auto enum_names(TrialKind) {
-    return std::array{"practice",     "baseline",      "perturbed", "catch",
-                      "visual_clamp", "force_channel", "washout"};
-}
-/// Both kinds of clamp, in files and recordings of earlier versions.
-constexpr OldName old_name(TrialKind) {
-    return {"error_clamp",
-            "Write visual_clamp, where what is shown follows a line (toward), or force_channel, "
-            "where the hand is held to one."};
-}
+using rows::TrialKind;
 
 /// Trials of another kind, inserted at random places of a block.
 struct Insert {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/unmeasured.h"
+#include "rows/procedure_row.h"
 #include "task/check_blocks.h"
 #include "task/clearance.h"
 #include "task/factors.h"
@@ -837,29 +838,14 @@ Table frozen_list(const TaskPlan& plan, const scene::Scene& scene) {
 }
 
 Table procedure_table(const TaskPlan& plan) {
-    Table table;
-    table.columns = {
-        {"procedure", "name"},
-        {"kind", "staircase, quest, quest_plus or constant"},
-        {"perturbation", "whose share it chooses, or that acts"},
-        {"logarithmic", "the share, or the number, is 10^level"},
-        {"yes", "outcome that grows likelier with the level"},
-        {"no", "the other"},
-        {"sigmoid", "of the psychometric function"},
-        {"shape", "its shape, where the procedure takes it as known; empty: it is fitted"},
-        {"guess", "its lower end"},
-        {"guess_is_lapse", "or the lapse rate is"},
-        {"level", "column of trials.csv with the number that it chooses; empty: share"},
-        {"standard", "of that number"}};
-    const auto yes_no = [](bool yes) { return std::string(yes ? "yes" : "no"); };
+    std::vector<rows::ProcedureRow> out;
     for (const ProcedureSpec& p : plan.task.procedures) {
-        table.rows.push_back(
-            {p.name, std::string(p.kind()), fmt::format("{}", fmt::join(p.perturb, kBetweenNames)),
-             yes_no(p.logarithmic), p.yes, p.no, std::string(enum_name(p.fitted())),
-             p.known_shape().value_or(kUnmeasured), p.guess, yes_no(p.guess_is_lapse), p.level,
-             p.standard.value_or(kUnmeasured)});
+        out.push_back({p.name, std::string(p.kind()),
+                       fmt::format("{}", fmt::join(p.perturb, kBetweenNames)), p.logarithmic, p.yes,
+                       p.no, p.fitted(), p.known_shape().value_or(kUnmeasured), p.guess,
+                       p.guess_is_lapse, p.level, p.standard.value_or(kUnmeasured)});
     }
-    return table;
+    return figure_table<rows::ProcedureRow>(out);
 }
 
 }  // namespace dihaptic::task

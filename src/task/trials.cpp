@@ -368,12 +368,17 @@ Table trial_list(const Task& task, const std::vector<Trial>& trials) {
     const std::vector<Factor> factors = factors_of(task);
     for (size_t i = 0; i < trials.size(); ++i) {
         const Trial& t = trials[i];
-        table.rows.push_back({static_cast<double>(i + 1), static_cast<double>(t.number),
-                              task.blocks[static_cast<size_t>(t.block)].name,
-                              static_cast<double>(t.in_block), std::string(enum_name(t.kind)),
-                              name_at(task.rounds, t.round), name_at(task.conditions, t.condition),
-                              perturbations_cell(task, t.perturb), t.share,
-                              name_at(task.procedures, t.procedure)});
+        const rows::AskedRow row{static_cast<int>(i) + 1,
+                                 t.number,
+                                 task.blocks[static_cast<size_t>(t.block)].name,
+                                 t.in_block,
+                                 t.kind,
+                                 name_at(task.rounds, t.round),
+                                 name_at(task.conditions, t.condition),
+                                 perturbations_cell(task, t.perturb),
+                                 t.share,
+                                 name_at(task.procedures, t.procedure)};
+        table.rows.push_back(list_figures(row).cells);
         add_own_cells(task, factors, t, table.rows.back());
     }
     return table;

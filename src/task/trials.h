@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "base/table.h"
+#include "rows/trial_row.h"
 #include "task/task.h"
 
 namespace dihaptic::task {
@@ -44,17 +45,7 @@ std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed);
 
 /// Columns of trial-list.csv, which trials.csv repeats for each trial. Columns of the task's
 /// factors and draws follow them; in trial-list.csv, then columns on how a reach is measured.
-inline const std::vector<Table::Column> kTrialListColumns = {
-    {"trial_num", "number in the session, from 1"},
-    {"block_num", "number, from 1"},
-    {"block", "name"},
-    {"trial_num_in_block", "number, from 1"},
-    {"kind", "practice, baseline, perturbed, catch, visual_clamp, force_channel or washout"},
-    {"round", "name"},
-    {"condition", "name"},
-    {"perturbation", "name, or names joined by ' + '; empty: none"},
-    {"share", "of the perturbation that acts; empty: the procedure's to say"},
-    {"procedure", "name; empty: none"}};
+inline const std::vector<Table::Column> kTrialListColumns = list_figures(rows::AskedRow{}).columns;
 /// Column of trials.csv with a variable's value after the trial, in the unit of its name.
 inline std::string next_column(const std::string& variable) {
     return "next_" + variable;

@@ -396,22 +396,25 @@ task:
         return file
 
     def test_a_block_stays_where_it_lies_on_a_turntable(self):
-        """With another one on top; the plate speeds up and slows down so gently that friction holds both."""
-        with tempfile.TemporaryDirectory() as name:
-            file = self.on_a_plate(name, """\
+        """With another one on top; the plate speeds up and slows down so gently that friction holds both.
+
+        Lemke's method takes 6 ms for a tick of this: its turn speeds up as fast, and ends sooner."""
+        for solver in SOLVERS:
+            share = 0.25 if solver == "stewart_trinkle" else 1
+            with self.subTest(solver=solver), tempfile.TemporaryDirectory() as name:
+                file = self.on_a_plate(name, """\
   - { name: block, shape: box, size_mm: [40, 40, 40], mass_g: 100, position_mm: [50, 0, 20], friction: 0.5 }
   - { name: above, shape: box, size_mm: [40, 40, 40], mass_g: 100, position_mm: [60, 10, 60], friction: 0.5 }
-""", """\
-    - { name: turn, drive: [{ body: plate, axis: [0, 0, 1], angle_deg: 720, duration_s: 6 }],
-        exits: [{ when: time, after_s: 7, outcome: done }] }
+""", f"""\
+    - {{ name: turn, exits: [{{ when: time, after_s: {6 * share ** 0.5 + 1}, outcome: done }}],
+        drive: [{{ body: plate, axis: [0, 0, 1], angle_deg: {720 * share}, duration_s: {6 * share ** 0.5} }}] }}
 """)
-            for solver in SOLVERS:
-                with self.subTest(solver=solver):
-                    result = dihaptic("run", str(file), "--out", name + "/" + solver, "--solver", solver)
-                    self.assertEqual(result.returncode, 0, result.stderr)
-                    session = dh.load(session_of(name + "/" + solver))
-                    for body, at in (("block", (0.05, 0, 0.02)), ("above", (0.06, 0.01, 0.06))):
-                        self.assertLess(abs(session[body + ".position"][-2] - at).max(), 1e-5)
+                result = dihaptic("run", str(file), "--out", name, "--solver", solver)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                session = dh.load(session_of(name))
+                side = -1 if share == 0.25 else 1  # after half a turn
+                for body, at in (("block", (0.05, 0, 0.02)), ("above", (0.06, 0.01, 0.06))):
+                    self.assertLess(abs(session[body + ".position"][-2] - np.multiply(at, (side, side, 1))).max(), 1e-5)
 
     def test_that_follow_the_time_in_a_state_begin_at_its_beginning(self):
         """What lies on the plate is carried along without a slip: it needs less than friction gives."""

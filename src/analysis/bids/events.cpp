@@ -14,17 +14,21 @@
 #include "analysis/trials.h"
 #include "base/figure.h"
 #include "base/regular_file.h"
+#include "rows/event_row.h"
 
 namespace dihaptic::analysis::bids {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Columns of trials.csv that are known before a trial begins: rows of moments in it have them too.
-constexpr const char* kAskedFor[] = {"trial_num",          "attempt", "block_num", "block",
-                                     "trial_num_in_block", "kind",    "round",     "condition",
-                                     "perturbation",       "share",   "procedure"};
 constexpr const char* kLift = "lift_";  // prefix of the names of columns of lifts.csv
+
+/// A column of the data set's table, and where its cells come from.
+struct Column : Table::Column {
+    enum class Of { asked, measured, lift };
+    Of of = Of::asked;
+    size_t from = 0;  ///< position in trials.csv or lifts.csv
+};
 
 /// An attempt at a trial in this session, and its row in trials.csv.
 struct Attempt {
@@ -34,47 +38,48 @@ struct Attempt {
 };
 
 /// Attempts of this session alone: trials.csv begins with those of the sessions that it resumes.
-std::vector<Attempt> attempts_of(const CsvFile& trials, const recording::SessionFolder& session) {
-    double earlier = 0;
-    if (const std::string before = session.file("trials-before.csv"); is_there(before)) {
-        const CsvFile table(before);
-        for (size_t i = 0; i < table.rows(); ++i)
-            earlier = std::fmax(earlier, table.number(i, "session_num"));
-    }
+std::vector<Attempt> attempts_of(const rows::TrialFile& trials,
+                                 const recording::SessionFolder& session) {
+    const int earlier = sessions_before(session);
     std::vector<Attempt> out;
-    for (size_t i = 0; i < trials.rows(); ++i) {
-        if (trials.number(i, "session_num") <= earlier) continue;
-        out.push_back({trials.number(i, "start_time"), trials.number(i, "stop_time"), i});
+    for (size_t i = 0; i < trials.size(); ++i) {
+        const rows::TrialHead& head = trials[i].head;
+        if (head.session > earlier) out.push_back({head.start, head.end, i});
     }
     return out;
 }
 
 /// Columns made from trials.csv and lifts.csv, with their descriptions.
-std::vector<Table::Column> columns_for(const CsvFile& trials, const CsvFile* lifts,
-                                       const recording::SessionFolder& session) {
-    std::map<std::string, Table::Column> known;
-    for (const Table::Column& c : trial_columns()) known[c.name] = c;
-    std::vector<Table::Column> out;
-    for (const char* name : kAskedFor)
-        if (trials.has(name)) out.push_back(known[name]);
+std::vector<Column> columns_for(const rows::TrialFile& trials, const rows::LiftFile* lifts,
+                                const recording::SessionFolder& session) {
+    std::vector<Column> out;
+    const auto add = [&](const auto& file, const Table::Column& column, Column::Of of) {
+        if (const auto from = file.column(column.name)) out.push_back({column, of, *from});
+    };
+    // rows of moments in a trial have what is known before it begins, too
+    std::vector<Table::Column> asked = list_figures(rows::AskedRow{}).columns;
+    std::vector<Table::Column> measured = list_figures(rows::TrialMeasures{}).columns;
+    asked.insert(asked.begin() + 1, measured.front());  // the number of the attempt
+    measured.erase(measured.begin());
+    for (const Table::Column& c : asked) add(trials, c, Column::Of::asked);
     // what happened or was measured in a trial: only the trial's own row has it
-    std::vector<Table::Column> measured = list_figures(TrialMeasures{}).columns;
     const task::Task task = read_frozen_task(session.file("task.yaml"));
     for (Table::Column& c : measure_columns_of(task)) measured.push_back(std::move(c));
-    for (const Table::Column& c : measured)
-        if (c.name != "attempt" && trials.has(c.name)) out.push_back(c);
+    for (const Table::Column& c : measured) add(trials, c, Column::Of::measured);
     if (lifts == nullptr) return out;
-    for (const Table::Column& c : list_figures(Lift{}).columns) {
-        if (c.name == "trial_num" || c.name == "attempt" || !lifts->has(c.name)) continue;
-        const bool lift = c.name == "lift";
-        out.push_back({lift ? c.name : kLift + c.name,
-                       (lift ? "grip and lift: " : "of the grip and lift: ") + c.description,
-                       c.unit});
+    const std::vector<Table::Column> of_lifts = list_figures(rows::LiftRow{}).columns;
+    for (size_t i = 2; i < of_lifts.size(); ++i) {  // after the numbers of trial and attempt
+        add(*lifts, of_lifts[i], Column::Of::lift);
+        if (out.back().of != Column::Of::lift || out.back().name != of_lifts[i].name) continue;
+        const bool mark = i == 2;
+        out.back().description =
+            (mark ? "grip and lift: " : "of the grip and lift: ") + out.back().description;
+        if (!mark) out.back().name = kLift + out.back().name;
     }
     return out;
 }
 
-Json sidecar(const std::vector<Table::Column>& columns, const recording::SessionInfo& info) {
+Json sidecar(const std::vector<Column>& columns, const recording::SessionInfo& info) {
     Json json{{"onset", {{"Description", "from the first tick of the recording"}, {"Units", "s"}}},
               {"duration", {{"Description", "of a trial; n/a: a moment"}, {"Units", "s"}}},
               {"trial_type",
@@ -98,7 +103,7 @@ Json sidecar(const std::vector<Table::Column>& columns, const recording::Session
               {"value", {{"Description", "of what happened, as said at trial_type"}}},
               {"moved_by", {{"Description", info.moved_by.describe()}}},
               {"simulated", {{"Description", recording::kMovedByColumns[0].description}}}};
-    for (const Table::Column& c : columns) {
+    for (const Column& c : columns) {
         json[c.name]["Description"] = c.description;
         if (!c.unit.empty()) json[c.name]["Units"] = c.unit;
     }
@@ -107,50 +112,44 @@ Json sidecar(const std::vector<Table::Column>& columns, const recording::Session
 
 class EventRows {
   public:
-    EventRows(const CsvFile& trials, const CsvFile* lifts, const recording::MovedBy& by,
-              const recording::SessionFolder& session)
+    EventRows(const rows::TrialFile& trials, const rows::LiftFile* lifts,
+              const recording::MovedBy& by, const recording::SessionFolder& session)
         : trials_(trials), lifts_(lifts), by_(by), columns_(columns_for(trials, lifts, session)) {
-        for (size_t i = 0; lifts != nullptr && i < lifts->rows(); ++i)
-            lift_of_[{lifts->text(i, "trial_num"), lifts->text(i, "attempt")}] = i;
+        for (size_t i = 0; lifts != nullptr && i < lifts->size(); ++i)
+            lift_of_[{(*lifts)[i].trial, (*lifts)[i].attempt}] = i;
     }
 
-    const std::vector<Table::Column>& columns() const { return columns_; }
+    const std::vector<Column>& columns() const { return columns_; }
     Row header() const {
         Row row{"onset", "duration", "trial_type", "value"};
-        for (const Table::Column& c : columns_) row.push_back(c.name);
+        for (const Column& c : columns_) row.push_back(c.name);
         row.insert(row.end(), {"simulated", "moved_by"});
         return row;
     }
     /// Row of an attempt, with all that is known of it.
     Row trial(const Attempt& attempt) const {
-        Row row{trials_.text(attempt.row, "start_time"),
-                fmt::format("{:.6g}", attempt.stop - attempt.start), "trial",
-                trials_.text(attempt.row, "outcome")};
-        const std::string nth = trials_.text(attempt.row, "attempt");
-        const auto lift = lift_of_.find(
-            {trials_.text(attempt.row, "trial_num"), nth.empty() ? "1" : nth});  // without a task
-        for (const Table::Column& c : columns_) {
-            const bool of_lift = c.name.starts_with("lift");
-            const std::string name = c.name.starts_with(kLift) ? c.name.substr(5) : c.name;
-            if (!of_lift) {
-                row.push_back(trials_.text(attempt.row, name));
+        const rows::TrialRow& of = trials_[attempt.row];
+        Row row{number_text(of.head.start), fmt::format("{:.6g}", attempt.stop - attempt.start),
+                "trial", of.measures.outcome};
+        // without a task, lifts are counted in each trial
+        const auto lift = lift_of_.find({of.asked.trial, std::max(of.measures.attempt, 1)});
+        for (const Column& c : columns_) {
+            if (c.of != Column::Of::lift) {
+                row.push_back(trials_.text(attempt.row, c.from));
             } else {
-                row.push_back(lift == lift_of_.end() ? "" : lifts_->text(lift->second, name));
+                row.push_back(lift == lift_of_.end() ? "" : lifts_->text(lift->second, c.from));
             }
         }
         return finished(row);
     }
     /// Row of a moment, in an attempt or between attempts.
-    Row moment(const std::string& onset, const std::string& what, const std::string& value,
-               const std::string& number, const Attempt* attempt) const {
-        Row row{onset, "n/a", what, value};
-        for (const Table::Column& c : columns_) {
-            const bool asked_for = std::find(std::begin(kAskedFor), std::end(kAskedFor), c.name) !=
-                                   std::end(kAskedFor);
-            if (attempt != nullptr && asked_for) {
-                row.push_back(trials_.text(attempt->row, c.name));
+    Row moment(const rows::EventRow& event, const Attempt* attempt) const {
+        Row row{number_text(event.time), "n/a", event.name, event.detail};
+        for (const Column& c : columns_) {
+            if (attempt != nullptr && c.of == Column::Of::asked) {
+                row.push_back(trials_.text(attempt->row, c.from));
             } else {
-                row.push_back(c.name == "trial_num" ? number : "");
+                row.push_back(&c == &columns_.front() ? number_text(event.trial) : "");
             }
         }
         return finished(row);
@@ -162,11 +161,11 @@ class EventRows {
         return row;
     }
 
-    const CsvFile& trials_;
-    const CsvFile* lifts_;
+    const rows::TrialFile& trials_;
+    const rows::LiftFile* lifts_;
     const recording::MovedBy& by_;
-    std::vector<Table::Column> columns_;
-    std::map<std::pair<std::string, std::string>, size_t> lift_of_;
+    std::vector<Column> columns_;  // the first has the number of the trial
+    std::map<std::pair<int, int>, size_t> lift_of_;
 };
 
 }  // namespace
@@ -174,23 +173,24 @@ class EventRows {
 std::optional<Events> events_of(const recording::SessionFolder& session,
                                 const recording::SessionInfo& info) {
     if (!is_there(session.file("events.csv"))) return std::nullopt;
-    const CsvFile moments(session.file("events.csv"));
-    const CsvFile trials(session.file("trials.csv"));
-    std::optional<CsvFile> lifts;
-    if (is_there(session.file("lifts.csv"))) lifts.emplace(session.file("lifts.csv"));
+    const rows::EventFile moments(session.file("events.csv"));
+    const rows::TrialFile trials(session.file("trials.csv"));
+    std::optional<rows::LiftFile> lifts;
+    if (is_there(session.file("lifts.csv")))
+        lifts.emplace(rows::read_lifts(session.file("lifts.csv")));
     const EventRows maker(trials, lifts ? &*lifts : nullptr, info.moved_by, session);
     const std::vector<Attempt> attempts = attempts_of(trials, session);
 
     std::vector<std::pair<double, Row>> rows;  // by onset [s]
     for (const Attempt& attempt : attempts) rows.emplace_back(attempt.start, maker.trial(attempt));
-    for (size_t i = 0; i < moments.rows(); ++i) {
-        if (moments.text(i, "event") == "trial") continue;  // the attempt has its own row
-        const double time = moments.number(i, "time_s");
-        const auto in_it = [&](const Attempt& a) { return a.start <= time && time <= a.stop; };
+    for (const rows::EventRow& moment : moments) {
+        if (moment.name == "trial") continue;  // the attempt has its own row
+        const auto in_it = [&](const Attempt& a) {
+            return a.start <= moment.time && moment.time <= a.stop;
+        };
         const auto found = std::find_if(attempts.begin(), attempts.end(), in_it);
-        rows.emplace_back(time, maker.moment(moments.text(i, "time_s"), moments.text(i, "event"),
-                                             moments.text(i, "detail"), moments.text(i, "trial"),
-                                             found == attempts.end() ? nullptr : &*found));
+        rows.emplace_back(moment.time,
+                          maker.moment(moment, found == attempts.end() ? nullptr : &*found));
     }
     std::stable_sort(rows.begin(), rows.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });

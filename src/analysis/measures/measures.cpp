@@ -110,7 +110,7 @@ void MeasureFinder::add(const frame::Frame& frame) {
     sequence_ = frame.sequence;
 }
 
-void MeasureFinder::end_attempt(const Lift* lift) {
+void MeasureFinder::end_attempt(const rows::LiftRow* lift) {
     if (attempt_.samples.empty()) return;
     const auto i = static_cast<size_t>(trial_ - 1);
     attempt_.plan = i < plans_.size() ? plans_[i] : task::MovementPlan{};

@@ -27,7 +27,7 @@ class MeasureFinder {
     void add(const frame::Frame& frame);
     /// Ends the attempt whose frames came last; does nothing between trials. `lift`: null if there
     /// is none.
-    void end_attempt(const Lift* lift);
+    void end_attempt(const rows::LiftRow* lift);
     /// Adds the measures' columns to a table with the columns `trial_num` and `attempt`.
     void add_to(Table& trials) const;
 

@@ -122,7 +122,7 @@ void AttemptMeasures::find_lines() {
 
 std::string AttemptMeasures::why_missing(const task::MeasureRow& row) const {
     using task::MeasureRow;
-    if ((row.needs & MeasureRow::channel) && (!attempt_.plan.channel || attempt_.share == 0))
+    if ((row.needs & MeasureRow::channel) && (attempt_.plan.channel == 0 || attempt_.share == 0))
         return "no channel";
     if (row.needs & MeasureRow::movement)
         return row.needs & MeasureRow::begun ? no_onset_ : no_end_;

@@ -26,8 +26,8 @@ struct MotionSample {
 struct Attempt {
     std::vector<MotionSample> samples;  ///< from its first tick to its last
     task::MovementPlan plan;
-    const Lift* lift = nullptr;  ///< null: no object, or one finger
-    double share = 0;            ///< of the perturbation that acted
+    const rows::LiftRow* lift = nullptr;  ///< null: no object, or one finger
+    double share = 0;                     ///< of the perturbation that acted
 };
 
 /// Phases of the states that measures are taken in; -1: none.
@@ -67,7 +67,7 @@ class AttemptMeasures {
     Values grip_latency() const;
     double path_length() const;
     double time(size_t i) const { return run_[i].time; }
-    const Lift& lift() const { return *attempt_.lift; }
+    const rows::LiftRow& lift() const { return *attempt_.lift; }
     /// From onset to end.
     std::span<const double> whole(const Values& of_run) const {
         return std::span(of_run).subspan(onset_, end_ - onset_ + 1);

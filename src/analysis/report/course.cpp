@@ -44,11 +44,11 @@ std::optional<CourseCharts::Excerpt> CourseCharts::excerpt_of(const SessionData&
     if (session.info.ticks * head.tick <= kLongest) return Excerpt{0, kLongest};
     if (!session.lifts) return std::nullopt;
     size_t i = 0;
-    while (i < session.lifts->rows() && session.lifts->text(i, "lift") != "complete") ++i;
-    if (i == session.lifts->rows()) return std::nullopt;
-    return Excerpt{session.lifts->number(i, "touch_s") - kBeside,
-                   session.lifts->number(i, "release_s") + kBeside,
-                   fmt::format("Trial {}", session.lifts->text(i, "trial_num"))};
+    while (i < session.lifts->size() && !(*session.lifts)[i].complete()) ++i;
+    if (i == session.lifts->size()) return std::nullopt;
+    const rows::LiftRow& lift = (*session.lifts)[i];
+    return Excerpt{lift.touch - kBeside, lift.release + kBeside,
+                   fmt::format("Trial {}", lift.trial)};
 }
 
 CourseCharts::CourseCharts(const SessionData& session, const recording::LogHead& head)

@@ -21,16 +21,16 @@ double time_of(size_t point) {
 }
 
 /// By trial and attempt: its condition, perturbation, and whether it was a catch trial.
-std::map<std::pair<std::string, std::string>, std::string> conditions_of(const CsvFile& trials) {
-    std::map<std::pair<std::string, std::string>, std::string> out;
-    for (size_t i = 0; i < trials.rows(); ++i) {
-        std::string text = trials.text(i, "condition");
+std::map<std::pair<int, int>, std::string> conditions_of(const rows::TrialFile& trials) {
+    std::map<std::pair<int, int>, std::string> out;
+    for (const rows::TrialRow& row : trials) {
+        std::string text = row.asked.condition;
         const auto also = [&](const std::string& what) {
             if (!what.empty()) text += (text.empty() ? "" : ", ") + what;
         };
-        also(trials.text(i, "perturbation"));
-        if (trials.text(i, "kind") == "catch") also("catch");
-        out[{trials.text(i, "trial_num"), trials.text(i, "attempt")}] = text;
+        also(row.asked.perturbation);
+        if (row.asked.kind == rows::TrialKind::catch_trial) also("catch");
+        out[{row.asked.trial, row.measures.attempt}] = text;
     }
     return out;
 }
@@ -63,17 +63,11 @@ Series single(const std::string& name, const char* colour, const std::vector<dou
 LiftCurves::LiftCurves(const SessionData& session, double tick) : tick_(tick) {
     if (!session.lifts) return;
     const auto conditions = conditions_of(session.trials);
-    const CsvFile& lifts = *session.lifts;
-    for (size_t i = 0; i < lifts.rows(); ++i) {
-        const std::string trial = lifts.text(i, "trial_num");
-        const auto found = conditions.find({trial, lifts.text(i, "attempt")});
-        if (lifts.text(i, "lift") != "complete" || std::isnan(lifts.number(i, "lift_off_s")))
-            continue;
-        lifts_.push_back({found == conditions.end() ? "" : found->second,
-                          trial,
-                          lifts.number(i, "lift_off_s"),
-                          {},
-                          {}});
+    for (const rows::LiftRow& lift : *session.lifts) {
+        const auto found = conditions.find({lift.trial, lift.attempt});
+        if (!lift.complete() || std::isnan(lift.lift_off)) continue;
+        lifts_.push_back(
+            {found == conditions.end() ? "" : found->second, lift.trial, lift.lift_off, {}, {}});
     }
     std::sort(lifts_.begin(), lifts_.end(),
               [](const Lift& a, const Lift& b) { return a.lift_off < b.lift_off; });

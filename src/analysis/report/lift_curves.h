@@ -26,7 +26,7 @@ class LiftCurves {
     static constexpr size_t kPoints = 161;
     struct Lift {
         std::string condition;
-        std::string trial;
+        int trial = 0;
         double lift_off = 0;  // [s]
         std::vector<double> grip;
         std::vector<double> load;

@@ -17,11 +17,12 @@ namespace dihaptic::analysis {
 namespace {
 
 /// How often a measure is missing, by why: "no movement (3), not over when its states ended (1)".
-std::string reasons(const CsvFile& trials, const std::string& measure) {
+std::string reasons(const rows::TrialFile& trials, const std::string& measure) {
+    const auto column = trials.column(task::kNotMeasured);
     std::vector<std::string> order;
     std::map<std::string, int> counts;
-    for (size_t i = 0; i < trials.rows(); ++i) {
-        std::string text = trials.text(i, task::kNotMeasured) + "; ";
+    for (size_t i = 0; i < trials.size(); ++i) {
+        std::string text = trials.text(i, column) + "; ";
         for (size_t end = text.find("; "); end != std::string::npos; end = text.find("; ")) {
             const std::string one = text.substr(0, end);
             text.erase(0, end + 2);
@@ -39,12 +40,13 @@ std::string reasons(const CsvFile& trials, const std::string& measure) {
 
 /// A measure trial by trial, by condition.
 Chart measure_chart(const SessionData& session, const Table::Column& column) {
-    const CsvFile& trials = session.trials;
+    const rows::TrialFile& trials = session.trials;
+    const auto measured = trials.column(column.name);
     Chart chart{column.name, "attempt", column.unit, origin_of(session), {}, {}};
     std::vector<std::string> conditions;
     std::string block;
-    for (size_t i = 0; i < trials.rows(); ++i) {
-        const std::string condition = trials.text(i, "condition");
+    for (size_t i = 0; i < trials.size(); ++i) {
+        const std::string& condition = trials[i].asked.condition;
         if (std::find(conditions.begin(), conditions.end(), condition) == conditions.end()) {
             conditions.push_back(condition);
             chart.series.push_back({condition.empty() ? column.description : condition,
@@ -58,9 +60,9 @@ Chart measure_chart(const SessionData& session, const Table::Column& column) {
         const auto at = std::find(conditions.begin(), conditions.end(), condition);
         Series& series = chart.series[static_cast<size_t>(at - conditions.begin())];
         series.x.push_back(static_cast<double>(i + 1));
-        series.y.push_back(trials.number(i, column.name));
-        if (trials.text(i, "block") != block) {
-            block = trials.text(i, "block");
+        series.y.push_back(trials.number(i, measured));
+        if (trials[i].asked.block != block) {
+            block = trials[i].asked.block;
             chart.marks.push_back({static_cast<double>(i + 1), block});
         }
     }
@@ -81,11 +83,12 @@ std::vector<std::string> factors_of(const SessionData& session) {
 /// Levels of factors: numbers in the order of their size, texts in that of the alphabet.
 using Levels = std::vector<std::pair<double, std::string>>;
 
-Levels levels_of(const CsvFile& trials, size_t i, const std::vector<std::string>& factors) {
+Levels levels_of(const rows::TrialFile& trials, size_t i, const std::vector<std::string>& factors) {
     Levels out;
     for (const std::string& factor : factors) {
-        const double number = trials.number(i, factor);
-        out.emplace_back(std::isnan(number) ? 0 : number, factor + " " + trials.text(i, factor));
+        const auto column = trials.column(factor);
+        const double number = trials.number(i, column);
+        out.emplace_back(std::isnan(number) ? 0 : number, factor + " " + trials.text(i, column));
     }
     return out;
 }
@@ -110,20 +113,20 @@ Chart factor_chart(std::span<const SessionData* const> sessions, const Table::Co
                    const std::string& origin) {
     std::vector<std::string> factors = factors_of(*sessions.front());
     const auto numeric = std::find_if(factors.begin(), factors.end(), [&](const auto& factor) {
-        const CsvFile& trials = sessions.front()->trials;
-        return trials.rows() > 0 && !std::isnan(trials.number(0, factor));
+        const rows::TrialFile& trials = sessions.front()->trials;
+        return !trials.empty() && !std::isnan(trials.number(0, trials.column(factor)));
     });
     if (numeric == factors.end()) return {};
     const std::string over = *numeric;
     factors.erase(numeric);
     std::map<Levels, std::map<double, std::map<std::string, std::vector<double>>>> values;
     for (const SessionData* session : sessions) {
-        const CsvFile& trials = session->trials;
-        for (size_t i = 0; i < trials.rows(); ++i) {
-            const std::string kind = trials.text(i, "kind");
-            const double value = trials.number(i, column.name);
-            if (kind == "practice" || kind == "catch" || std::isnan(value)) continue;
-            values[levels_of(trials, i, factors)][trials.number(i, over)][session->participant()]
+        const rows::TrialFile& trials = session->trials;
+        const auto measured = trials.column(column.name), numbers = trials.column(over);
+        for (size_t i = 0; i < trials.size(); ++i) {
+            const double value = trials.number(i, measured);
+            if (is_aside(trials[i].asked.kind) || std::isnan(value)) continue;
+            values[levels_of(trials, i, factors)][trials.number(i, numbers)][session->participant()]
                 .push_back(value);
         }
     }
@@ -153,12 +156,12 @@ Chart factor_chart(std::span<const SessionData* const> sessions, const Table::Co
 }  // namespace
 
 std::vector<Table::Column> measured_columns(const SessionData& session) {
-    const CsvFile& trials = session.trials;
+    const rows::TrialFile& trials = session.trials;
     std::vector<Table::Column> out = measure_columns_of(session.task);
     out.pop_back();  // what is not measured
-    std::erase_if(out, [&](const Table::Column& c) { return !trials.has(c.name); });
+    std::erase_if(out, [&](const Table::Column& c) { return !trials.column(c.name); });
     // of a session without the measures, a column of the same name is another
-    if (!trials.has(task::kNotMeasured)) out.clear();
+    if (!trials.column(task::kNotMeasured)) out.clear();
     return out;
 }
 
@@ -185,8 +188,9 @@ void add_measures(Page& page, const SessionData& session) {
         }
         const std::string why = reasons(session.trials, measure);
         std::vector<double> values;
-        for (size_t i = 0; i < session.trials.rows(); ++i)
-            values.push_back(session.trials.number(i, column.name));
+        const auto measured = session.trials.column(column.name);
+        for (size_t i = 0; i < session.trials.size(); ++i)
+            values.push_back(session.trials.number(i, measured));
         const Sample all = sample(values);
         table.rows.push_back(
             {column.name, column.unit, static_cast<double>(all.count), all.mean, all.sd, why});

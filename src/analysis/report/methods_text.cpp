@@ -71,15 +71,12 @@ std::string apparatus(const SessionData& session) {
 std::vector<std::string> blocks_of(const SessionData& session) {
     std::vector<std::string> order;
     std::map<std::string, std::pair<std::string, int>> blocks;
-    for (size_t i = 0; i < session.trials.rows(); ++i) {
-        if (session.trials.text(i, "attempt") != "1" ||
-            session.trials.text(i, "round") != session.trials.text(0, "round"))
-            continue;
-        const std::string name = session.trials.text(i, "block");
-        auto& [kind, count] = blocks[name];
+    for (const rows::TrialRow& row : session.trials) {
+        if (row.measures.attempt != 1 || row.asked.round != session.trials[0].asked.round) continue;
+        auto& [kind, count] = blocks[row.asked.block];
         if (++count == 1) {
-            order.push_back(name);
-            kind = session.trials.text(i, "kind");
+            order.push_back(row.asked.block);
+            kind = enum_name(row.asked.kind);
         }
     }
     std::vector<std::string> out;
@@ -92,10 +89,11 @@ std::vector<std::string> blocks_of(const SessionData& session) {
 }
 
 /// Different texts of a column, in the order in which they come.
-std::vector<std::string> texts_of(const CsvFile& table, const std::string& column) {
+std::vector<std::string> texts_of(const rows::TrialFile& trials,
+                                  std::string rows::AskedRow::*column) {
     std::vector<std::string> out;
-    for (size_t i = 0; i < table.rows(); ++i) {
-        const std::string text = table.text(i, column);
+    for (const rows::TrialRow& row : trials) {
+        const std::string& text = row.asked.*column;
         if (!text.empty() && std::find(out.begin(), out.end(), text) == out.end())
             out.push_back(text);
     }
@@ -105,8 +103,9 @@ std::vector<std::string> texts_of(const CsvFile& table, const std::string& colum
 std::string design(const SessionData& session) {
     std::vector<std::string> states;
     for (const task::State& state : session.task.states) states.push_back(state.name);
-    const std::vector<std::string> conditions = texts_of(session.trials, "condition");
-    const std::vector<std::string> rounds = texts_of(session.trials, "round");
+    const std::vector<std::string> conditions =
+        texts_of(session.trials, &rows::AskedRow::condition);
+    const std::vector<std::string> rounds = texts_of(session.trials, &rows::AskedRow::round);
     const std::vector<std::string> blocks = blocks_of(session);
     std::string out =
         fmt::format("The session (\"{}\", seed {}) had ", session.info.title, session.info.seed);
@@ -142,25 +141,26 @@ std::string measures_defined(const SessionData& session) {
 
 std::string outcomes(const SessionData& session) {
     std::map<std::string, int> counts;
-    for (size_t i = 0; i < session.trials.rows(); ++i) ++counts[session.trials.text(i, "outcome")];
+    for (const rows::TrialRow& row : session.trials) ++counts[row.measures.outcome];
     std::vector<std::pair<int, std::string>> sorted;
     for (const auto& [name, count] : counts) sorted.emplace_back(count, name);
     std::sort(sorted.rbegin(), sorted.rend());
     std::vector<std::string> texts;
     for (const auto& [count, name] : sorted) texts.push_back(fmt::format("{} {}", count, name));
     return fmt::format("Outcomes of {}: {}.",
-                       counted(static_cast<int64_t>(session.trials.rows()), "attempt"),
+                       counted(static_cast<int64_t>(session.trials.size()), "attempt"),
                        listed(texts));
 }
 
 /// Mean and standard deviation of a measure in each condition.
 std::string measured(const SessionData& session, const Table::Column& column) {
     std::map<std::string, std::vector<double>> by_condition;
-    for (size_t i = 0; i < session.trials.rows(); ++i) {
-        const std::string kind = session.trials.text(i, "kind");
-        const double value = session.trials.number(i, column.name);
-        if (kind == "practice" || kind == "catch" || std::isnan(value)) continue;
-        by_condition[session.trials.text(i, "condition")].push_back(value);
+    const auto of = session.trials.column(column.name);
+    for (size_t i = 0; i < session.trials.size(); ++i) {
+        const rows::AskedRow& asked = session.trials[i].asked;
+        const double value = session.trials.number(i, of);
+        if (is_aside(asked.kind) || std::isnan(value)) continue;
+        by_condition[asked.condition].push_back(value);
     }
     std::vector<std::string> texts;
     for (const auto& [condition, values] : by_condition) {

@@ -115,7 +115,7 @@ void add_mean_curve(PopulationPage& out, const std::string& title, const std::st
         std::map<int, double> own;
         for (const AdaptationCurve::Trial& trial : person.curve->trials) {
             const int place = trial.number - first + 1;
-            if (trial.kind == "catch") continue;
+            if (trial.kind == rows::TrialKind::catch_trial) continue;
             own[place] = trial.compensation;
             blocks[place] = trial.block;
         }
@@ -275,19 +275,19 @@ void add_lifts(PopulationPage& out, const std::string& title, const Sessions& se
     int lifts = 0;
     int complete = 0;
     for (const SessionData* session : sessions) {
-        std::map<std::string, std::vector<size_t>> rows;
-        for (const LiftRow& lift : lift_rows(*session)) {
-            rows[lift.group].push_back(lift.row);
+        std::map<std::string, std::vector<rows::LiftRow>> by_group;
+        const std::vector<std::string> group_of = groups_of_lifts(*session);
+        for (size_t i = 0; i < group_of.size(); ++i) {
+            const rows::LiftRow& lift = (*session->lifts)[i];
+            by_group[group_of[i]].push_back(lift);
             ++lifts;
-            complete += session->lifts->text(lift.row, "lift") == "complete";
+            complete += lift.complete();
         }
-        for (const auto& [group, of_group] : rows) {
+        for (const auto& [group, own] : by_group) {
             if (!medians.contains(group)) groups.push_back(group);
-            for (const char* figure : kLiftFigures) {
-                std::vector<double> values;
-                for (const size_t i : of_group) values.push_back(session->lifts->number(i, figure));
-                medians[group][figure].add(person_of(*session), sample(values).median);
-            }
+            for (const auto figure : kLiftFigures)
+                medians[group][figure_column(figure).column.name].add(
+                    person_of(*session), sample(values_of(own, figure)).median);
         }
     }
     if (groups.empty()) return;
@@ -295,11 +295,12 @@ void add_lifts(PopulationPage& out, const std::string& title, const Sessions& se
     table.columns = {{"trials", ""}, {"figure", ""},    {"people", ""},
                      {"mean", ""},   {"mean 95 %", ""}, {"SD", ""}};
     for (const std::string& group : groups) {
-        for (const char* figure : kLiftFigures) {
+        for (const auto of : kLiftFigures) {
+            const std::string figure = figure_column(of).column.name;
             const Sample all = medians[group][figure].over_people();
             if (all.count == 0) continue;
-            table.rows.push_back({group, std::string(figure), static_cast<double>(all.count),
-                                  all.mean, in_words(all.mean_interval), all.sd});
+            table.rows.push_back({group, figure, static_cast<double>(all.count), all.mean,
+                                  in_words(all.mean_interval), all.sd});
             FigureLister row;
             row("experiment", title, "", "title");
             row("trials", group, "", "round, block, kind, condition");

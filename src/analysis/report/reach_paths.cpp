@@ -23,16 +23,13 @@ constexpr double kStart = 45;      // height of the start above the panel's lowe
 constexpr int64_t kEach = 5;       // ticks between points of a path
 constexpr double kFarthest = 1.5;  // of what is drawn, from the start, over the line's length
 
-/// The colours of the kinds of trials, in the order of enum_names(task::TrialKind).
+/// The colours of the kinds of trials, in the order of enum_names(rows::TrialKind).
 constexpr std::array kKindColours{"#999999", "#555555", "#d55e00", "#000000",
                                   "#0072b2", "#cc79a7", "#009e73"};
-static_assert(kKindColours.size() == enum_names(task::TrialKind{}).size());
+static_assert(kKindColours.size() == enum_names(rows::TrialKind{}).size());
 
-const char* colour_of(const std::string& kind) {
-    const auto names = enum_names(task::TrialKind{});
-    const auto found = std::find(names.begin(), names.end(), kind);
-    return found == names.end() ? "#555555"
-                                : kKindColours[static_cast<size_t>(found - names.begin())];
+const char* colour_of(rows::TrialKind kind) {
+    return kKindColours[static_cast<size_t>(kind)];
 }
 
 std::string circle(double x, double y, double radius) {
@@ -45,13 +42,11 @@ std::string circle(double x, double y, double radius) {
 ReachPaths::ReachPaths(const SessionData& session, const recording::LogHead& head) {
     find_lines(session, head);
     trials_.resize(lines_.size());
-    for (size_t i = 0; i < session.trials.rows(); ++i) {
-        const double number = session.trials.number(i, "trial_num");
-        if (!(number >= 1 && number <= static_cast<double>(trials_.size()))) continue;
-        const std::string round = session.trials.text(i, "round");
-        trials_[static_cast<size_t>(number) - 1] = {
-            (round.empty() ? "" : round + ", ") + session.trials.text(i, "block"),
-            session.trials.text(i, "kind")};
+    for (const rows::TrialRow& row : session.trials) {
+        const rows::AskedRow& asked = row.asked;
+        if (asked.trial < 1 || static_cast<size_t>(asked.trial) > trials_.size()) continue;
+        trials_[static_cast<size_t>(asked.trial) - 1] = {
+            (asked.round.empty() ? "" : asked.round + ", ") + asked.block, asked.kind};
     }
 }
 

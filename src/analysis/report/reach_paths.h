@@ -42,7 +42,7 @@ class ReachPaths {
 
     struct Shown {
         std::string block;
-        std::string kind;
+        rows::TrialKind kind = rows::TrialKind::baseline;
     };
     std::vector<Shown> trials_;  // by trial
     std::vector<Line> lines_;    // by trial

@@ -27,9 +27,10 @@ std::vector<Problem> changed_of(const recording::SessionFolder& folder,
 }
 
 /// Throws Error when the table cannot be read, with what is known of how it was.
-CsvFile trials_of(const recording::SessionFolder& folder, const std::vector<Problem>& changed) {
+rows::TrialFile trials_of(const recording::SessionFolder& folder,
+                          const std::vector<Problem>& changed) {
     try {
-        return CsvFile(folder.file("trials.csv"));
+        return rows::TrialFile(folder.file("trials.csv"));
     } catch (const Error& e) {
         std::vector<Problem> problems = e.problems();
         problems.insert(problems.end(), changed.begin(), changed.end());
@@ -58,24 +59,21 @@ SessionData SessionData::read(const std::string& path) {
                      changed,
                      {}};
     for (const auto& [name, what] : unmeasured_perturbations(data.task)) {
-        for (size_t i = 0; i < data.trials.rows(); ++i) {
-            if (!task::names_perturbation(data.trials.text(i, "perturbation"), name)) continue;
+        for (const rows::TrialRow& row : data.trials) {
+            if (!task::names_perturbation(row.asked.perturbation, name)) continue;
             data.unmeasured[name] = what;
             break;
         }
     }
-    if (is_there(folder.file("lifts.csv"))) {
-        CsvFile& lifts = data.lifts.emplace(folder.file("lifts.csv"));
-        lifts.rename("coupling", "grip_load_r");
-        lifts.rename("coupling_lag_s", "grip_load_lag_s");
-    }
+    if (is_there(folder.file("lifts.csv")))
+        data.lifts.emplace(rows::read_lifts(folder.file("lifts.csv")));
     const bool in_channels = has_adaptation_index(data.trials);
     if (in_channels)
         std::erase_if(data.unmeasured,
                       [](const auto& of) { return of.second.starts_with("a force"); });
     data.curves = adaptation_curves(data.trials, data.unmeasured);
     const std::string errors = column_of_errors(data.task);
-    const bool in_errors = !errors.empty() && data.trials.has(errors);
+    const bool in_errors = !errors.empty() && data.trials.column(errors);
     if (in_errors) {
         data.curves = error_curves(data.trials, errors);
         data.unmeasured.clear();  // the curves say what does not show
@@ -86,7 +84,8 @@ SessionData SessionData::read(const std::string& path) {
         data.generalisation =
             find_generalisation(data.trials, task::read_reaches(folder.file("trial-list.csv")));
     if (is_there(folder.file("procedures.csv")))
-        data.tracks = threshold_tracks(data.trials, CsvFile(folder.file("procedures.csv")));
+        data.tracks =
+            threshold_tracks(data.trials, rows::ProcedureFile(folder.file("procedures.csv")));
     return data;
 }
 
@@ -95,7 +94,7 @@ bool SessionData::is_cut_short() const {
     if (info.state == recording::SessionState::interrupted) return true;
     // for a session that was killed, the last trial tells
     return info.state == recording::SessionState::recovered &&
-           (trials.rows() == 0 || trials.text(trials.rows() - 1, "outcome") == "interrupted");
+           (trials.empty() || trials.back().measures.outcome == rows::kInterrupted);
 }
 
 std::string SessionData::not_measured() const {
@@ -116,40 +115,42 @@ std::vector<std::string> find_sessions(const std::string& folder) {
     return out;
 }
 
-std::vector<LiftRow> lift_rows(const SessionData& session) {
-    std::map<std::pair<std::string, std::string>, std::string> groups;
-    for (size_t i = 0; i < session.trials.rows(); ++i) {
+std::vector<std::string> groups_of_lifts(const SessionData& session) {
+    std::map<std::pair<int, int>, std::string> groups;  // by trial and attempt
+    for (const rows::TrialRow& row : session.trials) {
         std::string group;
-        for (const char* column : {"round", "block", "kind", "condition"}) {
-            const std::string text = session.trials.text(i, column);
-            // a block often has the name of its kind
-            if (text.empty() || (column == std::string("kind") && group.ends_with(text))) continue;
-            group += (group.empty() ? "" : ", ") + text;
-        }
-        groups[{session.trials.text(i, "trial_num"), session.trials.text(i, "attempt")}] = group;
+        const auto add = [&](std::string_view text) {
+            if (!text.empty()) group += (group.empty() ? "" : ", ") + std::string(text);
+        };
+        add(row.asked.round);
+        add(row.asked.block);
+        // a block often has the name of its kind, and without a task there is neither
+        const std::string_view kind = enum_name(row.asked.kind);
+        if (!row.asked.block.empty() && !group.ends_with(kind)) add(kind);
+        add(row.asked.condition);
+        groups[{row.asked.trial, row.measures.attempt}] = group;
     }
-    std::vector<LiftRow> out;
-    for (size_t i = 0; session.lifts && i < session.lifts->rows(); ++i) {
-        const auto found =
-            groups.find({session.lifts->text(i, "trial_num"), session.lifts->text(i, "attempt")});
-        out.push_back({found == groups.end() ? "" : found->second, i});
+    std::vector<std::string> out;
+    if (!session.lifts) return out;
+    for (const rows::LiftRow& lift : *session.lifts) {
+        const auto found = groups.find({lift.trial, lift.attempt});
+        out.push_back(found == groups.end() ? "" : found->second);
     }
     return out;
 }
 
-std::optional<PreviousWeight> previous_weight(const CsvFile& lifts) {
+std::optional<PreviousWeight> previous_weight(const rows::LiftFile& lifts) {
     constexpr Eigen::Index kLeast = 10;
     constexpr double kVaries = 1.05;
-    const auto complete = [&](size_t i) { return lifts.text(i, "lift") == "complete"; };
     std::vector<Eigen::Vector3d> rows;  // 1, W, W before
     std::vector<double> rates;
     double least = std::numeric_limits<double>::infinity();
     double most = 0;
-    for (size_t i = 1; i < lifts.rows(); ++i) {
-        if (!complete(i) || !complete(i - 1)) continue;
-        const double weight = lifts.number(i, "static_load_N");
-        const double before = lifts.number(i - 1, "static_load_N");
-        const double rate = lifts.number(i, "peak_load_rate_N_s");
+    for (size_t i = 1; i < lifts.size(); ++i) {
+        if (!lifts[i].complete() || !lifts[i - 1].complete()) continue;
+        const double weight = lifts[i].static_load;
+        const double before = lifts[i - 1].static_load;
+        const double rate = lifts[i].peak_load_rate;
         if (!std::isfinite(weight + before + rate)) continue;
         least = std::min(least, weight);
         most = std::max(most, weight);

@@ -8,8 +8,9 @@
 #include "analysis/adaptation.h"
 #include "analysis/generalisation.h"
 #include "analysis/thresholds.h"
-#include "base/table.h"
 #include "recording/session.h"
+#include "rows/lift_row.h"
+#include "rows/trial_row.h"
 
 namespace dihaptic::analysis {
 
@@ -17,8 +18,8 @@ struct SessionData {
     recording::SessionFolder folder;
     recording::SessionInfo info;
     task::Task task;  ///< frozen
-    CsvFile trials;
-    std::optional<CsvFile> lifts;
+    rows::TrialFile trials;
+    std::optional<rows::LiftFile> lifts;
     std::vector<AdaptationCurve> curves;
     std::vector<ThresholdTrack> tracks;
     std::vector<Generalisation> generalisation;
@@ -42,17 +43,24 @@ struct SessionData {
 /// Folders of the sessions in a folder, at any depth, sorted by name.
 std::vector<std::string> find_sessions(const std::string& folder);
 
-/// A lift of a session, and what was asked for in its trial.
-struct LiftRow {
-    std::string group;  ///< "round, block, kind, condition", as far as the trial has them
-    size_t row = 0;     ///< row of lifts.csv
-};
-std::vector<LiftRow> lift_rows(const SessionData& session);
-/// Columns of lifts.csv whose medians reports give.
-inline constexpr const char* kLiftFigures[] = {
-    "preload_s",     "loading_s",     "peak_grip_rate_N_s", "peak_load_rate_N_s",
-    "peak_grip_N",   "static_grip_N", "static_load_N",      "static_ratio",
-    "safety_margin", "grip_load_r",   "grip_load_lag_s",    "overshoot_mm"};
+/// For each row of lifts.csv what was asked for in its trial: "round, block, kind, condition", as
+/// far as the trial has them.
+std::vector<std::string> groups_of_lifts(const SessionData& session);
+/// Figures of lifts whose medians reports give.
+inline constexpr double rows::LiftRow::*kLiftFigures[] = {
+    &rows::LiftRow::preload,        &rows::LiftRow::loading,       &rows::LiftRow::peak_grip_rate,
+    &rows::LiftRow::peak_load_rate, &rows::LiftRow::peak_grip,     &rows::LiftRow::static_grip,
+    &rows::LiftRow::static_load,    &rows::LiftRow::static_ratio,  &rows::LiftRow::safety_margin,
+    &rows::LiftRow::grip_load_r,    &rows::LiftRow::grip_load_lag, &rows::LiftRow::overshoot};
+
+/// A figure of each of these lifts, in the unit of its column.
+template <class Lifts, class Member>
+std::vector<double> values_of(const Lifts& lifts, Member rows::LiftRow::*figure) {
+    const double scale = figure_column(figure).scale;
+    std::vector<double> out;
+    for (const rows::LiftRow& lift : lifts) out.push_back(scale * lift.*figure);
+    return out;
+}
 
 /// How a lift depends on the weight of the last one (Johansson and Westling 1988): the regression
 ///
@@ -67,6 +75,6 @@ struct PreviousWeight {
     int lifts = 0;
 };
 /// Nullopt if weights did not vary by 5 %, or if fewer than ten pairs are complete.
-std::optional<PreviousWeight> previous_weight(const CsvFile& lifts);
+std::optional<PreviousWeight> previous_weight(const rows::LiftFile& lifts);
 
 }  // namespace dihaptic::analysis

@@ -15,6 +15,7 @@
 #include "analysis/report/reach_paths.h"
 #include "analysis/report/statistics.h"
 #include "analysis/session_report.h"
+#include "base/number.h"
 #include "base/palette.h"
 #include "base/regular_file.h"
 #include "base/text_file.h"
@@ -63,19 +64,18 @@ Table facts(const SessionData& session) {
 
 /// Number of attempts with each outcome, by block.
 Table outcomes(const SessionData& session) {
-    const CsvFile& trials = session.trials;
     std::vector<std::string> blocks;
     std::vector<std::string> names;
     std::map<std::pair<std::string, std::string>, int> counts;
     const auto remember = [](std::vector<std::string>& list, const std::string& item) {
         if (std::find(list.begin(), list.end(), item) == list.end()) list.push_back(item);
     };
-    for (size_t i = 0; i < trials.rows(); ++i) {
-        const std::string round = trials.text(i, "round");
+    for (const rows::TrialRow& row : session.trials) {
+        const rows::AskedRow& asked = row.asked;
         const std::string block =
-            (round.empty() ? "" : round + ", ") +
-            (trials.has("block") ? trials.text(i, "block") : trials.text(i, "block_num"));
-        const std::string outcome = trials.text(i, "outcome");
+            (asked.round.empty() ? "" : asked.round + ", ") +
+            (asked.block.empty() ? number_text(asked.block_number) : asked.block);
+        const std::string& outcome = row.measures.outcome;
         remember(blocks, block);
         remember(names, outcome);
         ++counts[{block, outcome}];
@@ -319,69 +319,62 @@ void add_thresholds(SessionPage& out, const SessionData& session) {
 Table lift_summary(const SessionData& session) {
     Table table;
     table.columns = {{"trials", "block, kind, condition"}, {"lifts", ""}, {"complete", ""}};
-    std::vector<std::string> figures(std::begin(kLiftFigures), std::end(kLiftFigures));
-    figures.emplace_back("slips");
-    const std::vector<Table::Column> known = list_figures(Lift{}).columns;
-    for (const std::string& name : figures) {
-        table.columns.push_back(*std::find_if(
-            known.begin(), known.end(), [&](const auto& column) { return column.name == name; }));
-    }
+    for (const auto figure : kLiftFigures) table.columns.push_back(figure_column(figure).column);
+    table.columns.push_back(figure_column(&rows::LiftRow::slips).column);
     std::vector<std::string> groups;
-    std::map<std::string, std::vector<size_t>> rows;
-    for (const LiftRow& lift : lift_rows(session)) {
-        if (rows[lift.group].empty()) groups.push_back(lift.group);
-        rows[lift.group].push_back(lift.row);
+    std::map<std::string, std::vector<rows::LiftRow>> by_group;
+    const std::vector<std::string> group_of = groups_of_lifts(session);
+    for (size_t i = 0; i < group_of.size(); ++i) {
+        std::vector<rows::LiftRow>& own = by_group[group_of[i]];
+        if (own.empty()) groups.push_back(group_of[i]);
+        own.push_back((*session.lifts)[i]);
     }
     for (const std::string& group : groups) {
         std::vector<Table::Cell>& row = table.rows.emplace_back();
-        int complete = 0;
-        for (const size_t i : rows[group]) complete += session.lifts->text(i, "lift") == "complete";
-        row = {group.empty() ? "all" : group, static_cast<double>(rows[group].size()),
-               static_cast<double>(complete)};
-        for (const std::string& name : figures) {
-            std::vector<double> values;
-            for (const size_t i : rows[group]) values.push_back(session.lifts->number(i, name));
-            const Sample figure = sample(values);
-            row.emplace_back(name == "slips" ? figure.mean : figure.median);
-        }
+        const std::vector<rows::LiftRow>& own = by_group[group];
+        row = {group.empty() ? "all" : group, static_cast<double>(own.size()),
+               static_cast<double>(std::ranges::count_if(own, &rows::LiftRow::complete))};
+        for (const auto figure : kLiftFigures)
+            row.emplace_back(sample(values_of(own, figure)).median);
+        row.emplace_back(sample(values_of(own, &rows::LiftRow::slips)).mean);
     }
     return table;
 }
 
 void add_lifts(SessionPage& out, const SessionData& session) {
-    const CsvFile& lifts = *session.lifts;
+    const rows::LiftFile& lifts = *session.lifts;
     out.page.heading("Grip and lift");
     out.page.table(transposed(lift_summary(session)),
                    "Medians over attempts; what was no whole lift counts where it has the figure. "
                    "lifts.csv has each of them, and says what is missing of it. " +
                        origin_of(session));
-    if (lifts.rows() < 3) return;
-    const auto curve = [&](const char* name, const char* column, const char* colour = "") {
-        Series series{name, Drawn::points, {}, {}, {}, {}, colour};
-        for (size_t i = 0; i < lifts.rows(); ++i) {
-            series.x.push_back(static_cast<double>(i + 1));
-            series.y.push_back(lifts.number(i, column));
-        }
+    if (lifts.size() < 3) return;
+    const auto curve = [&](const char* name, double rows::LiftRow::*figure,
+                           const char* colour = "") {
+        Series series{name, Drawn::points, {}, values_of(lifts, figure), {}, {}, colour};
+        for (size_t i = 0; i < lifts.size(); ++i) series.x.push_back(static_cast<double>(i + 1));
         return series;
     };
     std::vector<Mark> marks;
     std::string last;
-    for (const LiftRow& lift : lift_rows(session)) {
-        const std::string block = lift.group.substr(0, lift.group.find(','));
-        if (block != last) marks.push_back({static_cast<double>(lift.row + 1), block});
+    const std::vector<std::string> groups = groups_of_lifts(session);
+    for (size_t i = 0; i < groups.size(); ++i) {
+        const std::string block = groups[i].substr(0, groups[i].find(','));
+        if (block != last) marks.push_back({static_cast<double>(i + 1), block});
         last = block;
     }
     const auto chart = [&](const char* title, const char* unit, std::vector<Series> series) {
         out.page.chart({title, "lift", unit, origin_of(session), std::move(series), marks});
     };
     chart("Forces in the hold, and the peak of grip", "N",
-          {curve("static grip", "static_grip_N", palette::kGrip),
-           curve("static load", "static_load_N", palette::kLoad),
-           curve("peak grip", "peak_grip_N", kPeak)});
+          {curve("static grip", &rows::LiftRow::static_grip, palette::kGrip),
+           curve("static load", &rows::LiftRow::static_load, palette::kLoad),
+           curve("peak grip", &rows::LiftRow::peak_grip, kPeak)});
     chart("Largest rates before lift-off", "N/s",
-          {curve("grip", "peak_grip_rate_N_s", palette::kGrip),
-           curve("load", "peak_load_rate_N_s", palette::kLoad)});
-    chart("Durations", "s", {curve("preload", "preload_s"), curve("loading", "loading_s")});
+          {curve("grip", &rows::LiftRow::peak_grip_rate, palette::kGrip),
+           curve("load", &rows::LiftRow::peak_load_rate, palette::kLoad)});
+    chart("Durations", "s",
+          {curve("preload", &rows::LiftRow::preload), curve("loading", &rows::LiftRow::loading)});
     if (const auto effect = previous_weight(lifts)) {
         out.page.text(fmt::format(
             "Weight of the lift before: the largest rate of load force grows by {:.3g} +- {:.2g} "
@@ -419,7 +412,7 @@ void add_log(SessionPage& out, const SessionData& session,
 
 /// Adds what was done and found in sentences.
 void add_text(SessionPage& out, const SessionData& session) {
-    const bool lifted = session.lifts && session.lifts->rows() > 0;
+    const bool lifted = session.lifts && !session.lifts->empty();
     const MethodsText text =
         methods_text(session, out, windows_of(session), lifted ? lift_summary(session) : Table{});
     out.page.heading("In words");
@@ -461,7 +454,7 @@ SessionPage session_page(const SessionData& session, const std::string& command,
     if (!session.curves.empty()) add_adaptation(out, session);
     if (!session.generalisation.empty()) add_generalisation(out, session);
     if (!session.tracks.empty()) add_thresholds(out, session);
-    if (session.lifts && session.lifts->rows() > 0) add_lifts(out, session);
+    if (session.lifts && !session.lifts->empty()) add_lifts(out, session);
     // a rehearsal has no log
     if (is_there(session.folder.raw_log())) add_log(out, session, progress);
     add_text(out, session);

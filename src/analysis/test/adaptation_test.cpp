@@ -11,7 +11,7 @@ namespace {
 
 TEST(AdaptationCurves, CountTheLastAttemptOfATrial) {
     const testing::TemporaryFolder folder;
-    const CsvFile trials(folder.write(
+    const rows::TrialFile trials(folder.write(
         "trials.csv",
         "trial_num,attempt,round,block,kind,hand_angle_deg,shown_angle_deg,hand_extent_mm\n"
         "1,1,,learn,perturbed,40,70,\n"

@@ -205,7 +205,7 @@ TEST(GraspTrace, LiftOffIsWhenOnlyFingersCarryTheObject) {
 /// Each event as text: time [ms], name, detail.
 std::vector<std::string> said_by(const EventFinder& finder) {
     std::vector<std::string> said;
-    for (const Event& e : finder.events())
+    for (const rows::EventRow& e : finder.events())
         said.push_back(number_text(std::lround(e.time * 1e3)) + " " + e.name + " " + e.detail);
     return said;
 }

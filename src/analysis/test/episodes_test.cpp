@@ -72,9 +72,9 @@ TEST(Episodes, AFlightIsBallisticAndItsReleaseIsComparedWithTheHand) {
     const Vec3 v(0.3, 0, 1.2);
     const auto found = thrown(v, v / 1.25, kGravity);
     ASSERT_EQ(found.size(), 2u);
-    EXPECT_EQ(found[0].kind, EpisodeKind::hold);
+    EXPECT_EQ(found[0].kind, rows::EpisodeKind::hold);
     const Episode& flight = found[1];
-    EXPECT_EQ(flight.kind, EpisodeKind::flight);
+    EXPECT_EQ(flight.kind, rows::EpisodeKind::flight);
     EXPECT_EQ(flight.fingers, (std::vector<size_t>{0, 1}));
     EXPECT_NEAR(flight.start, 0.1, 1e-12);
     EXPECT_NEAR(flight.release_speed, v.norm(), 1e-12);
@@ -107,7 +107,7 @@ TEST(Episodes, ABlockThatSlidesOnStopsByFriction) {
     };
     auto found = episodes_of(300, slide);
     ASSERT_EQ(found.size(), 1u);
-    EXPECT_EQ(found[0].kind, EpisodeKind::slide);
+    EXPECT_EQ(found[0].kind, rows::EpisodeKind::slide);
     EXPECT_TRUE(found[0].fingers.empty());
     EXPECT_NEAR(found[0].distance, 0.25 / (2 * kFriction * 9.81), 1e-3);
     EXPECT_NEAR(found[0].friction_ratio, 1, 1e-9);

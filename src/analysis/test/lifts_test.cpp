@@ -117,7 +117,7 @@ void add_lift(GraspTrace& trace, const Plan& plan, uint64_t seed = 1) {
     }
 }
 
-Lift lift_of(const Plan& plan, uint64_t seed = 1) {
+rows::LiftRow lift_of(const Plan& plan, uint64_t seed = 1) {
     GraspTrace trace(1, kTick);
     add_lift(trace, plan, seed);
     const double friction[] = {kFriction, kFriction};
@@ -126,7 +126,7 @@ Lift lift_of(const Plan& plan, uint64_t seed = 1) {
 
 TEST(Lifts, EventsAndForcesAreThoseOfTheSignals) {
     const Plan plan;
-    const Lift lift = lift_of(plan);
+    const rows::LiftRow lift = lift_of(plan);
     EXPECT_EQ(lift.mark, "complete");
     // rates are smoothed over 62 ms, so that an onset is seen up to half of that early
     EXPECT_NEAR(lift.touch, plan.touch, 0.032);
@@ -153,13 +153,13 @@ TEST(Lifts, EventsAndForcesAreThoseOfTheSignals) {
 
 TEST(Lifts, GripIsSeenToFollowLoad) {
     Plan plan;
-    const Lift together = lift_of(plan);
+    const rows::LiftRow together = lift_of(plan);
     // the grip's first rise, in the preload, reaches into the loading's first 31 ms
     EXPECT_GT(together.grip_load_r, 0.88);
     EXPECT_NEAR(together.grip_load_lag, 0, 0.015);
     EXPECT_NEAR(together.slope, 0.75, 0.03);
     plan.lag = 0.04;
-    const Lift late = lift_of(plan);
+    const rows::LiftRow late = lift_of(plan);
     EXPECT_LT(late.grip_load_r, together.grip_load_r);
     EXPECT_NEAR(late.grip_load_lag - together.grip_load_lag, 0.04, 0.01);
     EXPECT_GT(late.grip_load_r_peak, 0.88);
@@ -214,7 +214,7 @@ TEST(Lifts, OfOneTraceAreParted) {
     ASSERT_EQ(parts.size(), 3u);
     size_t last = 0;
     const double friction[] = {kFriction, kFriction};
-    std::vector<Lift> lifts;
+    std::vector<rows::LiftRow> lifts;
     for (const Range& part : parts) {
         EXPECT_EQ(part.first, last);
         last = part.last;
@@ -242,7 +242,7 @@ TEST(Lifts, APauseBetweenThemIsOfNone) {
     ASSERT_EQ(parts.size(), 2u);
     const double friction[] = {kFriction, kFriction};
     for (size_t i = 0; i < parts.size(); ++i) {
-        const Lift lift = find_lift(trace.part(parts[i]), kGravity, friction);
+        const rows::LiftRow lift = find_lift(trace.part(parts[i]), kGravity, friction);
         EXPECT_EQ(lift.mark, "complete");
         EXPECT_NEAR(lift.lift_off,
                     static_cast<double>(2 * i + 1) * kSamples * kTick + plan.lift_off, 0.01);
@@ -276,7 +276,7 @@ TEST(Lifts, ASlowOneLeavesItsSupportBeforeItIsFast) {
 TEST(Lifts, OneWithAPauseIsMarkedAndHasNoFigures) {
     Plan plan;
     plan.pauses_at = 2;
-    const Lift lift = lift_of(plan);
+    const rows::LiftRow lift = lift_of(plan);
     EXPECT_EQ(lift.mark, "paused");
     EXPECT_TRUE(std::isnan(lift.peak_grip));
     EXPECT_TRUE(std::isnan(lift.touch));
@@ -294,7 +294,7 @@ TEST(Lifts, OneThatBeginsWhereTicksAreMissingIsMeasuredFromWhereItIsKnown) {
 TEST(Lifts, ASlipIsCountedAndItsTimeIsTold) {
     Plan plan;
     plan.slides_at = 1.5;
-    const Lift lift = lift_of(plan);
+    const rows::LiftRow lift = lift_of(plan);
     EXPECT_EQ(lift.slips, 2);  // of both digits
     EXPECT_NEAR(lift.slip, 1e-3, 1e-4);
     EXPECT_NEAR(lift.first_slip, 1.5, 0.002);
@@ -306,7 +306,7 @@ TEST(Lifts, SurviveNoise) {
     for (uint64_t seed = 1; seed <= 40; ++seed) {
         Plan plan;
         plan.noise = 0.02;
-        const Lift lift = lift_of(plan, seed);
+        const rows::LiftRow lift = lift_of(plan, seed);
         complete += lift.complete();
         EXPECT_NEAR(lift.touch, plan.touch, 0.04) << seed;
         EXPECT_NEAR(lift.load_onset, plan.onset, 0.05) << seed;

@@ -93,7 +93,7 @@ TEST(Measures, OfForceInAChannelAreTheSharesThatThePersonPressesWith) {
     EXPECT_TRUE(std::isnan(reach.value("adaptation_index")));
     reach.attempt.plan.field_share = -1;
     EXPECT_EQ(reach.value("adaptation_index", 4), -1);  // without a channel, a field acted
-    reach.attempt.plan.channel = true;
+    reach.attempt.plan.channel = 1;
     reach.attempt.plan.field_share = kUnmeasured;
     // the field pushes with 15 v to the left; the hand presses 0.6 of that to the right, and leans
     EXPECT_NEAR(reach.value("adaptation_index", 1), 0.6, 1e-12);
@@ -144,7 +144,7 @@ TEST(Measures, SayWhyTheyAreMissing) {
     gap.attempt.samples[1500].continues = false;
     EXPECT_EQ(gap.take("peak_speed").why, "ticks are missing, or it was paused");
     EXPECT_EQ(gap.take("grip_onset").why, "no lift");
-    Lift lift;
+    rows::LiftRow lift;
     lift.mark = "not lifted";
     gap.attempt.lift = &lift;
     EXPECT_EQ(gap.take("safety_margin").why, "lift: not lifted");

@@ -28,8 +28,8 @@ SessionData session_in(const testing::TemporaryFolder& folder) {
     return {recording::SessionFolder::open_tables(folder.path()),
             {},
             {},
-            CsvFile(folder.write("trials.csv", "trial_num,attempt\n1,1\n")),
-            CsvFile(folder.write("lifts.csv", "trial_num,attempt,preload_s\n1,1,0.1\n")),
+            rows::TrialFile(folder.write("trials.csv", "trial_num,attempt\n1,1\n")),
+            rows::LiftFile(folder.write("lifts.csv", "trial_num,attempt,preload_s\n1,1,0.1\n")),
             {curve},
             {ThresholdTrack{}},
             {Generalisation{}},
@@ -53,14 +53,14 @@ std::string tables() {
     const PopulationPage people = population_page({session}, "", "");
     return table("trials.csv", "A row for each attempt at a trial of a task.", trial_columns()) +
            table("trials.csv without a task", "A row for each trial.",
-                 list_figures(PlainTrial{}).columns) +
+                 list_figures(rows::PlainTrialRow{}).columns) +
            table("phases.csv", "A row for each phase of a trial.",
-                 list_figures(PhaseFigures{}).columns) +
-           table("events.csv", "A row for each moment.", list_figures(Event{}).columns) +
+                 list_figures(rows::PhaseRow{}).columns) +
+           table("events.csv", "A row for each moment.", list_figures(rows::EventRow{}).columns) +
            table("episodes.csv", "A row for each hold, slide and flight of the object.",
-                 list_figures(Episode{}).columns) +
+                 list_figures(rows::EpisodeRow{}).columns) +
            table("lifts.csv", "A row for each attempt with an object and two fingers.",
-                 list_figures(Lift{}).columns) +
+                 list_figures(rows::LiftRow{}).columns) +
            table("adaptation.csv", "A row for each reach.", page.adaptation.columns) +
            table("adaptation-blocks.csv", "A row for each block of reaches.", page.blocks.columns) +
            table("fits.csv", "A row for each round.", page.fits.columns) +

@@ -99,15 +99,6 @@ TEST(Ring, CarriesRecordsOfAllSizesBetweenThreadsInOrder) {
     consumer.join();
 }
 
-TEST(Table, ACellThatIsNoWholeNumberIsNone) {
-    testing::TemporaryFolder folder;
-    const CsvFile csv(folder.write("t.csv", "a\n7\n-7.9\nx\nnan\ninf\n1e10\n-1e10\n"));
-    std::vector<int> numbers;
-    for (size_t i = 0; i < csv.rows(); ++i) numbers.push_back(csv.whole(i, "a"));
-    EXPECT_EQ(csv.whole(0, "nowhere"), 0);
-    EXPECT_EQ(numbers, (std::vector<int>{7, -7, 0, 0, 0, 0, 0}));
-}
-
 TEST(Table, ACsvFileIsReadByTheNamesOfItsColumns) {
     testing::TemporaryFolder folder;
     const CsvFile csv(folder.write("t.csv", "a,b\n1,x\n2\n"));

@@ -190,7 +190,7 @@ TEST(Carries, OfAPersonWithoutNoiseFollowTheSingleRateModelAsTheirDisplayIsScale
     session::RunOptions options;
     options.out = sitting.folder.file("sessions");
     const session::Recorded result = session::record(plan, options, kGoOn);
-    const auto curves = analysis::adaptation_curves(CsvFile(result.folder + "/trials.csv"));
+    const auto curves = analysis::adaptation_curves(rows::TrialFile(result.folder + "/trials.csv"));
     ASSERT_EQ(curves.size(), 3u);  // along x, y and z
     const double f = 100 * std::log(1.4);
     for (const analysis::AdaptationCurve& curve : curves) {

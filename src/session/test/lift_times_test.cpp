@@ -13,8 +13,8 @@
 namespace dihaptic::session::lift_times_test {
 namespace {
 
-using analysis::EventRule;
-using analysis::Lift;
+using rows::EventRule;
+using Lift = rows::LiftRow;
 
 constexpr double kGravity = 9.81;
 constexpr int kTable = 0;

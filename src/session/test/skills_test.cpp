@@ -12,7 +12,7 @@ namespace dihaptic::session::skills_test {
 namespace {
 
 using analysis::Episode;
-using analysis::EpisodeKind;
+using rows::EpisodeKind;
 
 constexpr double kGravity = 9.81;
 

@@ -149,8 +149,8 @@ TEST(Levels, StandInTheTablesAndTheFit) {
         EXPECT_EQ(trials.number(i, "share"), 1);
         EXPECT_EQ(trials.text(i, "comparison_interval"), list.text(i, "comparison_interval"));
     }
-    const auto tracks =
-        analysis::threshold_tracks(trials, CsvFile(result.folder + "/procedures.csv"));
+    const auto tracks = analysis::threshold_tracks(
+        rows::TrialFile(trials), rows::ProcedureFile(result.folder + "/procedures.csv"));
     ASSERT_EQ(tracks.size(), 1u);
     EXPECT_EQ(tracks[0].kind, "constant");
     EXPECT_EQ(tracks[0].what(), "more");

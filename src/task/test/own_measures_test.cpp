@@ -54,7 +54,7 @@ TEST(OwnMeasures, AreTakenOfEachAttemptInItsStates) {
     const CsvFile trials(result.folder + "/trials.csv");
     ASSERT_EQ(trials.rows(), 9u);
     for (size_t i = 0; i < trials.rows(); ++i) {
-        const Expected& e = expected.at(trials.whole(i, "trial_num"));
+        const Expected& e = expected.at(static_cast<int>(trials.number(i, "trial_num")));
         EXPECT_GT(e.speed, 0.1);
         EXPECT_NEAR(trials.number(i, "top_speed_mm_s"), 1e3 * e.speed, 1e-6);
         EXPECT_NEAR(trials.number(i, "way_mm"), 1e3 * e.way, 1e-6);

@@ -55,9 +55,9 @@ TEST(MovementPlan, IsReadAsItWasFrozen) {
         const Vec3 along = trial.condition == 1 ? Vec3::UnitY() : Vec3::UnitX();
         EXPECT_TRUE(movement.along_W().isApprox(along));
         EXPECT_TRUE(movement.left_W().isApprox(Vec3::UnitZ().cross(along)));
-        EXPECT_EQ(movement.channel, block == "held");
+        EXPECT_EQ(movement.channel == 1, block == "held");
         EXPECT_TRUE((movement.ideal * Vec3::UnitX()).isApprox(Vec3(0, 15, 0)));
-        EXPECT_EQ(std::isnan(movement.field_share), movement.channel);
+        EXPECT_EQ(std::isnan(movement.field_share), movement.channel == 1);
         const auto share = shares.find(block);
         EXPECT_TRUE(share == shares.end() || movement.field_share == share->second) << block;
     }

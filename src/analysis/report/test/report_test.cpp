@@ -80,7 +80,8 @@ std::string trials_of(const model::TwoRate& rates, double rotation, double bias)
 TEST(Adaptation, IsFoundInTrialsWithTheRatesThatMadeIt) {
     testing::TemporaryFolder folder;
     const double bias = 1.5;
-    const CsvFile trials(folder.write("trials.csv", trials_of(model::kSmith2006, -30, bias)));
+    const rows::TrialFile trials(
+        folder.write("trials.csv", trials_of(model::kSmith2006, -30, bias)));
     const auto curves = adaptation_curves(trials);
     ASSERT_EQ(curves.size(), 1u);
     const AdaptationCurve& curve = curves[0];
@@ -108,7 +109,7 @@ TEST(Adaptation, SavingsAreWhatIsThereSoonerWhenTheSameIsLearnedAgain) {
     learner.add(40, "first", "perturbed", -30);
     learner.add(12, "washout", "washout", 0);
     learner.add(40, "again", "perturbed", -30);
-    const CsvFile trials(folder.write("trials.csv", learner.trials(model::kSmith2006, 2)));
+    const rows::TrialFile trials(folder.write("trials.csv", learner.trials(model::kSmith2006, 2)));
     const auto curve = adaptation_curves(trials).at(0);
     double first = 0;
     double again = 0;
@@ -128,7 +129,7 @@ TEST(Adaptation, ReboundIsWhatComesBackInAClampAfterTheOpposite) {
     learner.add(160, "learn", "perturbed", 30);
     learner.add(16, "reverse", "perturbed", -30);
     learner.add(48, "clamp", "visual_clamp", 0);
-    const CsvFile trials(folder.write("trials.csv", learner.trials(model::kSmith2006, 0)));
+    const rows::TrialFile trials(folder.write("trials.csv", learner.trials(model::kSmith2006, 0)));
     const auto curve = adaptation_curves(trials).at(0);
     const auto& t = curve.trials;
     double last = 0;
@@ -163,7 +164,8 @@ TEST(Generalisation, IsToldByProbesInDirectionsThatWereNotTrained) {
         add("catch", 90, 3);
     }
     const auto reaches = task::read_reaches(folder.write("trial-list.csv", list));
-    const auto found = find_generalisation(CsvFile(folder.write("trials.csv", trials)), reaches);
+    const auto found =
+        find_generalisation(rows::TrialFile(folder.write("trials.csv", trials)), reaches);
     ASSERT_EQ(found.size(), 3u);
     const double angles[] = {0, 45, 90};
     const double shares[] = {1, 0.5, 0.1};
@@ -177,15 +179,17 @@ TEST(Generalisation, IsToldByProbesInDirectionsThatWereNotTrained) {
     const std::string one =
         "trial_num,kind,condition,round,hand_angle_deg\n1,perturbed,a,z,-3\n"
         "2,visual_clamp,a,z,-3\n";
-    EXPECT_TRUE(find_generalisation(CsvFile(folder.write("one.csv", one)), reaches).empty());
+    EXPECT_TRUE(
+        find_generalisation(rows::TrialFile(folder.write("one.csv", one)), reaches).empty());
 }
 
 TEST(Adaptation, IsNotSeenWhereNothingWasMeasuredOrPerturbed) {
     testing::TemporaryFolder folder;
     EXPECT_TRUE(
-        adaptation_curves(CsvFile(folder.write("a.csv", "trial_num,outcome\n1,done\n"))).empty());
-    const auto curves =
-        adaptation_curves(CsvFile(folder.write("b.csv", trials_of(model::kSmith2006, 0, 0))));
+        adaptation_curves(rows::TrialFile(folder.write("a.csv", "trial_num,outcome\n1,done\n")))
+            .empty());
+    const auto curves = adaptation_curves(
+        rows::TrialFile(folder.write("b.csv", trials_of(model::kSmith2006, 0, 0))));
     ASSERT_EQ(curves.size(), 1u);
     EXPECT_FALSE(fit_adaptation(curves[0]));
 }
@@ -201,7 +205,7 @@ TEST(PreviousWeight, IsTheShareThatTheLiftsWereMadeWith) {
         text += "complete," + number_text(weight) + "," + number_text(rate) + "\n";
         before = weight;
     }
-    const auto effect = previous_weight(CsvFile(folder.write("lifts.csv", text)));
+    const auto effect = previous_weight(rows::LiftFile(folder.write("lifts.csv", text)));
     ASSERT_TRUE(effect);
     EXPECT_NEAR(effect->effect, 0.5, 4 * effect->error);
     EXPECT_LT(effect->error, 0.02);
@@ -209,7 +213,7 @@ TEST(PreviousWeight, IsTheShareThatTheLiftsWereMadeWith) {
     // weights do not vary
     text = "lift,static_load_N,peak_load_rate_N_s\n";
     for (int i = 0; i < 60; ++i) text += "complete,2,7\n";
-    EXPECT_FALSE(previous_weight(CsvFile(folder.write("same.csv", text))));
+    EXPECT_FALSE(previous_weight(rows::LiftFile(folder.write("same.csv", text))));
 }
 
 TEST(Thresholds, AreFittedToTheAnswersOfTheirProcedure) {
@@ -226,9 +230,10 @@ TEST(Thresholds, AreFittedToTheAnswersOfTheirProcedure) {
                  : yes         ? "a,felt\n"
                                : "a,not\n");
     }
-    const auto tracks = threshold_tracks(
-        CsvFile(folder.write("trials.csv", text)),
-        CsvFile(folder.write("procedures.csv",
+    const auto tracks =
+        threshold_tracks(rows::TrialFile(folder.write("trials.csv", text)),
+                         rows::ProcedureFile(folder.write(
+                             "procedures.csv",
                              "procedure,kind,perturbation,logarithmic,yes,no,sigmoid,guess,"
                              "guess_is_lapse\na,staircase,p,yes,felt,not,normal,0,no\n"
                              "b,quest,p,yes,felt,not,weibull_log10,0,no\n")));
@@ -313,7 +318,7 @@ TEST(Adaptation, WindowsAreOfOneBlockEach) {
     learner.add(20, "reversal", "perturbed", -30);
     learner.add(20, "clamp", "visual_clamp", 0);
     learner.add(12, "after", "washout", 0);
-    const CsvFile trials(folder.write("trials.csv", learner.trials(model::kSmith2006, 2)));
+    const rows::TrialFile trials(folder.write("trials.csv", learner.trials(model::kSmith2006, 2)));
     const auto curve = adaptation_curves(trials).at(0);
     const auto mean = [&](size_t first, size_t count) {
         double sum = 0;
@@ -367,7 +372,7 @@ TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
                  : i > 20 ? "washout,,,0,-5,-5\n"
                           : "baseline,,,0,1,1\n");
     }
-    const CsvFile trials(folder.write("trials.csv", text));
+    const rows::TrialFile trials(folder.write("trials.csv", text));
     const auto curve = adaptation_curves(trials, unmeasured).at(0);
     EXPECT_EQ(curve.note(), "not measured under a force field (curl), a force channel");
     const auto at = curve.windows();
@@ -392,10 +397,13 @@ TEST(Adaptation, ToAForceIsNotMeasuredAndSaysSo) {
     EXPECT_EQ(what(2), "force channel of 0 N/m");
     EXPECT_EQ(what(5), "inertia (3, 3, 1) times");
     EXPECT_TRUE(perturbation_table(none).rows.empty());
-    EXPECT_EQ(curve.trials[14].kind, "force_channel");
-    EXPECT_EQ(kind_of("error_clamp", "turn", unmeasured), "visual_clamp");
-    EXPECT_EQ(kind_of("error_clamp", "turn + rail", unmeasured), "force_channel");
-    EXPECT_EQ(kind_of("catch", "rail", unmeasured), "catch");
+    EXPECT_EQ(curve.trials[14].kind, rows::TrialKind::force_channel);
+    const rows::TrialFile earlier(folder.write("earlier.csv",
+                                               "kind,perturbation\nerror_clamp,turn\n"
+                                               "error_clamp,turn + rail\ncatch,rail\n"));
+    EXPECT_EQ(kind_of(earlier[0].asked, unmeasured), rows::TrialKind::visual_clamp);
+    EXPECT_EQ(kind_of(earlier[1].asked, unmeasured), rows::TrialKind::force_channel);
+    EXPECT_EQ(kind_of(earlier[2].asked, unmeasured), rows::TrialKind::catch_trial);
     EXPECT_EQ(unmeasured_in("rail + turn + curl", unmeasured),
               "a force field (curl), a force channel");
     EXPECT_EQ(unmeasured_in("rails", unmeasured), "");
@@ -434,7 +442,8 @@ std::string fields_of(const model::TwoRate& rates, double sign) {
 TEST(Adaptation, ToAFieldIsThatOfTheIndexInChannelsAndNeverAnAngle) {
     testing::TemporaryFolder folder;
     for (const double sign : {1.0, -1.0}) {
-        const CsvFile trials(folder.write("trials.csv", fields_of(model::kSmith2006, sign)));
+        const rows::TrialFile trials(
+            folder.write("trials.csv", fields_of(model::kSmith2006, sign)));
         ASSERT_TRUE(has_adaptation_index(trials));
         const auto curves = adaptation_curves(trials);
         ASSERT_EQ(curves.size(), 1u);
@@ -460,7 +469,7 @@ TEST(Adaptation, ToAFieldIsThatOfTheIndexInChannelsAndNeverAnAngle) {
         EXPECT_NEAR(fits->two_rate.rates.slow.learning, 0.02, 0.005);
     }
     // without the index a channel shows nothing, whatever its trials are called with
-    const CsvFile blind(folder.write(
+    const rows::TrialFile blind(folder.write(
         "blind.csv",
         "trial_num,block,kind,round,perturbation,share,hand_angle_deg,shown_angle_deg\n"
         "1,a,baseline,,,0,1,1\n2,a,force_channel,,rail,1,0,0\n"));
@@ -498,8 +507,8 @@ std::string errors_of(double effect, double noise) {
 
 TEST(Adaptation, ToAMassIsThatOfTheErrorsInEachDirection) {
     testing::TemporaryFolder folder;
-    const auto curves =
-        error_curves(CsvFile(folder.write("trials.csv", errors_of(12, 0.3))), "deviation_mm");
+    const auto curves = error_curves(
+        rows::TrialFile(folder.write("trials.csv", errors_of(12, 0.3))), "deviation_mm");
     ASSERT_EQ(curves.size(), 2u);
     EXPECT_EQ(curves[0].round, "left");
     EXPECT_EQ(curves[1].round, "right");
@@ -523,7 +532,7 @@ TEST(Adaptation, ToAMassIsThatOfTheErrorsInEachDirection) {
     }
     // an error that the perturbation does not change shows nothing, and says so
     const auto none =
-        error_curves(CsvFile(folder.write("none.csv", errors_of(0, 1))), "deviation_mm");
+        error_curves(rows::TrialFile(folder.write("none.csv", errors_of(0, 1))), "deviation_mm");
     for (const AdaptationCurve& curve : none) {
         EXPECT_FALSE(curve.errors);
         EXPECT_EQ(curve.note(),

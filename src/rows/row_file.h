@@ -1,0 +1,140 @@
+// Reads a session's table into the structs that it was written from. A row's struct lists its
+// figures once (base/figure.h): figure_table() writes a table of them, and RowFile reads it.
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "base/field.h"
+#include "base/figure.h"
+#include "base/table.h"
+#include "base/text_file.h"
+
+namespace dihaptic::rows {
+
+/// Lists a vector's components: of "reach_from" reach_from_x and so on, which share a sentence.
+template <class Visitor, class Vector>
+void visit_vector(Visitor& v, const std::string& name, Vector& value, std::string_view unit,
+                  std::string_view what) {
+    v(name + "_x", value.x(), unit, what);
+    v(name + "_y", value.y(), unit, what);
+    v(name + "_z", value.z(), unit, what);
+}
+
+/// Finds the columns that a struct lists, in the order in which it does, and reads rows of them. A
+/// column that the table lacks, as that of an earlier version may, and an empty cell leave the
+/// member as it is; so does a cell of a whole number that holds none.
+class RowReader {
+  public:
+    explicit RowReader(const CsvFile& table) : table_(table) {}
+
+    /// Throws Error where a cell holds a word that is none of those of its column.
+    template <class Row>
+    Row read(size_t row) {
+        Row out;
+        row_ = row;
+        slot_ = 0;
+        Row::visit(out, *this);
+        return out;
+    }
+
+    template <class T>
+    void operator()(std::string_view name, T& value, std::string_view unit, std::string_view) {
+        if (slot_ == slots_.size()) {
+            const FigureForm form = figure_form(name, unit);
+            slots_.push_back({table_.column(form.key), form.scale});
+        }
+        const Slot& slot = slots_[slot_++];
+        if (!slot.column) return;
+        if constexpr (std::is_floating_point_v<T>) {
+            value = table_.number(row_, *slot.column) / slot.scale;
+        } else {
+            const std::string& text = table_.text(row_, *slot.column);
+            if (!text.empty()) take(value, text, *slot.column);
+        }
+    }
+
+  private:
+    struct Slot {
+        std::optional<size_t> column;
+        double scale;
+    };
+
+    void take(std::string& value, const std::string& text, size_t) { value = text; }
+    void take(bool& value, const std::string& text, size_t) { value = text == "yes"; }
+    template <std::integral T>
+    void take(T& value, const std::string&, size_t column) {
+        const double number = table_.number(row_, column);
+        if (std::abs(number) < static_cast<double>(std::numeric_limits<T>::max()))
+            value = static_cast<T>(number);
+    }
+    template <NamedEnum E>
+    void take(E& value, const std::string& text, size_t column) {
+        constexpr auto names = enum_names(E{});
+        for (size_t i = 0; i < names.size(); ++i) {
+            if (text != names[i]) continue;
+            value = static_cast<E>(i);
+            return;
+        }
+        if constexpr (requires { old_value(value); }) {
+            if (text == old_name(value).was) {
+                value = old_value(value);
+                return;
+            }
+        }
+        std::string words;
+        for (const char* name : names) words += (words.empty() ? "" : ", ") + std::string(name);
+        throw Error(table_.place(row_), table_.columns()[column],
+                    "is '" + shortened(text) + "', and not one of: " + words,
+                    "Put a backup of the table in its place, or make it anew: dihaptic recover.");
+    }
+
+    const CsvFile& table_;
+    std::vector<Slot> slots_;
+    size_t row_ = 0, slot_ = 0;
+};
+
+/// A session's table: a Row for each of its lines, and further columns, if it has any.
+template <class Row>
+class RowFile {
+  public:
+    /// Throws Error when the file cannot be read, or has a word in it that it cannot have.
+    explicit RowFile(const std::string& file) : RowFile(CsvFile(file)) {}
+    explicit RowFile(CsvFile table) : table_(std::move(table)) {
+        RowReader reader(table_);
+        rows_.reserve(table_.rows());
+        for (size_t i = 0; i < table_.rows(); ++i) rows_.push_back(reader.read<Row>(i));
+    }
+
+    size_t size() const { return rows_.size(); }
+    bool empty() const { return rows_.empty(); }
+    const Row& operator[](size_t i) const { return rows_[i]; }
+    auto begin() const { return rows_.begin(); }
+    auto end() const { return rows_.end(); }
+    const Row& back() const { return rows_.back(); }
+
+    /// A column by its name, which a task or a person chose; nullopt if there is none.
+    std::optional<size_t> column(const std::string& name) const { return table_.column(name); }
+    const std::string& text(size_t row, std::optional<size_t> column) const {
+        static const std::string none;
+        return column ? table_.text(row, *column) : none;
+    }
+    /// NaN where the cell holds no number, and without a column.
+    double number(size_t row, std::optional<size_t> column) const {
+        return column ? table_.number(row, *column) : kUnmeasured;
+    }
+
+  private:
+    CsvFile table_;
+    std::vector<Row> rows_;
+};
+
+}  // namespace dihaptic::rows

@@ -1,0 +1,47 @@
+// What a trial is for the analysis.
+#pragma once
+
+#include <array>
+
+#include "base/field.h"
+
+namespace dihaptic::rows {
+
+/// visual_clamp: what is shown cannot err, and the hand is free; force_channel: the hand is held to
+/// a line, and what it presses against is measured.
+enum class TrialKind {
+    practice,
+    baseline,
+    perturbed,
+    catch_trial,
+    visual_clamp,
+    force_channel,
+    washout
+};
+constexpr auto enum_names(TrialKind) {
+    return std::array{"practice",     "baseline",      "perturbed", "catch",
+                      "visual_clamp", "force_channel", "washout"};
+}
+/// Both kinds of clamp had this name in the files and recordings of earlier versions.
+constexpr OldName old_name(TrialKind) {
+    return {"error_clamp",
+            "Write visual_clamp, where what is shown follows a line (toward), or force_channel, "
+            "where the hand is held to one."};
+}
+/// What the old name is read as in a table. A trial of that kind in which a force channel acted was
+/// a force_channel (analysis/perturbations.h).
+constexpr TrialKind old_value(TrialKind) {
+    return TrialKind::visual_clamp;
+}
+
+/// Whether no error is seen in trials of this kind.
+constexpr bool is_clamp(TrialKind kind) {
+    return kind == TrialKind::visual_clamp || kind == TrialKind::force_channel;
+}
+
+/// Whether trials of this kind are left out of a condition's means.
+constexpr bool is_aside(TrialKind kind) {
+    return kind == TrialKind::practice || kind == TrialKind::catch_trial;
+}
+
+}  // namespace dihaptic::rows

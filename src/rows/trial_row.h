@@ -1,0 +1,128 @@
+// A row of trials.csv: what was asked for in an attempt at a trial, and what was measured.
+#pragma once
+
+#include <string>
+
+#include "base/unmeasured.h"
+#include "rows/row_file.h"
+#include "rows/trial_kind.h"
+
+namespace dihaptic::rows {
+
+/// What a row of trials.csv begins with.
+struct TrialHead {
+    double start = 0, end = 0;
+    std::string experiment;
+    std::string participant;
+    int session = 1;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("start_time", f.start, "s", "in the session");
+        v("stop_time", f.end, "s", "in the session");
+        v("experiment", f.experiment, "", "title");
+        v("ppid", f.participant, "", "participant");
+        v("session_num", f.session, "1",
+          "number, from 1; a session that goes on with another has the next");
+    }
+};
+
+/// What the task asks for in a trial: the columns that trial-list.csv begins with.
+struct AskedRow {
+    int trial = 0;  ///< 0: the row has no number
+    int block_number = 1;
+    std::string block;
+    int in_block = 1;
+    TrialKind kind = TrialKind::baseline;
+    std::string round, condition;
+    std::string perturbation;
+    double share = kUnmeasured;
+    std::string procedure;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("trial_num", f.trial, "1", "number in the session, from 1");
+        v("block_num", f.block_number, "1", "number, from 1");
+        v("block", f.block, "", "name");
+        v("trial_num_in_block", f.in_block, "1", "number, from 1");
+        v("kind", f.kind, "",
+          "practice, baseline, perturbed, catch, visual_clamp, force_channel or washout");
+        v("round", f.round, "", "name");
+        v("condition", f.condition, "", "name");
+        v("perturbation", f.perturbation, "", "name, or names joined by ' + '; empty: none");
+        v("share", f.share, "1", "of the perturbation that acts; empty: the procedure's to say");
+        v("procedure", f.procedure, "", "name; empty: none");
+    }
+};
+
+/// What is measured in every attempt, in SI units; but reaches in the units of their columns, so
+/// that what is computed of them is what every reader of the table computes, to the last bit.
+struct TrialMeasures {
+    int attempt = 0;  ///< 0: the session has no task
+    std::string outcome;
+    double peak_grip = kUnmeasured;
+    double peak_force = 0;
+    double reach_time = kUnmeasured;
+    double hand_angle_deg = kUnmeasured, shown_angle_deg = kUnmeasured;
+    double hand_extent_mm = kUnmeasured, shown_extent_mm = kUnmeasured;
+    double wanted_extent_mm = kUnmeasured;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("attempt", f.attempt, "1", "at the trial, from 1");
+        v("outcome", f.outcome, "", "what ended it; interrupted: nothing did");
+        v("peak_grip", f.peak_grip, "N", "largest grip force");
+        v("peak_force", f.peak_force, "N", "largest force on any finger");
+        v("reach_time", f.reach_time, "s", "from its start until the reach was measured");
+        v("hand_angle_deg", f.hand_angle_deg, "deg",
+          "of the handle then, from the target's direction, about the axis");
+        v("shown_angle_deg", f.shown_angle_deg, "deg", "the same of where the handle was shown");
+        v("hand_extent_mm", f.hand_extent_mm, "mm",
+          "of the handle's first stroke, toward the target");
+        v("shown_extent_mm", f.shown_extent_mm, "mm", "the same of where the handle was shown");
+        v("wanted_extent_mm", f.wanted_extent_mm, "mm",
+          "that would have led to the target, from where the handle was first shown");
+    }
+};
+/// The outcome of an attempt that nothing ended.
+inline constexpr const char* kInterrupted = "interrupted";
+
+/// An attempt at a task's trial. Variables, levels, answers and the task's own measures have
+/// further columns, which differ from task to task (RowFile::column).
+struct TrialRow {
+    TrialHead head;
+    AskedRow asked;
+    TrialMeasures measures;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        TrialHead::visit(f.head, v);
+        AskedRow::visit(f.asked, v);
+        TrialMeasures::visit(f.measures, v);
+    }
+};
+
+/// A trial of a session without a task.
+struct PlainTrialRow {
+    TrialHead head;
+    int trial = 0;
+    int block = 1;
+    std::string outcome;
+    double peak_grip = kUnmeasured;
+    double peak_force = 0;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        TrialHead::visit(f.head, v);
+        v("trial_num", f.trial, "1", "number in the session, from 1");
+        v("block_num", f.block, "1", "number, from 1");
+        v("trial_num_in_block", f.trial, "1", "number, from 1");
+        v("outcome", f.outcome, "", "done, interrupted, diverged, or force off");
+        v("peak_grip", f.peak_grip, "N", "largest grip force");
+        v("peak_force", f.peak_force, "N", "largest force on any finger");
+    }
+};
+
+using TrialFile = RowFile<TrialRow>;
+
+}  // namespace dihaptic::rows
