@@ -274,7 +274,7 @@ F = TypeVar("F", bound=File)
 
 
 class Scene(File):
-    """A scene: bodies, joints, fingers (docs/files.md).
+    """A scene: bodies, joints, fingers (docs/files/scene.md).
 
     >>> import dihaptic as dh
     >>> scene = dh.Scene(
@@ -293,7 +293,7 @@ class Scene(File):
 
 
 class Rig(File):
-    """A rig: its devices, where they stand, its display (docs/files.md).
+    """A rig: its devices, where they stand, its display (docs/files/rig.md).
 
     >>> import dihaptic as dh
     >>> dh.Rig.load("rigs/ideal-pair.yaml").check()
@@ -304,7 +304,7 @@ class Rig(File):
 
 
 class Experiment(File):
-    """An experiment: a scene, a rig, and trials (docs/files.md).
+    """An experiment: a scene, a rig, and trials (docs/files/experiment.md).
 
     `scene` and `rig` are paths, from the experiment's own folder, or a Scene and a Rig.
 

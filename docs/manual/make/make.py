@@ -22,6 +22,7 @@ ELSEWHERE = {
     **{f"docs/{name}.md": f"reference/{name}" for name in (
         "conventions", "experiments", "figures", "files", "licences", "measures", "measures-of-behaviour", "promises",
         "python", "quantities", "tables", "window")},
+    **{f"docs/files/{path.name}": f"reference/files/{path.stem}" for path in PROJECT.glob("docs/files/*.md")},
     "docs/reference.md": "reference/keys",
     "docs/safety.md": "how-to/safety",
     "src/README.md": "explanation/rooms/rooms",

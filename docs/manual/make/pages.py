@@ -138,9 +138,11 @@ def prepare(folder, program):
 
 def run(program, page, out):
     """Runs a page in a folder of its own in `out`; returns that folder. Raises ValueError for what does not hold."""
-    program = pathlib.Path(program).resolve()
-    text = (MANUAL / f"{page}.md").read_text()
-    folder = pathlib.Path(out).resolve() / page
+    return run_text(pathlib.Path(program).resolve(), (MANUAL / f"{page}.md").read_text(), pathlib.Path(out).resolve() / page)
+
+
+def run_text(program, text, folder):
+    """Runs the text of a page in this folder, which it returns."""
     environment = prepare(folder, program)
     commands = folder.with_name(folder.name + ".sh")
     commands.write_text(script(text))

@@ -187,7 +187,7 @@ TEST(Levels, CountInTheUnitOfTheirName) {
 }
 
 TEST(Levels, AreAsTheDocumentHasThem) {
-    const std::string pages = read_text_file("docs/files.md");
+    const std::string pages = read_text_file("docs/files/procedures.md");
     const size_t begin = pages.find("title: How much rougher");
     ASSERT_NE(begin, std::string::npos);
     std::string example = pages.substr(begin, pages.find("```", begin) - begin);
