@@ -12,7 +12,7 @@ A command that begins with dihaptic-bench is run by that program, which lies bes
     figures.py PROGRAM --peers     runs those of other simulators as well
     figures.py PROGRAM --only grasp    those whose command has this word
     figures.py --table             prints the page's table
-    figures.py --table --headline  prints README's, which has some of its rows
+    figures.py --words             prints README's sentences, "in_words" of some rows
 
 It returns 1 when a figure differs, and names it; 2 when a command failed.
 """
@@ -41,6 +41,10 @@ def load(path=ROOT / "docs" / "figures.json"):
 
 def table(rows):
     return HEAD + [f"| {row['what']} | {row['figure']} | `{row['command']}` |" for row in rows]
+
+
+def sentences(rows):
+    return [row["in_words"] for row in rows if "in_words" in row]
 
 
 def stated_table(text):
@@ -118,11 +122,11 @@ def main():
     parser.add_argument("--peers", action="store_true")
     parser.add_argument("--only", default="")
     parser.add_argument("--table", action="store_true")
-    parser.add_argument("--headline", action="store_true")
+    parser.add_argument("--words", action="store_true")
     options = parser.parse_args()
-    rows = [row for row in load() if row.get("headline") or not options.headline]
-    if options.table:
-        print("\n".join(table(rows)))
+    rows = load()
+    if options.table or options.words:
+        print("\n".join(table(rows) if options.table else sentences(rows)))
         return 0
     if not options.program:
         parser.error("which program?")

@@ -14,8 +14,10 @@ class Figures(unittest.TestCase):
     def test_the_pages_have_the_files_rows(self):
         stated = figures.stated_table((figures.ROOT / "docs/figures.md").read_text())
         self.assertEqual(stated, figures.table(figures.load()))
-        first = figures.stated_table((figures.ROOT / "README.md").read_text())
-        self.assertEqual(first, figures.table([row for row in figures.load() if row.get("headline")]))
+        readme = " ".join((figures.ROOT / "README.md").read_text().split())
+        self.assertEqual(len(figures.sentences(figures.load())), 3)
+        for sentence in figures.sentences(figures.load()):
+            self.assertIn(sentence, readme)
 
     def test_every_row_is_checked(self):
         for row in figures.load():

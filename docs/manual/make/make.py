@@ -20,7 +20,7 @@ from pages import MANUAL, PROJECT
 # Pages that stand elsewhere, with the places that they have in the manual.
 ELSEWHERE = {
     **{f"docs/{name}.md": f"reference/{name}" for name in (
-        "conventions", "experiments", "figures", "files", "licences", "measures", "measures-of-behaviour", "promises",
+        "conventions", "experiments", "figures", "files", "licences", "limits", "measures", "measures-of-behaviour", "promises",
         "python", "quantities", "tables", "window")},
     **{f"docs/files/{path.name}": f"reference/files/{path.stem}" for path in PROJECT.glob("docs/files/*.md")},
     "docs/reference.md": "reference/keys",
