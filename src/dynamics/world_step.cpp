@@ -1,3 +1,33 @@
+// One step of the world, in the order of World::step().
+//
+//   1 loads         v <- v + h M^-1 (m g + f): gravity, applied forces and torques, before any
+//                   contact, so that friction answers all loads of this very step. In Bullet's own
+//                   order it does not see torques, and a held block turns under them. A body that
+//                   is driven gets the velocity that takes it to its place instead.
+//   2 free turns    w becomes its mean over the step in which the body turns freely (free_turn.h):
+//                   contacts and joints ask where bodies get, and that is what this mean tells.
+//   3 contacts      are found ahead, by the velocities after the loads. A gap g lets two bodies
+//                   approach by g and no more, so that nothing overlaps and nothing has to be
+//                   pushed apart. Sleepers that are touched wake up, and join the step.
+//   4 islands       of bodies that touch or are joined are solved one after the other, those with a
+//                   finger first: a heap that no finger touches must not keep the hand waiting.
+//   5 impulses      of contacts, friction and joints in one solve (src/contact). They are implicit:
+//                   contacts, joints and motors hold for the velocities and places at the END of
+//                   the step, and springs and soft faces are as implicit as their stiffness asks.
+//                   Joints and free turns are not linear there, and are guessed and solved again.
+//                   Bounces solve a second time, for how fast bodies leave, and may add no energy.
+//   6 missed        Pairs that would enter each other all the same, since they turned or were
+//                   knocked, get contacts, and everything is solved again from the velocities
+//                   before it. What no contact can stop waits in front of what it would hit.
+//   7 positions     x <- x + h v, R <- exp(h w) R: semi-implicit Euler, by the new velocities.
+//                   Then w <- I^-1 L for the new orientation, with the momentum L of the step.
+//   8 published     are the bodies' states, contacts with their forces, joints with theirs, the
+//                   statistics of the solve, and what the books say of energy and momentum. Last,
+//                   groups that have been quiet for long enough fall asleep.
+//
+// A step never throws, allocates or reads a clock: its work is counted and bounded instead, so that
+// a replay repeats it to the bit. A step that diverges has no contacts and says so, and later ones
+// do nothing until mend(). README.md of this room has the equations.
 #include <algorithm>
 #include <limits>
 #include <numbers>
