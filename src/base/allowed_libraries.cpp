@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file itself, whatever links lead to it; "" if there is none.
+/// The file itself, with all links resolved; "" if it does not exist.
 fs::path file_itself(const std::string& path) {
     std::error_code failed;
     const fs::path out = fs::canonical(path, failed);

@@ -1,7 +1,7 @@
-// The libraries that a user allows this program to load, wherever they are named: files that come
+// The libraries that a user allows this program to load, whichever file names them: files that come
 // from others may name libraries too, and loading one runs its code.
 //
-// The list is a YAML file of the user's, $XDG_CONFIG_HOME/dihaptic/libraries.yaml or
+// The list is a YAML file that belongs to the user, $XDG_CONFIG_HOME/dihaptic/libraries.yaml or
 // ~/.config/dihaptic/libraries.yaml:
 //
 //   - /opt/OpenHaptics/lib/libHD.so
@@ -18,7 +18,7 @@ std::string allowed_libraries_file();
 /// no folder.
 bool is_system_library(const std::string& name);
 
-/// Whether the list has this file. Throws Error when the list cannot be read.
+/// Whether the list contains this file. Throws Error when the list cannot be read.
 bool is_allowed_library(const std::string& path);
 
 }  // namespace dihaptic

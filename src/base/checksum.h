@@ -1,5 +1,5 @@
-// Checksums of files, by which damage and mix-ups show: CRC-32, in hexadecimal. Whoever means to
-// forge a file can give it any checksum.
+// Checksums of files (CRC-32, in hexadecimal), which reveal damage and mix-ups. They do not prevent
+// forgery.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace dihaptic {
 
-/// The checksum of bytes that come one part after the other.
+/// Computes the checksum of bytes that arrive in several parts.
 class Checksum {
   public:
     void add(std::span<const std::byte> bytes);

@@ -1,7 +1,7 @@
 // Names that may stand somewhere in a file, for a problem that lists them (Problem::choices).
 //
-// Files may hold thousands of names, and as many mistakes: a problem shows some names only, and of
-// those after the first hundred nothing more than what is wrong is worked out.
+// A file may hold thousands of names, and as many mistakes. A problem therefore shows only some
+// names, and suggestions are worked out for the first hundred problems only.
 #pragma once
 
 #include <fmt/format.h>
@@ -27,7 +27,7 @@ std::vector<Choice> choices_of(const Names& names) {
     return out;
 }
 
-/// "a, b, c", or the first of many.
+/// "a, b, c", or the first few if there are many.
 inline std::string listed(const std::vector<std::string>& names) {
     std::string out;
     for (size_t i = 0; i < std::min(names.size(), kMostListed); ++i)

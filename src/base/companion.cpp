@@ -95,7 +95,7 @@ bool limit(pid_t process, const CompanionLimits& limits) {
     const auto set = [&](__rlimit_resource which, uint64_t soft, uint64_t hard) {
         rlimit now{};
         if (prlimit(process, which, nullptr, &now) != 0) return errno == ESRCH;  // it has ended
-        // a process whose hard limit is lower already cannot be given more
+        // a process whose hard limit is already lower cannot be given a higher one
         const rlimit value{std::min(soft, now.rlim_max), std::min(hard, now.rlim_max)};
         return prlimit(process, which, &value, nullptr) == 0 || errno == ESRCH;
     };
@@ -156,7 +156,7 @@ Ended run(const CompanionTask& task, const std::string& path, int in, int out) {
                errno == EINTR)
             continue;
     }
-    // only now may another program be given its number
+    // only from now on may another program get its process number
     while (waitpid(process, &ended.status, 0) < 0 && errno == EINTR) continue;
     if (!limited) throw failed(EPERM);
     return ended;

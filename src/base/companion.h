@@ -1,5 +1,5 @@
-// Companions are programs that come with this one and that it calls: work that may crash, hang or
-// fill the memory, or has to outlive this program, runs in one of them.
+// Companions are programs that are shipped with this one and called by it. Work that may crash,
+// hang or fill the memory, or that has to outlive this program, runs in a companion.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace dihaptic {
 /// none.
 std::string companion(const std::string& name);
 
-/// The remedy where one is missing.
+/// The remedy for a missing companion.
 constexpr const char* kCompanionMissing = "Build all of Dihaptic, or install it again.";
 
 /// What a companion may use before it is killed.
@@ -39,9 +39,9 @@ struct CompanionTask {
     std::stop_token stop = {};  ///< ends the companion
 };
 
-/// Is told what companions are waited for: after a second, and again whenever that time has
-/// doubled. `what`: CompanionTask::what; `most`: when it is killed [s]. Null, as at first: nobody
-/// is told. It is called by the thread that waits.
+/// Called by a thread that waits for a companion, after a second and again whenever that time has
+/// doubled. `what` is CompanionTask::what; `most`: when the companion is killed [s]. Null, the
+/// default: nothing is called.
 using CompanionWait = void (*)(const std::string& what, int seconds, int most);
 void tell_companion_waits(CompanionWait tell) noexcept;
 

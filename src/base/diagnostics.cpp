@@ -77,12 +77,12 @@ Error::Error(const Place& place, std::string key, std::string what, std::string 
 
 namespace {
 
-/// Nobody mends more at once, and a file may have a hundred thousand mistakes.
+/// Nobody corrects more than this at a time, and a file may have a hundred thousand mistakes.
 constexpr size_t kMostErrors = 200;
 constexpr size_t kMostWarnings = 1000;
 constexpr const char* kMore = "more is wrong than what is told above";
 
-/// Whether nothing more is told.
+/// Whether further problems are left out.
 bool is_full(const std::vector<Problem>& problems) {
     return !problems.empty() && problems.back().what == kMore;
 }
@@ -93,8 +93,8 @@ size_t errors(const std::vector<Problem>& problems) {
                       [](const Problem& p) { return p.severity == Severity::error; }));
 }
 
-/// Adds it, unless so many have been told that nobody reads another. No error is lost while there
-/// are none but warnings.
+/// Adds the problem, unless there are already more than anyone would read. The first error is
+/// always kept, however many warnings there are.
 void tell(std::vector<Problem>& problems, Problem next) {
     if (is_full(problems)) return;
     if (next.severity == Severity::warning && problems.size() >= kMostWarnings) return;

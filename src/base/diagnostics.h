@@ -16,11 +16,11 @@ enum class Severity { warning, error };
 struct Place {
     std::string file;
     int line = 0;  ///< from 1; 0: the file as a whole
-    /// Of a mapping, the lines of its keys: a problem with one of them is there.
+    /// For a mapping: the lines of its keys, at which problems with the keys are reported.
     std::shared_ptr<const std::map<std::string, int>> keys = nullptr;
 };
 
-/// A word that may stand somewhere in a file.
+/// A word that is allowed at some place of a file.
 struct Choice {
     std::string word;
     std::string what;  ///< a sentence about it; may be empty
@@ -32,7 +32,7 @@ struct Problem {
     std::string key;     ///< the key or column that the problem is about; may be empty
     std::string what;    ///< what is wrong
     std::string remedy;  ///< what would be right
-    /// Of a key or a word that is not known: those that are known there and not yet given.
+    /// For an unknown key or word: those that are known at this place and not yet given.
     std::vector<Choice> choices = {};
 
     /// "file:line: error: key: what. remedy", without the parts that are empty.
@@ -53,8 +53,8 @@ class Error : public std::runtime_error {
     std::vector<Problem> problems_;
 };
 
-/// In what people write, a key that is not known is a mistake; in what another version of this
-/// program wrote, it is what that version had and this one has not.
+/// In files that people write, an unknown key is a mistake. In files that another version of this
+/// program wrote, it is a key of that version which this one lacks.
 enum class UnknownKeys { are_errors, are_left_out };
 
 /// Collects problems while an input is read.

@@ -1,6 +1,6 @@
 // Files that have to survive a loss of power are synchronised to the disk. Otherwise the operating
-// system may keep what was written in memory for half a minute or longer, and may keep a new file's
-// name back independently of its content.
+// system may keep their content in memory for half a minute or longer, and may delay a new file's
+// name independently of its content.
 #pragma once
 
 #include <string>

@@ -29,8 +29,8 @@
 
 namespace dihaptic {
 
-/// The direction in which a limit is tighter, for settings that are limits: once a limit is set, a
-/// later setting may only move it in that direction. `fixed`: in neither.
+/// The direction in which a limit becomes tighter. Once a limit is set, a later setting may only
+/// move it in that direction, or, if it is `fixed`, not at all.
 enum class Tighter { none, less, more, fixed };
 
 /// What a field's value must satisfy. Each component of a vector must satisfy it.
@@ -73,8 +73,8 @@ struct Field {
         f.tighter = way;
         return f;
     }
-    /// The name is a new one. A file that has the old one gets an error that says so; an input that
-    /// an earlier version froze in a session is read.
+    /// The field was renamed. A file with the old name gets an error that says so; inputs that an
+    /// earlier version froze in a session are still read.
     constexpr Field formerly(const char* name) const {
         Field f = *this;
         f.old_name = name;
@@ -92,17 +92,17 @@ struct Field {
     }
 };
 
-/// A field of which nothing but a sentence is said.
+/// A field that is described by a sentence only.
 constexpr Field says(std::string_view sentence) {
     return Field{}.says(sentence);
 }
 
-/// Texts of a field for which a file gives one text as it is, or a list.
+/// The texts of a field for which a file gives a single text or a list.
 struct Texts : std::vector<std::string> {
     using std::vector<std::string>::vector;
 };
 
-/// What a file may still call a value by a name that is gone: an enum with such a value has
+/// A former name of an enum's value, which a file may still contain. Such an enum has
 ///
 ///     constexpr OldName old_name(Shape) { return {"cube", "Write box."}; }
 struct OldName {

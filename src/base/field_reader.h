@@ -20,8 +20,8 @@ namespace dihaptic {
 /// line".
 using Origins = std::map<std::string, std::string>;
 
-/// Visitor that fills one struct from one mapping. A field that the mapping does not have keeps its
-/// value, so a later file overrides an earlier one when both are read into the same struct in turn.
+/// Visitor that fills one struct from one mapping. A field that the mapping lacks keeps its value,
+/// so a later file overrides an earlier one when both are read into the same struct in turn.
 class FieldReader {
   public:
     /// `path` is the struct's own path in `origins` ("" for the outermost); `origins` may be null.
@@ -91,8 +91,7 @@ class FieldReader {
     /// Keeps a part of the file unread, for a reader that knows its content.
     void operator()(std::string_view name, Node& value, Field field = {});
 
-    /// A field that other structs of its kind have, and this one has not: it is an error to give
-    /// it.
+    /// A field that belongs to structs of another kind: giving it here is an error.
     void foreign(std::string_view name, const Field& field, const std::string& remedy);
 
     /// Where the struct itself was written; place_of() gives a field's place or, failing that, the
@@ -103,7 +102,7 @@ class FieldReader {
     bool has(std::string_view name, Quantity quantity = Quantity::none) const;
     /// Whether a key is meant for the field, readable or not.
     bool mentions(std::string_view name) const;
-    /// Whether the mapping gives the field as a list, where a mapping would do too.
+    /// Whether the mapping gives the field as a list, where a mapping is possible too.
     bool is_list(std::string_view name) const;
     Diagnostics& diagnostics() { return diagnostics_; }
 

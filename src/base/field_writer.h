@@ -1,7 +1,7 @@
 // Writes configuration structs (base/field.h) as YAML, every value resolved and in SI units;
 // sessions keep their inputs in this form. A formula is written as it was given, with its unit.
-// Reading the result gives the same struct, to the bit. An infinite value, which no file can have,
-// is left out: it has to be its field's default.
+// Reading the result gives the same struct, to the bit. An infinite value cannot be written and is
+// left out, so it must be the default of its field.
 #pragma once
 
 #include <optional>

@@ -10,7 +10,7 @@
 namespace dihaptic {
 namespace {
 
-/// How a name ends by its unit: "N/s" becomes "_N_s", "N*m" becomes "_Nm".
+/// The ending that a unit gives a name: "N/s" becomes "_N_s", "N*m" becomes "_Nm".
 std::string ending(std::string_view unit) {
     std::string out = "_";
     for (const char c : unit) {

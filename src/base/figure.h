@@ -13,8 +13,9 @@
 //
 // The columns of CSV and NWB files, what BIDS says of them, tables of pages and of the
 // documentation, and keys of JSON follow from that list. A member is in SI units, its column in the
-// unit that is given, by which its name ends: peak_grip_N, height_mm. A name that ends so in the
-// list itself says that the member is in that unit. Pure numbers have the unit "1", texts none: "".
+// unit that is given, by which its name ends: peak_grip_N, height_mm. If the name in the list
+// already ends in the unit, the member itself is in that unit. Pure numbers have the unit "1",
+// texts none: "".
 #pragma once
 
 #include <optional>
@@ -37,8 +38,7 @@ struct FigureForm {
 /// `unit` is written as people write it, e.g. "N/s"; base/unit.h must know it.
 FigureForm figure_form(std::string_view name, std::string_view unit);
 
-/// Lists figures, of a struct or as a function calls it with them, as the columns and cells of a
-/// table.
+/// Collects figures, from a struct or from direct calls, as the columns and cells of a table.
 class FigureLister {
   public:
     template <class T>
@@ -139,8 +139,8 @@ FigureColumn figure_column(Member Figures::*member) {
 /// Adds a row to a table, and sets the table's columns.
 void add_row(Table& table, FigureLister row);
 
-/// Lists a struct's figures as an object of JSON, for which `Json` is nlohmann::ordered_json:
-/// structs that list theirs become objects, vectors arrays, and optionals without a value null.
+/// Writes a struct's figures as a JSON object (`Json` is nlohmann::ordered_json). Structs that list
+/// figures become objects, vectors become arrays, and empty optionals become null.
 template <class Json>
 class FigureJson {
   public:

@@ -15,7 +15,7 @@ namespace dihaptic {
 struct Formula {
     double value = 0;  ///< of a number, in SI units
     std::string text;  ///< empty: the value stands
-    double to_si = 1;  ///< unit of the key, which a text without a dimension counts in
+    double to_si = 1;  ///< unit of the key, in which a text without a dimension is read
     std::string key;   ///< as in the file
     Place place;
     Field field;     ///< bounds of what the text gives

@@ -36,7 +36,7 @@ bool is_number(std::string_view line) {
     return finite_number(word).has_value();
 }
 
-/// The one of which a line has most outside of quotes; of a line without any, a comma.
+/// The separator that is most frequent in a line outside of quotes; a comma if there is none.
 char most_frequent(std::string_view line) {
     std::array<int64_t, kSeparators.size()> counts{};
     bool quoted = false;
@@ -61,7 +61,7 @@ GivenTable::GivenTable(std::string_view text, std::string file, size_t begin)
     if (text.find('\n') == std::string_view::npos && text.find('\r') != std::string_view::npos)
         throw Error({file_, 0}, "", "its lines end in CR alone, as on old Macs",
                     "Save it with line ends LF, or CR LF.");
-    // spreadsheets of Microsoft write and want it
+    // Microsoft's spreadsheets write and expect it
     const std::string_view first = trimmed(text.substr(0, text.find_first_of("\r\n")));
     if (first.starts_with("sep=") && first.size() == 5) {
         separator_ = first[4];
@@ -113,7 +113,7 @@ std::optional<std::vector<std::string>> GivenTable::next() {
 std::vector<std::string> GivenTable::split(std::string_view line) const {
     std::vector<std::string> cells;
     for (;;) {
-        // blanks may stand before a quote; a tab is one only where it parts no cells
+        // blanks may precede a quote; a tab is a blank only where it does not separate cells
         while (!line.empty() && (line[0] == ' ' || (line[0] == '\t' && separator_ != '\t')))
             line.remove_prefix(1);
         std::string& cell = cells.emplace_back();

@@ -1,7 +1,7 @@
 // A table that somebody hands in, as spreadsheets, trackers and statistics programs write it in any
 // country: with commas, semicolons or tabs between its cells (perhaps said so by a line sep=;),
-// points or commas before decimals, and cells in quotes. What cannot be told for certain is an
-// error with file, line and remedy. Tables of the program's own are read by read_csv().
+// points or commas before decimals, and cells in quotes. Anything ambiguous is an error with file,
+// line and remedy. The program's own tables are read by read_csv().
 #pragma once
 
 #include <cstdint>
@@ -17,23 +17,24 @@ namespace dihaptic {
 /// Goes through a table line by line: movements have millions of them.
 class GivenTable {
   public:
-    /// `text`: of the file, which has to live on; the table begins at one of its lines.
+    /// `text` is the file's text, which must outlive this object; the table begins at one of its
+    /// lines.
     GivenTable(std::string_view text, std::string file, size_t begin = 0);
 
     /// Cells of the next line that has any, without the blanks around them; nullopt at the end.
     /// Throws Error when a line's quotes do not end in it, or it has thousands of cells.
     std::optional<std::vector<std::string>> next();
-    /// What next() will give.
+    /// The number of the line that next() will return.
     std::optional<std::vector<std::string>> peek() const { return GivenTable(*this).next(); }
-    /// Of the line that next() gave.
+    /// The number of the line that next() returned.
     Place place() const { return {file_, line_}; }
     /// Whether lines without cells stood before it.
     bool after_gap() const { return gap_; }
 
-    /// The number that a cell says; nullopt if it says none. Throws Error when the table has both
-    /// points and commas before decimals: one of them parts thousands then.
+    /// The number in a cell; nullopt if it is not a number. Throws Error when the table has both
+    /// decimal points and decimal commas: one of them must then separate thousands.
     std::optional<double> number(const std::string& cell);
-    /// Warns, once all was read, of numbers in which a comma may have parted thousands.
+    /// Warns, after everything was read, of numbers in which a comma may have separated thousands.
     void tell_commas(Diagnostics& diagnostics) const;
 
     char separator() const { return separator_; }

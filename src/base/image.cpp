@@ -57,9 +57,9 @@ void check_pixels(int64_t width, int64_t height, const std::string& file) {
         fmt::format("Make it smaller: {} million pixels are the most.", kMostPixels / 1'000'000));
 }
 
-/// libpng's plain interface, with which no value is bent by a gamma, as far as all forms of a PNG
-/// file are brought to one: rows of red, green, blue and alpha. It jumps at an error: what it jumps
-/// over has no destructors.
+/// Uses libpng's low-level interface, which applies no gamma, to convert every form of PNG file to
+/// rows of red, green, blue and alpha. libpng reports an error by longjmp, so nothing that it jumps
+/// over may have a destructor.
 class PngReader {
   public:
     explicit PngReader(const std::string& bytes) : rest_(bytes) {

@@ -1,5 +1,5 @@
-// A picture in memory, and its PNG file. One that is seen is read as it is meant to look; one whose
-// greys are data, such as heights, is read as stored: to those no gamma applies.
+// A picture in memory, and its PNG file. A picture that is to be seen is read as it is meant to
+// look. A picture whose greys are data, such as heights, is read as stored, without gamma.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,8 @@ struct Image {
 
 /// Writes a PNG file, which appears only when it is whole. Throws Error when it cannot be written.
 void write_png(const Image& image, const std::string& file);
-/// Throws Error when the file is not a PNG file, or is very large. 16 bits are sRGB too, unless the
-/// file says otherwise (gAMA); transparent pixels are laid on black.
+/// Throws Error when the file is not a PNG file, or is very large. 16-bit samples are taken as sRGB
+/// too, unless the file says otherwise (gAMA); transparent pixels are drawn on black.
 Image read_png(const std::string& file);
 
 /// A picture whose greys are numbers.
@@ -33,7 +33,8 @@ struct GreyImage {
     std::vector<float> grey;    ///< 0, black, to 1, white: mean of the colours as stored
     std::string checksum = {};  ///< of the file that it was read from (base/checksum.h)
 };
-/// Throws Error as read_png() does, and when a pixel is not opaque: a number is there or not.
+/// Throws Error as read_png() does, and also when a pixel is not opaque: a number cannot be half
+/// there.
 GreyImage read_grey_png(const std::string& file);
 
 }  // namespace dihaptic

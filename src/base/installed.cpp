@@ -11,8 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The shared library that this function is in, if it is in one: the running program is then
-/// somebody else's, such as Python.
+/// The shared library that contains this function, if there is one: the running program is then
+/// another one, such as Python.
 fs::path file_of_this() {
     std::error_code ignored;
     const fs::path program = fs::read_symlink("/proc/self/exe", ignored);

@@ -1,5 +1,5 @@
-// Reads JSON that others wrote. To copy and to write a value recurses into it, so that a few
-// kilobytes of brackets would use up a small stack.
+// Reads JSON from other programs. Copying and writing a value is recursive, so a few kilobytes of
+// brackets would exhaust a small stack.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 
 namespace dihaptic {
 
-/// Of lists within lists: more than any message or file of the program's has.
+/// Depth of nesting: greater than that of any message or file of the program.
 constexpr int kDeepestJson = 32;
 
 /// Discarded (is_discarded()) if the text is not JSON, or is nested too deeply.

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kNumber = R"(^[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?$)";
 constexpr double kLargestWhole = 1e9;  // of FieldReader
 
-/// A number as people would write it: without the rounding of a conversion.
+/// A number as people would write it, without the rounding errors of a conversion.
 Json plain(double value) {
     const double round = finite_number(number_text(value, 9)).value_or(value);
     if (std::abs(round - value) <= 1e-12 * std::abs(value)) value = round;
@@ -59,7 +59,7 @@ Json preset_of(const Node& node, double si) {
     return out;
 }
 
-/// As one would write it in a file.
+/// As a person would write it in a file.
 std::string in_words(const Json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (!value.is_array()) return value.dump();
@@ -221,7 +221,8 @@ void SchemaLister::add(std::string_view name, const Field& field, const Node& pr
     keep_one_default(names.size(), best);
 }
 
-/// An editor writes all keys that have a default where it begins a mapping: of one value, one unit.
+/// An editor inserts all keys with a default when it begins a mapping, so each value has its
+/// default in one unit only.
 void SchemaLister::keep_one_default(size_t units, const Json& best) {
     bool kept = false;
     for (size_t i = found_.keys.size() - units; i < found_.keys.size(); ++i) {

@@ -1,9 +1,9 @@
 // Makes JSON Schemas, draft 7, of configuration structs (base/field.h). An editor that has the
 // schema of a file completes its keys, says what each means, and marks mistakes while it is typed.
 //
-// A schema refuses nothing that FieldReader reads; it is for YAML 1.2, in which yes and no are
-// words. What no schema can say is left to `dihaptic check`: names of things that are not there,
-// expressions with mistakes, keys that do not go together.
+// A schema refuses nothing that FieldReader accepts. It is meant for YAML 1.2, in which yes and no
+// are words. What a schema cannot express is left to `dihaptic check`: names of things that do not
+// exist, mistakes in expressions, keys that exclude each other.
 #pragma once
 
 #include <functional>
@@ -34,15 +34,16 @@ struct SchemaKeys {
         Json schema;
     };
     std::vector<Key> keys;
-    /// Of each key that has to be there, its names with all units.
+    /// For each required key: its name with every possible unit.
     std::vector<std::vector<std::string>> required;
 };
 
-/// The schema of one file. Each struct in it is a definition, once, which its keys refer to.
+/// The schema of one kind of file. Each struct is defined once; keys refer to the definition.
 class JsonSchema {
   public:
-    /// What is read elsewhere, where a visit() has a Node by this name: the keys of a struct, or
-    /// what the schema says. Call it before of(). A Node that nothing is known of is any mapping.
+    /// Describes a part that is read elsewhere, for which a visit() has a Node of this name: by the
+    /// keys of a struct, or by a schema. Call it before of(). A Node without a description may be
+    /// any mapping.
     template <class Struct>
     void part(const std::string& name, const std::string& heading, const Struct& value) {
         part_of_kind(name, "", heading, value);
@@ -62,15 +63,16 @@ class JsonSchema {
         };
     }
 
-    /// Of a file that is read into such a struct. `heading`: what it is, in a word or two.
+    /// The schema of a file that is read into such a struct. `heading` says in a word or two what
+    /// it is.
     template <class Struct>
     Json of(const Struct& value, const std::string& heading) {
         return whole(object(value, heading), heading);
     }
 
-    /// Of yes and no.
+    /// The schema of yes and no.
     static Json yes_or_no() { return {{"enum", {"yes", "no", true, false, "true", "false"}}}; }
-    /// Of any word or text, be it a number, yes or true.
+    /// The schema of any word or text, even a number, yes or true.
     static Json word();
 
   private:
@@ -79,10 +81,10 @@ class JsonSchema {
     Json whole(const Json& keys, const std::string& heading) const;
     /// A mapping with these keys.
     static Json mapping(const SchemaKeys& keys);
-    /// A mapping with other keys for each word that `key` has.
+    /// A mapping whose keys depend on the word that `key` has.
     static Json mapping(std::string_view key, const std::vector<std::string_view>& words,
                         const std::vector<SchemaKeys>& each);
-    /// Keys of a mapping that are read in two ways.
+    /// The keys of a mapping that can be given in two ways.
     static SchemaKeys either(SchemaKeys one, const SchemaKeys& other);
 
     template <class Struct>
@@ -102,7 +104,7 @@ class JsonSchema {
             return mapping(keys_of(value, path));
         }
     }
-    /// A reference to the struct's definition, which is named after the key that has it first.
+    /// A reference to the struct's definition, which is named after the first key that uses it.
     template <class Struct>
     Json refer(const Struct& value, const std::string& path) {
         const auto [name, is_new] = names_.try_emplace(typeid(Struct), path);

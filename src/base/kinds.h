@@ -1,12 +1,12 @@
 // Structs of configuration (base/field.h) whose keys depend on their kind: a sphere has a radius,
-// and a box has a size. Such a struct is given once for each kind by a function that is found by
-// argument-dependent lookup:
+// and a box has a size. A function, found by argument-dependent lookup, gives such a struct once
+// for each kind:
 //
 //     inline Kinds<Ball> kinds_of(const Ball& ball) {
 //         return each_kind<BallKind>("kind", ball, [](Ball& b, BallKind kind) { b.kind = kind; });
 //     }
 //
-// What describes the keys of files goes by it: docs/reference.md, and the schemas for editors.
+// docs/reference.md and the schemas for editors are made from it.
 #pragma once
 
 #include <string_view>
@@ -20,7 +20,7 @@ namespace dihaptic {
 template <class Struct>
 struct Kinds {
     std::string_view key;  ///< of the file, that names the kind
-    /// The word for each kind; "" stands for whatever is none of the other words.
+    /// The word for each kind; "" stands for any other word.
     std::vector<std::pair<std::string_view, Struct>> each;
 };
 

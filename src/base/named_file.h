@@ -1,5 +1,5 @@
-// A file that another file names: where it cannot be read, what has to be mended is the name, and
-// the message is about the place at which it stands.
+// Checks a file that another file names. If it cannot be read, the name has to be corrected, so the
+// message refers to the place where the name stands.
 #pragma once
 
 #include <string>
@@ -8,8 +8,7 @@
 
 namespace dihaptic {
 
-/// Throws Error when there is no file `file` that can be opened; `place` and `key` are those of its
-/// name.
+/// Throws Error when `file` cannot be opened; `place` and `key` are where its name stands.
 void check_named(const std::string& file, const Place& place, const std::string& key);
 
 }  // namespace dihaptic

@@ -62,12 +62,13 @@ void Node::set(const std::string& key, Node value) {
 
 namespace {
 
-/// An alias (*name) inside what it names never ends, and aliases of aliases double at each level.
+/// An alias (*name) inside what it names would never end, and aliases of aliases double at each
+/// level.
 constexpr size_t kDeepest = 32;
 constexpr size_t kMostNodes = 500'000;
 
-/// Makes the tree while the text is read, so that what is too deep or too large is refused where it
-/// begins to be. In YAML::Load()'s tree each look at a key would search all of them.
+/// Builds the tree while the text is read, so that nesting or size beyond the limits is refused at
+/// once. In the tree of YAML::Load() each look-up of a key would search all keys.
 class TreeBuilder final : public YAML::EventHandler {
   public:
     TreeBuilder(const std::string& file, Words words) : file_(file), words_(words) {
@@ -92,7 +93,7 @@ class TreeBuilder final : public YAML::EventHandler {
     };
 
     void OnDocumentStart(const YAML::Mark&) override { ++documents_; }
-    // a stray comma is a document without anything in it
+    // a stray comma counts as an empty document
     void OnDocumentEnd() override { check_single(file_place(0)); }
     void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
         add(begin(Node::Kind::null, mark), anchor);
@@ -134,7 +135,7 @@ class TreeBuilder final : public YAML::EventHandler {
         open_.push_back({std::move(node), anchor, before});
     }
     void close();
-    /// Adds what has been read as a whole.
+    /// Adds a value that has been read completely.
     void add(Node node, YAML::anchor_t anchor, size_t count = 1, size_t height = 0);
     void put(Node node);
 
@@ -251,13 +252,13 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
     });
 }
 
-/// Whether YAML 1.1 has the word for a truth, as this program does.
+/// Whether YAML 1.1 takes the word for a truth value, as this program does.
 bool is_truth(std::string_view word) {
     return is_one_of(word, {"yes", "no", "true", "false", "on", "off"});
 }
 
-/// Whether YAML 1.1 may have a text that stands without quotes for something else
-/// (yaml.org/type/): what begins as a number or a sign does, or is a word of its own.
+/// Whether YAML 1.1 may take a text without quotes for something else (yaml.org/type/): it begins
+/// like a number or a sign, or is one of YAML's own words.
 bool reads_otherwise(std::string_view text) {
     const auto begins_word = [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' || c == '/' ||
@@ -281,7 +282,7 @@ bool is_number(std::string_view word) {
 }
 
 void emit_text(const std::string& text, YAML::Emitter& out) {
-    // YAML 1.1 has them for the ends of lines
+    // YAML 1.1 takes them for line ends
     if (text.find("\u2028") != std::string::npos || text.find("\u2029") != std::string::npos)
         out << YAML::EscapeNonAscii << YAML::DoubleQuoted;
     else if (reads_otherwise(text))

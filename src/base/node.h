@@ -25,7 +25,7 @@ struct Node {
 
     /// A text, which to_yaml() quotes where other programs would take it for something else.
     static Node of(std::string text);
-    /// A number, or what else is no text.
+    /// A number, or any other scalar that is not a text.
     static Node number(double value);
     static Node plain_word(std::string word);
     static Node mapping();

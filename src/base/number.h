@@ -1,7 +1,7 @@
-// Numbers as text. The C library reads and writes them as the system's language does (LC_NUMERIC),
-// which the window's toolkit puts in force: there strtod() ends at the point of 0.5, and says 0.
-// So all numbers go through here, or are written by fmt, which knows no language unless it is told
-// (test/numbers_test.py).
+// Numbers as text. The C library reads and writes numbers according to the system's language
+// (LC_NUMERIC), which the window's toolkit activates: strtod() may then stop at the point of 0.5
+// and return 0. All numbers therefore go through these functions, or are written by fmt, which
+// ignores the language unless asked (test/numbers_test.py).
 #pragma once
 
 #include <charconv>
@@ -13,14 +13,13 @@
 
 namespace dihaptic {
 
-/// The number that a word says as a whole, "+1e3" too; nullopt if it says no number, or one that is
-/// not finite.
+/// The number that the whole word is, "+1e3" too; nullopt if it is not a number, or not finite.
 std::optional<double> finite_number(std::string_view word);
 
-/// As finite_number(), but "inf" and "-inf", as tables have them, are numbers too.
+/// As finite_number(), but accepts "inf" and "-inf", which occur in tables.
 std::optional<double> any_number(std::string_view word);
 
-/// The whole number that a word says in digits; nullopt if it says none, or one that does not fit.
+/// The whole number that a word gives in digits; nullopt if it is not one, or does not fit.
 template <std::integral Whole>
 std::optional<Whole> whole_number(std::string_view word, int base = 10) {
     Whole value{};
@@ -32,7 +31,7 @@ std::optional<Whole> whole_number(std::string_view word, int base = 10) {
 
 /// The shortest text that reads back as the same number.
 std::string number_text(double value);
-/// The number with so many significant digits.
+/// The number with the given number of significant digits.
 std::string number_text(double value, int digits);
 /// A whole number in digits.
 std::string number_text(std::integral auto value) {

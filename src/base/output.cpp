@@ -46,8 +46,8 @@ std::string make_folder(const std::string& file) {
     throw not_written(file, std::strerror(errno));
 }
 
-/// The process that a part's name says made it, or 0: `file`.PROCESS-RANDOM.part, or, of versions
-/// before 0.3, `file`.PROCESS.part.
+/// The process that made a part, according to the part's name, or 0: `file`.PROCESS-RANDOM.part, in
+/// versions before 0.3 `file`.PROCESS.part.
 int maker_of(std::string_view name, std::string_view file) {
     if (!name.starts_with(file) || !name.ends_with(kPart)) return 0;
     name.remove_prefix(file.size());

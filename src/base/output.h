@@ -1,7 +1,7 @@
-// A file, or a folder, that is being made. It gets its name when it is whole, so that whoever reads
-// finds either nothing, the old one or the new one; and it leads nowhere else, whatever somebody
-// put beside it before, since it is made in a folder that nobody else knows the name of or may
-// enter.
+// A file or folder that is being made. It gets its name only when it is complete, so that a reader
+// finds nothing, the old one or the new one. It is made in a folder whose name nobody else can
+// foresee and that nobody else may enter, so that it cannot be redirected by anything that was put
+// beside it.
 #pragma once
 
 #include <string>
@@ -13,12 +13,12 @@ class Output {
     /// Makes the folder `file`.PROCESS-RANDOM.part beside `file`, which must not be a link, a
     /// folder, or anything else than a file. Throws Error when it cannot.
     explicit Output(const std::string& file);
-    /// Removes what was not kept.
+    /// Removes the file unless it was kept.
     ~Output();
     Output(const Output&) = delete;
     Output& operator=(const Output&) = delete;
 
-    /// Where the file, or folder, is made. Nothing is there at first.
+    /// The path at which the file or folder is made. Nothing exists there at first.
     const std::string& path() const { return path_; }
     /// Gives it its name, in place of the file that had it. Throws Error when it cannot.
     void keep();
@@ -32,8 +32,8 @@ class Output {
 /// Removes the parts of `file` that killed programs left behind.
 void remove_dead_parts(const std::string& file);
 
-/// Throws Error when the name belongs to a link, a folder, a pipe or a device: what is written
-/// there would go elsewhere, or would replace what is no file.
+/// Throws Error when the name belongs to a link, a folder, a pipe or a device: writing there would
+/// go elsewhere, or would replace something that is not a file.
 void check_replaceable(const std::string& file);
 
 /// Makes the folder `below` within `root`, which is made too, and any folder between the two.

@@ -32,7 +32,7 @@ std::string program_of(pid_t pid) {
     return mended(name, Lines::one);
 }
 
-/// ", since TIME" of the process; "" if the machine does not tell.
+/// ", since TIME" for the process; "" if the time is not known.
 std::string begin_of(pid_t pid) {
     struct stat is {};
     if (stat(fmt::format("/proc/{}", pid).c_str(), &is) != 0) return "";

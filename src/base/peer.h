@@ -1,5 +1,5 @@
-// Who is at the other end of a UNIX socket, as the kernel says: names and paths of sockets can be
-// taken by other users, who then would be believed.
+// Finds out from the kernel who is at the other end of a UNIX socket. Names and paths of sockets
+// prove nothing, because other users can take them.
 #pragma once
 
 #include <sys/types.h>
@@ -13,14 +13,14 @@ struct Peer {
     pid_t pid = 0;
     uid_t uid = 0;
 
-    /// Whether it is this user's, or root's, who could do everything anyway.
+    /// Whether it belongs to this user or to root, who can do anything in any case.
     bool is_trusted() const;
-    /// "dihaptic-keeper (process 1234 of user jane, since 2026-01-31 09:30)", as far as the machine
-    /// tells.
+    /// "dihaptic-keeper (process 1234 of user jane, since 2026-01-31 09:30)", as far as it is
+    /// known.
     std::string describe() const;
 };
 
-/// nullopt: there is none.
+/// nullopt if there is none.
 std::optional<Peer> peer_of(int socket);
 
 }  // namespace dihaptic

@@ -1,5 +1,5 @@
-// Reads regular files only: a pipe, a device or a folder in a file's place could keep the program
-// waiting, or reading for ever.
+// Reads regular files only. A pipe or a device in place of a file could keep the program waiting,
+// or reading, for ever.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ class RegularFile {
 
     /// Size of the file when it was opened, or looked at again [bytes].
     int64_t size() const { return size_; }
-    /// Takes the size that the file has now: another program may be writing it.
+    /// Updates the size, because another program may be writing the file.
     void look_again();
     /// Reads from byte `at` on and returns the number of bytes read, which is smaller than
     /// out.size() only at the file's end. Throws Error when the disk cannot read them.
@@ -36,9 +36,8 @@ class RegularFile {
 /// [bytes].
 std::string read_bytes(const std::string& file, int64_t most);
 
-/// Whether anything has this name, be it a link that leads nowhere or something other than a file;
-/// reading it then reports what is wrong. True as well when a folder on the way may not be
-/// searched.
+/// Whether anything has this name, even a dangling link or something other than a file; reading it
+/// then reports what is wrong. Also true when a folder on the path may not be searched.
 bool is_there(const std::string& file) noexcept;
 
 }  // namespace dihaptic

@@ -7,7 +7,7 @@
 namespace dihaptic {
 namespace {
 
-/// Whether a letter means itself to shells, and to sbatch.
+/// Whether shells, and sbatch, take a character literally.
 bool is_plain(char letter) {
     constexpr std::string_view kPlain =
         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_@+=:,./-";
@@ -64,7 +64,7 @@ std::optional<std::vector<std::string>> shell_words(std::string_view command) {
                 word += letter;
             }
         }
-        // whatever is written otherwise than shell_word() would means something else to a shell
+        // anything that shell_word() would write differently means something else to a shell
         if (shell_word(word) != command.substr(at, end - at)) return std::nullopt;
         out.push_back(word);
         at = end + 1;

@@ -1,6 +1,6 @@
-// Writes words of a command that somebody, or a shell script, types into a shell as they stand, and
-// takes such a command apart again. Names of files may be a stranger's: whatever is in them, a
-// shell takes each as one word, and a terminal shows it.
+// Quotes the words of a command that a person or a script will type into a shell, and splits such a
+// command again. File names may come from strangers: whatever they contain, a shell takes each as
+// one word, and a terminal shows it.
 #pragma once
 
 #include <optional>
@@ -10,16 +10,16 @@
 
 namespace dihaptic {
 
-/// The word, in quotes if a shell would not take it as it is: in $'...', which bash and zsh know,
-/// if it has control characters.
+/// The word, quoted if a shell would not take it as it is; in $'...', which bash and zsh know, if
+/// it has control characters.
 std::string shell_word(const std::string& word);
 
-/// As shell_word(), of a file's name: with ./ before one that begins with a dash, which every
-/// program would take for an option.
+/// As shell_word(), for a file name: one that begins with a dash, which every program would take
+/// for an option, gets ./ in front.
 std::string shell_file(const std::string& name);
 
-/// The words of a command that was put together of shell_word()s; nullopt if a shell would do more
-/// with it than to start a program with these words.
+/// The words of a command that was made with shell_word(); nullopt if a shell would do more than
+/// start a program with these words.
 std::optional<std::vector<std::string>> shell_words(std::string_view command);
 
 }  // namespace dihaptic

@@ -9,8 +9,8 @@
 
 namespace dihaptic {
 
-/// The value that stands at a share of all values in their order, to the nearest place; NaN without
-/// values. 0.5 gives the median, which of an even number is the upper of the two middle ones.
+/// The quantile at `share`, taken at the nearest rank; NaN without values. 0.5 gives the median,
+/// which for an even number of values is the upper of the two middle ones.
 template <class T>
 double quantile(std::vector<T> values, double share) {
     if (values.empty()) return kUnmeasured;

@@ -1,5 +1,5 @@
-// What a tick could not do as asked, and which of it switches force off: one table. Devices,
-// haptics and the Frame report by the same bits.
+// One table of what may go wrong in a tick, and of what switches force off. Devices, haptics and
+// the Frame report by the same bits.
 #pragma once
 
 #include <bit>
@@ -10,8 +10,8 @@
 
 namespace dihaptic {
 
-/// A bit of a tick's status, and of a device's reading. Logs hold these numbers: a bit keeps its
-/// meaning for good.
+/// A bit of a tick's status, and of a device's reading. Logs contain these numbers, so a bit never
+/// changes its meaning.
 enum Status : uint32_t {
     kContactsFull = 1u << 0,
     kForceLimited = 1u << 1,
@@ -70,7 +70,7 @@ enum class FaultKind {
     stopped
 };
 
-/// What haptics::describe() says of a fault, which fills in the names in braces.
+/// The sentence for a fault; haptics::describe() fills in the names in braces.
 struct FaultText {
     FaultKind kind = FaultKind::none;
     std::string_view what{};
@@ -214,17 +214,17 @@ static_assert([] {
     return true;
 }());
 
-/// Calls `use` with each set Status, lowest bit first; a later version's log may have bits beyond
-/// them, which are passed over.
+/// Calls `use` with each set Status, lowest bit first. Bits that only a later version knows are
+/// ignored.
 template <class Use>
 void for_each_status(uint32_t status, Use use) {
     for (uint32_t left = status & kAllStatus; left != 0; left &= left - 1)
         use(static_cast<Status>(left & ~(left - 1)));
 }
-/// What each set bit says, "; " between them.
+/// The sentences of all set bits, separated by "; ".
 std::string words(uint32_t status);
 
-/// The row that a fault is of; null for none.
+/// The row to which a fault belongs; null if there is none.
 constexpr const StatusRow* row_of(FaultKind kind) noexcept {
     if (kind == FaultKind::none) return nullptr;
     for (const StatusRow& row : kStatusTable) {

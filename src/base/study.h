@@ -1,5 +1,6 @@
-// What archives ask about a study besides its data: who did it, where, and what it is about. It is
-// part of the experiment file and of the session's record, and changes nothing in a session.
+// What archives want to know about a study besides its data: who did it, where, and what it is
+// about. It is part of the experiment file and of the session's record, and has no effect on a
+// session.
 #pragma once
 
 #include <string>

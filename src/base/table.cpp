@@ -196,7 +196,7 @@ CsvFile::CsvFile(const std::string& file) : file_(file), rows_(read_csv(file)) {
 
 namespace {
 
-/// One of two columns of a name would be left out, and nobody could say which.
+/// If two columns had the same name, one of them would be ignored, and nobody could say which.
 void check_names(const CsvFile& table) {
     std::set<std::string> seen;
     for (size_t i = 0; i < table.columns().size(); ++i) {
@@ -241,7 +241,7 @@ CsvFile CsvFile::given(const std::string& file, Diagnostics& diagnostics,
             throw Error(table.place(), "", "from here on the table is too large",
                         "Check that it is the right file, or make it smaller.");
         for (std::string& cell : *cells) {
-            // so that it is a number for all that look at it later
+            // so that everything that uses it later finds a number
             if (table.number(cell)) std::replace(cell.begin(), cell.end(), ',', '.');
         }
         out.lines_.push_back(table.place().line);

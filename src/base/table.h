@@ -52,9 +52,9 @@ class CsvFile {
   public:
     /// Throws Error when the file is empty or cannot be read.
     explicit CsvFile(const std::string& file);
-    /// A table that somebody hands in (base/given_table.h), whose lines all have the columns of the
-    /// first. Throws Error, with the line, when one has not; before it, `check_columns`, which is
-    /// asked of the table without its rows, may throw what is missing.
+    /// Reads a table from a user (base/given_table.h). Throws Error, with the line, when a line has
+    /// not as many cells as the first. Before that, `check_columns` gets the table without its
+    /// rows, and may throw if a column is missing.
     static CsvFile given(const std::string& file, Diagnostics& diagnostics,
                          const std::function<void(const CsvFile&)>& check_columns);
 

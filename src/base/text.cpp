@@ -22,7 +22,7 @@ size_t length_by(unsigned char first) {
     return first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
 }
 
-/// Whether a second byte is out of the range that the first one leaves it.
+/// Whether a second byte is outside of the range that the first one allows.
 bool is_out_of_range(unsigned char first, unsigned char second) {
     return (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
            (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f);
@@ -37,8 +37,8 @@ int control(std::string_view character) {
     return -1;
 }
 
-/// Whether a character is one that YAML's readers leave out or refuse: a byte order mark, or one
-/// of the two that are no characters.
+/// Whether readers of YAML drop or refuse a character: a byte order mark, or one of the two
+/// noncharacters.
 bool is_mark(std::string_view character) {
     return character == "\xef\xbb\xbf" || character == "\xef\xbf\xbe" ||
            character == "\xef\xbf\xbf";

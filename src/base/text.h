@@ -1,5 +1,5 @@
-// What counts as text. What is written, the program must be able to read again: all that goes into
-// files is held to the same rule as what is read from them.
+// Defines what counts as text. The program must be able to read again what it writes, so the same
+// rule holds for everything that goes into files and that is read from them.
 #pragma once
 
 #include <cstddef>
@@ -13,14 +13,14 @@ namespace dihaptic {
 /// (Unicode 15, table 3-7: neither too long a form, nor half of a surrogate pair).
 size_t utf8_length(std::string_view text);
 
-/// What keeps words from being written into a file that is read again.
+/// A reason why words cannot be written to a file and read again.
 struct TextFault {
     size_t at = 0;     ///< of its first byte
     std::string what;  ///< e.g. "has a control character (ESC)"
     std::string remedy;
 };
 
-/// Whether several lines are meant, or a name, an answer, or a word of the command line.
+/// Whether a text may have several lines, or is a name, an answer, or a word of the command line.
 enum class Lines { several, one };
 
 /// The first thing in a text that is not UTF-8, or is a control character: of those, only tabs and
@@ -30,8 +30,8 @@ std::optional<TextFault> find_fault(std::string_view text, Lines lines = Lines::
 /// Throws Error when find_fault() finds anything. `name`: what the text is, for the message.
 void check_text(std::string_view text, const std::string& name, Lines lines = Lines::one);
 
-/// The text with U+FFFD in place of each byte or character that find_fault() finds: for words that
-/// come from elsewhere, such as a device's name, and for those that older versions recorded.
+/// The text with U+FFFD in place of each byte or character that find_fault() finds. Used for words
+/// from elsewhere, such as a device's name, and for those that older versions recorded.
 std::string mended(std::string_view text, Lines lines = Lines::several);
 
 }  // namespace dihaptic

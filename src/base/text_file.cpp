@@ -28,7 +28,7 @@ size_t character(std::string_view text, size_t i) {
     return utf8_length(text.substr(i));
 }
 
-/// Says what is wrong with what a rest of a text begins with.
+/// Says what is wrong at the beginning of the rest of a text.
 [[noreturn]] void refuse(std::string_view rest, const Place& place) {
     const auto fault = find_fault(rest.substr(0, 1));
     if (!fault || static_cast<unsigned char>(rest.front()) >= 0x80)

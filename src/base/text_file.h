@@ -1,5 +1,5 @@
-// Reads and writes text files. Files that people hand in may be in any encoding, or no text at all:
-// all of them are read through here, so that messages never show raw bytes.
+// Reads and writes text files. Files from users may be in any encoding, or no text at all. All of
+// them are read by these functions, so that messages never show raw bytes.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,11 @@ std::string read_text_file(const std::string& file, int64_t most = kMostText);
 /// there now, or when `file` is `input`, the file that the work starts from. `what` is the input in
 /// words.
 void check_output(const std::string& file, const std::string& input, const std::string& what);
-/// Whether what was written is synchronised to the disk at once, or when the system gets to it.
+/// Whether the file is synchronised to the disk at once, or whenever the system does so.
 enum class Keep { in_time, at_once };
 /// Replaces a file's content so that a reader sees either the old or the new, with Keep::at_once
-/// even after a loss of power. Throws Error when the file cannot be written, and when its name is a
-/// link's: nothing is written through one.
+/// even after a loss of power. Throws Error when the file cannot be written, or when its name is a
+/// link: nothing is ever written through a link.
 void write_file(const std::string& text, const std::string& file, Keep keep = Keep::in_time);
 
 /// Text from a file, shortened to at most 40 bytes for a message.

@@ -63,7 +63,7 @@ std::span<const Unit> units(Quantity quantity);
 /// The unit of any quantity that has this suffix; null if there is none.
 const Unit* find_unit(std::string_view suffix);
 
-/// A unit as an expression may have it behind a number: its suffix (mm, N_m), in SI units.
+/// A unit that may follow a number in an expression, by its suffix (mm, N_m), in SI units.
 struct UnitInSi {
     double si = 1;
     Dimension dimension;
@@ -71,8 +71,8 @@ struct UnitInSi {
 /// Nullopt if no quantity has a unit with this suffix.
 std::optional<UnitInSi> find_unit_in_si(std::string_view suffix);
 
-/// Of a unit as people write it: "N*s/m", "1", "ns". The unit must be made of m, kg, s, ns, N, Hz,
-/// rad and 1.
+/// The dimension of a unit in the usual notation: "N*s/m", "1", "ns". The unit must be composed of
+/// m, kg, s, ns, N, Hz, rad and 1.
 UnitInSi unit_in_si(std::string_view symbol);
 Dimension dimension(Quantity quantity);
 /// The SI unit as people write it, e.g. "N/m"; "1" for a pure number.

@@ -1,6 +1,6 @@
-// The text of an editor that has not been saved: a thread that checks it reads it in place of the
-// file's. So the file, and the folder that it is in, stay as they are until somebody saves, and
-// what the text names is found from where the file is.
+// The text of an editor that has not been saved. The thread that checks it reads this text in place
+// of the file's, so that the file and its folder stay unchanged until the user saves, and paths in
+// the text are still relative to the file.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@ namespace dihaptic {
 
 class Unsaved {
   public:
-    /// As long as this lives, read_yaml(file) has this text in this thread, which has one such text
-    /// at a time.
+    /// As long as this object lives, read_yaml(file) returns this text in this thread. A thread has
+    /// one such text at a time.
     Unsaved(std::string file, std::string text);
     ~Unsaved();
     Unsaved(const Unsaved&) = delete;
     Unsaved& operator=(const Unsaved&) = delete;
 
-    /// What this thread reads in place of the file; null: the file.
+    /// The text that this thread reads in place of the file; null: the file itself.
     static const std::string* text_of(const std::string& file);
 
   private:

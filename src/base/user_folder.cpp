@@ -5,7 +5,7 @@
 namespace dihaptic {
 namespace {
 
-/// A relative path counts for nothing, as the specification has it.
+/// A relative path is ignored, as the specification demands.
 std::string folder(const char* variable, const char* below_home) {
     if (const char* given = std::getenv(variable); given != nullptr && *given == '/') return given;
     const char* home = std::getenv("HOME");

@@ -1,4 +1,4 @@
-// Folders of the user's own, where programs keep what belongs to no project (XDG Base Directory
+// The user's own folders, where programs keep what belongs to no project (XDG Base Directory
 // Specification 0.8).
 #pragma once
 
@@ -10,7 +10,7 @@ namespace dihaptic {
 std::string user_config();
 /// Folder for files of all studies, ~/.local/share as a rule; "" if the user has no home.
 std::string user_data();
-/// Folder for what can be made anew, ~/.cache as a rule; "" if the user has no home.
+/// Folder for files that can be made again, ~/.cache as a rule; "" if the user has no home.
 std::string user_cache();
 
 }  // namespace dihaptic

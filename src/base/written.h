@@ -1,5 +1,5 @@
-// A YAML document as it is written: where in the text each part stands. For changes of a text that
-// leave the rest of it as it is, which reading (node.h) and writing again would not.
+// A YAML document with the place of each part in its text. It serves to change a part of the text
+// and leave the rest as it is, which reading (node.h) and writing again would not do.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// Displays: where the person sees a screen, in a mirror or not, and with which eyes, so that things
-// are drawn where the hand feels them.
+// Describes where the person sees a screen, directly or in a mirror, and with which eyes, so that
+// things are drawn where the hand feels them.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace dihaptic::display {
 
-/// How a mirror turns the screen's picture round, which is drawn the other way round for it.
+/// How a mirror flips the screen's picture, which is drawn flipped to make up for it.
 enum class Mirrored { no, left_right, up_down };
 constexpr auto enum_names(Mirrored) {
     return std::array{"no", "left_right", "up_down"};
@@ -72,8 +72,8 @@ struct Eyes {
     }
 };
 
-/// A screen as it is seen: in a mirror, where its image stands. Corners are those of what the
-/// person sees, so that the lower left one is at the person's lower left.
+/// A screen as it is seen: in a mirror, at the place of its image. Its corners are named as the
+/// person sees them, so the lower left one is at the person's lower left.
 struct Display {
     std::string name;
     Vec3 lower_left = Vec3::Zero();  ///< [m]
@@ -93,9 +93,9 @@ struct Display {
     Vec3 at(const Cross& cross) const {
         return lower_left + cross.right * right() + cross.up * up();
     }
-    /// How far an eye is before the screen's plane [m]; negative: behind it.
+    /// Distance of an eye from the screen's plane [m]; negative behind it.
     double before(const Vec3& eye) const;
-    /// Whether it is seen from the front by these eyes, from no nearer than can be drawn.
+    /// Whether these eyes see it from the front, and from far enough to be drawn.
     bool faces(const Eyes& seen_by) const;
     void move(const Vec3& by);
     /// Takes the corners of a registration.

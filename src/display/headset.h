@@ -1,5 +1,5 @@
-// A headset: where the space that it finds its way in stands in the world, so that things are seen
-// where the hand feels them.
+// Describes where the tracking space of a headset is in the world, so that things are seen where
+// the hand feels them.
 #pragma once
 
 #include <array>

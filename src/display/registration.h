@@ -1,5 +1,5 @@
-// Registration of a display: where the person sees its screen, found by a finger that touches
-// crosses on it. README.md has the method, and how exact it is.
+// Registration of a display finds out where the person sees its screen, by a finger that touches
+// crosses on it. README.md describes the method and its accuracy.
 #pragma once
 
 #include <functional>
@@ -57,15 +57,15 @@ struct RegistrationResult {
     double stretch = 0;         ///< what was touched over the size that the file says, less 1
 };
 
-/// Where the screen is whose crosses were touched there [m]: the rig file's, moved and turned as a
-/// whole. `touches`: one for each of crosses(). Throws Error when touches contradict each other or
-/// the screen's size.
+/// The place of a screen whose crosses were touched at `touches` [m], one for each of crosses():
+/// the rig file's screen, moved and turned as a whole. Throws Error when touches contradict each
+/// other or the screen's size.
 RegistrationResult register_screen(const Display& display, std::span<const Vec3> touches);
 /// The result in words, for a person; several lines.
 std::string describe(const RegistrationResult& result);
 
-/// A picture of the crosses with their numbers, SVG, to be shown on the whole screen: turned round
-/// for the mirror, and for both eyes alike.
+/// A picture of the crosses with their numbers (SVG), to be shown on the whole screen. It is
+/// flipped for the mirror, and the same for both eyes.
 std::string cross_picture(const Display& display);
 
 }  // namespace dihaptic::display

@@ -1,5 +1,5 @@
-// What a device is and can do, with the hand that holds it. A backend states it, a session records
-// it, and the session's replay has it again: visit() alone says how.
+// Describes what a device is and can do, together with the hand that holds it. A backend states it,
+// a session records it, and the session's replay uses it again; all three follow from visit().
 #pragma once
 
 #include <limits>
@@ -15,9 +15,10 @@ namespace dihaptic::frame {
 struct DeviceInfo {
     std::string model;
     std::string serial;  ///< "" if the device does not report one
-    /// The device does not move a person's hand: a late force harms nobody.
+    /// The device does not move a person's hand, so a late force harms nobody.
     bool simulated = false;
-    /// Infinite: not known, as of a real device that has not been opened yet [N].
+    /// Peak force; infinite if it is not known, as for a real device that has not been opened yet
+    /// [N].
     double peak_force = std::numeric_limits<double>::infinity();
     /// Force that the device can hold for long [N].
     double continuous_force = std::numeric_limits<double>::infinity();
@@ -26,7 +27,8 @@ struct DeviceInfo {
     double peak_torque = 0;  ///< 0: the device renders no torque [N*m]
     /// Torque that the device can hold for long [N*m].
     double continuous_torque = std::numeric_limits<double>::infinity();
-    /// Factor by which readings exceed the hand's movement, and the forces here those in the hand.
+    /// Factor by which readings exceed the hand's movement, and by which the forces given here
+    /// exceed those in the hand.
     double scale = 1;
     double delay = 0;  ///< from write to force [s]
     /// Largest stiffness [N/m] and damping [N*s/m] that the device renders stably, if its maker
@@ -65,7 +67,7 @@ struct DeviceInfo {
         v("inertia", inertia, Field::of(Quantity::inertia));
     }
 
-    /// The same device, in the measure of a world in which its movement is `s` times the hand's.
+    /// The same device in the units of a world in which its movement is `s` times the hand's.
     DeviceInfo scaled(double s) const {
         DeviceInfo out = *this;
         out.scale *= s;

@@ -1,4 +1,4 @@
-// Computes where the things of a Frame are shown, and how they look; drawing and simulated people
+// Computes where the things in a Frame are shown, and how they look. Drawing and simulated people
 // use only these functions.
 #pragma once
 
@@ -6,14 +6,14 @@
 
 namespace dihaptic::frame {
 
-/// The visual map in force if it moves `what`, or null.
+/// The active visual map if it moves `what`, or null.
 inline const VisualMap* map_of(const Frame& frame, Moves what) noexcept {
     if (frame.task.visual.empty()) return nullptr;
     const VisualMap& map = frame.task.visual.front();
     return (map.moves & what) != 0 ? &map : nullptr;
 }
 
-/// The item of a list of the TaskFrame that is about this body or proxy, or null.
+/// The item of a list of the TaskFrame that refers to this body or proxy, or null.
 template <class Item>
 const Item* item_of(const std::vector<Item>& list, size_t body) noexcept {
     for (const Item& item : list) {
@@ -69,8 +69,8 @@ inline Pose displayed_proxy(const Frame& frame, size_t finger) noexcept {
     return displaced != nullptr ? displaced->X_WB : mapped_proxy(frame, finger);
 }
 
-/// Pose of a finger's handle as it is shown; it has the proxy's orientation. Of a proxy that is
-/// displaced, the handle is shown with it.
+/// Pose of a finger's handle as it is shown, with the proxy's orientation. If the proxy is
+/// displaced, the handle is shown displaced with it.
 inline Pose displayed_handle(const Frame& frame, size_t finger) noexcept {
     const DisplacedFrame* displaced = item_of(frame.task.displaced, proxy_of(frame, finger));
     if (displaced != nullptr) return displaced->X_WB;

@@ -176,7 +176,7 @@ struct Frame : Knobs {
     std::vector<FingerFrame> fingers;
     std::vector<TurnFrame> turns;
     std::vector<BodyFrame> bodies;
-    /// Bodies that changed since the last frame; only these are logged.
+    /// The bodies that changed since the last frame; only these are logged.
     std::vector<uint16_t> changed;
     std::vector<JointFrame> joints;
     std::vector<ContactFrame> contacts;

@@ -12,7 +12,7 @@
 namespace dihaptic::frame {
 
 /// Upper limits: the stiffest admittance displays render about 5e4 N/m and 1e3 N*s/m, and no hand
-/// is asked to bear more than a kilonewton.
+/// has to bear more than a kilonewton.
 constexpr double kMostStiffness = 1e5;  // [N/m]
 constexpr double kMostDamping = 1000;   // [N*s/m]
 constexpr double kMostForce = 1000;     // [N]
@@ -22,7 +22,7 @@ constexpr auto enum_names(CouplingKind) {
     return std::array{"implicit", "dual_spring", "velocity_impulse"};
 }
 
-/// How a handle and its proxy pull at each other; README.md has the equations.
+/// The coupling between a handle and its proxy; README.md of src/haptics has the equations.
 struct CouplingSettings {
     CouplingKind kind = CouplingKind::implicit;
     double stiffness = 1000;        ///< k [N/m]
@@ -97,7 +97,7 @@ struct CouplingSettings {
     }
 
   private:
-    /// A value and its share are two ways to give one setting: the later file's counts, and a file
+    /// A value and its share are two ways to give one setting. The later file's counts, and a file
     /// may have only one of them.
     template <class Reader>
     static void one_of_two(Reader& v, const std::string& name, Quantity quantity,
@@ -113,8 +113,8 @@ struct CouplingSettings {
     }
 };
 
-/// Where a point's friction is computed: together with all that it acts on in the step of the
-/// world, or apart from it, as OpenHaptics' HL did.
+/// Where a point's friction is computed: in the step of the world, together with everything that it
+/// acts on, or apart from the step, as OpenHaptics' HL did.
 enum class PointFriction { together, apart };
 constexpr auto enum_names(PointFriction) {
     return std::array{"together", "apart"};
@@ -125,8 +125,8 @@ struct ProxySettings {
     scene::ProxyKind kind = scene::ProxyKind::rigid;  ///< of fingers for which the scene gives none
     PointFriction friction = PointFriction::together;  ///< point
     double sliding_friction = 1;  ///< point: dynamic friction relative to static friction
-    /// Point: a body that is pressed harder than this yields, and is not felt again until the point
-    /// has left it [N]. Unset: no body yields.
+    /// For a point: a body that is pressed harder than this yields, and is not felt again until the
+    /// point has left it [N]. Unset: no body yields.
     std::optional<double> popthrough;
     bool changeable = false;  ///< the kind may change while a session runs, as the user wishes
 
@@ -147,7 +147,7 @@ struct ProxySettings {
         v("changeable", changeable, says("Whether the kind may change while a session runs."));
     }
 
-    /// That of a finger with this kind of its own, or none.
+    /// The kind of a finger's proxy, given its own kind, if it has one.
     scene::ProxyKind of(const std::optional<scene::ProxyKind>& own) const {
         return own.value_or(kind);
     }
@@ -159,14 +159,14 @@ constexpr auto enum_names(EnergyGuardMode) {
 }
 
 /// Time within which any force falls to zero when nothing asks for it any more; the Limiter ensures
-/// it. A slower slew limit would go on pushing a hand that has left everything for longer than it
-/// takes to notice [s].
+/// it. With a slower limit, a hand that no longer touches anything would be pushed for longer than
+/// it takes to notice [s].
 constexpr double kLongestFall = 0.1;
 /// Rates that bring a Premium's 8.5 N and the sigma.7's 0.4 N*m to zero in that time.
 constexpr double kLeastForceRate = 85;  // [N/s]
 constexpr double kLeastTorqueRate = 4;  // [N*m/s]
 
-/// Limits on every force, whatever computed it, and conditions that switch force off.
+/// Limits on every force, whatever its source, and conditions that switch force off.
 struct SafetySettings {
     std::optional<double> max_force;   ///< magnitude [N]; unset: the device's peak force
     double max_force_rate = 3000;      ///< magnitude of the change of force [N/s]

@@ -1,6 +1,6 @@
-// Knobs are what may change while a session runs. A director orders them, each Frame has those in
-// force, a replay orders them again, events.csv tells of each change, and the operator's window has
-// a panel of them: all of this follows from visit().
+// Knobs are what may change while a session runs. A director orders them, each Frame records their
+// values, a replay orders them again, events.csv lists each change, and the operator's window has a
+// panel for them. All of this follows from visit().
 #pragma once
 
 #include <cmath>
@@ -17,8 +17,8 @@ struct Knob {
     const char* name;  ///< of its column in the log
     const char* unit;
     const char* what;  ///< one sentence
-    /// What events.csv and the window's log call it, and the panel, with & before the letter of its
-    /// shortcut; null: they do without it.
+    /// Its name in events.csv, the window's log and the panel, with & before the letter of its
+    /// shortcut; null: it does not appear there.
     const char* key = nullptr;
     const char* label = nullptr;
     double least = 0, most = 0, step = 0;  ///< of a number, in the panel
@@ -49,12 +49,12 @@ struct Knobs {
     double stiffness = 0;  ///< k [N/m]
     double damping = 0;    ///< c [N*s/m]; NaN: k h / 2
     double smoothing = 0;  ///< alpha
-    /// Of fingers whose kind may change and is not set by the scene. Who orders another kind makes
-    /// sure that these fingers touch nothing.
+    /// The proxy kind of all fingers whose kind may change and is not set by the scene. Whoever
+    /// orders another kind must make sure that these fingers touch nothing.
     scene::ProxyKind proxy{};
     double friction_scale = 1;  ///< of every coefficient of friction
-    /// Angle of WorkspaceTurn in the tick [rad]. It follows from the rate: to order it does
-    /// nothing.
+    /// Angle of WorkspaceTurn in the tick [rad]. It follows from the rate; ordering it has no
+    /// effect.
     double workspace_turn = 0;
     double workspace_rate = 0;  ///< rate of that angle until the next tick [rad/s]
     contact::Solver solver{};   ///< from the next step of the world on
@@ -97,7 +97,7 @@ struct Knobs {
                                "dynamics.solver", "Contact so&lver"});
     }
 
-    /// Those that a session with these settings begins with.
+    /// The knobs at the beginning of a session with these settings.
     static Knobs of(const Settings& settings) noexcept {
         Knobs out;
         out.set_coupling(settings.coupling);

@@ -1,4 +1,4 @@
-// What a tick is told, and who hears of it: the director's orders, and the sink of Frames.
+// The input and the output of a tick: the director's orders, and the sink of Frames.
 #pragma once
 
 #include <functional>
@@ -22,8 +22,8 @@ struct TickOrders {
     bool stop = false;       ///< this tick is the last
     bool force_off = false;  ///< from this tick on, for good, as the operator wishes
     bool rest = false;       ///< no force in this tick, which is the last until resume(): a pause
-    /// Time for which the window that watches the session has not answered, if that is too long:
-    /// force is then off from this tick on [s].
+    /// Set if the window that watches the session has not answered for too long: that time [s].
+    /// Force is then off from this tick on.
     double abandoned = 0;
     TaskFrame task;
 
@@ -36,7 +36,7 @@ struct TickOrders {
     }
 };
 
-/// What the director orders in a tick.
+/// The director's orders for a tick.
 struct Commands : LastingOrders, TickOrders {};
 
 /// Fills in the orders of the tick that begins.

@@ -10,8 +10,8 @@
 namespace dihaptic::frame {
 namespace {
 
-/// Reads ":.Nf" up to the closing brace, which is not part of `format`; false if it is nothing of
-/// the kind.
+/// Reads ":.Nf" up to the closing brace, which is not part of `format`; false if there is no such
+/// format.
 bool read_format(std::string_view format, int& decimals) {
     if (format.empty()) return true;
     const bool fits = format.size() == 4 && format.starts_with(":.") && format[3] == 'f' &&

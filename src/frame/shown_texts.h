@@ -1,5 +1,5 @@
-// The texts that a Frame shows over the scene. A text of the session's list may have places for
-// numbers, {score} or {time_s:.1f}; the Frame has the numbers.
+// The texts that a Frame shows over the scene. A text of the session's list may have placeholders
+// for numbers, such as {score} or {time_s:.1f}; the Frame contains the numbers.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace dihaptic::frame {
 
-/// A place for a number in a text.
+/// A placeholder for a number in a text.
 struct Placeholder {
     size_t begin = 0;   ///< index of its opening brace
     size_t end = 0;     ///< index behind its closing brace
@@ -22,12 +22,12 @@ struct Placeholder {
 /// The placeholders of a text, in order. Doubled braces stand for braces, not for placeholders.
 std::vector<Placeholder> placeholders(std::string_view text);
 
-/// The text with numbers in its placeholders; where a number is NaN, with a dash. Placeholders for
-/// which there is no number stay as they are. `numbers` loses those that were used.
+/// The text with numbers in place of its placeholders, or a dash for NaN. Placeholders without a
+/// number stay as they are. The numbers used are removed from `numbers`.
 std::string filled(std::string_view text, std::span<const NumberFrame>& numbers);
 
-/// The texts that are shown: the message, if there is one, then the lines below it. `messages`: the
-/// session's list; a text that is not in it is its index.
+/// The texts that are shown: the message, if there is one, then the lines below it. `messages` is
+/// the session's list; a text that is not in it appears as its index.
 std::vector<std::string> shown_texts(const TaskFrame& task,
                                      const std::vector<std::string>& messages);
 

@@ -7,8 +7,8 @@
 //   joint properties  springs, dampers and dry friction; scale those of the scene
 //   loads             forces and torques on handles and bodies
 //
-// Besides, things are hidden, coloured and sized (looks), or shown where they were (displaced);
-// texts stand over the scene (message, lines), or a page in its place.
+// In addition, things are hidden, coloured and sized (looks), or shown where they were before
+// (displaced); texts stand over the scene (message, lines), or a page in its place.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ namespace dihaptic::frame {
 /// What a visual map moves: a sum of these.
 enum Moves : uint32_t { kMovesProxies = 1, kMovesObject = 2, kMovesTargets = 4 };
 
-/// The difference between what is shown and what is there. A point p is shown at
+/// The difference between what is shown and what is true. A point p is shown at
 ///
 ///     c + R S (p - c),   S = diag(scale)         or, on a ray,     c + |p - c| along
 ///
@@ -255,7 +255,7 @@ struct NumberFrame {
 /// What the index of a list's items names: their `body`, `joint` or `object`. -1 stands for none.
 enum class Names { nothing, bodies, bodies_and_proxies, joints };
 
-/// On which the lengths of lists depend.
+/// The counts on which the lengths of lists depend.
 struct Sizes {
     size_t bodies = 0;  ///< of the scene
     size_t fingers = scene::kMostFingers;
@@ -301,8 +301,8 @@ struct TaskList {
     }
 };
 
-/// Its lists are named once, in visit_lists(): their lengths, checks, and the event "perturbation"
-/// follow from that.
+/// Its lists are declared once, in visit_lists(): their lengths, checks, and the event
+/// "perturbation" follow from that.
 struct TaskFrame {
     /// Limits of the numbers in a tick.
     static constexpr size_t kMostTargets = 16;
@@ -339,7 +339,7 @@ struct TaskFrame {
     void reserve(const Sizes& sizes) {
         visit_lists(*this, [&](auto& list, const TaskList& is) { list.reserve(is.most(sizes)); });
     }
-    /// Makes all lists as long as they can be, and gives their items no meaning.
+    /// Resizes all lists to their greatest length, with meaningless items.
     void fill(const Sizes& sizes) {
         visit_lists(*this, [&](auto& list, const TaskList& is) { list.resize(is.most(sizes)); });
     }

@@ -1,4 +1,4 @@
-// The gravitational acceleration at which people and devices are modelled.
+// The gravitational acceleration that models of people and devices use.
 #pragma once
 
 namespace dihaptic::model {

@@ -14,7 +14,7 @@
 namespace dihaptic::scene {
 namespace {
 
-/// What a change of a body may be of.
+/// The fields of a body that can be changed.
 struct WrittenField {
     std::string_view name;
     Quantity quantity;
@@ -24,7 +24,7 @@ struct WrittenField {
 constexpr WrittenField kWrittenPosition{"position", Quantity::length, 1e-4, "mm"};
 constexpr WrittenField kWrittenRotation{"rotation", Quantity::angle, 0.1 * kDegree, "deg"};
 
-/// A field as a body has it.
+/// A field of one body.
 struct WrittenVector {
     const Written* list = nullptr;  ///< null: it has none
     Unit unit{};
@@ -108,7 +108,7 @@ class BodyText {
         return out;
     }
 
-    /// A number in a unit, rounded to the field's step, and without noughts that say nothing.
+    /// A number in a unit, rounded to the field's step, without trailing zeros.
     static std::string number(const WrittenField& field, const Unit& unit, double value) {
         const double step = field.step / unit.si;
         const int places = std::max(0, static_cast<int>(std::ceil(-std::log10(step) - 1e-9)));
@@ -130,7 +130,7 @@ class BodyText {
                              [&](const Unit& unit) { return unit.suffix == field.suffix; });
     }
 
-    /// Behind the name: there is one, and in a mapping of whatever style.
+    /// Inserts it behind the name, which always exists, whatever the style of the mapping.
     void add(const WrittenField& field, const Vec3& value) {
         const Unit unit = usual_unit(field);
         const std::string line = fmt::format(
@@ -168,7 +168,7 @@ double wrapped(double angle) {
     return std::abs(angle) <= kDegree * 180 ? angle : std::remainder(angle, kDegree * 360);
 }
 
-/// Whether a text, which may have become no YAML, has this value of a body's field.
+/// Whether a text, which may no longer be valid YAML, has this value for a body's field.
 bool has_value(const std::string& text, const std::string& name, const WrittenField& field,
                const Vec3& value) {
     try {

@@ -1,6 +1,6 @@
-// Where the text of a scene file has its bodies, and changes of that text that move one. Only the
-// numbers of its position or rotation are replaced, in the unit that the file has them in;
-// everything else stays as it is, to the byte.
+// Finds bodies in the text of a scene file, and changes the text so that a body moves. Only the
+// numbers of its position or rotation are replaced, in the file's own unit; everything else stays
+// as it is, to the byte.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@
 
 namespace dihaptic::scene {
 
-/// Name of the body in whose lines of the text the byte `at` is; empty: in none's, or the text is
-/// not YAML at the moment.
+/// Name of the body whose lines contain the byte `at`; empty if it is in no body, or if the text is
+/// not valid YAML at the moment.
 std::string body_at(const std::string& text, size_t at);
 
-/// The changes by which the text has the body of this name moved by `way` [m] and turned by `turn`
-/// about the vertical [rad]; what moves at all ends at whole 0.1 mm, what turns at whole 0.1
-/// degrees. A position or rotation that the text does not have is added. In the order of the text.
-/// A way of nothing changes nothing, and tells whether the body can be moved.
-/// Throws Error, which says why and what to do, when the text does not have the body, or has its
-/// numbers not as numbers that are its own: by an alias or an anchor, in quotes, from a lattice.
+/// The changes of the text, in its order, that move the body of this name by `way` [m] and turn it
+/// by `turn` about the vertical [rad]. Coordinates that change are rounded to 0.1 mm, angles to 0.1
+/// degrees. A position or rotation that the text lacks is added. A zero `way` changes nothing, but
+/// shows whether the body can be moved. Throws Error, with reason and remedy, when the text lacks
+/// the body, or when its numbers are not plain ones: given by an alias or an anchor, in quotes, or
+/// by a lattice.
 std::vector<TextChange> moved_body(const std::string& text, const std::string& name,
                                    const Vec3& way, double turn = 0);
 

@@ -14,7 +14,7 @@
 namespace dihaptic::scene {
 namespace {
 
-/// Sets that grow together.
+/// Disjoint sets that can be united.
 class Sets {
   public:
     explicit Sets(size_t count) : parent_(count) {
@@ -30,7 +30,7 @@ class Sets {
     std::vector<size_t> parent_;
 };
 
-/// A face at an edge: the face has it as its corners `first` and the next.
+/// A face at an edge, whose ends are the face's corners `first` and the next.
 struct EdgeSide {
     size_t face = 0;
     size_t first = 0;
@@ -90,8 +90,8 @@ std::vector<std::pair<EdgeSide, EdgeSide>> wedges(const Mesh& mesh, const Edge& 
     return out;
 }
 
-/// Gives each sheet of the surface that meets others at a vertex or an edge vertices of its own,
-/// and finds the shells.
+/// Where several sheets of the surface meet at a vertex or an edge, gives each sheet its own
+/// vertices, and finds the shells.
 std::vector<Shell> separate(Mesh& mesh) {
     Sets corners(3 * mesh.faces.size());
     Sets faces(mesh.faces.size());
@@ -130,7 +130,7 @@ std::vector<Shell> separate(Mesh& mesh) {
     return shells;
 }
 
-/// How often a shell winds around a point (Van Oosterom and Strackee 1983); a share of it if the
+/// The winding number of a shell around a point (Van Oosterom and Strackee 1983); a fraction if the
 /// point is on the surface.
 double winding(const Mesh& mesh, const Shell& shell, const Vec3& p) {
     double angle = 0;
@@ -171,7 +171,7 @@ Nested look_at(const Mesh& mesh, const Shell& shell) {
     return out;
 }
 
-/// Whether a shell is in another, but for places where it touches it.
+/// Whether a shell lies within another, apart from places where the two touch.
 bool is_in(const Mesh& mesh, const Shell& inner, const Nested& small, const Shell& outer,
            const Nested& large) {
     if (std::abs(small.volume) >= std::abs(large.volume)) return false;
@@ -199,8 +199,8 @@ class Nesting {
         for (const Shell& shell : solid.shells) all_.push_back(look_at(solid.mesh, shell));
         for (size_t i = 0; i < all_.size(); ++i) all_[i].around = around(i);
     }
-    /// Turns shells around that face into the solid, and finds what the cavities are in. Returns
-    /// how many were turned though others face outward.
+    /// Turns shells around whose faces point into the solid, and finds the shell that each cavity
+    /// is cut out of. Returns how many were turned although others face outward.
     size_t sort_out() {
         std::vector<size_t> order(all_.size());
         std::iota(order.begin(), order.end(), size_t{0});
@@ -234,7 +234,7 @@ class Nesting {
             std::swap(solid_.mesh.faces[f][1], solid_.mesh.faces[f][2]);
         all_[i].volume *= -1;
     }
-    /// A shell that is in none is turned with all that is in it.
+    /// A shell that is in no other one is turned together with everything in it.
     void face_outermost(size_t i) {
         any_right_ |= all_[i].volume > 0;
         if (all_[i].volume > 0) return;
@@ -305,9 +305,8 @@ double distance(const Mesh& mesh, int point, const Edge& edge) {
     return (p - share * along).norm();
 }
 
-/// The corner that is nearest to an edge that it is not of, if they seem to have been meant to
-/// meet;
-/// "" if none is.
+/// The corner nearest to an edge that does not end in it, if the two were probably meant to meet;
+/// "" if there is none.
 std::string near_miss(const Mesh& mesh, const std::map<Edge, int>& open, double rounding,
                       const MeshName& name) {
     std::set<int> ends;
@@ -333,7 +332,7 @@ std::string near_miss(const Mesh& mesh, const std::map<Edge, int>& open, double 
         name.word);
 }
 
-/// Why a mesh is refused that stays open.
+/// The reason for refusing a mesh that stays open.
 Error not_closed(const Mesh& mesh, const Mesh& best, double rounding, const MeshName& name) {
     const std::map<Edge, int> open = open_edges(best);
     const Edge& first = open.begin()->first;

@@ -1,7 +1,7 @@
-// Makes solids of meshes as they are found. Files often give each triangle its own corners, each
-// rounded for itself; close the gap between faces of different subdivision by triangles without
-// area; end edges in the middle of others; or draw parts that run into each other. What can be felt
-// as it is drawn is mended here, and what cannot is refused.
+// Turns meshes as they occur in practice into solids. Files often give each triangle its own
+// corners, rounded separately; close gaps between differently subdivided faces by triangles without
+// area; end edges in the middle of others; or contain parts that overlap. Meshes that can be felt
+// as they are drawn are mended here; all others are refused.
 #pragma once
 
 #include <algorithm>
@@ -15,13 +15,13 @@
 
 namespace dihaptic::scene {
 
-/// Volumes and extents that differ by less are the same, relative to the larger.
+/// Volumes and extents count as equal if they differ by less than this, relative to the larger.
 constexpr double kSameSize = 1e-6;
 inline bool is_same_size(double a, double b) {
     return std::abs(a - b) <= kSameSize * std::max(std::abs(a), std::abs(b));
 }
 
-/// How messages name a mesh.
+/// The names by which messages refer to a mesh.
 struct MeshName {
     std::string file;
     Place asked_at;         ///< where the file was named
@@ -48,8 +48,8 @@ struct ClosedMesh {
 
 /// The mesh with vertices at equal positions merged and all faces facing outward; in cavities,
 /// which are shells within others that face inward, they face into the cavity. A surface that is
-/// not closed is mended if corners closer to each other than a millionth of the mesh, or than
-/// single precision tells, are taken as one; this is told in a warning. So is a shell that is
+/// not closed is mended if it suffices to merge corners that are closer than a millionth of the
+/// mesh, or than single precision can resolve. A warning reports this, and also shells that were
 /// turned around. Throws Error when the surface stays open, as it then has no inside.
 ClosedMesh closed(const Mesh& mesh, const MeshName& name, Diagnostics& diagnostics);
 

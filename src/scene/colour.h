@@ -12,7 +12,8 @@ namespace dihaptic::scene {
 /// 65536 red + 256 green + blue of "#rrggbb"; none of any other text.
 std::optional<int32_t> colour_of(const std::string& text);
 
-/// The same; -1 of an empty text, and of one that is no colour, of which `diagnostics` is told.
+/// The same; -1 for an empty text, and for one that is not a colour, which is reported to
+/// `diagnostics`.
 int32_t read_colour(const std::string& text, const Place& place, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::scene

@@ -29,8 +29,8 @@ double area(const Hull& hull) {
     return sum;
 }
 
-/// Bullet's hull rounds coordinates to a ten-thousandth of their extent, and takes corners for one,
-/// or turns faces over, that are nearer to each other than that.
+/// Bullet's hull rounds coordinates to a ten-thousandth of their extent, and merges corners, or
+/// flips faces, that are closer to each other than that.
 Hull quick_hull(std::span<const Vec3> points) {
     Hull hull;
     btConvexHullComputer computer;
@@ -52,8 +52,8 @@ Hull quick_hull(std::span<const Vec3> points) {
     return hull;
 }
 
-/// Whether every face is flat, and has all points behind it, but for rounding. Not said of hulls of
-/// so many points that it would take long.
+/// Whether every face is flat and has all points behind it, up to rounding. Not checked for hulls
+/// of very many points, which would take long.
 bool is_exact(const Hull& hull, std::span<const Vec3> points, double extent) {
     constexpr double kMostWork = 1e8;
     constexpr double kThin = 1e-9;      // of a face, as a share of the extent
@@ -140,7 +140,7 @@ Hull convex_hull(std::span<const Vec3> points) {
     }
     const double extent = (high - low).norm();
     Hull hull = quick_hull(points);
-    // recordings are of its order of corners and faces: it goes first
+    // it goes first, because recordings depend on its order of corners and faces
     if (hull.faces.size() < 4 || !is_exact(hull, points, extent)) hull = Qhull(points).hull();
     if (hull.faces.size() < 4) return {};
     // neither a needle nor a leaf, whose volume and area are but rounding
@@ -154,7 +154,7 @@ VolumeIntegrals integrate(std::span<const Vec3> vertices, std::span<const std::v
     double volume = 0;
     Vec3 first = Vec3::Zero();   // integral of x
     Mat3 second = Mat3::Zero();  // integral of x x^T
-    // far from the origin the tetrahedra would cancel each other, and leave their rounding
+    // far from the origin the tetrahedra would nearly cancel, leaving rounding errors
     constexpr double kFar = 1;  // [m]
     const bool is_far = !vertices.empty() && vertices.front().norm() > kFar;
     const Vec3 origin = is_far ? vertices.front() : Vec3::Zero();

@@ -20,9 +20,9 @@ constexpr auto enum_names(JointKind) {
     return std::array{"hinge", "slider", "ball", "universal", "fixed", "distance", "bushing"};
 }
 
-/// Bodies that are joined do not meet each other, unless `collide`, or but for a distance between
-/// them. Joint coordinates are of the second body against the first, zero at the start; but that of
-/// a distance is the distance itself.
+/// Bodies that are joined do not touch each other, unless `collide` is set or the joint is a
+/// distance. The joint coordinate is that of the second body relative to the first, zero at the
+/// start; the coordinate of a distance is the distance itself.
 struct Joint {
     std::string name;
     JointKind kind = JointKind::hinge;
@@ -40,8 +40,8 @@ struct Joint {
     double friction = 0;        ///< dry [N] or [N*m]
     std::optional<double> low;  ///< stops [m] or [rad]
     std::optional<double> high;
-    /// Of a bushing: its axes at the start, turned from the world's about x, then y, then z, which
-    /// the first body carries along. An axis without a spring and a damper is free.
+    /// For a bushing: its axes at the start, turned from the world's about x, then y, then z; the
+    /// first body carries them along. An axis without a spring and a damper is free.
     Vec3 rotation = Vec3::Zero();          ///< [rad]
     Vec3 stiffnesses = Vec3::Zero();       ///< [N/m]
     Vec3 turn_stiffnesses = Vec3::Zero();  ///< [N*m/rad]
@@ -65,7 +65,7 @@ struct Joint {
     bool slides() const { return kind == JointKind::slider || is_distance(); }
     /// Whether it has a coordinate: a free axis, or a distance.
     bool has_coordinate() const { return kind == JointKind::hinge || slides(); }
-    /// Whether nothing says how far apart the points of a distance may be: then it is a rod.
+    /// Whether nothing limits how far apart the points of a distance may be: it is then a rod.
     bool is_rod() const { return is_distance() && !has_axis_spring() && !low && !high; }
 
     template <class Visitor>

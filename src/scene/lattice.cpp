@@ -13,7 +13,7 @@
 namespace dihaptic::scene {
 namespace {
 
-/// A scene with more is no longer stepped in a tick.
+/// A scene with more blocks could not be stepped within a tick.
 constexpr int kMostParts = 200;
 
 /// Saint-Venant's torsion constant of a rectangle (Roark and Young 1975, within 0.1 %) [m^4].
@@ -78,7 +78,7 @@ class Builder {
         body.position = X_WL_ * centre(i);
         body.rotation = lattice_.rotation;
         body.friction = lattice_.friction;
-        // what is pressed from outside yields from the face to the block's middle too
+        // under pressure from outside, the part from the face to the block's middle yields too
         double stiffness = 1;
         for (int a = 0; a < 3; ++a)
             stiffness *= 2 * lattice_.young * block_.prod() / (block_[a] * block_[a]);

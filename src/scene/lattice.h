@@ -8,9 +8,9 @@
 //     normal
 //
 // where I are the face's second moments of area and J is Saint-Venant's torsion constant. Bars and
-// beams that are made so are pulled, sheared and twisted as those of the textbooks, and n blocks
-// bend as these within 1 / (2 n^2). A block's sides do not bulge when it is pressed: Poisson's
-// ratio is 0. Its faces are soft, 2 E A / L, the mean of its three sides: what presses on them is
+// beams made in this way stretch, shear and twist as in the textbooks, and n blocks bend as a beam
+// within 1 / (2 n^2). A block's sides do not bulge when it is pressed: Poisson's ratio is 0. Its
+// faces are soft, with 2 E A / L (the mean of its three sides), because what presses on them is
 // half a block away from the first link.
 #pragma once
 
@@ -97,7 +97,7 @@ struct Lattice {
     }
 };
 
-/// Makes bodies and joints of the scene's lattices, after those that it has.
+/// Turns the scene's lattices into bodies and joints, which follow those that it already has.
 void expand_lattices(Scene& scene, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::scene

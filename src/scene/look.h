@@ -1,4 +1,4 @@
-// Describes how a body looks beside its shape and its colour. Nothing of it is felt.
+// Describes how a body looks, apart from its shape and colour. None of it is felt.
 #pragma once
 
 #include <array>
@@ -50,8 +50,8 @@ bool has_own_colours(const Body& body);
 void check_materials(const Mesh& mesh, const std::string& file, const Place& place,
                      Diagnostics& diagnostics);
 
-/// Reads the pictures and meshes that bodies are drawn with, whose files are relative to `folder`,
-/// until `stop`.
+/// Reads the pictures and meshes with which bodies are drawn, until `stop`. Their files are
+/// relative to `folder`.
 void load_looks(Scene& scene, const std::string& folder, Diagnostics& diagnostics,
                 const std::stop_token& stop);
 

@@ -1,5 +1,6 @@
 // Reads the colours of an OBJ mesh's materials from the MTL file that the mesh names. The program
-// that reads meshes does not (mesh.h): materials that it knows would change the order of vertices.
+// that reads meshes (mesh.h) does not read it, because materials would change its order of
+// vertices.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Mends the surfaces of meshes: corners that are the same but for rounding become one, faces
-// without area are left out, and an edge on which corners of other faces lie ends at each of them.
+// Mends the surfaces of meshes: merges corners that differ only by rounding, drops faces without
+// area, and divides an edge at each corner of another face that lies on it.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ inline const Vec3& corner(const Mesh& mesh, int i) {
     return mesh.vertices[static_cast<size_t>(i)];
 }
 
-/// Of each edge that is not balanced by as many faces that have it the other way: how many more
-/// have it this way.
+/// For each edge that is not balanced by as many faces in the other direction: how many more faces
+/// have it in this one.
 std::map<Edge, int> open_edges(const Mesh& mesh);
 
 /// Corners closer than this are taken as one [m]: a millionth of the mesh's diagonal, and eight
@@ -34,7 +34,7 @@ struct Mended {
     double largest = 0;  ///< of the distances between corners that were taken as one [m]
 };
 
-/// The mesh with all that is said above, within `rounding`.
+/// The mesh with all these repairs, within `rounding`.
 Mended mended(const Mesh& mesh, double rounding);
 
 }  // namespace dihaptic::scene

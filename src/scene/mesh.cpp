@@ -96,7 +96,7 @@ class Reader {
     size_t at_ = 0;
 };
 
-/// Vertices that follow each other and have one material.
+/// Consecutive vertices of the same material.
 struct MeshPart {
     size_t vertices = 0;
     std::string material;
@@ -155,8 +155,8 @@ std::optional<MeshParts> mesh_of(const std::string& bytes, double unit,
     return out;
 }
 
-/// Colours the vertices that have no colour by their materials, and leaves none where all have
-/// none.
+/// Gives vertices without a colour that of their material; the mesh has no colours if no vertex
+/// gets one.
 void add_materials(MeshParts& read) {
     Mesh& mesh = read.mesh;
     const Materials read_ones =
@@ -219,7 +219,7 @@ Mesh read_mesh(const std::string& file, double unit, const Place& asked_at,
         if (!v.allFinite()) throw refused("has a vertex that is no number", "Export it again.");
     }
     if (mesh.faces.empty()) throw refused("has no triangles", "Export it again with its surface.");
-    // STL has none: programs use its spare bytes each in their own way
+    // STL defines no colours: each program uses the spare bytes in its own way
     if (format == "stl") std::fill(mesh.colours.begin(), mesh.colours.end(), -1);
     if (format == "obj") mesh.materials = materials_of(file, bytes);
     add_materials(*read);

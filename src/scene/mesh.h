@@ -33,8 +33,8 @@ struct Mesh {
 Mesh read_mesh(const std::string& file, double unit, const Place& asked_at,
                const std::stop_token& stop = {});
 
-/// Whether the unit of a mesh, which was named at `place`, could be read. Without it the mesh is
-/// not looked at: its size and weight would be told as faults of their own.
+/// Whether the unit of a mesh, which was named at `place`, could be read. Without a unit the mesh
+/// is not examined: its size and weight would be reported as further mistakes.
 bool is_unit_known(const Place& place, const Diagnostics& diagnostics);
 
 }  // namespace dihaptic::scene

@@ -77,7 +77,7 @@ class Lines {
     int passed_ = 0;  // lines that the last one took
 };
 
-/// What a file says of a vertex: x, y and z, and whether a fourth number scales them.
+/// A vertex as a file gives it: x, y and z, and whether a fourth number scales them.
 struct Said {
     std::array<std::string_view, 3> xyz;
     bool is_scaled = false;
@@ -105,7 +105,7 @@ std::string each_named(std::string_view text, std::string_view name, bool is_obj
     return "";
 }
 
-/// Those of OFF. A head that is none is left to the reader of meshes.
+/// The vertices of OFF. A malformed head is left to the reader of meshes.
 std::string each_off(std::string_view text, const Take& take) {
     Lines lines(text, false);
     Words words;
@@ -126,7 +126,7 @@ std::string each_off(std::string_view text, const Take& take) {
     return "";
 }
 
-/// What the head of a PLY file says of its vertices.
+/// The description of the vertices in the head of a PLY file.
 struct PlyHead {
     size_t before = 0;  // lines or other items between the head and the first vertex
     size_t count = 0;
@@ -235,7 +235,7 @@ struct Extent {
         is_scaled = is_scaled || said.is_scaled;
         return "";
     }
-    /// Whether single precision does not do for it: a mesh about its origin is rounded by a
+    /// Whether single precision does not suffice: in a mesh around its origin, rounding is a
     /// hundredth of this.
     bool is_far() const { return !is_scaled && rounding > 2e-7 * diagonal(); }
     std::array<double, 3> middle() const {

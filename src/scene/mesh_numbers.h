@@ -1,5 +1,5 @@
-// Coordinates in mesh files. The reader of meshes takes of a word what it knows as a number and
-// leaves out the rest (1.5D+01 is 1.5 to it), and keeps seven digits.
+// Checks the coordinates in mesh files. The reader of meshes uses the part of a word that it
+// recognises as a number and ignores the rest (it reads 1.5D+01 as 1.5), and it keeps seven digits.
 #pragma once
 
 #include <array>
@@ -12,9 +12,9 @@ struct MeshNumbers {
     std::array<double, 3> from{};  ///< where the origin of the coordinates is now
 };
 
-/// Looks at all coordinates of a text, or those of a binary PLY file that have double precision,
-/// and counts them from the mesh's middle where seven digits would not do for them: far away from
-/// the origin. `format`: obj, stl (of text), ply or off.
+/// Checks all coordinates of a text, or those of a binary PLY file in double precision. Where seven
+/// digits would not suffice, far away from the origin, it subtracts the mesh's middle from them.
+/// `format`: obj, stl (of text), ply or off.
 MeshNumbers look_at_numbers(std::string& bytes, const std::string& format);
 
 }  // namespace dihaptic::scene

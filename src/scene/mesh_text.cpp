@@ -27,7 +27,7 @@ void end_lines(std::string& bytes, size_t end) {
     }
 }
 
-/// Blanks out what follows a # in the lines of OBJ that have numbers: names may have one.
+/// Blanks out what follows a # in those lines of OBJ that have numbers; names may contain a #.
 void blank_comments(std::string& text) {
     constexpr std::string_view kOfNumbers = "vflp0123456789+-.";
     for (size_t begin = 0; begin < text.size();) {
@@ -90,7 +90,7 @@ void set_count(std::string& bytes, size_t count) {
     for (size_t i = 0; i < 4; ++i) bytes[kCountAt + i] = static_cast<char>(count >> 8 * i & 0xff);
 }
 
-/// A binary STL file whose size is not the one that its count asks for.
+/// A binary STL file whose size does not match its count.
 MeshText tidy_binary_stl(std::string bytes) {
     if (bytes.size() < kHead)
         return {bytes,

@@ -1,6 +1,6 @@
-// Mesh files as they are found: with byte order marks, old line ends, capitals, comments behind
-// numbers, spare bytes, or without a count. The reader of meshes knows none of these, and does not
-// say what it lacks.
+// Cleans up mesh files as they occur in practice: with byte order marks, old line ends, capitals,
+// comments behind numbers, spare bytes, or without a count. The reader of meshes handles none of
+// these, and does not report them.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// A name of a body, finger or joint may have so many bytes: it becomes a part of paths in a
+// Largest length of a name of a body, finger or joint [bytes]: names become parts of paths in a
 // session's recording.
 #pragma once
 

@@ -12,9 +12,9 @@
 namespace dihaptic::scene {
 
 /// An image of known size that repeats over a body. It is projected along the axes of the body's
-/// frame, onto each place along the axis that the surface there looks along most. Its middle is at
-/// the body's origin; up on it is z, but on what looks along z, y as it is seen from above, and -y
-/// from below.
+/// frame: at each place, along the axis that is closest to the surface's normal. Its middle is at
+/// the body's origin. Its up direction is z, and on surfaces that face along z it is y seen from
+/// above, and -y seen from below.
 struct Picture {
     static constexpr int kMostPixels = 4096;  ///< along an edge
 
@@ -36,9 +36,9 @@ struct Picture {
 };
 
 /// Reads a PNG file whose edges have `fewest` to `most` pixels. Throws Error, with that place and
-/// the key `file`, when it is none or is of another size.
+/// the key `file`, when it is not a PNG file or has another size.
 Image read_picture(const std::string& file, int fewest, int most, const Place& place);
-/// As read_picture(), of one whose greys are data.
+/// As read_picture(), for a picture whose greys are data.
 GreyImage read_data(const std::string& file, int fewest, int most, const Place& place);
 
 }  // namespace dihaptic::scene

@@ -105,8 +105,8 @@ std::optional<Parsed> parse(const std::string& text) {
             return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
         });
         Hull hull = convex_hull(points);
-        // slivers that rounding has flattened hold hardly any volume, and cannot be touched without
-        // their neighbours
+        // slivers flattened by rounding have hardly any volume, and cannot be touched without their
+        // neighbours
         const std::optional<Vec3> lost = lost_of(points, hull);
         if (lost && (hull.faces.empty() || !out.lost)) out.lost = lost;
         if (!hull.faces.empty()) out.hulls.push_back(std::move(hull));
@@ -115,8 +115,8 @@ std::optional<Parsed> parse(const std::string& text) {
     return out;
 }
 
-/// The pieces of a mesh in a file; nullopt if it has none. `volume`: of the mesh, which pieces of
-/// the first version have to have.
+/// The pieces of a mesh in a file; nullopt if it has none. `volume` is the mesh's, which pieces of
+/// the first version must match.
 std::optional<Pieces> read_pieces(const std::string& file, uint64_t mesh, double volume) {
     if (!is_there(file)) return std::nullopt;
     const std::string text = [&]() -> std::string {
@@ -207,7 +207,7 @@ Cut cut_of(const std::string& text) {
     return out;
 }
 
-/// Whether the pieces reach as far as the mesh along each axis.
+/// Whether the pieces extend as far as the mesh along each axis.
 bool reach(const std::vector<Hull>& hulls, const Mesh& mesh) {
     const auto grow = [](Eigen::AlignedBox3d& box, const std::vector<Vec3>& points) {
         for (const Vec3& p : points) box.extend(p);
@@ -223,7 +223,7 @@ bool reach(const std::vector<Hull>& hulls, const Mesh& mesh) {
            (pieces.max() - whole.max()).norm() <= most;
 }
 
-/// What dihaptic-decompose makes of the solid in one of its ways.
+/// The result of dihaptic-decompose with one of its methods.
 Cut cut_by(const std::string& way, const ClosedMesh& solid, const MeshName& name,
            const std::stop_token& stop) {
     const CompanionTask task{
@@ -239,7 +239,7 @@ Cut cut_by(const std::string& way, const ClosedMesh& solid, const MeshName& name
     return text ? cut_of(*text) : Cut{};
 }
 
-/// Why a mesh is refused, and what helps; empty if it need not be.
+/// Why a mesh is refused, and the remedy; empty if it is not refused.
 struct Fault {
     std::string why;
     std::string remedy =
@@ -274,7 +274,7 @@ std::vector<Hull> decompose(const ClosedMesh& solid, const MeshName& name,
         try {
             cut = cut_by(way, solid, name, stop);
         } catch (const Error&) {
-            // the library crashes on some solids: then the other way may cut them
+            // the library crashes on some solids, which the other method may then cut
             if (stop.stop_requested() || way == "winding") throw;
             continue;
         }
@@ -301,8 +301,8 @@ void write_pieces(const Pieces& pieces, const std::string& file) {
 
 namespace {
 
-/// Where the pieces of a mesh are kept: with the user, since the mesh's folder may be somebody
-/// else's; "" if the user has no home.
+/// The file that keeps the pieces of a mesh. It is in the user's own cache, because the mesh's
+/// folder may belong to somebody else; "" if the user has no home.
 std::string kept_file(uint64_t print) {
     const std::string cache = user_cache();
     return cache.empty() ? "" : fmt::format("{}/dihaptic/pieces/{:016x}.pieces", cache, print);
@@ -319,7 +319,7 @@ void keep(const Pieces& pieces, const std::string& file) {
 
 namespace {
 
-/// Tells that shells overlap: what is felt and weighed is their union.
+/// Warns that shells overlap: their union is felt and weighed.
 void check_overlap(const ClosedMesh& solid, const Pieces& pieces, const MeshName& name,
                    Diagnostics& diagnostics) {
     const double shells = integrate(solid.mesh.vertices, solid.mesh.faces).volume;

@@ -27,8 +27,8 @@ VolumeIntegrals integrate(const Pieces& pieces);
 
 /// Convex pieces of a closed mesh. The pieces kept beside its file are used if they are intact,
 /// belong to this mesh and fill it; else the mesh is cut and the new pieces are kept. Where shells
-/// overlap, the pieces fill their union, which is told in a warning. Warns if they cannot be
-/// written. Throws Error when no pieces that fill the mesh are found, or when the cut is stopped.
+/// overlap, the pieces fill their union, with a warning. Warns if the pieces cannot be written.
+/// Throws Error when no pieces that fill the mesh are found, or when the cut is stopped.
 Pieces convex_pieces(const ClosedMesh& mesh, const MeshName& name, Diagnostics& diagnostics,
                      const std::stop_token& stop = {});
 

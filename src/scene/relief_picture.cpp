@@ -23,7 +23,7 @@ Weights weights_at(double t) {
             {-u * u / 2, (3 * t * t - 4 * t) / 2, (4 * u - 3 * u * u) / 2, t * t / 2}};
 }
 
-/// A number of pixels as one from 0 to count - 1.
+/// Wraps an index of pixels into 0 to count - 1.
 size_t wrapped(int i, int count) {
     const int rest = i % count;
     return static_cast<size_t>(rest < 0 ? rest + count : rest);

@@ -1,4 +1,4 @@
-// A picture as a relief: its grey is smoothed to a height that has a slope everywhere.
+// A picture as a relief: its greys are smoothed to a height that has a slope everywhere.
 #pragma once
 
 #include <cstddef>
@@ -29,12 +29,12 @@ class ReliefPicture {
 
     int width() const noexcept { return width_; }
     int height() const noexcept { return height_; }
-    /// Of the file that it was read from, as it was then (base/checksum.h).
+    /// Checksum of its file when it was read (base/checksum.h).
     const std::string& checksum() const noexcept { return checksum_; }
-    /// At so many pixels to the right of the picture's middle, and above it.
+    /// The relief at this many pixels to the right of the picture's middle, and above it.
     Value at(double x, double y) const noexcept;
-    /// The most that it rises over a pixel in any direction, where it was tried: four times a
-    /// pixel along each edge.
+    /// The largest rise over a pixel in any direction, sampled four times per pixel along each
+    /// edge.
     double steepest() const noexcept { return steepest_; }
 
   private:
@@ -45,8 +45,8 @@ class ReliefPicture {
     double steepest_ = 0;
 };
 
-/// Reads a PNG file; its colours count by their mean. Throws Error, with that place and key, when
-/// it is none or is too large or small.
+/// Reads a PNG file; a colour counts by the mean of its channels. Throws Error, with that place and
+/// key, when it is not a PNG file, or is too large or small.
 ReliefPicture read_relief(const std::string& file, const Place& place);
 
 }  // namespace dihaptic::scene

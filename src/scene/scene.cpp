@@ -54,7 +54,7 @@ class Meshes {
     void load(Shape& shape, bool coloured);
 
   private:
-    /// Null if it could not be read, which has been told.
+    /// Null if it could not be read, which has been reported.
     const Mesh* read(const std::string& file, double unit, const Place& place);
     void load_file(Shape& shape, bool coloured, const std::string& file);
 
@@ -209,7 +209,7 @@ void check_body(const Body& body, Diagnostics& diagnostics) {
     }
 }
 
-/// Refuses more things than a scene may have, and leaves out those beyond; false if it does.
+/// Refuses more things than a scene may have, and drops the excess; returns false in this case.
 template <class Thing>
 bool check_count(std::vector<Thing>& things, size_t most, const char* key,
                  Diagnostics& diagnostics) {
@@ -349,7 +349,7 @@ void check_points(const Joint& joint, Diagnostics& diagnostics) {
     }
 }
 
-/// A bushing has stiffnesses or dampings, and no other joint has.
+/// A bushing has stiffnesses or dampings; no other joint does.
 void check_bushing(const Joint& joint, Diagnostics& diagnostics) {
     const bool bushes = !joint.stiffnesses.isZero(0) || !joint.turn_stiffnesses.isZero(0) ||
                         !joint.dampings.isZero(0) || !joint.turn_dampings.isZero(0);
@@ -362,7 +362,7 @@ void check_bushing(const Joint& joint, Diagnostics& diagnostics) {
                    : "Add e.g. stiffnesses_N_m: [500, 500, 2000].");
 }
 
-/// A curve has points that ascend, and no line that is steeper than a spring may be stiff.
+/// The points of a curve must ascend, and no line may be steeper than the stiffest spring allowed.
 void check_curve(const Joint& joint, Diagnostics& diagnostics) {
     const SpringCurve& curve = joint.curve;
     if (curve.stretch.empty() && curve.resistance.empty()) return;
@@ -439,7 +439,8 @@ void check_start(const Joint& joint, Diagnostics& diagnostics) {
         "Begin within its stops: the first tick would throw what it joins there.");
 }
 
-/// Warns of joined bodies so different in mass that rounding shows in what the light one does.
+/// Warns of joined bodies whose masses differ so much that rounding shows in the light one's
+/// motion.
 void check_masses(const Joint& joint, const Scene& scene, Diagnostics& diagnostics) {
     constexpr double kApart = 1e6;
     if (joint.between.size() != 2) return;
@@ -555,7 +556,7 @@ void place_joints(Scene& scene, Diagnostics& diagnostics) {
     }
 }
 
-/// Radius about its origin of a sphere that the body lies in [m].
+/// Radius of a sphere around the body's origin that contains it [m].
 double reach(const Body& body) {
     if (body.shape.kind == ShapeKind::plane) return std::numeric_limits<double>::infinity();
     const Bounds box = bounds(body.shape);

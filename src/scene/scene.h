@@ -1,4 +1,4 @@
-// Describes what a world is made of, as read from a scene file (docs/files.md).
+// Describes what a world is made of, as read from a scene file (docs/files/scene.md).
 #pragma once
 
 #include <array>
@@ -24,8 +24,8 @@ namespace dihaptic::scene {
 constexpr double kLightest = 1e-6;  // [kg]
 constexpr double kHeaviest = 1000;  // [kg]
 constexpr double kFurthest = 100;   // from the world's origin [m]
-/// Of bodies, of joints and of pairs each: some checks look at each two of them, and no tick steps
-/// a tenth of them.
+/// Largest number of bodies, of joints and of pairs. Some checks compare each two of them, and no
+/// tick could step a tenth of them.
 constexpr size_t kMostThings = 4000;
 constexpr size_t kMostLattices = 100;
 
@@ -108,7 +108,7 @@ struct Body {
     }
 
     Pose pose() const { return {rotation_xyz(rotation), position}; }
-    /// Whether anything can make it move that presses or pulls.
+    /// Whether a force can make it move.
     bool moves_at_all() const {
         return !fixed && !driven && (moves != Axes::none || turns != Axes::none);
     }

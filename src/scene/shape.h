@@ -25,7 +25,7 @@ constexpr auto enum_names(MeshUnit) {
     return std::array{"m", "cm", "mm", "inch"};
 }
 
-/// How long one is [m].
+/// Length of one such unit [m].
 double metres(MeshUnit unit);
 
 /// Limits of lengths, radii and meshes; beyond them contacts are lost in rounding [m].
@@ -164,12 +164,12 @@ VolumeIntegrals integrate(const Shape& shape);
 
 /// Depth of a point of B below the surface; negative outside [m].
 double depth(const Shape& shape, const Vec3& p_B);
-/// Representative points of the shape: its corners, or its furthest points along the axes, and its
-/// centre unless the shape is a concave mesh. A plane has none.
+/// Representative points of the shape: its corners, or its farthest points along the axes, and,
+/// unless it is a concave mesh, its centre. A plane has none.
 std::vector<Vec3> marks(const Shape& shape);
 
-/// The box along the axes of its body that a shape fills; of a compound, the box around its
-/// marks(), which may cut round parts that are turned. Zero for a plane [m].
+/// The bounding box of a shape along the axes of its body; for a compound, that of its marks(),
+/// which may cut off round parts that are turned. Zero for a plane [m].
 struct Bounds {
     Vec3 low = Vec3::Zero();
     Vec3 high = Vec3::Zero();

@@ -1,4 +1,4 @@
-// Describes a shape with a mass as needed by simulators that work in the principal axes of a body.
+// Describes a shape with a mass in the body's principal axes, as simulators need it.
 #pragma once
 
 #include "scene/shape.h"

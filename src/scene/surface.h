@@ -1,4 +1,4 @@
-// Describes what a surface does where something touches it: how it slides, gives way and bounces.
+// Describes what happens where something touches a surface: how it slides, gives way and bounces.
 #pragma once
 
 #include <limits>
@@ -15,8 +15,8 @@ constexpr double kSoftest = 50;   // [N/m]
 constexpr double kHardest = 1e6;  // [N/m]
 constexpr double kMostFriction = 100;
 
-/// What a body, a finger or a pair of them says of its surface; what it leaves out it does not
-/// have, and a pair leaves to its two surfaces.
+/// The surface of a body, a finger or a pair. A body or finger lacks what is left out; a pair
+/// leaves it to its two surfaces.
 struct Surface {
     std::optional<double> stiffness;         ///< of a face that is pressed [N/m]; none: rigid
     std::optional<double> damping;           ///< beside it [N*s/m]
@@ -70,7 +70,7 @@ struct Surface {
     }
 };
 
-/// What two surfaces do where they touch each other.
+/// The combined properties of two surfaces that touch each other.
 struct PairSurface {
     double friction = 0;          ///< static coefficient
     double dynamic_friction = 0;  ///< at most the static one
@@ -99,8 +99,8 @@ struct SurfaceOf {
 
 struct Scene;
 
-/// What the surfaces of two bodies or fingers do together: what the file says of the pair, or else
-/// what follows from their own.
+/// The combined surface of two bodies or fingers: what the file says of the pair or, otherwise,
+/// what follows from their own surfaces.
 PairSurface pair_surface(const Scene& scene, const SurfaceOf& a, const SurfaceOf& b);
 
 /// Checks that the keys of a surface go together; `friction` is its static coefficient, if known.

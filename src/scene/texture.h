@@ -12,13 +12,13 @@ namespace dihaptic::scene {
 
 class ReliefPicture;
 
-/// Ridges across a direction, bumps in rows and columns, or what a file draws.
+/// Ridges across a direction, bumps in rows and columns, or a picture from a file.
 enum class TextureKind { grating, grid, picture };
 constexpr auto enum_names(TextureKind) {
     return std::array{"grating", "grid", "picture"};
 }
 
-/// How a texture is where it is touched.
+/// The state of a texture at a point of contact.
 struct Relief {
     double friction = 1;        ///< factor on the coefficient
     double height = 0;          ///< above the face [m]
@@ -26,7 +26,7 @@ struct Relief {
 };
 
 struct Texture {
-    /// Contacts are known this far ahead, and no steeper face can be slid over.
+    /// Contacts are found this far ahead, and no steeper face can be slid over.
     static constexpr double kHighest = 3e-4;  // [m]
     static constexpr double kSteepest = 1;
 
@@ -66,7 +66,7 @@ struct Texture {
         if constexpr (requires { v.place(); }) place = v.place();
     }
 
-    /// The steepest slope that it has anywhere.
+    /// Its steepest slope.
     double steepest() const noexcept;
 
     /// Where a face with the normal n_B is touched at p_B [m], in the body's frame. A ridge goes
