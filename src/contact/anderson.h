@@ -1,5 +1,5 @@
-// Anderson acceleration of a fixed-point iteration x = g(x) (Walker and Ni 2011): the next x is the
-// combination of the last ones whose residual g(x) - x, taken as linear, is smallest.
+// Anderson acceleration of a fixed-point iteration x = g(x) (Walker and Ni 2011): the next x is
+// that combination of the last ones for which the residual g(x) - x, linearised, is smallest.
 #pragma once
 
 #include <Eigen/Dense>
@@ -11,7 +11,8 @@ namespace dihaptic::contact {
 class Anderson {
   public:
     static constexpr int kDepth = 10;
-    /// A column is left out if all but this share of it lies in the span of the newer ones.
+    /// A column is left out if no more than this share of it lies outside of the span of the newer
+    /// ones.
     static constexpr double kNothingNew = 1e-8;
 
     void reserve(size_t size) {
@@ -29,7 +30,7 @@ class Anderson {
         f_.resize(size);
         forget();
     }
-    /// Forgets the last points, when they are of no use any more.
+    /// Forgets the last points, when they are no longer useful.
     void forget() noexcept {
         count_ = 0;
         next_ = 0;

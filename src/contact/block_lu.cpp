@@ -96,7 +96,8 @@ bool BlockLu::analyse(int nodes, std::span<const std::pair<int, int>> edges,
     return true;
 }
 
-/// A node is inverted, and taken out of its later neighbours, and of each pair of them.
+/// The work for a node: it is inverted, and eliminated from its later neighbours and from each pair
+/// of them.
 void BlockLu::count_products() noexcept {
     constexpr int64_t kInverse = 8;  // takes as long as so many products
     products_ = 0;

@@ -1,9 +1,9 @@
 // BlockLu is a sparse LU factorisation of a matrix of 6 x 6 blocks, with one row for each body and
 // a block wherever two bodies touch. Bodies are eliminated in order of least degree, so that a wall
-// or a chain fills in little; pivoting stays inside the diagonal blocks.
+// or a chain causes little fill-in; pivoting stays inside the diagonal blocks.
 //
-// Where the same pattern is solved again and again, and the blocks of some bodies never change,
-// those bodies are eliminated first, and once: keep() does so, and each solve begins with again().
+// If the same pattern is solved repeatedly and the blocks of some bodies never change, those bodies
+// are eliminated first, and only once, by keep(); each solve then begins with again().
 //
 // Memory is reserved once; everything else allocates nothing.
 #pragma once
@@ -24,8 +24,9 @@ class BlockLu {
     void reserve(int nodes, int edges);
 
     /// Finds the order of elimination, and where fill-in arises, for a pattern of unordered pairs.
-    /// `varies` says of each node whether its blocks change between solves; left out, all do. Does
-    /// nothing if the pattern is the last one. False if it is larger than reserved.
+    /// `varies` says for each node whether its blocks change between solves; if it is left out, all
+    /// do. Does nothing if the pattern is the same as last time. False if it is larger than
+    /// reserved.
     bool analyse(int nodes, std::span<const std::pair<int, int>> edges,
                  std::span<const char> varies = {}) noexcept;
 
@@ -37,16 +38,16 @@ class BlockLu {
     Block& block(int slot) noexcept { return blocks_[static_cast<size_t>(slot)]; }
     void set_identity() noexcept;
 
-    /// Takes the blocks as they are for the beginning of solves: eliminates the nodes that do not
-    /// vary.
+    /// Keeps the present blocks as the beginning of each solve, after eliminating the nodes that do
+    /// not vary.
     void keep() noexcept;
-    /// Has the blocks that can vary as they were kept.
+    /// Restores the blocks that can vary to what was kept.
     void again() noexcept;
     /// Solves for x in place; destroys the blocks that can vary. Needs keep() before.
     void solve(std::span<Vector> x) noexcept;
 
     int blocks() const noexcept { return used_; }
-    /// Products of two blocks as which a solve counts.
+    /// Number of block products to which a solve amounts.
     int64_t products() const noexcept { return products_; }
 
   private:
@@ -85,7 +86,7 @@ class BlockLu {
     std::vector<char> varies_;  // by node
     std::vector<int> order_;
     size_t constant_ = 0;     // nodes of the order that do not vary: the first ones
-    int first_varying_ = 0;   // of the blocks: those before are of nodes that do not vary
+    int first_varying_ = 0;   // first block of the nodes that vary
     std::vector<int> later_;  // for each node of the order: its neighbours eliminated later
     std::vector<size_t> later_begin_;
     std::vector<int> slot_;  // by row and column; -1: no block

@@ -9,7 +9,7 @@ namespace {
 /// L with L L' = A for a positive semi-definite A; a zero pivot gives a zero column.
 Mat6 root(const Mat6& A) noexcept {
     Mat6 L = Mat6::Zero();
-    // lengths are measured in one unit, turns in another: each has pivots of its own size
+    // lengths and angles have different units, so each has pivots of its own size
     const double linear = 1e-14 * A.diagonal().head<3>().maxCoeff();
     const double angular = 1e-14 * A.diagonal().tail<3>().maxCoeff();
     for (int k = 0; k < 6; ++k) {

@@ -4,7 +4,7 @@
 //     (I + G H H') d = -c   <=>   (I + H' G H) y = -H' c,   d = -c - G H y
 //
 // H contains the inverse square roots of mass and inertia, and each contact's rows are divided by
-// the root of the mean diagonal of its block of W. So impulses are r = scale * r^, velocities u =
+// the root of the mean diagonal of its block of W. Impulses are then r = scale * r^, velocities u =
 // u^ / scale, and nothing depends on units. Soft contacts add their compliance to the diagonal of
 // W.
 #pragma once
@@ -30,10 +30,10 @@ class BodySystem {
     void reserve(int bodies, int contacts, int joints);
     /// Allocates if the problem is larger than reserved.
     void assemble(const ContactProblem& problem) noexcept;
-    /// Has what follows counted.
+    /// Counts the work of everything that follows.
     void count_in(Work& work) noexcept { work_ = &work; }
     Work& work() const noexcept { return *work_; }
-    /// What a step of Newton's method costs, without its law [visits].
+    /// Cost of a step of Newton's method, without its law [visits].
     int64_t step_visits() const noexcept {
         return Visits::matrix * static_cast<int64_t>(size()) + Visits::product * lu_.products();
     }
@@ -43,7 +43,7 @@ class BodySystem {
     /// Contacts, then joints.
     size_t size() const noexcept { return rows_.size(); }
     bool has_joints() const noexcept { return !joints_.empty(); }
-    /// Whether everything in the problem is a number that can be computed with.
+    /// Whether every number in the problem is finite and usable.
     bool is_finite() const noexcept { return finite_; }
     const Scale& scale(size_t j) const noexcept { return rows_[j].law; }
     const Vec& q(size_t j) const noexcept { return rows_[j].q; }
@@ -54,8 +54,8 @@ class BodySystem {
     void velocity(std::span<const Vec> r, std::span<Vec> u) noexcept;
     /// Solves (I + G W) d = -c; changes G and c.
     void newton_step(std::span<Linearised<D>> contacts, std::span<Vec> d) noexcept;
-    /// Projected Gauss-Seidel sweeps on a law, until one changes no contact's velocity by more than
-    /// `enough` [m/s], or their work is used up. Returns their number.
+    /// Does projected Gauss-Seidel sweeps on a law, until a sweep changes no contact's velocity by
+    /// more than `enough` [m/s], or their work is used up. Returns their number.
     template <class Law>
     int sweep(const Law& law, std::span<Vec> r, int most, double enough = -1) noexcept {
         gather(r);

@@ -1,5 +1,5 @@
-// DelassusSystem is the contact problem in contact space, scaled as BodySystem scales it, with W as
-// a dense matrix: for problems that are given without bodies. Allocates.
+// DelassusSystem is the contact problem in contact space, scaled as in BodySystem, with W as a
+// dense matrix. It serves problems that are given without bodies, and allocates.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,7 @@ class DelassusSystem {
     Vec q(size_t j) const noexcept { return q_.segment<3>(3 * static_cast<Eigen::Index>(j)); }
     double unit(size_t j) const noexcept { return units_[j]; }
 
-    /// What is counted is as if there were bodies: such problems are solved outside of ticks.
+    /// Work is counted as if there were bodies, since such problems are solved outside of ticks.
     void count_in(Work& work) noexcept { work_ = &work; }
     Work& work() const noexcept { return *work_; }
     int64_t step_visits() const noexcept { return Visits::matrix * static_cast<int64_t>(size()); }

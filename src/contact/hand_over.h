@@ -1,5 +1,5 @@
-// The hand-over: who is asked, in this order, until one answers. README.md says how much work each
-// may do.
+// The hand-over: the methods that are tried, in this order, until one answers. README.md says how
+// much work each may do.
 #pragma once
 
 #include <array>
@@ -23,8 +23,9 @@ constexpr std::array<HandOver, kSolvers> kHandOver{{
      {Route::newton, Route::coarse_polygon, Route::staggered_projections, Route::sweeps}},
 }};
 
-/// Who is asked for `asked`. Where work is bounded, sweeps end what the first has left undone;
-/// where there is too little of it for an exact answer, or too little memory, they do it alone.
+/// The methods that are tried for the solver `asked`. Where work is bounded, sweeps finish what the
+/// first method left undone; where the work or the memory does not suffice for an exact answer,
+/// sweeps do it alone.
 constexpr std::array<Route, 4> hand_over(Solver asked, bool exact, bool bounded) {
     for (const HandOver& row : kHandOver) {
         if (row.asked != asked || !exact) continue;

@@ -22,8 +22,8 @@
 //     between   G = 1 / (gamma + rho)                c = (u^ + gamma r) / (gamma + rho)
 //     at a bound  G = 0                              c = r - bound
 //
-// Rows without bounds are linear equations, which Newton's method solves in a step however large
-// they are: their rho is kLinearRho or none, and so their G is always the same.
+// Rows without bounds are linear equations, which Newton's method solves in a single step however
+// large they are. Their rho is kLinearRho or none, so their G is always the same.
 //
 // rho regularises a singular W (four coplanar contacts); it has no effect at the fixed point r =
 // r_k. Impulses and velocities are those of a scaled system, in which the diagonal blocks of W have
@@ -52,9 +52,10 @@ struct JointScale {
     }
 };
 
-/// What regularises rows without bounds: their compliance, or rho where that is hardly any, since a
-/// G much larger than 1 / rho would cost Newton's step its digits. A larger rho would take a chain
-/// of joints many proximal steps, because motions of its whole length change its rows little.
+/// The regularisation of rows without bounds: their compliance, or rho where there is hardly any
+/// compliance, since a G much larger than 1 / rho would cost Newton's step its precision. A larger
+/// rho would take a chain of joints many proximal steps, because motions of its whole length change
+/// its rows little.
 constexpr double kLinearRho = 1e-7;
 constexpr double kLeastCompliance = 1e-9;
 
@@ -76,7 +77,7 @@ struct Linearised {
 
 namespace law {
 
-/// The rows of a joint, whatever the law of contacts is.
+/// The rows of a joint, which do not depend on the law of contacts.
 struct Joint {
     template <int D>
     static double linearise(const JointScale& joint, const Eigen::Matrix<double, D, 1>& r,
@@ -198,7 +199,7 @@ double linearise_normal(const Scale& scale, const Eigen::Matrix<double, D, 1>& r
 
 /// Coulomb's law: normal and tangential part together.
 struct Coulomb {
-    /// What a sweep, or to judge an answer, costs of each contact (work.h).
+    /// Cost of a sweep, or of judging an answer, for each contact (work.h).
     static constexpr int kVisits = 1;
     template <int D>
     static double linearise(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
@@ -274,9 +275,8 @@ struct NormalOnly {
     }
 };
 
-/// Tangential impulses on discs of the present radius mu r_N, by steps of 2 over the trace of W_TT,
-/// with which sweeps are stable however much the rows differ: torsion's is often the smallest by
-/// far.
+/// Tangential impulses on discs of the present radius mu r_N, with steps of 2 / trace(W_TT). Sweeps
+/// are then stable however much the rows differ; that of torsion is often by far the smallest.
 struct FrictionOfLoad {
     template <int D>
     static void relax(const Scale& scale, Eigen::Matrix<double, D, 1>& r,
@@ -287,7 +287,7 @@ struct FrictionOfLoad {
 };
 
 /// Coulomb's law for sweeps: one over all normal impulses, then one over all friction. In stacks
-/// this leaves two thirds of the error that both at once leave.
+/// this leaves two thirds of the error that sweeping both at once leaves.
 struct NormalThenFriction {
     static constexpr int kVisits = 2;
     NormalOnly normal;
@@ -336,8 +336,8 @@ struct FrictionOnly {
     }
 };
 
-/// Coulomb's law with the disc replaced by a polygon, as Stewart and Trinkle have it, with the
-/// multipliers eliminated.
+/// Coulomb's law with the disc replaced by a polygon (Stewart and Trinkle), with the multipliers
+/// eliminated.
 template <int T>
 struct Polygonal {
     static constexpr int kVisits = 6;
@@ -381,8 +381,8 @@ struct Polygonal {
     }
 };
 
-/// What follows is by the law for a contact, and by the joint's own for a joint. This one is in a
-/// proximal step about r_k.
+/// The following functions use the law for a contact, and the joint's own rows for a joint. This
+/// one is in a proximal step about r_k.
 template <int D, class Law>
 double linearise(const Law& law, const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
                  const Eigen::Matrix<double, D, 1>& u, const Eigen::Matrix<double, D, 1>& r_k,

@@ -1,7 +1,7 @@
 // A friction polygon: n evenly spread directions in the contact's tangent plane, the first of them
 // along axes.col(0). Its vertices lie on the circle of radius mu N, so friction is mu N along a
 // direction and mu N cos(pi / n) halfway between two. With torsion (T = 3) it is a double pyramid:
-// the polygon, and two more vertices, one on either side along axes.col(2).
+// the polygon and two further vertices, one on either side along axes.col(2).
 //
 // A regular polygon, and such a pyramid, are symmetric about the planes through neighbouring
 // directions. So the point nearest to a vector in the sector between them lies in that sector too,
@@ -25,7 +25,7 @@ struct Polygon {
     int directions = 8;
     Square axes = Square::Identity();  ///< orthonormal
 
-    /// Lays the first direction along a vector; leaves it if the vector has no direction.
+    /// Lays the first direction along a vector; leaves it unchanged if the vector has no direction.
     void turn_to(const Tangent& first) noexcept {
         const double length = first.norm();
         if (!(length > 0) || !std::isfinite(length)) return;

@@ -25,8 +25,8 @@ struct ProblemBody {
     Vec3 w_W = Vec3::Zero();  ///< [rad/s]
 };
 
-/// Takes the motion along axis i out of an inverse mass matrix: M^-1 - M^-1 e (e' M^-1 e)^-1 e'
-/// M^-1, the inverse of what M is to all other motions. This is what a joint to the world does.
+/// Removes the motion along axis i from an inverse mass matrix: M^-1 - M^-1 e (e' M^-1 e)^-1 e'
+/// M^-1, the inverse of M restricted to all other motions. A joint to the world has this effect.
 inline void hold(Mat6& inverse_mass, int i) noexcept {
     const Vec6 column = inverse_mass.col(i);
     if (column[i] > 0) inverse_mass -= column * column.transpose() / column[i];
@@ -57,8 +57,8 @@ using Impulse = Eigen::Vector4d;
 ///     low <= r <= high      u + compliance r  is 0 between the bounds, >= 0 at low, <= 0 at high
 ///
 /// Without bounds and compliance bodies do not move against each other; with low = 0 the row is a
-/// stop, with low = -high dry friction, with a compliance an implicit spring. A row without J, and
-/// with bounds of 0, is none.
+/// stop, with low = -high dry friction, with a compliance an implicit spring. A row without J and
+/// with bounds of 0 does nothing.
 struct ProblemJoint {
     static constexpr int kRows = 3;
     using Rows = Eigen::Matrix<double, kRows, 6>;
@@ -76,7 +76,7 @@ struct ProblemJoint {
 /// Bodies, contacts and joints of one step. Find impulses r so that for each contact, with u the
 /// velocity of b relative to a plus slip and, along the normal, bias and compliance r_N, at the end
 /// of the step: r_N >= 0, u_N >= 0, r_N u_N = 0, |r_T| <= mu r_N, and r_T opposite to u_T where it
-/// slides; and for each joint what its rows ask for.
+/// slides; and so that the rows of each joint hold.
 struct ContactProblem {
     std::vector<ProblemBody> bodies;
     std::vector<ProblemContact> contacts;
@@ -93,8 +93,8 @@ struct ContactProblem {
 /// Velocity of b relative to a along a contact's normal, without impulses and without the bias
 /// [m/s].
 double normal_velocity(const ContactProblem& problem, const ProblemContact& contact) noexcept;
-/// By how much an impulse along a contact's normal changes its normal velocity: W_NN without the
-/// compliance [1/kg].
+/// Change of a contact's normal velocity per impulse along its normal: W_NN without the compliance
+/// [1/kg].
 double normal_mobility(const ContactProblem& problem, const ProblemContact& contact) noexcept;
 
 /// A contact problem without bodies, with three rows per contact: normal, then two tangents. u = W

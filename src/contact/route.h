@@ -1,4 +1,4 @@
-// Route tells which method found the impulses in use; README.md gives the order in which methods
+// Route names the method that found the impulses in use. README.md gives the order in which methods
 // are tried.
 #pragma once
 
@@ -6,10 +6,10 @@
 
 namespace dihaptic::contact {
 
-/// Recorded with every tick: append new values at the end.
+/// It is recorded with every tick, so append new values at the end.
 enum class Route {
     none,            ///< nothing to solve, the problem was refused, or an older recording
-    start,           ///< the start was an answer already
+    start,           ///< the start was already an answer
     newton,          ///< Newton's method on Coulomb's cone
     own_newton,      ///< stewart_trinkle: Newton's method on its friction polygon
     lemke,           ///< stewart_trinkle: Lemke's method on its friction polygon
@@ -17,7 +17,7 @@ enum class Route {
     staggered_projections,
     sweeps,  ///< newton, started after many projected Gauss-Seidel sweeps
     sequential_impulse,
-    out_of_work  ///< sweeps, which ended what the tick's counted work had not sufficed for
+    out_of_work  ///< sweeps, after the tick's counted work was used up
 };
 constexpr auto enum_names(Route) {
     return std::array{"none",

@@ -1,9 +1,9 @@
 // The interface to the contact solvers: takes a problem and a start, and returns impulses and
 // statistics.
 //
-// A solver that misses its tolerance hands over to others (hand_over.h). It is reported if another
-// solver answered, and if even the last one missed. Each has a bound on counted work and none reads
-// a clock, so that replay repeats every solve bit for bit.
+// A solver that misses its tolerance hands over to others (hand_over.h). The statistics report if
+// another solver answered, and if even the last one missed. Each has a bound on counted work and
+// none reads a clock, so that replay repeats every solve bit for bit.
 #pragma once
 
 #include <algorithm>
@@ -22,16 +22,16 @@ namespace dihaptic::contact {
 /// Stewart-Trinkle, of its own complementarity problem.
 constexpr double kTolerance = 1e-8;
 
-/// Sweeps that a solve makes however little work it may do.
+/// Number of sweeps that every solve makes, however little work it may do.
 constexpr int kFewestSweeps = 4;
-/// Visits of each contact: by a sweep over normals and one over friction, and what a step of
-/// Newton's method costs as many of.
+/// Visits per contact: of a sweep over normals and one over friction, and of a step of Newton's
+/// method.
 constexpr int kVisitsPerSweep = 2;
 constexpr int kVisitsPerStep = 12;
-/// Newton's method does not begin where its work is bounded to fewer steps.
+/// Newton's method is not begun if its work would not suffice for this many steps.
 constexpr int kFewestSteps = 6;
 
-/// What a solve achieved.
+/// The outcome of a solve.
 struct SolveStats {
     int iterations = 0;
     double residual = 0;    ///< natural map of Coulomb's law over 1 + |q|, of the problem as given
@@ -42,9 +42,9 @@ struct SolveStats {
     Route route = Route::none;
     int64_t work = 0;  ///< that it took [visits]
 
-    /// Combines several problems of one step: iterations and work are summed, of other values it
-    /// keeps the worst. The route is that of a problem that another solver answered, if any; among
-    /// equals, the last in the enumeration.
+    /// Combines several problems of one step: iterations and work are summed, and the worst of each
+    /// other value is kept. The route is that of a problem that another solver answered, if any;
+    /// among equals, the last in the enumeration.
     void join(const SolveStats& other) noexcept {
         if (std::pair(other.fallback, other.route) > std::pair(fallback, route))
             route = other.route;
@@ -77,12 +77,13 @@ class ContactSolvers {
     static constexpr int kLemkeContacts = 60;
 
     /// Solves from the start in r, and in `joints` by rows of joints, and leaves the impulses
-    /// there. A problem that is larger than reserved allocates, and is left to sweeps. One with
-    /// values that are not numbers is refused before any solver starts: SolveStats::refused.
+    /// there. A problem that is larger than reserved allocates memory, and is left to sweeps. A
+    /// problem with values that are not numbers is refused before any solver starts
+    /// (SolveStats::refused).
     void solve(Solver solver, const SolveSettings& settings, const ContactProblem& problem,
                std::span<Impulse> r, std::span<Vec3> joints, SolveStats& stats,
                SolveDetail* detail = nullptr) noexcept;
-    /// Of a problem without joints.
+    /// The same for a problem without joints.
     void solve(Solver solver, const SolveSettings& settings, const ContactProblem& problem,
                std::span<Impulse> r, SolveStats& stats, SolveDetail* detail = nullptr) noexcept {
         solve(solver, settings, problem, r, {}, stats, detail);

@@ -41,8 +41,8 @@ class Work;
 struct SolveSettings {
     PolygonSettings polygon;
     SweepSettings sweeps;
-    int work = kUnbounded;  ///< visits until sweeps end the solve, of which kFewestSweeps are
-                            ///< always made; not for sequential_impulse
+    int work = kUnbounded;  ///< visits after which sweeps end the solve (at least kFewestSweeps of
+                            ///< them); not for sequential_impulse
     Work* tick = nullptr;   ///< for all solves of a tick together; every solver obeys it
 };
 

@@ -1,19 +1,19 @@
-// The balance of a step, as Books makes it and frames record it.
+// The balance of a step, which Books computes and frames record.
 #pragma once
 
 namespace dihaptic::dynamics {
 
-/// Of the scene's bodies that move by themselves; fingers, and what is driven, act from outside.
-/// From step to step, kinetic + potential changes by work - dissipated + energy_imbalance.
+/// It covers the scene's bodies that move by themselves; fingers and driven bodies act from
+/// outside. From step to step, kinetic + potential changes by work - dissipated + energy_imbalance.
 struct Balance {
     double kinetic = 0;           ///< [J]
     double potential = 0;         ///< of weights, 0 at the world's origin, and of springs [J]
     double work = 0;              ///< in the step, by fingers, loads, motors, and what was set [J]
     double dissipated = 0;        ///< in the step, by friction, dampers and impacts [J]
-    double energy_imbalance = 0;  ///< in the step, that came from nowhere [J]
+    double energy_imbalance = 0;  ///< in the step, of unexplained origin [J]
     double momentum_imbalance = 0;  ///< in the step, the largest that no force explains [N*s]
     double angular_imbalance = 0;   ///< likewise, of its angular momentum [N*m*s]
-    bool unbalanced = false;        ///< one of these is more than rounding, and the step, explain
+    bool unbalanced = false;  ///< one of these is more than rounding and the finite step explain
 
     double energy() const noexcept { return kinetic + potential; }
 };

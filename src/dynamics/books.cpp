@@ -6,12 +6,12 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Momentum may be off by this share of the impulses that were summed, which rounding explains.
+/// Rounding explains an error of momentum up to this share of the impulses that were summed.
 constexpr double kRounding = 1e-6;
 constexpr double kLeastMomentum = 1e-9;  // [N*s]
 constexpr double kLeastTurning = 1e-11;  // [N*m*s]
-/// Energy that came from nowhere within this time is compared with what there is, and what was
-/// exchanged [s].
+/// Time over which unexplained energy is summed, and compared with the energy present and exchanged
+/// [s].
 constexpr double kMemory = 0.5;
 constexpr double kMostShare = 0.03;
 constexpr double kLeastEnergy = 5e-4;  // [J]
@@ -134,7 +134,7 @@ void Books::check_gap(const Exchange& exchange, const Meeting& meeting, const Ve
         const double inside = -std::max(gap, 0.0) - way.dot(n_W);
         return inside > kLeast && inside > kLeast + kShareOfWay * way.norm();
     };
-    // the velocities tell well enough that nothing is wrong
+    // the velocities show well enough that nothing is wrong
     if (enters(h_ * meeting.v_after) && enters(way(exchange.a, exchange.b, exchange.p_W)))
         balance_.unbalanced = true;
 }
@@ -191,7 +191,7 @@ void Books::check_momentum(const Entry& one) noexcept {
     const Body& body = one.body;
     const Vec3 change = body.masses.cwiseProduct(one.after.v_W - one.before.v_W);
     const Vec3 load = h_ * (one.load_W.force + (one.late ? Vec3(Vec3::Zero()) : body.weight_W));
-    // where it got is where its velocity leads
+    // its position is where its velocity leads
     const Vec3 moved = body.masses.cwiseProduct((one.after.p_WM - one.before.p_WM) / h_);
     const Vec3 leads = body.masses.cwiseProduct(one.after.v_W);
     const double off = (change - load - one.impulse_W).cwiseProduct(body.moves).norm();
@@ -202,7 +202,7 @@ void Books::check_momentum(const Entry& one) noexcept {
     if (std::max(off, lost) > kRounding * size + kLeastMomentum) balance_.unbalanced = true;
 
     if (!one.bounced && !body.is_outside) check_turn(one);
-    // a body that can turn about two axes is pressed by its guides about all
+    // a body that can turn about two axes gets moments from its guides about all
     if (body.turns.sum() == 0 || body.turns.sum() == 2) return;
     const Vec3 torque = h_ * one.load_W.torque;
     const double turning =
@@ -242,7 +242,7 @@ void Books::count_energy(Entry& one) noexcept {
     exchanged_ += std::abs(by_load) + std::abs(by_weight);
     balance_.work += by_load;
     if (one.late) balance_.work -= by_weight;
-    // at what moment of a step bodies meet is an impact's own affair
+    // at what moment of the step bodies meet is open in an impact
     if (one.bounced)
         balance_.dissipated -= one.potential - potential_of(body, one.before, h_) + by_weight;
 }

@@ -1,18 +1,19 @@
-// Books keeps the account of a step: by what the momentum and the energy of bodies changed, against
-// what acted on them. It reads what a step publishes - motions, contacts, forces of joints - with
-// the masses of the scene and the loads that were asked for, and shares no sum with the solvers, so
-// that a fault in either shows.
+// Books audits a step: it compares the changes of the bodies' momentum and energy with what acted
+// on them. It uses what a step publishes (motions, contacts, forces of joints), the masses of the
+// scene and the requested loads, and shares no computation with the solvers, so that a fault in
+// either becomes visible.
 //
-// Velocities are those of the middle of a step (README.md), half a step before the positions. So an
-// impulse J on a point does work with the mean of the point's velocities before and after it,
+// Velocities are those of the middle of a step (README.md), half a step before the positions. The
+// work of an impulse J on a point therefore follows from the mean of the point's velocities before
+// and after it,
 //
 //     W = J . (u- + u+) / 2
 //
-// whose sum over all impulses on a body is exactly the change of its kinetic energy; and the
-// potential energy of a weight is that of where the body was half a step ago, -m g . (x - h v / 2),
-// which a free fall exchanges for kinetic energy to the last digit. A body that turns freely keeps
-// its angular momentum L once the impulses have acted (free_turn.h): they act at the pose at which
-// the step begins, where they leave it with w = I^-1 L.
+// and the sum over all impulses on a body is exactly the change of its kinetic energy. The
+// potential energy of a weight is taken where the body was half a step ago, -m g . (x - h v / 2),
+// so that a free fall exchanges it for kinetic energy to the last digit. A body that turns freely
+// keeps its angular momentum L once the impulses have acted (free_turn.h): they act at the pose at
+// the beginning of the step, where they leave the body with w = I^-1 L.
 #pragma once
 
 #include <vector>
@@ -24,7 +25,7 @@ namespace dihaptic::dynamics {
 
 class Books {
   public:
-    /// How a body's centre of mass moves, and its principal axes M.
+    /// The motion of a body's centre of mass and of its principal axes M.
     struct Motion {
         Vec3 p_WM = Vec3::Zero();
         Mat3 R_WM = Mat3::Identity();
@@ -37,8 +38,8 @@ class Books {
         Vec3 weight_W = Vec3::Zero();  ///< [N]
         Vec3 moves = Vec3::Ones();     ///< 1 for each axis along which it can move, otherwise 0
         Vec3 turns = Vec3::Ones();     ///< the same for axes about which it can turn
-        /// Something else decides where it goes, as with fingers and what is driven: its energy is
-        /// not counted, and what it does to others is work.
+        /// Its motion is given from outside, as for fingers and driven bodies: its energy is not
+        /// counted, and what it does to others is work.
         bool is_outside = false;
         bool is_led = false;  ///< its velocities follow from no impulse
     };
@@ -48,11 +49,12 @@ class Books {
     /// Begins the account of a step of h [s].
     void begin(double h) noexcept;
     bool is_open(size_t body) const noexcept { return entries_[body].open; }
-    /// Call before the step changes a body's velocities. The load acts at its centre of mass, its
-    /// weight apart. A body that is `late` woke after loads had acted, so none does.
+    /// Call before the step changes a body's velocities. The load, without the weight, acts at its
+    /// centre of mass. A body that is `late` woke up after loads had acted, so it gets none.
     void open(size_t body, const Body& what, const Motion& before, const Wrench& load_W,
               bool late) noexcept;
-    /// Call after the step. A body that bounced moved at other velocities than it leaves with.
+    /// Call after the step. A body that bounced moved at other velocities than those at which it
+    /// leaves.
     void close(size_t body, const Motion& after, bool bounced) noexcept;
 
     /// An impulse on b at p_W, and a moment, with their opposites on a. A body that is not open, or
@@ -66,12 +68,13 @@ class Books {
         double given = 0;               ///< work of a motor in it [J]
         double stored_before = 0;       ///< in its springs [J]
         double stored_after = 0;
-        double found = 0;  ///< of its work, what it cannot have done: a contact gives nothing [J]
-        /// Index of the joint that it is of, whose springs may owe energy from one step to the
-        /// next; -1: of a contact.
+        double found = 0;  ///< work that it cannot have done: a contact gives no energy [J]
+        /// Index of its joint, whose springs may owe energy from one step to the next; -1 for a
+        /// contact.
         int joint = -1;
     };
-    /// How b moves against a at a point: after the impulses, and the mean of before and after.
+    /// Velocity of b relative to a at a point: after the impulses, and the mean of before and
+    /// after.
     struct Meeting {
         Vec3 v_mean = Vec3::Zero();
         Vec3 w_mean = Vec3::Zero();
@@ -80,22 +83,22 @@ class Books {
         Vec3 v_before() const { return 2 * v_mean - v_after; }
         Vec3 w_before() const { return 2 * w_mean - w_after; }
     };
-    /// Call once all bodies are closed, as all that follows.
+    /// Call this, and all that follows, once all bodies are closed.
     Meeting meet(int a, int b, const Vec3& p_W) const noexcept;
-    /// By how much b's point at p_W as the step begins moves in it against a's.
+    /// How far b's point that is at p_W as the step begins moves in the step relative to a's.
     Vec3 way(int a, int b, const Vec3& p_W) const noexcept;
     /// A contact of rigid surfaces that were `gap` apart along n_W, from a to b, when the step
-    /// began: tells if they enter each other all the same.
+    /// began: notes if they penetrate each other nevertheless.
     void check_gap(const Exchange& exchange, const Meeting& meeting, const Vec3& n_W,
                    double gap) noexcept;
     void take(const Exchange& exchange, const Meeting& meeting) noexcept;
 
-    /// Call once all is taken.
+    /// Call once everything has been entered.
     void balance() noexcept;
     const Balance& last() const noexcept { return balance_; }
-    /// A body fell asleep: what it still moved by is lost.
+    /// A body fell asleep: its remaining motion is lost.
     void rest(size_t body) noexcept;
-    /// Forgets what was, as after a divergence.
+    /// Forgets the past, as after a divergence.
     void forget() noexcept;
 
   private:
@@ -123,10 +126,10 @@ class Books {
     /// An impulse on a body, and a moment.
     static void act(Entry& one, const Vec3& p_W, const Vec3& impulse_W,
                     const Vec3& moment_W) noexcept;
-    /// What came from nowhere of the energy that something gives away, which owes some already.
+    /// The unexplained part of the energy that something gives away, given what it already owes.
     static double owe(double& owed, double passive) noexcept;
     void check_momentum(const Entry& one) noexcept;
-    /// Whether a body turned as its angular velocity says.
+    /// Whether a body turned according to its angular velocity.
     void check_turn(const Entry& one) noexcept;
     void count_energy(Entry& one) noexcept;
     void judge() noexcept;

@@ -1,12 +1,13 @@
-// How a body turns while nothing touches it: Euler's equations over one step, solved exactly.
+// Solves Euler's equations over one step exactly: the rotation of a body that nothing touches.
 #pragma once
 
 #include "base/geometry.h"
 
 namespace dihaptic::dynamics {
 
-/// The constant angular velocity, in W, that turns a body in a step of h as far as it turns freely,
-/// when it begins with w_W [rad/s]: R' = exp(h w) R is where its angular momentum takes it.
+/// The constant angular velocity, in W, that turns a body in a step of h as far as it turns freely
+/// when it begins with w_W [rad/s]: R' = exp(h w) R is the orientation to which its angular
+/// momentum takes it.
 ///
 /// `inertia` are the principal moments [kg*m^2], about the axes of R_WM. In these axes
 ///

@@ -33,36 +33,37 @@ using Gaps = std::array<double, 2 * Polyhedron::kMostFaceVertices>;
 /// The part of `in` with n . x <= offset (Sutherland and Hodgman 1974).
 void clip(const Polygon& in, const Vec3& n, double offset, Polygon& out);
 
-/// Has the patch's normal point from B to A.
+/// Turns the patch's normal to point from B to A.
 inline void flip(ContactPatch& patch) {
     patch.n_W = -patch.n_W;
     for (ContactPoint& point : patch.points) std::swap(point.p_WA, point.p_WB);
 }
 
 /// Whether a shape that is apart by `separation` along the normal n of a face, and moves by `way`
-/// in the coming step, stands flush with that face and stays so. Where it then touches an edge, the
+/// in the coming step, stands flush with that face and stays so. If it also touches an edge, the
 /// face's plane is as near as that edge, and what slides along the plane must not run into the
-/// edge: seams between bodies that stand side by side are not felt.
+/// edge. Seams between bodies that stand side by side are therefore not felt.
 inline bool is_flush(double separation, const Vec3& n, const Vec3& way) {
     constexpr double kFlush = 3e-5;  // [m]: what falls in a step, and a little more
     return std::abs(separation) < kFlush && separation + n.dot(way) > -kFlush;
 }
 
-/// Whether the best axis parts shapes in another direction than the face that they are flush with.
+/// Whether the best axis separates shapes in another direction than the face with which they are
+/// flush.
 inline bool is_across(const Vec3& axis, const Vec3& n_flush) {
     return axis.dot(n_flush) < 0.9;
 }
 
-/// Keeps four points that span the patch: the deepest, the one furthest from it, and those that
-/// make the largest triangles with these two, one on each side.
+/// Keeps four points that span the patch: the deepest, the one farthest from it, and on each side
+/// of these two the one that makes the largest triangle with them.
 void reduce(const Polygon& points, const Gaps& gaps, const Vec3& n, std::array<size_t, 4>& kept,
             int& count);
 
-/// Puts those of the points on B within the margin into the patch, whose normal is known; `offset`
-/// is that of A's face.
+/// Adds the points on B within the margin to the patch, whose normal is known; `offset` is that of
+/// A's face.
 void keep_near(const Polygon& points, double offset, double margin, ContactPatch& patch);
 
-/// Whether another part of the same body covers the face that looks along outward_W.
+/// Whether another part of the same body covers the face with the normal outward_W.
 bool is_covered(const Polyhedron& polyhedron, const Pose& X_WP, const Vec3& outward_W);
 
 }  // namespace dihaptic::dynamics

@@ -16,7 +16,7 @@ struct FaceQuery {
     int flush = -1;  ///< a face that `b` stands flush with
 };
 
-/// `way` is how b moves against a in the coming step, in a's frame.
+/// `way` is the displacement of b relative to a in the coming step, in a's frame.
 FaceQuery query_faces(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB, double margin,
                       const Vec3& way) {
     FaceQuery best;
@@ -81,7 +81,7 @@ EdgeQuery query_edges(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB
     return best;
 }
 
-/// The edge of a given direction that lies furthest along the axis.
+/// The edge of a given direction that lies farthest along the axis.
 Polyhedron::Edge support_edge(const Polyhedron& p, int direction, const Vec3& axis) {
     const Polyhedron::Edge* best = nullptr;
     double furthest = -kInfinity;
@@ -292,13 +292,13 @@ Polyhedron Polyhedron::box(const Vec3& size) {
 
 namespace {
 
-/// The face that the contact is of; -1 of both: it is of two edges.
+/// The face to which the contact belongs; -1 for both shapes: it belongs to two edges.
 struct Choice {
     int face_of_a = -1;
     int face_of_b = -1;
 };
 
-/// The best axis' face, or the one that the shapes stand flush with.
+/// The face of the best axis, or the one with which the shapes are flush.
 Choice choose(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB, const FaceQuery& on_a,
               const FaceQuery& on_b, const EdgeQuery& edges) {
     const auto of_a = [&](int face) { return a.faces[static_cast<size_t>(face)].normal; };

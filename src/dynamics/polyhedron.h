@@ -54,8 +54,8 @@ struct ContactPoint {
     Vec3 p_WA;   ///< on A's surface [m]
     Vec3 p_WB;   ///< on B's surface [m]
     double gap;  ///< from A to B along the normal; negative: overlap [m]
-    /// From here to where a rim that rolls will touch in the middle of the step, but for how its
-    /// body moves on [m].
+    /// From this point to the one where a rolling rim will touch in the middle of the step, without
+    /// the body's own motion [m].
     Vec3 ahead_W = Vec3::Zero();
 };
 
@@ -66,8 +66,8 @@ struct ContactPatch {
     int count = 0;
 };
 
-/// Contacts with gaps up to `margin` [m]. `way_W` is how B moves against A in the coming step [m].
-/// Allocates nothing.
+/// Contacts with gaps up to `margin` [m]. `way_W` is the displacement of B relative to A in the
+/// coming step [m]. Allocates nothing.
 ContactPatch collide(const Polyhedron& a, const Pose& X_WA, const Polyhedron& b, const Pose& X_WB,
                      double margin, const Vec3& way_W = Vec3::Zero()) noexcept;
 

@@ -9,17 +9,17 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// A cap is met as a polygon with this many corners, the first of which is the lowest point of its
-/// rim.
+/// A cap is treated as a polygon with this many corners, the first of which is the lowest point of
+/// its rim.
 constexpr int kRim = 16;
-/// A cap is met with all of its rim where the axis is within some 25 degrees of the normal, and
-/// with the rim's lowest point otherwise.
+/// The whole rim of a cap counts where the axis is within some 25 degrees of the normal; otherwise
+/// only the rim's lowest point does.
 constexpr double kCap = 0.9;
 /// Lines closer to parallel than this touch along their length.
 constexpr double kParallel = 0.02;
-/// Projections in search of closest points end after as many turns.
+/// Largest number of projections in the search for closest points.
 constexpr int kMostTurns = 60;
-/// Closest points nearer than this tell no direction [m].
+/// Closest points nearer than this define no direction [m].
 constexpr double kTogether = 1e-9;
 
 /// The direction across an axis that is nearest to d, or `otherwise` if they are parallel.
@@ -64,15 +64,14 @@ std::pair<Vec3, Vec3> closest(const Vec3& p, const Vec3& d, const Vec3& q, const
     return {p + s * d, q + t * e};
 }
 
-/// A cylinder or a cone without its rim: its points are this far from those of the shape. Between
-/// touching shapes the direction of closest points is undefined; between a core and a shape it is
-/// not.
+/// The core of a cylinder or a cone: the shape shrunk by this distance. Between touching shapes the
+/// direction of closest points is undefined; between a core and a shape it is not.
 struct Core {
     double radius = 0;
     double low = 0, high = 0;  // along the axis
     bool has_tip = false;
 
-    /// That of a shape which has a round surface, or is to get one of the given radius.
+    /// The core of a shape that has a round surface, or is to get one of the given radius.
     static Core of(const Round& shape, double rounding) {
         if (!shape.has_rim()) return {0, -shape.half, shape.half};
         const double half = shape.half - rounding;
@@ -81,7 +80,7 @@ struct Core {
         const double scale = 1 - rounding / inner_radius(shape);
         return {scale * shape.radius, -half, 2 * scale * shape.half - half, true};
     }
-    /// Of the largest ball inside a shape with a rim.
+    /// Radius of the largest ball inside a shape with a rim.
     static double inner_radius(const Round& shape) {
         if (!shape.is_cone()) return std::min(shape.radius, shape.half);
         const double height = 2 * shape.half;
@@ -132,7 +131,7 @@ std::pair<Vec3, Vec3> closest_by_turns(Vec3 p, int times, const NearestOfA& of_a
     return {p, q};
 }
 
-/// The polygon in the cap that looks along d.
+/// The polygon of the cap that faces along d.
 void cap(const Placed& at, const Vec3& d, Polygon& out) {
     const double sign = at.axis.dot(d) < 0 ? -1 : 1;
     const Vec3 second = sign * at.axis.cross(at.across);
@@ -144,7 +143,8 @@ void cap(const Placed& at, const Vec3& d, Polygon& out) {
     }
 }
 
-/// What a shape has furthest along d. With `whole`, a cap that looks along d is there with its rim.
+/// The feature of a shape that is farthest along d. With `whole`, a cap that faces along d is given
+/// with its rim.
 void feature(const Placed& at, const Vec3& d, bool whole, Polygon& out) {
     const Round& shape = at.shape;
     out.count = 0;
@@ -169,7 +169,7 @@ void feature(const Placed& at, const Vec3& d, bool whole, Polygon& out) {
     }
 }
 
-/// Tells the nearest point of a patch where a rim that has it will touch in the middle of a step in
+/// Sets, for the nearest point of a patch, where its rim will touch in the middle of a step in
 /// which it turns by turn_W. The patch's normal points to it.
 void look_ahead(const Placed& at, const Vec3& turn_W, ContactPatch& patch) {
     constexpr double kRolls = 0.9;  // cosine of how far the point of the rim goes at most
@@ -230,7 +230,7 @@ void face_contact(const Polygon& face, const Polygon& of_b, double margin, Conta
     keep_near(polygons[current], patch.n_W.dot(face.points[0]), margin, patch);
 }
 
-/// Leaves of a line that is not level along u the end that is furthest along u.
+/// Reduces a line that is not perpendicular to u to the end that is farthest along u.
 void keep_furthest(const Vec3& u, Polygon& line) {
     constexpr double kLevel = 1e-3;
     if (line.count != 2) return;
@@ -240,7 +240,8 @@ void keep_furthest(const Vec3& u, Polygon& line) {
     line.count = 1;
 }
 
-/// Points and lines of both meet along the patch's normal, apart by `gap` where they are closest.
+/// Contacts between points and lines of both shapes along the patch's normal; `gap` is their
+/// smallest distance.
 void line_contact(Polygon& of_a, Polygon& of_b, double gap, double margin, ContactPatch& patch) {
     patch.count = 0;
     const Vec3& n = patch.n_W;
@@ -292,8 +293,8 @@ struct Best {
     }
 };
 
-/// Whether a face meets something where shapes are closest along its normal, or by how much not:
-/// what is furthest beyond the face may lie beyond its sides [m].
+/// By how much the nearest point of a face's patch is farther away than the closest feature along
+/// the face's normal, which may lie beyond the face's sides [m]; zero if the face meets it.
 double missed(const ContactPatch& patch, double separation) {
     double least = kInfinity;
     for (int i = 0; i < patch.count; ++i)
@@ -301,22 +302,22 @@ double missed(const ContactPatch& patch, double separation) {
     return least - separation;
 }
 
-/// Whether a face's contact is the shapes' own: of shapes that are apart, or touch, no other axis
-/// then parts them better.
+/// Whether a face's contact is that of the shapes. If they are apart or touch, no other axis then
+/// separates them better.
 bool settles(const ContactPatch& patch, double separation) {
     constexpr double kTouching = -1e-6;  // [m]
     return separation > kTouching && missed(patch, separation) < 1e-9;
 }
 
-/// Whether the best line is nearer to how far apart shapes are than what the best face meets.
+/// Whether the best line gives the distance of the shapes better than the best face does.
 bool is_line(const Best& best, const ContactPatch& patch) {
     if (best.kind == Best::line) return true;
     if (best.line_axis.isZero(0)) return false;
     return missed(patch, best.separation) > best.separation - best.line_separation;
 }
 
-/// The directions in which the side of a cylinder or a cone looks: all around, and up by as much as
-/// the side leans.
+/// The normals of the side of a cylinder or a cone: all around, and tilted up by the slope of the
+/// side.
 struct SideNormals {
     Vec3 first, second, up;
 
@@ -328,11 +329,11 @@ struct SideNormals {
         up = std::sin(lean) * of.axis;
     }
     Vec3 at(double angle) const { return std::cos(angle) * first + std::sin(angle) * second + up; }
-    /// The angle of the one that is nearest to u.
+    /// The angle of the normal nearest to u.
     double nearest(const Vec3& u) const { return std::atan2(second.dot(u), first.dot(u)); }
 };
 
-/// Tries the directions in which the side of a shape looks, times `sign`. How far apart shapes are
+/// Tries the normals of the side of a shape, times `sign`. The distance as a function of the axis
 /// has a ridge there, which climb() does not follow to its top.
 template <class Separation>
 void walk_around(const Placed& of, double sign, const Separation& along, double margin,
@@ -360,7 +361,7 @@ void walk_around(const Placed& of, double sign, const Separation& along, double 
     best.take(most, sign * normals.at(angle), Best::line);
 }
 
-/// How far two round shapes are apart along the unit vector u.
+/// Distance of two round shapes along the unit vector u.
 double apart_along(const Placed& a, const Placed& b, const Vec3& u) {
     return u.dot(b.centre - a.centre) - a.extent(u) - b.extent(-u);
 }
@@ -374,7 +375,7 @@ void try_axis(const Placed& a, const Placed& b, Vec3 u, Best::Kind kind, Best& b
     best.take(apart_along(a, b, u), u, kind);
 }
 
-/// Tries the normals of the caps of one of two round shapes, if it has some.
+/// Tries the normals of the caps of one of two round shapes, if it has caps.
 void try_caps(const Placed& a, const Placed& b, Best::Kind kind, Best& best) {
     const bool of_b = kind == Best::cap_of_b;
     const Placed& of = of_b ? b : a;
@@ -384,9 +385,9 @@ void try_caps(const Placed& a, const Placed& b, Best::Kind kind, Best& best) {
     best.take(apart_along(a, b, u), u, kind);
 }
 
-/// Climbs from the best line's axis to the best one near it, by strides in all directions that get
-/// shorter: how far convex shapes are apart has one peak, which may be a ridge. Shapes that are
-/// further apart than the margin need no better one.
+/// Climbs from the best line's axis to the best one near it, by ever shorter strides in all
+/// directions: the distance of convex shapes as a function of the axis has one peak, which may be a
+/// ridge. Shapes that are farther apart than the margin need no better axis.
 template <class Separation>
 void climb(const Separation& along, double margin, Best& best) {
     constexpr int kWays = 7;
@@ -424,14 +425,14 @@ struct Corners {
     const Pose& X_W;
     Vec3 vertex(int i) const { return X_W * shape.vertices[static_cast<size_t>(i)]; }
 
-    /// Furthest place along u.
+    /// Farthest extent along u.
     double furthest(const Vec3& u) const {
         const Vec3 d = X_W.R.conjugate() * u;
         double out = -kInfinity;
         for (const Vec3& v : shape.vertices) out = std::max(out, d.dot(v));
         return out + u.dot(X_W.p);
     }
-    /// The vertex or the edge that is furthest along u.
+    /// The vertex or edge that is farthest along u.
     void feature(const Vec3& u, Polygon& out) const {
         constexpr double kLevel = 1e-5;  // [m]
         const double most = furthest(u);
@@ -450,7 +451,7 @@ struct Corners {
         out.count = 0;
         for (const int v : shape.faces[static_cast<size_t>(i)].vertices) out.add(vertex(v));
     }
-    /// The face that looks most along u.
+    /// The face whose normal is closest to u.
     int towards(const Vec3& u) const {
         const Vec3 d = X_W.R.conjugate() * u;
         size_t best = 0;
@@ -500,7 +501,7 @@ void try_edges(const Corners& a, const Placed& b, double margin, Best& best) {
     if (b.shape.is_cone()) walk_around(b, -1, along, margin, best);
 }
 
-/// What a cap meets, if the best axis is a cap's.
+/// The contacts of a cap, if the best axis is a cap's.
 void cap_contact(const Placed& a, const Placed& b, const Best& best, double margin,
                  ContactPatch& patch) {
     const bool of_b = best.kind == Best::cap_of_b;
@@ -513,7 +514,7 @@ void cap_contact(const Placed& a, const Placed& b, const Best& best, double marg
     if (of_b) flip(patch);
 }
 
-/// Tries the directions between two round shapes that are no cap's.
+/// Tries the directions between two round shapes other than the normals of caps.
 void try_lines(const Placed& a, const Placed& b, double margin, Best& best) {
     const auto [on_a, on_b] =
         closest(a.end(-1), a.end(1) - a.end(-1), b.end(-1), b.end(1) - b.end(-1));
@@ -561,7 +562,7 @@ Best best_face(const Corners& a, const Placed& b, double margin, const Vec3& way
     return best;
 }
 
-/// What the best face or cap meets.
+/// The contacts of the best face or cap.
 void face_contact(const Corners& a, const Placed& b, const Best& best, double margin,
                   ContactPatch& patch) {
     Polygon of_a;

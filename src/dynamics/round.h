@@ -1,13 +1,13 @@
 // Finds contacts of spheres, capsules, cylinders and cones: with each other, with convex polyhedra
 // and with a half-space.
 //
-// As for polyhedra (polyhedron.h), an axis is sought along which the shapes are furthest apart:
-// among the normals of faces and of the caps of cylinders and cones, directions between the closest
-// points of axes, edges and rims, and those in which the side of a cone looks. How far apart they
-// are along an axis follows from their support functions, exactly. The patch is what both have
-// nearest along that axis: a point, the line along which a cylinder or a cone lies, or a cap,
-// clipped against the face that it meets. All points are found anew in each step: a point that
-// rolls along with the body would be one that no longer touches.
+// As for polyhedra (polyhedron.h), we look for the axis along which the shapes are farthest apart:
+// among the normals of faces and of the caps of cylinders and cones, the directions between the
+// closest points of axes, edges and rims, and the normals of the side of a cone. The distance along
+// an axis follows exactly from the support functions. The patch consists of the nearest features
+// along that axis: a point, the line along which a cylinder or a cone lies, or a cap, clipped
+// against the face that it meets. All points are found anew in each step, because a point that
+// rolls along with the body would no longer touch.
 #pragma once
 
 #include "dynamics/polyhedron.h"
@@ -25,13 +25,14 @@ struct Round {
     bool is_cone() const { return ends == Ends::tip; }
 };
 
-/// As collide() of polyhedra. `turn_W` is by how much B turns against A in the coming step [rad].
+/// As collide() for polyhedra. `turn_W` is the rotation of B relative to A in the coming step
+/// [rad].
 ContactPatch collide(const Polyhedron& a, const Pose& X_WA, const Round& b, const Pose& X_WB,
                      double margin, const Vec3& way_W, const Vec3& turn_W = Vec3::Zero()) noexcept;
 ContactPatch collide(const Round& a, const Pose& X_WA, const Round& b, const Pose& X_WB,
                      double margin) noexcept;
 
-/// As collide_half_space() of a polyhedron.
+/// As collide_half_space() for a polyhedron.
 ContactPatch collide_half_space(const Pose& X_WA, const Round& b, const Pose& X_WB, double margin,
                                 const Vec3& turn_W = Vec3::Zero()) noexcept;
 

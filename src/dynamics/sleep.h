@@ -3,8 +3,8 @@
 // them. They wake together, in the step in which something awake touches one of them or a load is
 // applied.
 //
-// The limits are far below what a person sees or feels. A sliding block passes through them in
-// milliseconds, while sleep takes half a second: nothing that slides is ever frozen.
+// The limits are far below what a person sees or feels. A sliding block passes through them within
+// milliseconds, while falling asleep takes half a second, so nothing that slides is ever frozen.
 #pragma once
 
 #include <span>
@@ -31,7 +31,7 @@ class SleepKeeper {
                            w.squaredNorm() < kQuietAngularSpeed * kQuietAngularSpeed;
         quiet_[body] = quiet ? quiet_[body] + h : 0.0;
     }
-    /// Judges all groups; may_sleep() then tells for each awake body.
+    /// Judges all groups; may_sleep() then gives the verdict for each awake body.
     void judge(std::span<const size_t> awake, Groups& groups) noexcept {
         for (const size_t body : awake) group_quiet_[groups.of(body)] = true;
         for (const size_t body : awake) {

@@ -9,7 +9,7 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Gives a solid the mean of its moments about B for all axes, and B as the frame of its mass.
+/// Gives a solid the mean of its moments about B for all axes, and makes B its mass frame.
 void lump(scene::Solid& solid) {
     const double about_centre = solid.inertia.sum() / 3;
     solid.inertia.setConstant(about_centre + 2 * solid.mass / 3 * solid.X_BM.p.squaredNorm());
@@ -85,7 +85,7 @@ World::World(const scene::Scene& scene, const frame::DynamicsSettings& settings)
     impl_->scene = scene;
     impl_->settings = settings;
     for (const scene::Body& body : scene.bodies) {
-        // what is driven moves as if its mass had no end: see inverse_mass_of()
+        // a driven body moves as if its mass were infinite: see inverse_mass_of()
         const double mass = body.fixed ? 0 : body.driven ? 1 : scene::mass(body);
         impl_->add(body.name, body.shape, mass, body.friction, body.torsion_radius, body.pose(),
                    body.fixed ? Vec3::Zero() : factors(body.moves),
@@ -186,7 +186,7 @@ void World::activate() {
     w.collision->manifolds().reserve(manifolds);
     w.contacts_of_islands.reserve(manifolds);
     w.island_contacts.reserve(manifolds);
-    // points keep what they carry for two steps, and those that were found late are few
+    // points keep their records for two steps, and few are found late
     w.carried_pool.reserve(MANIFOLD_CACHE_SIZE *
                            (static_cast<size_t>(w.collision->max_pairs()) +
                             Collision::kMostEntered +

@@ -34,8 +34,8 @@ struct BodyState {
     bool awake = true;         ///< false: asleep or fixed; the state does not change
 };
 
-/// A joint of the scene. A body that a hinge turns, or a slider moves, has a coordinate against the
-/// other one, 0 at the start.
+/// State of a joint of the scene. A hinge or slider has a coordinate, that of its second body
+/// relative to the first, 0 at the start.
 struct JointState {
     scene::JointKind kind = scene::JointKind::hinge;
     double position = 0;           ///< [rad] or [m]
@@ -44,8 +44,8 @@ struct JointState {
     Vec3 torque_W = Vec3::Zero();  ///< with those of spring, friction and stops [N*m]
 };
 
-/// Factors by which a body's properties differ from those of the scene. What the scene says of a
-/// pair's surface stays, but for friction.
+/// Factors by which a body's properties differ from those of the scene. Of a pair's surface as the
+/// scene gives it, they change the friction only.
 struct BodyProperties {
     Vec3 mass = Vec3::Ones();  ///< of its inertia along the world's axes
     double weight = 1;
@@ -64,7 +64,7 @@ struct JointProperties {
     bool operator==(const JointProperties&) const = default;
 };
 
-/// What a motor does to a joint that has a coordinate.
+/// The action of a motor on a joint that has a coordinate.
 struct Motor {
     std::optional<double> position;  ///< where the joint is to be at the end of the step
     double most_force = 0;           ///< with which it gets there [N] or [N*m]
@@ -80,8 +80,8 @@ enum class StepStatus : unsigned {
                          ///< nothing until mend()
 };
 
-/// Nothing in an experiment is as far away or as fast: what falls for half a day is 1e10 m away.
-/// Beyond this limit, squares of squares overflow [m], [m/s], [rad/s].
+/// Nothing in an experiment is this far away or this fast: what falls for half a day is 1e10 m
+/// away. Beyond this limit, squares of squares overflow [m], [m/s], [rad/s].
 constexpr double kBeyond = 1e12;
 
 /// Largest number of contacts that a point may meet in one step.
@@ -118,9 +118,10 @@ class World {
     const std::string& name(BodyIndex body) const;
     /// Coefficient of friction between two bodies.
     double friction(BodyIndex a, BodyIndex b) const;
-    /// The same where b touches a face of a with the normal n_W at p_W: with the textures of both.
+    /// The same, including the textures of both, where b touches a face of a with the normal n_W at
+    /// p_W.
     double friction_at(BodyIndex a, BodyIndex b, const Vec3& p_W, const Vec3& n_W) const noexcept;
-    /// What the surfaces of two bodies do where they touch; of friction, what the scene says.
+    /// The combined surface of two bodies, with the friction that the scene gives.
     const scene::PairSurface& surface(BodyIndex a, BodyIndex b) const;
 
     /// States after the last step.
@@ -128,19 +129,19 @@ class World {
     const BodyState& state(BodyIndex body) const {
         return states_[static_cast<size_t>(body.value)];
     }
-    /// Bodies that took part in the last step, and fixed ones that were put elsewhere before it;
-    /// all others are where they were.
+    /// Bodies that took part in the last step, and fixed ones that were put elsewhere before it. No
+    /// other body has moved.
     std::span<const size_t> stepped() const;
     /// Contacts of the last step, except those of sleeping bodies.
     std::span<const contact::Contact> contacts() const { return contacts_; }
-    /// Of the last step: of all islands, solved apart from each other.
+    /// Statistics of the last step, joined over its islands, which are solved separately.
     const contact::SolveStats& solve_stats() const { return stats_; }
     /// The largest residual of the islands with a finger in the last step: 0 if there was none.
     double held_residual() const noexcept;
     /// The books of the last step.
     const Balance& balance() const noexcept;
-    /// Whether something moved less far than its velocity says in the last step, since it would
-    /// have entered something else.
+    /// Whether a body moved less far in the last step than its velocity would take it, because it
+    /// would have entered another.
     bool held_back() const noexcept;
     /// Joints of the scene that are recorded, in its order, after the last step.
     std::span<const JointState> joints() const noexcept;
@@ -152,7 +153,7 @@ class World {
     /// Sets the mass of a body in the next steps [kg].
     void set_mass(BodyIndex body, double mass) noexcept;
     /// Sets the properties of a body of the scene from the next step on; it wakes if they change.
-    /// Of a body that is fixed, friction alone counts; all others wake.
+    /// For a fixed body only the friction counts, and all others wake.
     void set_properties(BodyIndex body, const BodyProperties& properties) noexcept;
     /// Multiplies every coefficient of friction from the next step on; all bodies wake.
     void set_friction_scale(double scale) noexcept;
@@ -171,8 +172,8 @@ class World {
     /// Puts a body somewhere else, at rest. If it is fixed or asleep, all others wake.
     void set_pose(BodyIndex body, const Pose& X_WB) noexcept;
     /// Moves a body that is not fixed to a pose within the next step, whatever presses on it; it
-    /// keeps the velocity that takes it there. A body that is driven in the scene stays where no
-    /// call moves it on.
+    /// keeps the velocity that takes it there. A body that the scene declares as driven stays where
+    /// it is without such a call.
     void drive(BodyIndex body, const Pose& X_WB) noexcept;
     /// Sets the properties of a joint from the next step on; its bodies wake if they change.
     void set_joint_properties(size_t joint, const JointProperties& properties) noexcept;
@@ -209,9 +210,9 @@ class World {
                                               std::span<const contact::Impulse> start)>;
     void watch_problems(ProblemWatcher watcher);
 
-    /// Counted work of a step where there are fingers (contact/work.h): that of all solves, about
-    /// 12 ms, and that of the search for bodies that enter each other, about 3 ms. What each solve
-    /// does at least comes on top.
+    /// Limits of the counted work of a step where there are fingers (contact/work.h): for all
+    /// solves, about 12 ms, and for the search for bodies that enter each other, about 3 ms. The
+    /// minimum that each solve does comes on top.
     static constexpr int64_t kMostSolveWork = 400'000;
     static constexpr int64_t kMostSearchWork = 100'000;
 
@@ -225,7 +226,7 @@ class World {
     void mend() noexcept;
 
   private:
-    friend class Sabotage;  // plants faults within a step, which the books are to find (test)
+    friend class Sabotage;  // plants faults within a step for the books to find (test)
     struct Impl;
     std::unique_ptr<Impl> impl_;
     std::vector<BodyState> states_;

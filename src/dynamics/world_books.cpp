@@ -1,4 +1,4 @@
-// What a step tells its Books.
+// Enters a step into its Books.
 #include <algorithm>
 #include <cmath>
 
@@ -53,7 +53,7 @@ void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& p
     const Books::Meeting meeting = books.meet(exchange.a, exchange.b, exchange.p_W);
     const double normal = h * contact.normal_force;
     const double mean_work = normal * n_W.dot(meeting.v_mean);
-    // bodies neither part, nor slide on, by what presses and rubs them
+    // forces that press and rub neither separate bodies nor make them slide on
     double pressing = normal * n_W.dot(meeting.v_after);
     const Vec3 friction_W = exchange.impulse_W - normal * n_W;
     const double twisting = exchange.moment_W.dot(meeting.w_after);
@@ -76,7 +76,7 @@ void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& p
         exchange.stored_after = stored(contact.gap + h / 2 * n_W.dot(meeting.v_after));
         pressing = mean_work + exchange.stored_after - exchange.stored_before;
     } else if (law.restitution > 0) {
-        // at what moment they meet is open within the step, and so what its loads do until then
+        // the moment of contact within the step is open, and so is the work of the loads until then
         pressing = mean_work - std::abs(loads_at(contact, point) * h);
     }
     if (law.stiffness == 0 && law.compliance == 0)

@@ -40,7 +40,7 @@ struct World::Impl {
         bool may_be_point = false;  // it has parts, which are hidden while it is a point
         bool can_move = false;
         bool is_driven = false;        // in the scene: only drive() moves it
-        std::optional<Pose> drive_to;  // where it gets in the coming step
+        std::optional<Pose> drive_to;  // where the coming step takes it
         Pose X_BM;
         Vec3 inertia = Vec3::Zero();
         double mass = 0;
@@ -62,10 +62,10 @@ struct World::Impl {
         bool bounces = false;         // in this step
         btVector3 v_leaves{0, 0, 0};  // if so: velocities after it
         btVector3 w_leaves{0, 0, 0};
-        /// Whether it goes where it is driven in this step, whatever it meets.
+        /// Whether it follows its drive in this step, whatever it meets.
         bool is_led() const { return is_driven || drive_to; }
-        /// Whether its angular velocity changes while its angular momentum stays. A proxy has the
-        /// same inertia about all axes, and what turns about one is held there.
+        /// Whether its angular velocity can change at constant angular momentum. A proxy cannot,
+        /// because it has the same inertia about all axes; nor can a body that is held to one axis.
         bool turns_freely() const { return !is_proxy && turns == Vec3::Ones() && !is_led(); }
     };
 
@@ -77,7 +77,7 @@ struct World::Impl {
     std::vector<size_t> placed;   // fixed bodies that were put elsewhere since the last step
     std::vector<size_t> stepped;  // what took part in the last step, and was placed before it
     std::vector<contact::Mat6> inverse_mass;  // of each body that is awake
-    std::vector<contact::Vec6> by_loads;      // how the step's loads changed its velocities
+    std::vector<contact::Vec6> by_loads;      // change of its velocities by the step's loads
     std::vector<OfIsland<btCollisionObject*>> bodies_of_islands;
     std::vector<OfIsland<btPersistentManifold*>> contacts_of_islands;
     std::vector<char> holds_finger;                 // by the body that represents an island
@@ -108,14 +108,14 @@ struct World::Impl {
     void add(const std::string& name, const scene::Shape& shape, double mass,
              double friction_coefficient, double torsion_radius, const Pose& X_WB,
              const Vec3& moves, const Vec3& turns, bool about_origin = false);
-    /// A body's own surface, as its properties make it.
+    /// A body's own surface, modified by its properties.
     scene::Surface surface_of(size_t i) const;
-    /// Finds what a body's surface does with all others'.
+    /// Computes the combined surfaces of a body and all others.
     void pair_surfaces(size_t i);
     const scene::PairSurface& surface_of(size_t a, size_t b) const {
         return surfaces[a * items.size() + b];
     }
-    /// The static coefficient of friction of a pair, with what perturbations make of it.
+    /// The static coefficient of friction of a pair, including perturbations.
     double friction_of(size_t a, size_t b) const {
         return surface_of(a, b).friction * items[a].properties.friction *
                items[b].properties.friction * friction_scale;
@@ -128,11 +128,12 @@ struct World::Impl {
     void part_groups();
     void reserve_bodies(size_t count);
     bool is_awake(size_t i) const { return items[i].body->getUserIndex2() == kAwake; }
-    /// Whether a joint moves this side in the step.
+    /// Whether a joint can move this side in the step.
     bool works(const Joints::Side& side) const { return !side.fixed && is_awake(side.at()); }
     void wake(size_t i, std::vector<BodyState>& states);
     void wake_sides(size_t joint, std::vector<BodyState>& states);
-    /// Makes a fixed body's new pose known to what rests on it, and to the search for contacts.
+    /// Announces a fixed body's new pose to the bodies that rest on it, and to the search for
+    /// contacts.
     void place_fixed(size_t i, std::vector<BodyState>& states);
     void collect_awake(std::vector<BodyState>& states);
     /// Wakes what a joint joins to a body that is awake.
@@ -140,25 +141,26 @@ struct World::Impl {
     /// Whether a body's position and velocity are numbers, and within kBeyond.
     bool is_sound(size_t i) const;
     bool all_sound() const;
-    /// At its present orientation. Joints to the world take away what the body cannot do.
+    /// Inverse mass at its present orientation, without the motions that joints to the world
+    /// prevent.
     contact::Mat6 inverse_mass_of(const Item& item) const;
     void note_stepped();
     void integrate_loads(double h, const Vec3& gravity);
     /// Gives a body the velocities that take it where it is driven in the step.
     void drive(Item& item, double h);
     void update_bounds(double h);
-    /// Gives new contacts the properties of their pair's surfaces, and something to carry.
+    /// Gives new contacts the properties of their pair's surfaces, and their Carried record.
     void prepare_contacts(std::span<btPersistentManifold* const> manifolds, double h);
     /// Adds the contacts of points to those that were found.
     void take_points(double h);
     bool has_texture(const btPersistentManifold& manifold) const;
-    /// Changes the friction of those on textured surfaces by where they are, and tells them how
-    /// high and how steep the surfaces are there.
+    /// Changes the friction of contacts on textured surfaces according to their place, and sets the
+    /// height and slope of the surfaces there.
     void let_feel(btPersistentManifold& manifold) const;
-    /// Changes the friction of those that slide as their surfaces ask, by the speeds and forces of
-    /// the last step.
+    /// Changes the friction of sliding contacts according to their surfaces, by the speeds and
+    /// forces of the last step.
     void let_slide(btPersistentManifold& manifold, double h) const;
-    /// Gives the points of a manifold something to carry.
+    /// Gives the points of a manifold their Carried records.
     void give_to(const btPersistentManifold& manifold);
     void find_islands();
     /// Joins bodies that touch or are joined to groups.
@@ -169,11 +171,12 @@ struct World::Impl {
     contact::SolveStats solve(double h);
     contact::SolveStats solve_with_entered(double h, const Vec3& gravity,
                                            std::vector<BodyState>& states);
-    /// Bounds what moves by its present velocities, where contacts changed them by much.
+    /// Widens the bounds of bodies whose velocities were changed much by contacts.
     void widen_bounds(double h);
     /// Lets bodies that would still enter others wait in front of them.
     void hold_back(double h, contact::Work& search);
-    /// Has both bodies of a joint wait if one does, or the joint would tear. False if all do.
+    /// If one body of a joint waits, makes the other wait too, since the joint would tear
+    /// otherwise. False if nothing changed.
     bool wait_together();
     contact::SolveStats solve_island(double h, bool held);
     /// Solves the island again for the velocities after the step, where something bounces.
@@ -193,8 +196,8 @@ struct World::Impl {
     /// contact by itself, so with friction and joints it may (Kane and Levinson 1985).
     double share_of_bounce() const;
     contact::Solver solver_of_island() const;
-    /// Solves the island's problem, again while its joints' rows follow from another guess of the
-    /// velocities at the end of the step.
+    /// Solves the island's problem, and repeats this as long as the rows of its joints change with
+    /// the guessed velocities at the end of the step.
     contact::SolveStats solve_guessing(const contact::SolveSettings& how, double h);
     /// Angular momentum about the centre of mass, in W, at this angular velocity.
     static Vec3 momentum(const Item& item, const Vec3& w_W);
@@ -202,27 +205,27 @@ struct World::Impl {
     static contact::Vec6 momentum(const Item& item, const contact::Vec6& v_W);
     /// Mean angular velocity of a step that begins with w_start and is free (free_turn.h).
     static Vec3 mean_velocity(const Item& item, const Vec3& w_start, double h);
-    /// Finds anew how the island's bodies turn if contacts and joints change their velocities by
-    /// island_change at the beginning of the step. Returns by how much this is another guess
-    /// [rad/s].
+    /// Computes again how the island's bodies turn if contacts and joints change their velocities
+    /// by island_change at the beginning of the step. Returns the change of the guess [rad/s].
     double guess_turns(double h);
     void integrate_positions(double h);
-    /// Gives bodies the angular velocities that their momentum has where the step led.
+    /// Gives bodies the angular velocities that follow from their momentum at their new
+    /// orientation.
     void turn_on(std::vector<BodyState>& states);
     void read_state(size_t i, BodyState& state) const;
     void let_sleep(double h, std::vector<BodyState>& states);
 
     static Books::Motion motion_of(const Item& item);
     static Books::Body account_of(const Item& item, const Vec3& gravity);
-    /// Opens the books of what is awake; of what woke late in the step, once more.
+    /// Opens the books of all awake bodies, a second time for those that woke late in the step.
     void open_books(const Vec3& gravity, bool late);
     void close_books();
-    /// Lists the contacts of the step, and takes each to the books. False if there is no room for
+    /// Lists the contacts of the step and enters each in the books. False if there is no room for
     /// all.
     bool publish_contacts(double h, std::vector<contact::Contact>& out);
     void take(const contact::Contact& contact, const btManifoldPoint& point, double h);
     void take_joints(double h);
-    /// By how much the step's loads changed the speed at which a contact's bodies part, times its
+    /// Change, by the step's loads, of the speed at which a contact's bodies separate, times its
     /// force [W].
     double loads_at(const contact::Contact& contact, const btManifoldPoint& point) const;
 };

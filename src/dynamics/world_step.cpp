@@ -38,15 +38,14 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Visits that the solve of an island may take in which no finger is, where a hand waits for the
-/// tick: newton for stacks of ten, sweeps for heaps.
+/// Largest number of visits in the solve of an island without a finger, where a hand waits for the
+/// tick: enough for newton on stacks of ten; heaps are left to sweeps.
 constexpr int kMostWork = 4000;
-/// How many times a step may be solved again, with contacts that turn out to be lacking.
+/// How often a step may be solved again, with contacts that turned out to be missing.
 constexpr int kMostPasses = 4;
 /// Of an energy.
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
-/// A body that contacts move by more than this may meet things that it could not meet otherwise
-/// [m].
+/// A body that contacts move by more than this may meet things that its bounds did not foresee [m].
 constexpr double kKnocked = 1e-3;
 
 /// User indices of both.
@@ -67,8 +66,8 @@ ContactLaw law_of(const scene::PairSurface& surface, int sharing) {
     return out;
 }
 
-/// Beyond an eighth of a turn in a step, where a body gets no longer follows from how fast it
-/// turns: it is slowed down to this.
+/// Beyond an eighth of a turn in a step, a body's orientation no longer follows from its angular
+/// velocity, so it is slowed down to this.
 Vec3 limited(const Vec3& w, double h) {
     const double most = std::numbers::pi / (4 * h);
     return w.squaredNorm() > most * most ? Vec3(w * (most / w.norm())) : w;
@@ -356,7 +355,7 @@ void World::Impl::widen_bounds(double h) {
 }
 
 void World::Impl::hold_back(double h, contact::Work& search) {
-    constexpr int kMostRounds = 8;  // what waits may be run into
+    constexpr int kMostRounds = 8;  // others may run into what waits
     widen_bounds(h);
     for (int round = 0; round < kMostRounds && all_sound(); ++round) {
         if (!collision->hold_back(h, search)) break;
@@ -429,7 +428,7 @@ void World::Impl::let_feel(btPersistentManifold& manifold) const {
         const Vec3 n_W = from_bullet(point.m_normalWorldOnB);
         const scene::Relief of_a = relief_at(a, p_W, -n_W);
         const scene::Relief of_b = relief_at(b, p_W, n_W);
-        // the friction of a point is known to its owner, with that of textures
+        // the owner of a point already included friction and textures
         if (!items[a].is_point && !items[b].is_point)
             point.m_combinedFriction *= of_a.friction * of_b.friction;
         carried(point).law.height = of_a.height + of_b.height;
@@ -557,7 +556,7 @@ contact::SolveStats World::Impl::solve(double h) {
         take(joint, joints_of_islands.end(), island, island_joints);
         if (island_contacts.empty() && island_joints.empty()) continue;
         const bool held = island < items.size();
-        work.share(held ? left-- : 1);  // none with a finger takes what others need
+        work.share(held ? left-- : 1);  // no island with a finger uses up what others need
         const contact::SolveStats one = solve_island(h, held);
         if (held) held_residual = std::max(held_residual, one.residual);
         stats.join(one);
@@ -704,12 +703,12 @@ contact::Solver World::Impl::solver_of_island() const {
 
 contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& how, double h) {
     constexpr int kMostGuesses = 8;
-    /// Guesses of how bodies turn freely come closer by half of what they turn in a step. More than
-    /// these do not help where a stiff spring turns a body back within it.
+    /// Each guess of a free turn reduces the error by half of the angle turned in a step. More
+    /// guesses than these do not help where a stiff spring turns a body back within the step.
     constexpr int kMostTurnGuesses = 3;
     constexpr double kSame = 1e-9;  // [m/s], [rad/s]
-    /// Guesses that are still this far apart lead nowhere: the step is too long for how fast what
-    /// is joined turns [m/s], [rad/s].
+    /// Guesses that are still this far apart will not converge: the joined bodies turn too fast for
+    /// the step [m/s], [rad/s].
     constexpr double kLost = 1e-2;
     const contact::Solver solver = solver_of_island();
     int iterations = 0;

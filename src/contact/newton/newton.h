@@ -1,11 +1,11 @@
 // Semismooth Newton's method on a contact law (law.h), inside a proximal loop: each proximal step
-// makes a singular problem regular, and at convergence, r = r_k, the answer contains no
-// regularisation.
+// makes a singular problem regular, and at convergence (r = r_k) the regularisation has no effect
+// on the answer.
 //
 // At first, steps are full, the regularisation follows the residual, and a proximal step is done
 // when its equation's error has fallen to a fifth. A proximal step that does not converge is
 // undone, a few projected Gauss-Seidel sweeps move on, and the regularisation grows tenfold. If all
-// that takes too long, it starts again elsewhere.
+// of this takes too long, it starts again elsewhere.
 #pragma once
 
 #include <array>
@@ -31,13 +31,14 @@ struct Residual {
     double scaled = std::numeric_limits<double>::infinity();  ///< over |q^|
     double given = std::numeric_limits<double>::infinity();   ///< over 1 + |q|
 
-    /// The value that tolerances are compared with: as given or, so that small units do not make
-    /// that easy, a hundredth of the scaled value if that is larger. Not all of it, because loads
-    /// may be so small that four coplanar contacts disagree by more, from rounding in their gaps.
+    /// The value to which tolerances apply: the residual as given or, if it is larger, a hundredth
+    /// of the scaled one, so that small units do not make the test easy. Not the whole scaled
+    /// value, because with very small loads the rounding in the gaps of four coplanar contacts may
+    /// contribute more.
     double judged() const noexcept { return std::max(given, 0.01 * scaled); }
 };
 
-/// The sizes that residuals are relative to.
+/// The quantities to which residuals are relative.
 struct Load {
     double scaled = 0;  ///< |q^|
     double given = 0;   ///< |q|
@@ -77,8 +78,8 @@ Load load(const System& system) noexcept {
 
 /// Iterations aim this far below the tolerance, so that an answer at its edge is rare.
 constexpr double kTarget = 1e-2;
-/// Once within tolerance, iterations end when this many of them have left more than this share of
-/// the best residual: rounding prevents further progress.
+/// Once within tolerance, iterations end when this many of them have not brought the best residual
+/// below this share of itself: rounding then prevents further progress.
 constexpr double kStalledShare = 0.5;
 constexpr int kStalledIterations = 2;
 
@@ -95,7 +96,7 @@ struct NewtonStart {
     int halvings;  ///< at most, of a Newton step that makes the error grow fourfold
     int sweeps;    ///< done first; they find most contacts that slide
 };
-/// As given, from zero, and from impulses scattered at random: where one start cycles, four out of
+/// The starts: as given, from zero, and from random impulses. Where one start cycles, four out of
 /// ten others do not. Chosen for the fewest hand-overs in a million problems of shaken grasps (soak
 /// of `measure`).
 constexpr auto kNewtonStarts = [] {
@@ -110,7 +111,7 @@ constexpr auto kNewtonStarts = [] {
     return out;
 }();
 
-/// Contacts times steps, over all starts: a jammed heap must not hold the tick up for long.
+/// Limit of contacts times steps over all starts: a jammed heap must not delay the tick for long.
 constexpr size_t kMostNewtonWork = 32000;
 
 /// The working state of proximal_newton(): r is the current point, memory.r_k the start of the

@@ -1,6 +1,6 @@
 // Sequential impulses: projected Gauss-Seidel sweeps on Coulomb's law, in turn over all normal
-// impulses and over all friction (law.h). They aim at no residual: whatever they leave is the
-// answer.
+// impulses and over all friction (law.h). They do not aim at a residual: the state after the last
+// sweep is the answer.
 #pragma once
 
 #include <algorithm>

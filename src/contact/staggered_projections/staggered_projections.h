@@ -7,9 +7,9 @@
 // repeated until they agree. Each is solved exactly by the proximal Newton method, which finds the
 // active set of a convex problem; inexact inner solutions would stall the outer loop at their own
 // error. Contacts without load are left out of the friction problem. Anderson acceleration of the
-// normal impulses shortens the loop; where it still wanders, projected Gauss-Seidel sweeps move it
-// on. Every pair ends with a contact projection, so none leaves bodies approaching; the best pair
-// is the answer.
+// normal impulses shortens the loop; where the loop still wanders, projected Gauss-Seidel sweeps
+// help it on. Every pair ends with a contact projection, so no pair leaves bodies approaching each
+// other; the best pair is the answer.
 #pragma once
 
 #include "contact/anderson.h"
@@ -79,8 +79,8 @@ class StaggeredProjections {
     }
 
   private:
-    // Relative to |q|; the inner loop aims at kTarget of it, and need not be far more exact than
-    // the outer loop is by now.
+    // Relative to |q|. The inner loop aims at kTarget of it, and need not be much more exact than
+    // the outer loop is at this point.
     static constexpr double kInnerTolerance = 1e-10;
     static constexpr double kInnerOfLast = 1e-3;
     // Loads that nothing determines must not wander from pair to pair: a large rho that falls
@@ -91,7 +91,7 @@ class StaggeredProjections {
     static constexpr int kPatience = 15;  // iterations before sweeps move on
     static constexpr int kSweeps = 200;
 
-    /// Of a contact; 0 for a joint, whose rows both problems solve.
+    /// Of a contact; 0 for a joint, whose rows are solved in both problems.
     double load_of(size_t j) const { return system_.scale(j).joint != nullptr ? 0 : r_[j][0]; }
 
     /// Solves one of the two convex problems exactly.

@@ -15,7 +15,7 @@ class Lemke {
   public:
     /// Reserves memory for problems of up to this many variables, without touching it: the system
     /// provides pages when problems first need them, and most programs never do. The page faults of
-    /// the first use are too few to measure beside the pivots.
+    /// the first use cost too little to be measured beside the pivots.
     void reserve(int variables);
     int capacity() const noexcept { return capacity_; }
 
@@ -29,8 +29,8 @@ class Lemke {
     double w(int i) const noexcept { return w_[static_cast<size_t>(i)]; }
 
     /// Pivots along covering vector number `attempt`: 0 is all ones, others are scattered about
-    /// that. Allocates nothing. False if no solution is found within its limit of pivots, or this
-    /// one.
+    /// that. Allocates nothing. False if no solution is found within its own limit of pivots, or
+    /// within `most_pivots`.
     bool solve(int attempt, int64_t most_pivots = std::numeric_limits<int64_t>::max()) noexcept;
     /// Tries the set of variables that were positive in the last solution with the present M and q.
     /// False if it does not solve the problem.

@@ -10,10 +10,10 @@
 // friction force, so that sliding is isotropic. A soft finger's torsion adds two directions, about
 // +n and -n.
 //
-// Two methods solve it, and which did is reported: Newton's on the polygon and, where that fails,
-// Lemke's in proximal steps, which take its regularisation out of the answer. Where directions
-// follow friction, the problem is solved with the present directions, they are turned, and it is
-// solved again, until friction opposes sliding: the answer is then Coulomb's as well.
+// Two methods solve it, and the statistics say which one did: Newton's on the polygon and, where
+// that fails, Lemke's in proximal steps, which remove the regularisation from the answer. Where
+// directions follow friction, the problem is solved with the present directions, they are turned,
+// and it is solved again, until friction opposes sliding: the answer is then Coulomb's as well.
 #pragma once
 
 #include <numbers>
@@ -101,8 +101,7 @@ class StewartTrinkle {
         return out;
     }
 
-    /// Uses only Newton's method, with each polygon laid along what the start asks for, and kept
-    /// there.
+    /// Uses only Newton's method, with each polygon laid along the start's friction and kept there.
     StewartTrinkleOutcome solve_by_newton(std::span<Vec> r) {
         StewartTrinkleOutcome out;
         system_.velocity(r, m_.newton.u);
@@ -170,8 +169,8 @@ class StewartTrinkle {
         return r.template tail<T>() - system_.scale(j).a_t * m_.newton.u[j].template tail<T>();
     }
     /// Turns the polygons as turn() does, as one step of an iteration that is accelerated over its
-    /// last ones. Contacts that stick inside their polygon, or are open, need not turn: their
-    /// directions would only disturb those of the others.
+    /// last ones. Contacts that stick inside their polygon, or are open, do not turn: their
+    /// directions would only disturb the others.
     void turn_faster(std::span<const Vec> r) {
         constexpr double kInside = 1e-9;
         using Map = Eigen::Map<Tangent>;
@@ -192,7 +191,7 @@ class StewartTrinkle {
         for (size_t j = 0; j < r.size(); ++j) m_.polygons[j].turn_to(Map(&m_.aim[j * T]));
     }
 
-    /// Has `once` solve the problem with the polygons as they lie; where directions follow
+    /// Calls `once` to solve the problem with the present polygons and, where directions follow
     /// friction, again after each turn.
     template <class Once>
     void solve_and_turn(std::span<Vec> r, StewartTrinkleOutcome& out, const Once& once) {
@@ -210,7 +209,7 @@ class StewartTrinkle {
         }
     }
 
-    /// Whether r is an answer that needs no more work; keeps it if it is the best.
+    /// Whether r is good enough; keeps it if it is the best so far.
     bool accept(std::span<const Vec> r, Route route, StewartTrinkleOutcome& out) {
         using Law = law::Polygonal<T>;
         system_.work().spend(Law::kVisits * static_cast<int64_t>(r.size()));
@@ -309,7 +308,7 @@ class StewartTrinkle {
         }
     }
 
-    /// Whether a problem of so many variables may be filled in, and spends that work.
+    /// Whether the work suffices to fill in a problem of this many variables; spends it.
     bool affords_entries(int64_t variables) {
         constexpr int64_t kOfEach = 4;  // an entry is a product, and there is the tableau
         const int64_t visits = kOfEach * variables * variables / Visits::entries + 1;

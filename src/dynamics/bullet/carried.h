@@ -1,5 +1,5 @@
-// What contact points carried in the last step, from which the next one starts. Bullet's points
-// have it as their user data, which Bullet hands on for as long as it takes a point for the same.
+// What a contact point carries from one step to the next, which starts from it. It is the user data
+// of Bullet's points, which Bullet passes on as long as it regards a point as the same.
 #pragma once
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
@@ -12,7 +12,7 @@
 
 namespace dihaptic::dynamics {
 
-/// What the surfaces do at a contact, but for friction, which Bullet's own point has.
+/// The surfaces' law at a contact, apart from friction, which is stored in Bullet's own point.
 struct ContactLaw {
     double restitution = 0;
     double stiffness = 0;         ///< 0: rigid [N/m]
@@ -52,7 +52,7 @@ inline double gap_of(const btManifoldPoint& point) {
     return (point.getDistance() - law.height) / std::sqrt(1 + law.slope_W.squaredNorm());
 }
 
-/// Points of rims that roll have where they will touch (ContactPoint::ahead_W), in a field that
+/// For points of rolling rims: where they will touch (ContactPoint::ahead_W), in a field that
 /// Bullet's own points use for something else.
 constexpr int kRolls = 1 << 16;
 inline void roll_ahead(btManifoldPoint& point, const Vec3& ahead_W) {
@@ -66,8 +66,8 @@ inline Vec3 ahead_of(const btManifoldPoint& point) {
     return {ahead.x(), ahead.y(), ahead.z()};
 }
 
-/// Memory for what points carry. Bullet does not tell when a point ends, so what no point refers to
-/// any more is looked for once there is none left to give.
+/// A pool of Carried records. Bullet does not report when a contact point disappears; unused
+/// records are collected only when the pool is empty.
 class CarriedPool {
   public:
     void reserve(size_t points) {
@@ -75,7 +75,7 @@ class CarriedPool {
         for (size_t i = 0; i < points; ++i) free_.push_back(&all_.emplace_back());
     }
 
-    /// Gives to those points of a manifold that have nothing yet. False if too few are left.
+    /// Gives records to those points of a manifold that have none yet. False if too few are left.
     bool give(const btPersistentManifold& manifold) {
         for (int i = 0; i < manifold.getNumContacts(); ++i) {
             const btManifoldPoint& point = manifold.getContactPoint(i);
@@ -88,8 +88,8 @@ class CarriedPool {
         return true;
     }
 
-    /// Finds what can be given again; `each` calls what it gets with every manifold there is.
-    /// Allocates if all is in use.
+    /// Collects unused records; `each` calls its argument with every manifold. Allocates if all
+    /// records are in use.
     template <class Each>
     void take_back(const Each& each) {
         for (Carried& one : all_) one.in_use = false;

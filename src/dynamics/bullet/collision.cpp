@@ -15,17 +15,17 @@ namespace {
 constexpr double kWorldHalfExtent = 10.0;  // [m]
 /// Pairs are found this far before they touch.
 constexpr double kApproach = 3e-3;  // [m]
-/// Bullet finds contacts of hulls of many edges this far before they touch, and further for bodies
-/// that could approach by more in the step.
+/// Bullet finds contacts of hulls with many edges this far before they touch, and farther for
+/// bodies that could approach by more in the step.
 constexpr double kHullMargin = 2e-3;      // [m]
 constexpr double kMostHullMargin = 5e-2;  // [m]
 
-/// Bodies that enter each other are searched at least once in this distance along their way, and in
-/// half of what both together are thick, so that what comes in is seen before it leaves [m].
+/// The search for bodies that enter each other makes strides no longer than this, and than half of
+/// the thickness of both together, so that what enters is seen before it leaves [m].
 constexpr double kStride = 2e-3;
 constexpr double kMostStrides = 256;
 
-/// What a stride of two shapes counts as [visits]: the axes that may part polyhedra, times
+/// Cost of a stride of two shapes [visits]: the number of axes that may separate polyhedra, times
 /// vertices.
 int64_t stride_visits(const CollisionPart& a, const CollisionPart& b) {
     constexpr int64_t kFewest = 100;  // of two boxes, and of round shapes
@@ -56,7 +56,7 @@ double turning(const btCollisionObjectWrapper& part) {
     return turning(*part.getCollisionObject(), *part.getCollisionShape(), part.getWorldTransform());
 }
 
-/// Moves a body to where it gets in a time t with its present velocities.
+/// Moves a body to where its present velocities take it in a time t.
 void move_on(btRigidBody& body, const btTransform& from, double t) {
     btTransform to;
     btTransformUtil::integrateTransform(from, body.getLinearVelocity(), body.getAngularVelocity(),
@@ -67,8 +67,8 @@ void move_on(btRigidBody& body, const btTransform& from, double t) {
 /// Turns a contact that was found at time t into an equivalent one at the beginning of the step,
 /// when body 0 was at from_0 and body 1 at from_1: its gap is such that the present velocities lead
 /// to the gap found at t. Returns whether the gap at t is below -kEntered and these velocities
-/// violate the contact, which asks for the share `recovery` of a penetration to be removed, by more
-/// than kEntered.
+/// violate the contact by more than kEntered, given that it removes the share `recovery` of a
+/// penetration.
 bool look_back(const btPersistentManifold& manifold, btManifoldPoint& point,
                const btTransform& from_0, const btTransform& from_1, double t, double h,
                double recovery) {
@@ -309,7 +309,7 @@ bool Collision::look_at(btBroadphasePair& pair, const btDispatcherInfo& info) {
     const btTransform X_WB = part_b.X_WS();
     const btCollisionObjectWrapper a_wrap(nullptr, part_a.shape.get(), &a, X_WA, -1, -1);
     const btCollisionObjectWrapper b_wrap(nullptr, part_b.shape.get(), &b, X_WB, -1, -1);
-    // such hulls are met ahead of touch: Bullet takes the distance from three places
+    // such hulls are found ahead of touch: Bullet takes the distance from three places
     const double margin = std::min(kMostHullMargin, kHullMargin + approach(a_wrap, b_wrap, step_));
     dispatcher_.margin = margin;
     scratch_.resizeNoInitialize(0);
@@ -406,7 +406,7 @@ double Collision::walk(btBroadphasePair& pair, double h, int first, btPersistent
     const double way = approach(a_wrap, b_wrap, h);
     if (!(way > kEntered)) return 1;  // also if it is not a number
     const btPersistentManifold* known = manifold_of(pair);
-    // bodies enter soft ones, as far as their contact lets them
+    // bodies may enter soft ones, as far as their contact allows
     if (known != nullptr && is_soft(*known)) return 1;
     const bool swapped = known != nullptr && known->getBody0() != &a;
     out.setBodies(swapped ? &b : &a, swapped ? &a : &b);

@@ -31,8 +31,8 @@ class Collision {
     void add(CollisionPart& part, bool can_move);
     /// Call for each part of a body that moved or is about to move.
     void update_bounds(CollisionPart& part, double h);
-    /// As update_bounds(), and the part keeps the bounds that it had: within a step no pair may
-    /// end, whose contacts manifolds() has.
+    /// As update_bounds(), but the bounds only grow: within a step no pair may end whose contacts
+    /// are in manifolds().
     void widen_bounds(CollisionPart& part, double h);
     /// From the next find_contacts() on the part meets nothing, until show() is called and its
     /// bounds are updated.
@@ -49,15 +49,15 @@ class Collision {
     /// contacts to manifolds() for those that would enter each other by more than `kEntered`
     /// although the step's contacts hold; README.md derives these contacts. The share `recovery` of
     /// a penetration is removed per step. False if there are none. Wakes bodies as find_contacts()
-    /// does. Strides along the way are counted in `work`, and the search ends where they are used
-    /// up: search_was_cut().
+    /// does. Strides along the way are counted in `work`; when it is used up, the search ends
+    /// (search_was_cut()).
     bool find_entered(double h, double recovery, contact::Work& work);
-    /// The last resort against what find_entered() has no answer to: bodies that would still enter
-    /// each other go only a share of their way in the step, their hit fraction, which is 1 before
-    /// the first call. False if there are none.
+    /// The last resort where find_entered() does not suffice: bodies that would still enter each
+    /// other go only a fraction of their way in the step, their hit fraction, which is 1 before the
+    /// first call. False if there are none.
     bool hold_back(double h, contact::Work& work);
     /// Whether find_entered() may have left something since the last find_contacts(): it had no
-    /// room for more, or took bodies for leaving each other where they are within.
+    /// room for more, or assumed that bodies already inside each other were leaving.
     bool is_unsure() const { return is_unsure_ || entered_count_ == kMostEntered; }
     /// Whether find_entered() left out strides since the last find_contacts().
     bool search_was_cut() const { return search_was_cut_; }
@@ -65,12 +65,12 @@ class Collision {
     /// Notes that bodies fell asleep or woke, so that other pairs must be searched.
     void sleepers_changed() { live_is_stale_ = true; }
 
-    /// Manifolds with contacts, of the last find_contacts(); those of the same two bodies are
+    /// Manifolds with contacts from the last find_contacts(); those of the same two bodies are
     /// adjacent.
     std::vector<btPersistentManifold*>& manifolds() { return manifolds_; }
     /// Manifolds that the last find_entered() added.
     std::span<btPersistentManifold* const> entered() const { return new_; }
-    /// Calls `use` with every manifold, of sleeping bodies, too.
+    /// Calls `use` with every manifold, including those of sleeping bodies.
     template <class Use>
     void for_each_manifold(const Use& use) const {
         for (int i = 0; i < dispatcher_.getNumManifolds(); ++i)
@@ -82,7 +82,7 @@ class Collision {
     bool overflowed() const { return overflowed_; }
 
   private:
-    /// Notes when pairs come and go.
+    /// Is notified when pairs appear and disappear.
     class Pairs final : public btHashedOverlappingPairCache {
       public:
         btBroadphasePair* addOverlappingPair(btBroadphaseProxy* a, btBroadphaseProxy* b) override {
@@ -97,7 +97,7 @@ class Collision {
         int64_t version = 0;
     };
 
-    /// Parts of one body do not meet each other, nor do bodies that a joint keeps from it, and
+    /// Parts of one body do not meet each other, nor do bodies for which a joint excludes it;
     /// hidden parts meet nothing.
     struct OtherBodies final : btOverlapFilterCallback {
         bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
@@ -114,30 +114,31 @@ class Collision {
     void set_bounds(CollisionPart& part, double h, bool keep);
     void reserve_pairs(int pairs);
     void sort_by_bodies();
-    /// Removes contacts with what lies inside bodies of several parts (seams.h).
+    /// Removes contacts at places inside bodies of several parts (seams.h).
     void remove_inner();
     void list_live_pairs();
     bool look_at(btBroadphasePair& pair, const btDispatcherInfo& info);
-    /// Whether there is work for another stride, which it spends; notes if there is none.
+    /// Whether the work suffices for another stride; spends it, or notes that it did not.
     bool affords(contact::Work& work, int64_t visits);
-    /// Goes along the way of two parts in a step, from its stride `first` on, as far as their
-    /// bodies' hit fractions let them, and calls `visit` with where both bodies began and the time
-    /// since [s], once `out` has their contacts there. Returns the share of the way up to which it
-    /// did not return true.
+    /// Follows two parts along their way in a step, from stride `first` on and as far as their
+    /// bodies' hit fractions allow. At each stride it puts their contacts into `out` and calls
+    /// `visit` with the starting poses of both bodies and the time since [s]. Returns the fraction
+    /// of the way up to which `visit` did not return true.
     template <class Visit>
     double walk(btBroadphasePair& pair, double h, int first, btPersistentManifold& out,
                 contact::Work& work, const Visit& visit);
-    /// The first that a pair has, or null.
+    /// The first manifold of a pair, or null.
     const btPersistentManifold* manifold_of(const btBroadphasePair& pair);
-    /// Finds the contacts of two parts where they are. False if nobody knows how.
+    /// Finds the contacts of two parts at their present poses. False if there is no algorithm for
+    /// them.
     bool meet(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
               btPersistentManifold& out);
     bool enters(btBroadphasePair& pair, double h, double recovery, btPersistentManifold& out,
                 contact::Work& work);
 
     btDefaultCollisionConfiguration configuration_;
-    /// Has memory for its manifolds, and gives new ones a breaking threshold of this world:
-    /// Bullet's own is one for all worlds of the program.
+    /// Provides memory for its manifolds, and gives new ones this world's own breaking threshold;
+    /// Bullet's is global to the program.
     struct Dispatcher : btCollisionDispatcher {
         Dispatcher(btCollisionConfiguration* configuration, int manifolds)
             : btCollisionDispatcher(configuration) {
@@ -184,8 +185,8 @@ constexpr int kAwake = 1;
 /// Depth by which a step may let a body enter another [m].
 constexpr double kEntered = 1e-4;
 
-/// How much closer the surfaces of two bodies' parts may come in a step, by their velocities before
-/// contacts act: parts further apart than this cannot touch in the step [m].
+/// How much closer the surfaces of two bodies' parts may come in a step, according to their
+/// velocities before contacts act. Parts farther apart than this cannot touch in the step [m].
 double approach(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double h);
 
 }  // namespace dihaptic::dynamics

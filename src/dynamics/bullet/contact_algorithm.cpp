@@ -14,7 +14,7 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Contacts are found this far ahead of touch, and further for bodies that could approach by more
+/// Contacts are found this far ahead of touch, and farther for bodies that could approach by more
 /// in the step.
 constexpr double kMargin = 5e-4;      // [m]
 constexpr double kMostMargin = 0.25;  // [m]
@@ -75,7 +75,7 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
         return patch;
     }
 
-    /// How b moves against a in the step.
+    /// Displacement of b relative to a in the step.
     struct Move {
         Vec3 way_W;
         Vec3 turn_W;
@@ -124,7 +124,7 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
             for (int j = 0; j < old_count; ++j) {
                 const double d =
                     (old[static_cast<size_t>(j)].m_localPointA - out.m_localPointA).length2();
-                // a single point is the same one wherever a round body rolled
+                // a single point remains the same one wherever a round body rolls
                 const bool only = old_count == 1 && patch.count == 1;
                 if (!taken[static_cast<size_t>(j)] && (d < distance || only)) {
                     distance = d;

@@ -1,6 +1,6 @@
 // Connects dynamics/polyhedron.h and dynamics/round.h to Bullet: the collision algorithm for all
-// pairs of shapes but hulls of too many edges. Contacts keep the impulses of the nearest point of
-// the last step, for warm starts.
+// pairs of shapes except hulls with too many edges. Contacts keep the impulses of the nearest point
+// of the last step, for warm starts.
 #pragma once
 
 #include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>

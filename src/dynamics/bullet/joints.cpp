@@ -14,12 +14,11 @@ namespace {
 using contact::ProblemJoint;
 using contact::Vec6;
 
-/// No joint is stiffer than steel. A mechanism that passes a place where its joints do not
-/// determine how it moves on, as a parallelogram that lies flat, would be thrown by rows that yield
-/// to nothing.
+/// No joint is stiffer than steel. Otherwise a mechanism would be thrown when it passes a singular
+/// place, where its joints do not determine its motion, such as a parallelogram that lies flat.
 constexpr double kStiffness = 1e9;      // [N/m]
 constexpr double kTurnStiffness = 1e7;  // [N*m/rad]
-/// What was put where its joint cannot be is pulled back no faster than this.
+/// A body that was put where its joint does not allow it is pulled back no faster than this.
 constexpr double kPull = 0.5;    // [m/s]
 constexpr double kTurnPull = 5;  // [rad/s]
 constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -28,7 +27,7 @@ Pose pose_of(const Joints::Side& side) {
     return side.body == nullptr ? Pose{} : from_bullet(side.body->getWorldTransform());
 }
 
-/// Where a step at these velocities leads.
+/// The pose to which a step at these velocities leads.
 Pose moved(const Joints::Side& side, const Vec6& v, double h) {
     if (side.fixed) return pose_of(side);
     btTransform out;
@@ -46,13 +45,13 @@ Vec6 velocity_of(const Joints::Side& side) {
     return out;
 }
 
-/// A row in which bodies turn against each other about n.
+/// A row for the relative rotation about n.
 void turn(ProblemJoint& rows, int row, const Vec3& n) {
     rows.J_b.row(row).tail<3>() = n.transpose();
     rows.J_a.row(row).tail<3>() = -n.transpose();
 }
 
-/// A row that asks for nothing.
+/// A row without any effect.
 void close(ProblemJoint& rows, int row) {
     rows.low[row] = rows.high[row] = 0;
 }
@@ -80,7 +79,7 @@ double inside(const ProblemJoint& rows, int row, const Vec6& a, const Vec6& b) {
     return rows.J_a.row(row).dot(a) + rows.J_b.row(row).dot(b);
 }
 
-/// The inverse masses that the rows along and about the axes move, each by itself.
+/// The inverse masses that the rows along and about the axes move, each separately.
 Vec6 along_rows(const contact::ContactProblem& problem, std::span<const ProblemJoint> rows) {
     Vec6 out = Vec6::Zero();
     for (int k = 0; k < 6; ++k) {
@@ -116,7 +115,7 @@ double along_coordinate(const contact::ContactProblem& problem,
         W += J * problem.bodies[static_cast<size_t>(body)].inverse_mass * J.transpose();
     }
     for (int k = 0; k < kHeld; ++k) {
-        if (W(k, k) <= 0) W(k, k) = 1;  // a row that asks for nothing
+        if (W(k, k) <= 0) W(k, k) = 1;  // a row without any effect
     }
     const auto held = W.topLeftCorner<kHeld, kHeld>();
     const Eigen::Matrix<double, kHeld, 1> across = W.topRightCorner<kHeld, 1>();
@@ -178,7 +177,7 @@ Joints::Gaps Joints::gaps(const Joint& joint, const Pose& X_WA, const Pose& X_WB
 
 Vec3 Joints::direction(const Joint& joint, const Pose& X_WA, const Pose& X_WB) noexcept {
     if (joint.spec.kind == scene::JointKind::slider) return X_WA.R * joint.X_AF.R * Vec3::UnitX();
-    constexpr double kTogether = 1e-9;  // points in one place, which any direction fits
+    constexpr double kTogether = 1e-9;  // coincident points: any direction will do
     const Vec3 between = X_WB * joint.X_BF.p - X_WA * joint.X_AF.p;
     const double distance = between.norm();
     return distance > kTogether ? Vec3(between / distance)
@@ -225,8 +224,9 @@ void Joints::fill(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
 
 namespace {
 
-/// A row of a spring and a damper that was stretched at the rate u before. It would resist with
-/// `force` at the end of a step in which it rests, and by `stiffness` more as it is stretched more.
+/// A row for a spring and a damper whose stretch changed at the rate u before. At the end of a step
+/// without motion it would resist with `force`, and per unit of further stretch with `stiffness`
+/// more.
 void ask_of_spring(double force, double stiffness, double damping, double inverse_mass, double u,
                    double h, int k, ProblemJoint& row) {
     const double s = h * h * stiffness * inverse_mass;
@@ -305,15 +305,15 @@ Books::Exchange Joints::exchange(size_t i, double h, const Books::Meeting& meeti
     return out;
 }
 
-/// Rows of the coordinate, which would be q at the end of a step in which it rests: a spring with
-/// its damper, dry friction, and the nearer stop.
+/// Rows of the coordinate, which would be q at the end of a step without motion: a spring with its
+/// damper, dry friction, and the nearer stop.
 void Joints::ask_of_coordinate(size_t i, double q, double h, ProblemJoint& row) const noexcept {
     enum { kSpring, kMotor, kStop };
     const Joint& joint = joints_[i];
     const scene::Joint& spec = joint.spec;
     scene::SpringCurve::Point at{spec.stiffness * (q - spec.rest), spec.stiffness};
     if (!spec.curve.is_empty()) at = spec.curve.at(q - spec.rest);
-    // where a curve falls there is nothing that a step could hold at its end
+    // where a curve falls, a step cannot hold it at its end
     ask_of_spring(at.resistance * joint.properties.stiffness,
                   std::max(0.0, at.stiffness) * joint.properties.stiffness,
                   spec.damping * joint.properties.damping, joint.inverse_mass, states_[i].velocity,
@@ -376,7 +376,8 @@ double Joints::ask(size_t i, double h, const Vec6& v_a, const Vec6& v_b) noexcep
     const double q_near = states_[i].position;
     const Gaps then = gaps(joint, moved(joint.a, v_a, h), moved(joint.b, v_b, h), q_near);
     if (joint.spec.is_bushing()) {
-        // what a guess is off changes a spring by the square of a step's turn: no further is asked
+        // an error of the guess changes a spring by the square of a step's rotation, so this
+        // suffices
         ask_of_bushing(joint, then, h, v_a, v_b, joint.rows);
         return 0;
     }
@@ -407,8 +408,8 @@ void Joints::tell(const Joint& joint, contact::ContactProblem& problem) noexcept
     }
 }
 
-/// A guess of a body's velocities after the step: they change as before, unless it turns so far in
-/// a step that what acts on it has another direction by then.
+/// A guess of a body's velocities after the step: they change as in the last steps, unless the body
+/// turns so far in a step that what acts on it has another direction by then.
 Vec6 Joints::expected(const Side& side, const Change& change, double h) noexcept {
     constexpr double kFar = 0.1;  // [rad]
     const Vec6 v = velocity_of(side);
@@ -417,7 +418,7 @@ Vec6 Joints::expected(const Side& side, const Change& change, double h) noexcept
 
 void Joints::add_rows(std::span<const size_t> which, std::span<const int> index, double h,
                       contact::ContactProblem& problem, std::vector<Vec3>& start) noexcept {
-    // of what several joints share without need, a little is forgotten in each step
+    // a little of what redundant joints share is forgotten in each step
     constexpr double kKept = 0.95;
     for (const size_t i : which) {
         Joint& joint = joints_[i];

@@ -1,14 +1,13 @@
-// The joints of a world: what they keep together becomes rows of the contact problem
-// (contact/problem.h).
+// The joints of a world: their equations become rows of the contact problem (contact/problem.h).
 //
-// A joint has a frame F on each of its two bodies. Of their relative pose, each kind keeps
-// functions C_i at zero, and may have one coordinate q. Rows ask for them at the end of the step:
-// with v' a guess of the velocities then, and J the derivative of C at its beginning,
+// A joint has a frame F on each of its two bodies. Each kind keeps some functions C_i of their
+// relative pose at zero, and may have one coordinate q. The rows demand this at the end of the
+// step: with v' a guess of the velocities then, and J the derivative of C at the beginning,
 //
 //     C(x moved by h v') + h J (v - v') = 0      bias = C(x moved by h v') / h - J v'
 //
-// which is linear in v, and exact once v' is v: the step is solved again from its answer until v'
-// changes nothing more. Impulses act along J of the beginning and constraints hold at the end: in a
+// which is linear in v, and exact once v' equals v: the step is solved again from its answer until
+// v' no longer changes. Impulses act along J of the beginning and constraints hold at the end: in a
 // mechanism without contacts and springs this is the leapfrog method with constraints (SHAKE:
 // Ryckaert, Ciccotti and Berendsen 1977), which is of second order, and symplectic, with velocities
 // that are those of the middle of a step.
@@ -19,9 +18,9 @@
 //     f = -k (q + theta h (u - (1 - delta) u'))      delta = s / (1 + s)     theta = (1 + 3 delta)
 //     / 4
 //
-// A slow spring (s far below 1) keeps its energy; a stiff one on a light body is damped like an
-// implicit step of Euler, and shakes no hand. README.md has the closed form. Dampers and stops hold
-// at the end of the step.
+// A slow spring (s far below 1) keeps its energy; a stiff one on a light body is damped as by an
+// implicit Euler step, so that no hand is shaken. README.md has the closed form. Dampers and stops
+// hold at the end of the step.
 #pragma once
 
 #include <BulletDynamics/Dynamics/btRigidBody.h>
@@ -65,42 +64,41 @@ class Joints {
     double stored(size_t i) const noexcept {
         return stored(joints_[i], 0, Vec3::Zero(), Vec3::Zero());
     }
-    /// What the coordinate's unit force does to the first and to the second body: a force at its
+    /// Effect of a unit force of the coordinate on the first and on the second body: a force at its
     /// centre of mass and a torque; zero without a coordinate.
     std::pair<contact::Vec6, contact::Vec6> along(size_t i) const noexcept;
 
-    /// Adds the rows of these joints to the problem, which has their bodies: `index` tells where,
-    /// by item. The first guess is that of expected().
-    /// Impulses to start from, somewhat less than those of the last step, go to `start`.
+    /// Adds the rows of these joints to the problem, which contains their bodies at `index`, by
+    /// item. The first guess comes from expected(). The initial impulses, somewhat smaller than
+    /// those of the last step, go to `start`.
     void add_rows(std::span<const size_t> which, std::span<const int> index, double h,
                   contact::ContactProblem& problem, std::vector<Vec3>& start) noexcept;
-    /// Guesses anew, that velocities change by `change`, by index of the problem. Returns the
+    /// Makes a new guess: velocities change by `change`, by index of the problem. Returns the
     /// largest change of a bias [m/s], [rad/s].
     double guess(std::span<const size_t> which, std::span<const int> index, double h,
                  std::span<const contact::Vec6> change, contact::ContactProblem& problem) noexcept;
-    /// Asks for the joint's equations of velocities alone, and for what they are off to be pulled
-    /// back: a step of first order, which gives no energy but by that pull.
+    /// Demands the joints' equations for the velocities only, and pulls errors of position back: a
+    /// first-order step, which adds no energy except by that pull.
     void hold(std::span<const size_t> which, double h, contact::ContactProblem& problem) noexcept;
-    /// Keeps the impulses of a step of h, and what changes of velocities it made, by index of the
-    /// problem.
+    /// Keeps the impulses of a step of h, and its changes of velocities, by index of the problem.
     void store(std::span<const size_t> which, std::span<const int> index,
                std::span<const contact::Vec6> change, std::span<const Vec3> impulses,
                double h) noexcept;
-    /// Motors rest until they are driven anew.
+    /// Stops all motors until they are driven again.
     void end_step() noexcept;
     /// Reads the coordinates, after a step or after bodies were put elsewhere.
     void read() noexcept;
     /// Where a joint's force acts on both bodies in the step: the second body's point at its
     /// beginning.
     const Vec3& acts_at(size_t i) const noexcept { return joints_[i].acts_at_W; }
-    /// What a joint did in a step of h, whose bodies meet like this at acts_at().
+    /// The action of a joint in a step of h whose bodies move like this at acts_at().
     Books::Exchange exchange(size_t i, double h, const Books::Meeting& meeting) const noexcept;
     /// Forgets the impulses.
     void forget() noexcept;
 
   private:
     static constexpr size_t kElements = 3;  // linear rows, angular rows, those of the coordinate
-    /// How a body's velocities are changed by contacts and joints, from step to step.
+    /// Changes of a body's velocities by contacts and joints in the last steps.
     struct Change {
         contact::Vec6 now = contact::Vec6::Zero();
         contact::Vec6 last = contact::Vec6::Zero();
@@ -111,7 +109,8 @@ class Joints {
             last = now;
         }
     };
-    /// What the relative pose of a joint's frames is to be: zero, but for the coordinate.
+    /// The functions of the relative pose of a joint's frames that should be zero, and the
+    /// coordinate.
     struct Gaps {
         Vec3 linear = Vec3::Zero();
         Vec3 angular = Vec3::Zero();
@@ -142,19 +141,19 @@ class Joints {
     static void fill(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
                      std::span<contact::ProblemJoint> rows) noexcept;
     static contact::Vec6 expected(const Side& side, const Change& change, double h) noexcept;
-    /// With velocities guessed; returns the largest change of a bias.
+    /// Computes the rows with guessed velocities; returns the largest change of a bias.
     double ask(size_t i, double h, const contact::Vec6& v_a, const contact::Vec6& v_b) noexcept;
     void ask_of_coordinate(size_t i, double q, double h, contact::ProblemJoint& row) const noexcept;
-    /// Copies to the problem what a joint's rows ask for.
+    /// Copies the rows of a joint to the problem.
     static void tell(const Joint& joint, contact::ContactProblem& problem) noexcept;
     /// Rows of a bushing that gets to `then` at these velocities.
     static void ask_of_bushing(const Joint& joint, const Gaps& then, double h,
                                const contact::Vec6& v_a, const contact::Vec6& v_b,
                                std::span<contact::ProblemJoint> rows) noexcept;
-    /// Energy of its springs, moved by these rates for half a step from where the step began, h
-    /// being negative for what was before [J].
+    /// Energy of its springs half a step away from where the step began, moved at these rates; h is
+    /// negative for the time before [J].
     static double stored(const Joint& joint, double h, const Vec3& v_W, const Vec3& w_W) noexcept;
-    /// The row in which a motor, or else dry friction, acts.
+    /// The row of a motor or, without one, of dry friction.
     static void ask_of_motor(const Joint& joint, double q, double h, int k,
                              contact::ProblemJoint& row) noexcept;
 

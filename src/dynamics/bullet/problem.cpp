@@ -12,10 +12,11 @@ namespace {
 
 using contact::kFixed;
 
-/// What has not touched in a step may be met at any speed after it [m/s].
+/// A contact that has not touched in a step may separate or approach at any speed after it [m/s].
 constexpr double kFarApart = 1e6;
 
-/// What begins within something else is pushed out no faster than this [m/s]: it is not thrown.
+/// A body that begins inside another is pushed out no faster than this [m/s], so that it is not
+/// thrown.
 constexpr double kMostRecovery = 0.5;
 
 const contact::ProblemBody kRests;
@@ -54,8 +55,8 @@ double mean_height(const btPersistentManifold& manifold) {
 ///
 ///     r / h = -k (x + h u) - c u    or    u + gamma r + bias = 0,    gamma = 1 / (h (c + h k))
 ///
-/// While the spring is slow, most of h k is a damping that nobody asked for: it is lessened to
-/// theta h k, with theta = s / (1 + s) and s = h^2 k / m, m the mass that the contact moves.
+/// While the spring is slow, most of h k is unwanted damping; it is reduced to theta h k, with
+/// theta = s / (1 + s) and s = h^2 k / m, m the mass that the contact moves.
 void soften(contact::ProblemContact& contact, const contact::ContactProblem& problem,
             const ContactLaw& law, double gap, double h) {
     constexpr double kLeastShare = 0.05;
@@ -71,8 +72,8 @@ const contact::ProblemBody& body_of(const contact::ContactProblem& problem, int 
     return i == kFixed ? kRests : problem.bodies[static_cast<size_t>(i)];
 }
 
-/// By how much the points of both bodies move apart in the step otherwise than their velocities
-/// say, on their arcs [m/s].
+/// Difference between the separation of the points of both bodies in the step, on their arcs, and
+/// that given by their velocities [m/s].
 Vec3 on_arcs(const contact::ContactProblem& problem, const contact::ProblemContact& contact,
              double h) {
     const auto off = [&](const contact::ProblemBody& one, const Vec3& r) {
@@ -82,11 +83,11 @@ Vec3 on_arcs(const contact::ContactProblem& problem, const contact::ProblemConta
            off(body_of(problem, contact.a), contact.p_AC_W);
 }
 
-/// What turns together, or about the contact's normal, goes on arcs, and stays together if points
-/// get to the ends of the same chord: by how much the points of both bodies move in the step
-/// otherwise than their velocities say, along the tangents. Velocities alone let a block on a
-/// turntable creep outward by w^2 r h / 2, and what swings between two pads slip. Zero for bodies
-/// that roll on each other, whose points do not stay together; call for patches of contacts.
+/// The same along the tangents. Bodies that turn together, or about the contact's normal, move on
+/// arcs, and stay together if their points reach the ends of the same chord. By velocities alone, a
+/// block on a turntable would creep outward by w^2 r h / 2, and a body that swings between two pads
+/// would slip. Zero for bodies that roll on each other, whose points do not stay together; call it
+/// for patches of contacts.
 Eigen::Vector2d along_arcs(const contact::ContactProblem& problem,
                            const contact::ProblemContact& contact, double h) {
     constexpr double kRolls = 0.01;  // as a share of the angular velocity
@@ -103,10 +104,10 @@ Eigen::Vector2d along_arcs(const contact::ContactProblem& problem,
 }
 
 /// A rim that rolls touches with another point in the middle of the step, where velocities are
-/// those that bring its body to the step's end. The impulse acts where it touches at the beginning,
-/// and has to let that point move by as much as it does while the other one rests: by how much it
-/// moves otherwise than both would touch, in the contact's frame [m/s]. Without it Euler's disc
-/// sinks in from step to step, and is fed.
+/// those that bring its body to the step's end. The impulse acts at the point of contact at the
+/// beginning, and has to let that point move as it does while the other one rests. This is that
+/// motion, in the contact's frame [m/s]. Without it, Euler's disc sinks in from step to step and
+/// gains energy.
 Vec3 by_rolling(const contact::ContactProblem& problem, const contact::ProblemContact& contact,
                 const btManifoldPoint& point) {
     const Vec3 ahead = ahead_of(point);
@@ -253,7 +254,7 @@ bool ManifoldProblem::bounce(std::span<btPersistentManifold*> manifolds,
                 const double when = std::clamp(contact.bias / -free, 0.0, 1.0);
                 const double speed = free < 0 ? rebound(free, when, loads, restitution) : 0;
                 bounces = bounces || speed > 0;
-                // what did not meet before others pushed it meets by the same law
+                // bodies that met only because others pushed them obey the same law
                 leaves = free < 0 ? speed : -restitution * free;
             }
             leaves_.push_back(leaves);

@@ -1,5 +1,5 @@
-// ManifoldProblem turns Bullet's contact manifolds into a contact problem, and has their points
-// carry its answer.
+// ManifoldProblem turns Bullet's contact manifolds into a contact problem, and stores its answer
+// with their points.
 #pragma once
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
@@ -28,25 +28,25 @@ class ManifoldProblem {
                std::span<btPersistentManifold*> manifolds, double h, double recovery,
                bool warm_start) noexcept;
 
-    /// Once the problem is solved: has what touched in the step, and bounces, leave with the speed
-    /// of Newton's law, and every other contact hold as before. The answer of the problem then has
-    /// the velocities after the step. `by_loads` is how the step's loads changed the velocities of
-    /// all bodies, by user index. False if nothing bounces.
+    /// Call once the problem is solved: contacts that touched in the step and bounce shall separate
+    /// at the speed of Newton's law, and every other contact shall hold as before. The answer of
+    /// the changed problem gives the velocities after the step. `by_loads` is how the step's loads
+    /// changed the velocities of all bodies, by user index. False if nothing bounces.
     bool bounce(std::span<btPersistentManifold*> manifolds,
                 std::span<const contact::Vec6> by_loads) noexcept;
 
     /// Remembers the impulses, for mix().
     void keep() noexcept;
-    /// Goes this share of the way from the impulses that were kept to the present ones.
+    /// Interpolates from the kept impulses to the present ones by this share.
     void mix(double share) noexcept;
 
-    /// Adds rows of joints between bodies of the problem, as build() was told to start.
+    /// Adds rows of joints between bodies of the problem, started as build() was told.
     void add_joints(Joints& joints, std::span<const size_t> which, double h,
                     bool warm_start) noexcept;
     /// As Joints::guess().
     double guess(Joints& joints, std::span<const size_t> which, double h,
                  std::span<const contact::Vec6> change) noexcept;
-    /// Asks for the joints' equations of velocities alone (Joints::hold).
+    /// Demands the joints' equations for the velocities only (Joints::hold).
     void hold(Joints& joints, std::span<const size_t> which, double h) noexcept;
 
     /// Angular velocity of a body of the problem before impulses act.
@@ -56,10 +56,11 @@ class ManifoldProblem {
     std::span<contact::Impulse> impulses() noexcept { return impulses_; }
     std::span<Vec3> joint_impulses() noexcept { return joint_impulses_; }
 
-    /// Has the joints keep the impulses, and these changes of velocities, by the problem's bodies.
+    /// Stores the impulses with the joints, and these changes of velocities, by the problem's
+    /// bodies.
     void store(Joints& joints, std::span<const size_t> which, std::span<const contact::Vec6> change,
                double h) const noexcept;
-    /// Has the manifolds' points carry the impulses.
+    /// Stores the impulses with the manifolds' points.
     void store(std::span<btPersistentManifold*> manifolds) const noexcept;
 
   private:

@@ -5,11 +5,11 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// A part has the points within this distance of it [m].
+/// A part contains the points within this distance of it [m].
 constexpr double kOnPart = 1e-6;
-/// A part is nearer than a point if it is so by more than rounding [m].
+/// A part counts as nearer than a point if it is nearer by more than rounding [m].
 constexpr double kNearer = 1e-8;
-/// Points with the same normal ask for the same: none is in the way of the other.
+/// Points with the same normal demand the same, and are not in each other's way.
 constexpr double kSameNormal = 1 - 1e-8;
 
 bool has(const CollisionPart& part, const btVector3& p_W) {
@@ -27,7 +27,8 @@ double nearest(const btPersistentManifold& manifold) {
     return out;
 }
 
-/// Whether the other manifold's parts, of which one is the same, are nearer and have the point.
+/// Whether the parts of the other manifold, one of which is the same, are nearer and contain the
+/// point.
 bool is_inner(const btManifoldPoint& point, const OfParts& of, const OfParts& other) {
     const bool same_0 = of.part_0 == other.part_0;
     const bool same_1 = of.part_1 == other.part_1;
@@ -42,7 +43,7 @@ bool is_inner(const btManifoldPoint& point, const OfParts& of, const OfParts& ot
 }  // namespace
 
 void remove_inner_contacts(std::span<OfParts> of_two_bodies) noexcept {
-    // all are judged before any is removed: what is inner itself may show that another is
+    // all are judged before any is removed, because an inner point may reveal another one
     for (OfParts& of : of_two_bodies) of.nearest = nearest(*of.manifold);
     for (OfParts& of : of_two_bodies) {
         for (int i = 0; i < of.manifold->getNumContacts(); ++i) {

@@ -1,10 +1,10 @@
-// Takes away contacts with what lies inside a body of several parts.
+// Removes contacts at places that lie inside a body of several parts.
 //
 // Contacts are found part by part, and a part has faces, edges and corners where it meets others:
-// inside the body, or within one of its faces. Bodies are nearest to each other there only if no
-// part that has the same point is nearer yet: that part is convex, so that on the way from the
-// point to where it is nearest the distance only falls. Such a point is no place where the bodies
-// can touch first, and its normal is that of no surface.
+// inside the body, or within one of its faces. Bodies are nearest to each other at such a point
+// only if no part that contains the point is nearer still: that part is convex, so the distance
+// only falls on the way from the point to where it is nearest. The bodies cannot first touch at
+// such a point, and its normal belongs to no surface.
 #pragma once
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
@@ -21,7 +21,7 @@ struct OfParts {
     btPersistentManifold* manifold = nullptr;
     const CollisionPart* part_0 = nullptr;  ///< of its body 0
     const CollisionPart* part_1 = nullptr;
-    double nearest = 0;            ///< of its points, which remove_inner_contacts() looks for
+    double nearest = 0;            ///< its inner points, which remove_inner_contacts() finds
     std::bitset<4> is_inner = {};  ///< which of its points are; likewise
 };
 
