@@ -1,5 +1,5 @@
-// Checks that can be made of a rig's devices without touching the machine: no two entries are one
-// device, and all use one library.
+// Checks of a rig's devices that do not touch the machine: no two entries are the same device, and
+// all use one library.
 #pragma once
 
 #include "devices/device_group.h"

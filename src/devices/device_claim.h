@@ -1,10 +1,10 @@
-// A device has one owner at a time: two programs that write forces to one device would each believe
-// that theirs acts. Who activates a real device claims it by its backend and serial number; the
-// kernel gives the claim back when the owner ends, however that ends.
+// A device has one owner at a time. If two programs wrote forces to one device, each would believe
+// that its own acts. Whoever activates a real device claims it by its backend and serial number;
+// the kernel releases the claim when the owner ends, for whatever reason.
 //
-// A claim is an abstract UNIX socket of that name. It is the machine's, whoever the user is, needs
-// no file that could be left behind or replaced, and says whose it is. Another user could claim a
-// device that they do not have, as they could open it: the message names them.
+// A claim is an abstract UNIX socket of that name. It is valid for all users of the machine, needs
+// no file that could be left behind or replaced, and reveals its owner. Another user could claim a
+// device without using it, just as they could open it; the message names them.
 #pragma once
 
 #include <string>
@@ -17,8 +17,9 @@ namespace dihaptic::devices {
 
 class DeviceClaim {
   public:
-    /// Waits for `patience`, as a session that ends may close its devices still. Throws Error for
-    /// `place` when another owner has it then. `info`: of an open device.
+    /// Waits for up to `patience`, because a session that is ending may still be closing its
+    /// devices. Throws Error for `place` when another owner still has it then. `info`: of an open
+    /// device.
     DeviceClaim(const std::string& backend, const frame::DeviceInfo& info, const Place& place,
                 Time patience);
     ~DeviceClaim();

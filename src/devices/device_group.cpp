@@ -5,7 +5,7 @@
 namespace dihaptic::devices {
 namespace {
 
-/// Share of the limit by which a force that was limited already may exceed it through rounding.
+/// Share of the limit by which a force that was already limited may exceed it through rounding.
 constexpr double kRounding = 1e-9;
 
 /// Returns whether `v` had to be made smaller.

@@ -101,7 +101,7 @@ class DeviceGroup {
     /// ever told more than its peak or limit(): a larger vector is scaled down to it, which shows
     /// in the next reading, and one that is not finite becomes zero.
     void write(std::span<const Wrench> wrenches_D) noexcept;
-    /// Limits what a device is told from now on [N], [N*m]; its peaks hold all the same.
+    /// Limits what a device is told from now on [N], [N*m]; its peaks remain in effect.
     void limit(int device, double force, double torque) noexcept;
     /// What the maker's library last reported about a device, in words; "" if nothing. Not to be
     /// called in the cycle.
@@ -133,7 +133,7 @@ class DeviceGroup {
     virtual void do_write(std::span<const Wrench> wrenches_D) noexcept = 0;
     virtual void do_pace(const std::function<bool()>&) {}
     virtual bool do_stop() noexcept { return false; }
-    /// For a group that wraps another one: passes the limit on, in that one's measure.
+    /// For a group that wraps another one: passes the limit on, in that group's units.
     virtual void do_limit(int /*device*/, double /*force*/, double /*torque*/) noexcept {}
 
     struct Output {
@@ -165,8 +165,8 @@ std::string in_words(const Error& error);
 /// An entry of the table of backends, one for each subfolder of this folder.
 struct Backend {
     const char* name;
-    /// Reads and checks the options of devices, without touching hardware, and returns what these
-    /// say of them. What only an open device can say keeps its default.
+    /// Reads and checks the options of devices, without touching hardware, and returns what follows
+    /// from them. What only an open device can tell keeps its default.
     std::vector<frame::DeviceInfo> (*describe)(const std::vector<DeviceConfig>& configs,
                                                const Context& context, Diagnostics& diagnostics);
     std::unique_ptr<DeviceGroup> (*make)(const std::vector<DeviceConfig>& configs,
@@ -175,8 +175,8 @@ struct Backend {
     bool real = false;
     /// Looks for devices without moving them; null for a backend that is always there.
     Survey (*survey)() = nullptr;
-    /// Tells the schema of rig files of its options (base/json_schema.h); null for a backend that
-    /// no rig file may name.
+    /// Adds its options to the schema of rig files (base/json_schema.h); null for a backend that no
+    /// rig file may name.
     void (*options)(JsonSchema& schema) = nullptr;
 };
 

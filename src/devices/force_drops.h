@@ -1,6 +1,6 @@
-// Tells a single cut of a device's force from a fault. Devices cut their own force when too much is
-// asked of them, and give it back. Once is an event; again and again is a fault: a person who is
-// told nothing would think that the world is broken.
+// Distinguishes a single cut of a device's force from a fault. Devices cut their own force when too
+// much is asked of them, and restore it. Once is an event; repeatedly is a fault, because a person
+// who is not told would think that the world is broken.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// Which cell of a movement's line holds what, as its first lines say.
+// The meaning of the cells in a movement's lines, according to its first lines.
 #pragma once
 
 #include <array>
@@ -23,15 +23,15 @@ struct Columns {
         std::array<int, 3> axis{-1, -1, -1};
     };
     std::vector<Finger> fingers;
-    bool exported = false;  ///< by a tracker's own program: it may have cells that nobody asked for
+    bool exported = false;  ///< written by a tracker's own program, which may add further cells
 
     const std::string& key(int column) const { return keys[static_cast<size_t>(column)]; }
 };
 
 /// The columns of a file as a tracker's own program exports it: Motive and Nexus (CSV), or Qualisys
 /// (TSV). Each marker is a finger of its name, without the asset's name before a colon. `first` is
-/// the file's first line; what follows its head is left to `table`. nullopt: it is none of these.
-/// Throws Error when the head does not say what the numbers are.
+/// the file's first line; `table` is left at the line that follows the head. nullopt if it is none
+/// of these. Throws Error when the head does not define the numbers.
 std::optional<Columns> read_export(const std::vector<std::string>& first, GivenTable& table);
 
 }  // namespace dihaptic::hand

@@ -1,5 +1,5 @@
-// Driver is the interface between the hand's mechanics and whatever decides where its fingers want
-// to be: a script, a recorded movement or the mouse.
+// Driver is the interface between the hand's mechanics and whatever decides where its fingers
+// should be: a script, a recorded movement or the mouse.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ class Driver {
   public:
     virtual ~Driver() = default;
 
-    /// Where the finger wants to be. Called in the tick: must neither allocate nor throw.
+    /// Where the finger should be. It is called in the tick, and must neither allocate nor throw.
     FingerTarget target(int finger, double t) const noexcept { return do_target(finger, t); }
     /// Time for which the driver moves the fingers [s].
     virtual double duration() const = 0;

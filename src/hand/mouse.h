@@ -1,6 +1,5 @@
-// MouseDriver moves a hand as the user of a screen directs it, for setups without devices. The goal
-// changes in jumps, as input events arrive; the hand follows it, critically damped with the time
-// constant kFollow:
+// MouseDriver moves a hand by mouse, for setups without devices. The goal changes in jumps, as
+// input events arrive; the hand follows it, critically damped with the time constant kFollow:
 //
 //     x(t) = g + (e + (v + w e) s) exp(-w s),    e = x(t0) - g,  s = t - t0,  w = 1 / kFollow
 //
@@ -24,12 +23,12 @@ struct Posture {
 class MouseDriver final : public Driver {
   public:
     static constexpr double kFollow = 0.04;  // [s]
-    /// Smallest aperture. Hands are soft: to squeeze hard, fingers aim at places behind each other
-    /// [m].
+    /// Smallest aperture [m]; it is negative because hands are soft: to squeeze hard, fingers aim
+    /// at places behind each other.
     static constexpr double kTightest = -0.06;
 
     /// Starts as a script of `spec` would. Fingers with a centre or an aperture of their own keep
-    /// its difference from the hand's. Throws Error as finger_places() does.
+    /// the difference from the hand's. Throws Error as finger_places() does.
     MouseDriver(const HandSpec& spec, const std::vector<std::string>& fingers);
 
     /// Makes the hand go to `goal` from time `t` on. Call it from one thread only, not the servo's.
@@ -38,8 +37,8 @@ class MouseDriver final : public Driver {
     void follow(const Posture& goal, double t) noexcept;
     const Posture& goal() const { return goal_; }
 
-    /// The session goes on until it is stopped, but needs an end: the longest that a script may
-    /// last.
+    /// The session goes on until it is stopped, but needs an end: this is the longest duration of a
+    /// script.
     double duration() const override { return kLongestScript; }
     const std::vector<Phase>& phases() const override { return phases_; }
 

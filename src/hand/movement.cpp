@@ -153,7 +153,7 @@ Vec3 to_world(const Vec3& p, RecordingAxes axes) {
     return axes == RecordingAxes::y_up ? Vec3(p.x(), -p.z(), p.y()) : p;
 }
 
-/// Reads a line's cells into a frame; reports errors and returns false if they make no sense.
+/// Reads a line's cells into a frame; reports an error and returns false if they are not valid.
 bool read_frame(const Columns& columns, const std::vector<std::string>& cells, RecordingAxes axes,
                 GivenTable& table, Movement::Frame& frame, Diagnostics& problems) {
     bool readable = true;
@@ -235,7 +235,7 @@ void read_frames(const Columns& columns, GivenTable& table, RecordingAxes axes, 
     }
 }
 
-/// From where on a text is a movement: an export of Nexus may have force plates before it.
+/// Where the movement begins in a text: an export of Nexus may have force plates before it.
 size_t begin_of(std::string_view text) {
     for (const std::string_view line : {"\nTrajectories\n", "\nTrajectories\r", "\nTrajectories,",
                                         "\nTrajectories;", "\nTrajectories\t"}) {
@@ -244,7 +244,8 @@ size_t begin_of(std::string_view text) {
     return 0;
 }
 
-/// Leaves out the markers of an export that are no fingers, if these are known, and tells so.
+/// Leaves out the markers of an export that are not fingers, if the fingers are known, with a
+/// warning.
 void choose_markers(Columns& columns, const std::vector<std::string>& fingers, const Place& place,
                     Diagnostics& problems) {
     if (fingers.empty()) return;

@@ -1,5 +1,5 @@
-// Reads recorded finger movements (CSV) as a tracker exported them; docs/files.md describes the
-// format.
+// Reads recorded finger movements (CSV) as a tracker exported them; docs/files/movement.md
+// describes the format.
 #pragma once
 
 #include <array>
@@ -39,7 +39,7 @@ struct Movement {
     double frame_time() const;
 };
 
-/// Limits of a plausible recording: beyond them a time stamp, or its unit, is wrong.
+/// Limits of a plausible recording; beyond them a time stamp, or its unit, is wrong.
 constexpr double kLongestGap = 5;         // between two lines [s]
 constexpr double kLongestMovement = 600;  // [s]
 constexpr double kSlowestTracker = 10;    // [Hz]

@@ -14,8 +14,7 @@ std::string unit_of(const std::string& column) {
     return column.substr(column.rfind('_') + 1);
 }
 
-/// How far a finger moves along any axis, leaving out the few furthest positions, which may be
-/// wild.
+/// How far a finger moves along any axis, ignoring the few extreme positions, which may be wild.
 double typical_extent(const Movement& movement, size_t finger) {
     double extent = 0;
     for (int axis = 0; axis < 3; ++axis) {

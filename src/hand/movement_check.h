@@ -6,7 +6,7 @@
 
 namespace dihaptic::hand {
 
-/// Errors reported for one file: more would not help its author.
+/// Largest number of errors reported for one file; more would not help its author.
 constexpr size_t kMostErrors = 20;
 
 constexpr const char* kLineRemedy = "Correct it, or delete the line: missing frames are bridged.";

@@ -1,4 +1,4 @@
-// Places each finger in the hand, as the spec says or by default.
+// Places each finger in the hand, according to the spec or by default.
 #pragma once
 
 #include "hand/spec.h"

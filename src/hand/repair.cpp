@@ -89,9 +89,9 @@ class FingerRepair {
         }
     }
 
-    /// Many programs write 0, 0, 0 for a marker that was lost. Somebody may be there all the same,
-    /// as when positions are counted from the first: so it counts as one where the frames beside it
-    /// could not be reached from there.
+    /// Many programs write 0, 0, 0 for a marker that was lost. But a finger may really be there,
+    /// for instance if positions are relative to the first one. The marker counts as lost if the
+    /// adjacent frames could not be reached from there.
     void drop_zeros() {
         const auto is_zero = [&](size_t i) { return valid_[i] && at(i).isZero(0); };
         for (size_t i = next_valid_from(0); i < valid_.size(); i = next_valid(i)) {
@@ -128,9 +128,9 @@ class FingerRepair {
         }
     }
 
-    /// Drops positions that no hand could have reached and that the next frames take back. At an
-    /// end of the recording only one side can be compared: its few frames are wild if all others go
-    /// on elsewhere.
+    /// Drops positions that no hand could have reached and from which the next frames return. At
+    /// either end of the recording only one side can be compared: a few frames are wild there if
+    /// all others go on elsewhere.
     void drop_wild(std::vector<Fault>& faults) {
         const size_t n = valid_.size();
         for (size_t i = next_valid(next_valid_from(0)); i < n; i = next_valid(i)) {

@@ -23,7 +23,7 @@ struct Fault {
     double end = 0;    ///< on the file's clock: the first good frame after it, or its own last [s]
     int line = 0;      ///< of the file, where the fault begins
     double distance = 0;      ///< between the good frames on both sides; NaN at an end [m]
-    std::string column;       ///< of a wild position: the file's column in which it is furthest off
+    std::string column;       ///< of a wild position: the file's column with the largest error
     double value = 0;         ///< by how much it is off there [m]
     bool wrong_unit = false;  ///< the position is a thousandth of its neighbours': likely in metres
 };
@@ -48,7 +48,8 @@ constexpr double kSmoothing = 12.0;   // zero-phase low-pass of the repaired pat
 
 Path repair(const Movement& movement);
 
-/// A movement with a larger bridged share than this is more guessed than measured: worth a warning.
+/// A movement with a larger bridged share than this is more guesswork than measurement, and gets a
+/// warning.
 constexpr double kMuchBridged = 0.5;
 
 /// Describes a fault for people: "0.412 to 0.624 s: index: frozen marker ...".

@@ -8,7 +8,7 @@
 
 namespace dihaptic::hand {
 
-/// Limits of what a script may ask for; beyond them a unit is wrong.
+/// Limits of a script; beyond them a unit is wrong.
 constexpr double kLongestScript = 3600;  // [s]
 constexpr double kFarthest = 100;        // [m]
 constexpr double kFastest = 20;          // [m/s]

@@ -60,7 +60,7 @@ bool has(const Columns& columns, const std::string& name) {
                        [&](const Columns::Finger& finger) { return finger.name == name; });
 }
 
-/// Markers by their names, of which none may come twice.
+/// Markers by their names, each of which may occur only once.
 void add_once(Columns& columns, const std::string& name, size_t x, double unit,
               const GivenTable& table) {
     if (has(columns, name))
@@ -160,7 +160,7 @@ Columns read_qualisys(const Cells& first, GivenTable& table) {
     return columns;
 }
 
-/// Names for messages, as a file of one's own would have them.
+/// Names for messages, as a file in our own format would have them.
 void name_keys(Columns& columns) {
     for (const Columns::Finger& finger : columns.fingers) {
         for (size_t k = 0; k < 3; ++k) {

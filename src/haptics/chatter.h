@@ -1,5 +1,5 @@
 // Chatter detects a force on a hand that alternates from tick to tick. Neither a hand nor a contact
-// makes a force do so, but a spring that is too stiff for the step does.
+// produces such a force, but a spring that is too stiff for the step does.
 //
 //     d = |f - 2 f_old + f_older| / 4
 //
@@ -14,7 +14,7 @@
 
 namespace dihaptic::haptics {
 
-/// Amplitude that is felt as a blow in each tick [N]. Encoder steps of 0.03 mm at 8000 N/m make
+/// Amplitude that feels like a blow in each tick [N]. Encoder steps of 0.03 mm at 8000 N/m cause
 /// half of it.
 constexpr double kChatter = 0.25;
 constexpr double kChatterTime = 0.03;  // [s]

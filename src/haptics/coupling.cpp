@@ -62,7 +62,7 @@ void VelocityImpulse::before_step(World& world, BodyIndex proxy, const frame::Ha
     begin_step(handle, h);
     const double k = settings_.stiffness;
     const double c = damping_;
-    // with less mass, no velocity that ends at the handle could pass on the spring's force
+    // with less mass, no velocity that ends at the handle could transmit the spring's force
     const double mass = std::max(mass_, h * c + h * h * k);
     const Vec3 stretch = handle.p_WH - state.X_WB.p;
     const Vec3 change = stretch / h - state.v_WB;
@@ -70,7 +70,7 @@ void VelocityImpulse::before_step(World& world, BodyIndex proxy, const frame::Ha
     const double size = change.norm();
     double given = std::min(size, most);
     if (was_touching && size > 0) {
-        // the force at the end of the step if the proxy kept its velocity; a pull takes it off a
+        // the force at the end of the step if the proxy kept its velocity; a pull lifts it off a
         // surface
         const Vec3 spring = k * (stretch - h * state.v_WB) + c * (handle.v_WH - state.v_WB);
         given = std::clamp(h / mass * spring.dot(change) / size, -most, given);

@@ -91,7 +91,7 @@ class DualSpring {
 
     void before_step(World& world, BodyIndex proxy, const frame::Handle& handle, double h,
                      bool was_touching) noexcept;
-    /// Takes up the force of a tick; called in every tick, before the world steps if it does.
+    /// Updates the force; called in every tick, before the world steps if it does.
     void sample(const World& world, BodyIndex proxy, const frame::Handle& handle,
                 double h) noexcept;
     Pull pull(const World& world, BodyIndex proxy, const frame::Handle& handle) const noexcept {

@@ -47,8 +47,8 @@ Wrench EnergyGuard::watch(const frame::Handle& handle, const Pose& X_WP, const W
     const double to_hand = (asked_.force + damper_.force).dot(handle.p_WH - X_WH_.p) +
                            work(asked_.torque + damper_.torque, X_WH_.R, handle.R_WH);
     const bool slack = asked_W.is_zero();
-    // a coupling that does not act gets no energy, and keeps what it did not give while it is
-    // stretched
+    // a coupling that does not act gets no energy, and while stretched it keeps what it did not
+    // give
     if (slack) stored = std::clamp(stored_ - to_hand, 0.0, stored);
     if (stepped) {
         for (size_t i = 0; i < generated_.size(); ++i) {

@@ -1,6 +1,6 @@
 // EnergyGuard watches whether a finger's coupling gives the hand energy that nobody put in, and can
-// damp it: a passivity observer and controller in the time domain (Hannaford and Ryu 2002), in
-// which the energy of the spring may be returned. README.md derives it.
+// damp it. It is a passivity observer and controller in the time domain (Hannaford and Ryu 2002)
+// that allows the spring to return its stored energy. README.md derives it.
 #pragma once
 
 #include <algorithm>
@@ -43,7 +43,7 @@ class EnergyGuard {
     /// Energy that the coupling generated in the last windows if it exceeded the budget in at least
     /// kActiveWindows in a row, else 0 [J].
     double feeding() const { return windows_ >= kActiveWindows ? fed_ : 0; }
-    /// Forgets everything seen so far, as what comes next may be elsewhere.
+    /// Forgets everything seen so far, because the hand may be elsewhere next.
     void restart() noexcept { *this = EnergyGuard(mode_, budget_); }
 
     /// Energy generated within the window and not dissipated since [J].

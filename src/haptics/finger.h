@@ -27,8 +27,8 @@ class Finger {
 
     BodyIndex proxy() const { return proxy_; }
     const ProxyTouch& touch() const { return touch_; }
-    /// Contacts that the world does not know of: those of a point proxy whose friction is "apart",
-    /// as of the last force().
+    /// Contacts that are not in the world: those of a point proxy whose friction is "apart", at the
+    /// last force().
     std::span<const contact::Contact> contacts() const noexcept;
 
     /// Sets the coupling from the coming tick on. Its kind applies to bodies only: a point has its
@@ -38,8 +38,8 @@ class Finger {
     /// Puts the proxy at the handle: before the first tick, and wherever it must start anew.
     void place(World& world, const frame::Handle& handle) noexcept;
 
-    /// Turns a proxy that does not turn with its handle along with the workspaces: from where it
-    /// was placed by R_WT, which turns on at w_WT [rad/s].
+    /// Turns a proxy that does not follow its handle's orientation along with the workspaces: by
+    /// R_WT from its initial orientation, turning on at w_WT [rad/s].
     void carry(World& world, const Quat& R_WT, const Vec3& w_WT) const noexcept;
 
     /// First call in every tick; `step` is the world's time step [s].

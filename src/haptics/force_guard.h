@@ -15,26 +15,26 @@
 
 namespace dihaptic::haptics {
 
-/// What it has to do, it adds to `status`.
+/// Each intervention is added to `status`.
 class ForceGuard {
   public:
     /// `box`: that the handle is kept in; `tick`: duration of a tick [s].
     ForceGuard(const frame::SafetySettings& settings, const frame::DeviceInfo& device,
                const std::optional<WorkspaceBox>& box, double tick);
 
-    /// Wrench that the handle is to feel from its coupling, which asks for `asked_W`. `X_WP`: its
+    /// Wrench that the handle should feel from its coupling, which asks for `asked_W`. `X_WP`: its
     /// proxy after the tick's step; `stored`: energy in the coupling's springs [J]; `stepped`:
     /// whether the world stepped in this tick. The torque is zero if the device renders none.
     Wrench shape(const Wrench& asked_W, const frame::Handle& handle, const Pose& X_WP,
                  double stored, bool stepped, uint32_t& status) noexcept;
     /// Force of the workspace wall on the handle [N].
     Vec3 push(const frame::Handle& handle, uint32_t& status) const noexcept;
-    /// The part of both together that the device may be sent. `allowed`: by the dead-man switch,
-    /// without which it is zero at once; `share`: that of SoftStart.
+    /// The part of their sum that may be sent to the device. `allowed`: whether the dead-man switch
+    /// is held, otherwise it is zero at once; `share`: that of SoftStart.
     Wrench limit(const Wrench& felt, bool allowed, double share, uint32_t& status) noexcept;
     /// Notes that zero was sent instead of the result of limit(): force rises again from there.
     void drop() noexcept;
-    /// Begins anew after a pause: force begins at zero, and energy generated before is forgotten.
+    /// Starts again after a pause: force begins at zero, and energy generated before is forgotten.
     void restart() noexcept;
     /// Energy that the coupling keeps feeding into the hand: EnergyGuard::feeding() [J].
     double feeding() const { return energy_.feeding(); }

@@ -11,7 +11,7 @@ constexpr double kTouching = 1e-6;
 /// After a step, a point is not moved out of surfaces by more than this many times its depth in
 /// them: it would slip out between two bodies that pinch it.
 constexpr double kMostSlip = 10;
-/// A way this short is not taken [m].
+/// A path shorter than this is ignored [m].
 constexpr double kNoWay = 1e-10;
 /// Moves in a tick. A few are usual, some dozens where a round body is pressed nearly to its
 /// centre; the rest of the way is left to the next tick.
@@ -56,7 +56,7 @@ void GodObject::follow(const Vec3& p_WH, std::span<const dynamics::BodyState> bo
     leave_insides();
 }
 
-/// A body is left once the point is outside all of its parts.
+/// The point has left a body once it is outside of all its parts.
 void GodObject::leave_insides() noexcept {
     for (size_t i = 0; i < parts_.size();) {
         const size_t body = parts_[i].body;
@@ -104,7 +104,7 @@ std::span<const Obstacle> GodObject::obstacles(const Vec3& p_W,
         const Vec3 p_S = in_surface(out.surface, p_);
         out.n_W = X_WS_[out.surface].R * surface.normal(out.face, p_S);
         out.gap = surface.distance(out.face, p_S);
-        // a point that is behind a face and not on it meets it on a way around: later
+        // a point that is behind a face and not on it meets it later, on a way around
         if (i < on || out.gap >= -kTouching) met_[kept++] = out;
     }
     met_count_ = kept;
@@ -157,7 +157,7 @@ Vec3 GodObject::carried(std::span<const dynamics::BodyState> bodies) const noexc
     Vec3 sum = Vec3::Zero();
     double weight = 0;
     for (const PointContact& c : contacts()) {
-        // without friction a body takes nothing along; it may still push the point, which comes
+        // without friction a body does not carry the point along; it may still push it, which comes
         // next
         const double w = friction(c.body) * c.depth;
         sum += w * (pose(c.surface, bodies) * in_surface(c.surface, p_) - p_);
@@ -260,9 +260,9 @@ double GodObject::friction_depth() const noexcept {
     return sum;
 }
 
-/// Along a round face of radius r, with the handle at depth l, the nearest position is further than
-/// the tangent gives by 1 / (1 - l / r), as Newton's step for the distance. The factor is limited
-/// to two, beyond which a path could lead away from the handle.
+/// Along a round face of radius r, with the handle at depth l, the nearest position is farther away
+/// than along the tangent, by the factor 1 / (1 - l / r), as in Newton's step for the distance. The
+/// factor is limited to two, beyond which a path could lead away from the handle.
 Vec3 GodObject::straightened(const Vec3& way) const noexcept {
     if (count_ != 1) return way;
     const PointContact& c = contacts_[0];

@@ -1,6 +1,6 @@
 // GodObject computes the position of a point proxy: a point that follows the handle and cannot
-// enter any body. It is where the point would go by itself if it were pulled to the handle and
-// rubbed against what it touches.
+// enter any body. It is where the point would go if it were pulled to the handle and rubbed against
+// what it touches.
 //
 // In each tick the bodies move first, then the point:
 //
@@ -69,8 +69,8 @@ class GodObject {
     /// Makes a body unfelt until the point, which goes on to the handle, has left it.
     void pop_through(size_t body, const Vec3& p_WH) noexcept;
 
-    // The following are for points whose position is decided elsewhere: by friction, and bodies
-    // that give way.
+    // The following functions are for points whose position is computed elsewhere, by friction and
+    // by bodies that give way.
 
     /// The faces that the point may come up against while it is pulled to `p_W` and bodies move on
     /// for h [s]: those that it is on, and those that it would meet without friction; one per part.
@@ -84,7 +84,7 @@ class GodObject {
     void slide(const Vec3& p_WH) noexcept;
 
     const Vec3& position() const noexcept { return p_; }
-    /// The position in the frame of a body, which was where the last tick had it.
+    /// The position in the frame of a body, taken at its pose of the last tick.
     Vec3 position_in(size_t body) const noexcept;
     std::span<const PointContact> contacts() const noexcept { return {contacts_.data(), count_}; }
     double friction(size_t body) const noexcept { return friction_[body]; }
@@ -99,7 +99,7 @@ class GodObject {
     Vec3 carried(std::span<const dynamics::BodyState> bodies) const noexcept;
     double push_out(const Vec3& start, std::span<const dynamics::BodyState> bodies) noexcept;
     void pull(const Vec3& p_WH, bool rubs) noexcept;
-    /// What ends a straight way: at most one of `meets` and `crosses`.
+    /// What ends a straight path: at most one of `meets` and `crosses`.
     struct Event {
         double share = 1;                     ///< of the way covered by then
         std::optional<PointContact> meets;    ///< a body in the way

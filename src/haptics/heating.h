@@ -1,4 +1,4 @@
-// Heating limits for how long a device can be asked for more force than it can hold for ever.
+// Heating limits how long a device may be asked for more force than it can hold for ever.
 //
 // Motors warm with the square of their current, which is proportional to the force, and cool toward
 // room temperature with a time constant tau. In units of force squared,
@@ -10,8 +10,8 @@
 //
 //     f_max^2 = f_c^2 + (f_p^2 - f_c^2) max(0, 1 - q / f_c^2)
 //
-// So q never exceeds f_c^2: with the largest force, tau dq/dt = (f_c^2 - q) f_p^2 / f_c^2, which
-// comes to rest there. The force falls smoothly, and a force below f_c is never cut.
+// Therefore q never exceeds f_c^2: with the largest force, tau dq/dt = (f_c^2 - q) f_p^2 / f_c^2,
+// which tends to that value. The force falls smoothly, and a force below f_c is never cut.
 #pragma once
 
 #include "base/geometry.h"

@@ -1,9 +1,10 @@
-// Limits what a loop may render whose ticks come late: how stiff, and how fast a force may rise.
+// Limits what a loop with late ticks may render: how stiff a coupling, and how fast a rise of
+// force.
 //
 // A spring k and its damper k h / 2, held from one tick to the next a time T_i later while the
 // handle moves at v, give the handle energy that nobody put in, k v^2 T_i (T_i - h) / 2: the damper
-// makes up for the hold of a tick that is in time, h, and not for lateness. A handle and a hand of
-// damping b take up b v^2 T_i. So over some time the loop gives out no energy as long as
+// makes up for the hold of a punctual tick, h, but not for lateness. A handle and a hand of damping
+// b absorb b v^2 T_i. On average the loop therefore generates no energy as long as
 //
 //     k <= 2 b / L,        L = sum T_i (T_i - h) / sum T_i,
 //
@@ -23,7 +24,7 @@ namespace dihaptic::haptics {
 constexpr double kLooseDamping = 1;
 /// Share of 2 b / L that is used: loops with the mass of a handle do not quite hold all of it.
 constexpr double kHeldShare = 0.7;
-/// A loop that can hold only less than this renders nothing worth its force [N/m].
+/// If a loop can hold only less than this, rendering is no longer worth its force [N/m].
 constexpr double kLeastHeld = 100;
 
 /// Stiffness that a loop with mean lateness L [s] can hold, with damping b of handle and hand

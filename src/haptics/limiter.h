@@ -15,13 +15,13 @@ class Limiter {
     Limiter(double max_force, double max_rate, const Heating& heating = {})
         : max_force_(max_force), max_rate_(max_rate), heating_(heating) {}
 
-    /// The force that may be sent after a tick of h [s]. Adds to `status` what had to be done.
-    /// After a force that is not finite there is none until restart().
+    /// The force that may be sent after a tick of h [s]. Adds every intervention to `status`. After
+    /// a force that is not finite, the force is zero until restart().
     Vec3 limit(const Vec3& asked, double h, uint32_t& status) noexcept;
     /// Notes that zero was sent instead of the last force: force rises again from there.
     void drop() noexcept { last_.setZero(); }
     bool faulted() const noexcept { return faulted_; }
-    /// Begins anew after a pause, with force zero, but keeps the motors' temperature.
+    /// Starts again after a pause, with force zero, but keeps the motors' temperature.
     void restart() noexcept {
         drop();
         faulted_ = false;

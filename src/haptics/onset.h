@@ -1,7 +1,7 @@
 // Onset makes the first touch soft: proxy, spring and damper together are rendered at a share s of
 // their settings. s grows from kFirstShare to 1 over the onset's time while the proxy touches
-// something, and falls back as fast while it does not. The force is s times that of a spring whose
-// stretch has just begun, so it has no step: not on touching, leaving or touching again.
+// something, and falls at the same rate while it does not. The force is s times that of a spring
+// whose stretch has just begun, so it has no step: not on touching, leaving or touching again.
 #pragma once
 
 #include <algorithm>

@@ -42,7 +42,7 @@ class PointProxy {
     Vec3 surface_velocity(const World& world) const noexcept;
     double stored(const frame::Handle& handle) const noexcept;
     void resolve(const Vec3& f_W) noexcept;
-    /// Takes up what the surfaces of the bodies are now.
+    /// Updates the surfaces of the bodies.
     void feel_surfaces(const World& world) noexcept;
 
     frame::CouplingSettings coupling_;

@@ -22,7 +22,7 @@ void judge_motion(const frame::Handle& read, const frame::Handle& last, double e
                   double max_speed, Fault& fault) noexcept {
     double speed = read.v_WH.norm();
     if (elapsed > 0) speed = std::max(speed, (read.p_WH - last.p_WH).norm() / elapsed);
-    // written so that a speed that is infinite or NaN fails, too
+    // written so that an infinite speed or NaN fails, too
     if (!(speed <= max_speed)) {
         fault.kind = FaultKind::too_fast;
         fault.value = speed;

@@ -1,5 +1,5 @@
 // Detects faults that switch force off: on every device at once, without regard to the slew limit,
-// and until the session is explicitly resumed: a person who was let go must not be seized again
+// and until the session is explicitly resumed. A person who was let go must not be seized again
 // unawares.
 //
 // A tick asks its HandleGuards first, before anything is computed from a reading that may be wrong.
@@ -26,8 +26,8 @@ struct Fault {
     explicit operator bool() const { return kind != FaultKind::none; }
 };
 
-/// Describes a fault in one sentence, with a remedy for its cause; how the session goes on is left
-/// to the caller. `finger` held the device, which is a `model`.
+/// Describes a fault in one sentence, with a remedy for its cause; the caller adds how the session
+/// continues. `finger` held the device, which is a `model`.
 std::string describe(const Fault& fault, const std::string& finger, const std::string& model);
 
 /// Keeps the first fault: later ones are its consequences.

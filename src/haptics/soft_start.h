@@ -1,11 +1,11 @@
 // SoftStart lets force come on gently: after activation and a pause, and when a dead-man switch is
 // pressed again.
 //
-// Whatever a hand is in at that moment (an object, a wall, a field) would strike it. So the share
-// of the force that is sent rises from 0 to 1 in the time T, on all devices alike. When no device
-// is asked for a force there is nothing to strike with, and the rise is over at once: what is
-// touched later is felt as it is. Ramping that as well would let a hand sink into a wall, which
-// then throws it out.
+// Anything that a hand is inside of at that moment (an object, a wall, a field) would strike it.
+// The share of the force that is sent therefore rises from 0 to 1 in the time T, on all devices
+// alike. If no device is asked for a force, nothing can strike, and the rise is over at once: what
+// is touched later is felt as it is. If that were ramped as well, a hand would sink into a wall,
+// which would then throw it out.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ class SoftStart {
         return share;
     }
 
-    /// Begins anew after a pause.
+    /// Starts again after a pause.
     void restart() noexcept { elapsed_ = 0; }
 
   private:

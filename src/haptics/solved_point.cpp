@@ -5,7 +5,8 @@
 namespace dihaptic::haptics {
 namespace {
 
-/// A point that moves slower than this along a surface is at rest [m/s]. Solvers leave some nm/s.
+/// A point that moves more slowly than this along a surface is at rest [m/s]. Solvers leave some
+/// nm/s.
 constexpr double kRest = 1e-6;
 
 /// The point begins each step on the surface, as if nothing pressed it. In the step it gives way at
@@ -64,7 +65,7 @@ void SolvedPoint::after_step(World& world, const frame::Handle& handle) noexcept
         if (c.b != body_ || c.normal_force <= 0) continue;
         const double share = share_of(world, c.a);
         presses_[press_count_++] = {c.n_W, c.friction, share};
-        // it gives way from the surface, on which it ends all the same
+        // it gives way from the surface, but still ends on it
         v_WP_ += give(world.surface(c.a, body_), coupling_.stiffness, mass_) * step_ *
                  c.normal_force * c.n_W;
         given += c.normal_force;

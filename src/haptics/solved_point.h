@@ -2,8 +2,8 @@
 // mass, shape or rotation of its own, which the implicit coupling pulls to the handle (README.md).
 // What it may meet in a step is found as for any point on surfaces (god_object.h) and becomes
 // contacts of the step, with Coulomb's cone and, for a soft finger, torsion, among all other
-// contacts of what it touches. The handle feels the contact forces, so nothing is gained or lost
-// between hand and bodies.
+// contacts of what it touches. The handle feels the contact forces, so no momentum is gained or
+// lost between hand and bodies.
 #pragma once
 
 #include "haptics/coupling.h"
@@ -23,9 +23,9 @@ class SolvedPoint {
     void before_step(World& world, const frame::Handle& handle, double h) noexcept;
     void after_step(World& world, const frame::Handle& handle) noexcept;
     /// The force on the handle now: that of the step's contacts. In a tick of h [s] without a step,
-    /// what the spring asks of those contacts now; a surface that is first met in this tick is felt
-    /// at once, and its body gets the reaction in the next step. Between steps, only the part of
-    /// the spring that acts counts as stored energy.
+    /// it is what the spring demands of those contacts now. A surface that is first touched in this
+    /// tick is felt at once, and its body gets the reaction in the next step. Between steps, only
+    /// the part of the spring that acts counts as stored energy.
     Pull pull(World& world, const frame::Handle& handle, double h) noexcept;
 
     Onset& onset() noexcept { return onset_; }

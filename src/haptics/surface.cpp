@@ -31,8 +31,8 @@ Roots ball_roots(const Vector& p, const Vector& d, double r) {
     return {(-b - root) / a, root + b > 0 ? -c / (b + root) : 0.0};
 }
 
-/// Where a straight path is inside a cone that goes on without end below its tip: where the length
-/// of q + s e is at most l - s k. Either root may be infinite.
+/// The part of a straight path inside a cone that extends without end below its tip: where the
+/// length of q + s e is at most l - s k. Either root may be infinite.
 Roots cone_roots(const Eigen::Vector2d& q, const Eigen::Vector2d& e, double l, double k) {
     const double a = e.squaredNorm() - k * k;
     const double b = q.dot(e) + l * k;
@@ -55,7 +55,7 @@ Roots cone_roots(const Eigen::Vector2d& q, const Eigen::Vector2d& e, double l, d
     return l + b / a * k < 0 ? Roots{} : Roots{first, last};
 }
 
-/// Where p + s d is inside of c r + s z = radius, with r the distance from the z axis, of which a
+/// The part of p + s d inside of c r + s z = radius, with r the distance from the z axis; a
 /// cylinder has s = 0.
 Roots side_roots(const Vec3& p, const Vec3& d, double c, double s, double radius) {
     const Eigen::Vector2d q = p.head<2>();

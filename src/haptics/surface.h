@@ -13,8 +13,8 @@
 
 namespace dihaptic::haptics {
 
-/// A point no further than this from a surface is on it: the accuracy of positions. A stiffness of
-/// 10 000 N/m makes 10 uN of it [m].
+/// A point no farther than this from a surface is on it: the accuracy of positions [m]. A stiffness
+/// of 10 000 N/m turns it into 10 uN.
 constexpr double kOnSurface = 1e-9;
 
 /// Where two parts of a body share a plane, rounding leaves a step at which a sliding point would

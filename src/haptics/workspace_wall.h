@@ -13,7 +13,7 @@
 
 namespace dihaptic::haptics {
 
-/// A box B that a handle is kept in.
+/// A box B in which a handle is kept.
 struct WorkspaceBox {
     Pose X_WB;                  ///< of its centre
     Vec3 edges = Vec3::Zero();  ///< [m]

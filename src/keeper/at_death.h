@@ -1,4 +1,4 @@
-// Takes force away from all kept devices when the program fails, and says so.
+// Takes force away from all kept devices when the program crashes, and says so.
 #pragma once
 
 namespace dihaptic::keeper {

@@ -8,15 +8,15 @@
 
 namespace dihaptic::keeper {
 
-/// Signals by which a process dies of an error of its own.
+/// Signals by which a process dies of its own error.
 inline constexpr std::array kErrors{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGSYS, SIGTRAP, SIGABRT};
 
 /// How long a dying program waits to hear that force is off.
 constexpr Time kLastWait = std::chrono::milliseconds(2);
 
 /// Tells every keeper of this program to take force away, and waits for kLastWait at most until
-/// they report that they have. Returns false if one has not: only its devices' own guards are left
-/// then. Returns true if there is no keeper. Async-signal-safe, from any thread.
+/// they report that they have. Returns false if one has not, in which case only its devices' own
+/// guards are left. Returns true if there is no keeper. Async-signal-safe, from any thread.
 bool force_off_now() noexcept;
 
 /// Whether a keeper that was told by end_force() at `since` (of monotonic()) reports that force is

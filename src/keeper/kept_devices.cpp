@@ -22,7 +22,8 @@ namespace {
 
 using nlohmann::json;
 
-/// A keeper is given up when it is silent for this much longer than it bears of the program.
+/// A keeper is given up when it is silent for this much longer than the silence that it tolerates
+/// of the program.
 constexpr Time kPatience = std::chrono::milliseconds(20);
 /// Limit for making and activating devices: opening and calibrating them takes long.
 constexpr Time kSetUp = std::chrono::seconds(60);
@@ -32,7 +33,7 @@ constexpr Time kSetDown = std::chrono::seconds(2);
 constexpr Time kBeginning = std::chrono::seconds(3);
 /// Least limit for each later tick of devices that pace, whose own clock may pause.
 constexpr Time kSilence = std::chrono::milliseconds(200);
-/// Time for which an answer is awaited without sleeping: most come sooner than a wake-up would.
+/// Time for which an answer is awaited without sleeping: most arrive sooner than a wake-up would.
 constexpr Time kHope = std::chrono::microseconds(20);
 
 /// A keeper's process, its socket and the page that is shared with it.
@@ -62,7 +63,7 @@ class Process {
     Process& operator=(const Process&) = delete;
 
     SharedPage& page() { return *page_; }
-    /// False for good once an answer did not come.
+    /// False for good once an answer has failed to come.
     bool answers() const { return answers_; }
 
     /// Sends a message and waits for the answer. Throws Error with the problems that the keeper
@@ -255,8 +256,8 @@ class KeptDevices final : public devices::DeviceGroup {
             if (ask(Request::pace, [](SharedPage&) {}) && !take_turns(before, tick)) return;
         }
         lost_ = true;
-        // for an orderly end the servo goes on ticking and recording until it ends the session,
-        // and sees that no device answers
+        // for an orderly end the servo goes on ticking and recording until it ends the session; it
+        // finds that no device answers
         while (tick()) std::this_thread::sleep_for(std::chrono::duration<double>(order_.tick));
     }
 

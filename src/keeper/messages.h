@@ -21,8 +21,8 @@ Error error_of(const nlohmann::json& json);
 /// `socket`: one that keeps messages apart (SOCK_SEQPACKET).
 void send(int socket, const nlohmann::json& message);
 /// Receives the next message. Returns nullopt when the other side is gone, has sent nothing for
-/// `most` (0: waits for ever), or has sent something that is not JSON; and, of one that is waited
-/// for, soon after `given_up` says true.
+/// `most` (0: waits for ever), or has sent something that is not JSON, and soon after `given_up`
+/// returns true.
 std::optional<nlohmann::json> receive(int socket, Time most = Time(0),
                                       const std::function<bool()>& given_up = {});
 

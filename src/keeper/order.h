@@ -14,7 +14,8 @@ struct Keeping {
     std::string program;            ///< the keeper's path: program() of kept_devices.h
     double longest_silence = 0.04;  ///< of the program; then force is set to zero [s]
     int priority = 80;              ///< SCHED_FIFO's, of the thread that serves the ticks
-    /// Whether to wait no longer for a keeper that does not answer yet: after Ctrl-C. May be empty.
+    /// Returns true when a keeper that does not answer should no longer be waited for, as after
+    /// Ctrl-C. May be empty.
     std::function<bool()> given_up = {};
 };
 

@@ -159,7 +159,7 @@ void Server::take_force_away() noexcept {
     switch_off();
 }
 
-/// A zero written is all that devices know that cannot be stopped.
+/// For devices without stop(), writing zero is the only way.
 void Server::switch_off() noexcept {
     if (!devices_->can_stop() || devices_->stop()) page_.off.store(1);
 }
@@ -196,8 +196,8 @@ bool Server::take_turn() noexcept {
     return end_turn(replied);
 }
 
-/// Whether this process was stopped meanwhile, or another kept the processor from it: the force
-/// that acts is older than any may be.
+/// Whether this process was stopped meanwhile, or did not get the processor: the acting force is
+/// then older than any may be.
 bool Server::overslept_since(int64_t time) const noexcept {
     return monotonic() - time > longest_silence_.count();
 }

@@ -31,7 +31,7 @@ class Server {
     void deactivate();
     std::string explain(int device) const { return devices_->explain(device); }
     /// Stops the devices when the keeper itself is about to die. Whether a maker's library can be
-    /// called from a signal handler is unknown, but nothing else is left.
+    /// called from a signal handler is unknown, but nothing else is left to try.
     void stop_at_death() noexcept {
         if (devices_->active() && devices_->can_stop()) devices_->stop();
     }

@@ -2,8 +2,8 @@
 // flag by which the program ends force.
 //
 // The program asks and the keeper answers; while devices pace, the keeper offers turns and the
-// program replies. Each side counts in words of its own, on which the other sleeps (futex). Either
-// side may die at any moment, so nothing here is a lock.
+// program replies. Each side counts in its own words, on which the other one sleeps (futex). Either
+// side may die at any moment, so there is no lock here.
 #pragma once
 
 #include <atomic>
@@ -52,7 +52,7 @@ void wake(std::atomic<uint32_t>& word) noexcept;
 /// Adds one to `word`, and wakes all threads that wait on it.
 void advance(std::atomic<uint32_t>& word) noexcept;
 /// Waits until `word` differs from `old`; false when `most` has passed first. `hope`: time for
-/// which it looks without sleeping, for a change that is about to come.
+/// which it polls without sleeping, in case the change is about to come.
 bool await_change(const std::atomic<uint32_t>& word, uint32_t old, Time most,
                   Time hope = Time(0)) noexcept;
 /// Nanoseconds of CLOCK_MONOTONIC. Async-signal-safe.

@@ -1,10 +1,10 @@
-// HeadTracker tells where the head of a person before a screen is, as a tracker of the laboratory
-// says by a stream of the Lab Streaming Layer: pictures on the screen then stay where they are in
-// the world as the head moves. A thread of its own receives the stream; its stream may come late,
-// go and come back.
+// HeadTracker gives the position of the head of a person before a screen, which a tracker of the
+// laboratory sends as a stream of the Lab Streaming Layer. Things in the picture can then stay
+// where they are in the world as the head moves. A thread of its own receives the stream, which may
+// appear late, disappear and return.
 //
-// The tracker says where a body T, which the person wears, is in the tracker's own frame S; the rig
-// file says where S is in the world W and where the eyes are in T:
+// The tracker gives the pose of a body T, which the person wears, in its own frame S; the rig file
+// gives the pose of S in the world W and the place of the eyes in T:
 //
 //     p_WE = X_WS X_ST p_TE        a_W = R_WS R_ST a_T
 //
@@ -108,18 +108,18 @@ class HeadTracker {
         std::string what;
         bool problem = false;
     };
-    /// What has happened since the last call: the stream was found, the head is not seen.
+    /// What has happened since the last call: the stream was found, or the head is not seen.
     std::vector<Told> take_told();
 
-    /// A head that is not heard of for this long is not seen [s].
+    /// A head counts as not seen after this time without a sample [s].
     static constexpr double kSilence = 0.5;
 
   private:
     void run();
     void receive();
-    /// Takes samples until the stream is lost, of which it throws Error.
+    /// Takes samples until the stream is lost; it then throws Error.
     void follow(lsl::Inlet& inlet);
-    /// The head is not seen any more; returns whether it was.
+    /// Notes that the head is no longer seen; returns whether it was seen before.
     bool lose();
     void tell(std::string what, bool problem);
 
@@ -132,8 +132,8 @@ class HeadTracker {
     std::thread thread_;
 };
 
-/// The pose that a sample says, `values` from the head's first channel on; nullopt: none, as
-/// trackers say that do not see the body (no number, or no rotation).
+/// The pose in a sample; `values` begin at the head's first channel. nullopt if there is none: a
+/// tracker that does not see the body sends something that is not a number, or not a rotation.
 std::optional<HeadPose> head_pose(const TrackedHead& head, std::span<const float> values);
 
 }  // namespace dihaptic::outlets

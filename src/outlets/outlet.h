@@ -1,5 +1,5 @@
-// The interface to a lab's other recording equipment: outlets, to which event codes go and from
-// which triggers come.
+// The interface to a lab's other recording equipment: event codes are sent to outlets, and triggers
+// come in from them.
 //
 // An outlet is made before a session begins; making it may allocate, and throw an Error that names
 // the remedy. After that only the Station's thread calls it, never the servo's.

@@ -1,6 +1,6 @@
 // The station passes event codes and samples from the servo to the outlets: the servo's thread
-// pushes them into a ring and goes on, the station's own thread calls the outlets. A code is on its
-// way within a millisecond, and outlets that take a time get that of its tick.
+// pushes them into a ring and goes on, the station's own thread calls the outlets. A code is sent
+// within a millisecond, and outlets that accept a time get that of its tick.
 #pragma once
 
 #include <atomic>

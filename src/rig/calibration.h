@@ -1,6 +1,6 @@
 // Calibration: finds the correction of each device from samples of its endpoint, taken while a link
 // of constant, unknown length joined two endpoints and while endpoints touched the points of a jig.
-// README.md has the equations, what such a movement cannot tell, and the sources.
+// README.md has the equations, the limits of what such a movement can reveal, and the sources.
 #pragma once
 
 #include <string>
@@ -68,7 +68,7 @@ struct Calibration {
         if constexpr (requires { v.place(); }) place = v.place();
     }
 
-    /// The part of a finger's device; null if there is none.
+    /// The entry of a finger's device; null if there is none.
     const DeviceCalibration* find(const std::string& finger) const;
 };
 

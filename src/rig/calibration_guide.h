@@ -1,5 +1,5 @@
-// Leads a person through what a rig needs from one: its calibration and, before a session, the
-// check that the calibration still holds. Forces stay off.
+// Leads a person through the calibration of a rig and, before a session, through the check that the
+// calibration still holds. Forces stay off.
 #pragma once
 
 #include <functional>
@@ -8,7 +8,7 @@
 
 namespace dihaptic::rig {
 
-/// What the person is to do now, and the progress of it.
+/// What the person should do now, and the progress.
 struct Guidance {
     int step = 0;  ///< from 1; 0: the person has only to wait
     int steps = 0;
@@ -23,15 +23,16 @@ struct GivenUp {};
 /// The link between the program and the person. Called from the thread that leads, or from a thread
 /// of a maker's library.
 struct Guide {
-    /// Called at the beginning of each step, and some times a second while something is measured.
+    /// Called at the beginning of each step, and several times a second while something is
+    /// measured.
     std::function<void(const Guidance& now)> show;
     /// Called in each tick: whether the person has said, since the last call, that the step is
     /// done.
     std::function<bool()> done;
 };
 
-/// Takes the samples of a calibration: of a person's movements or, on simulated devices, of a
-/// simulated hand's. Throws Error as make_devices() does, and when a device does not answer.
+/// Takes the samples of a calibration from the movements of a person or, on simulated devices, of a
+/// simulated hand. Throws Error as make_devices() does, and when a device does not answer.
 CalibrationInput lead_calibration(const Rig& rig, const Guide& guide);
 
 /// Two endpoints that are held together, compared with their distance at calibration.
@@ -55,9 +56,9 @@ struct Together {
 /// Whether there is something to check: several real devices, and a calibration during which their
 /// endpoints were held together. `fingers`: those of the session.
 bool can_check_together(const Rig& rig, const std::vector<std::string>& fingers);
-/// Has the person hold each pair of endpoints together, and measures them for a second. `devices`:
-/// active, and made by make_devices() for these fingers; activating them again could reset them.
-/// Throws what `guide` throws, and Error when a device does not answer.
+/// Asks the person to hold each pair of endpoints together, and measures them for a second.
+/// `devices`: active, and made by make_devices() for these fingers; activating them again could
+/// reset them. Throws what `guide` throws, and Error when a device does not answer.
 std::vector<Together> check_together(const Rig& rig, const std::vector<std::string>& fingers,
                                      devices::DeviceGroup& devices, const Guide& guide);
 

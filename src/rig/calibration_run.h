@@ -45,9 +45,9 @@ class CalibrationSampler {
     CalibrationInput input_;
 };
 
-/// A firm simulated hand carries a link of 50 mm through the workspace that all devices share,
-/// letting it slip in a twentieth of the time, and touches the jig. Throws Error when the rig's
-/// devices are not simulated. `progress` gets the share that is done, and returns false to give up.
+/// A firm simulated hand carries a link of 50 mm through the workspace that all devices share, with
+/// slips in a twentieth of the time, and touches the jig. Throws Error when the rig's devices are
+/// not simulated. `progress` gets the share that is done, and returns false to give up.
 CalibrationInput simulate_calibration(const Rig& rig, uint64_t seed,
                                       const std::function<bool(double share)>& progress);
 

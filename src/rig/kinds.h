@@ -1,4 +1,4 @@
-// What of a rig has options that depend on its kind (base/kinds.h): devices and outlets.
+// The parts of a rig whose options depend on their kind (base/kinds.h): devices and outlets.
 #pragma once
 
 #include "base/kinds.h"

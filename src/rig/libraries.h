@@ -1,4 +1,4 @@
-// Libraries that a rig names: what they do when they are loaded nobody can foresee, so code is
+// Libraries that a rig names. Nobody can foresee what they do when they are loaded, so they are
 // loaded only if the operator named the rig, or allows the library (base/allowed_libraries.h). A
 // rig that an experiment names, or that lies in a session, may be a stranger's. docs/adr/0023.
 #pragma once
@@ -7,16 +7,16 @@
 
 namespace dihaptic::rig {
 
-/// Makes paths of libraries whole: one in a file is from the file's own folder, wherever the
-/// program was started.
+/// Makes paths of libraries absolute: a path in a file is relative to the file's folder, wherever
+/// the program was started.
 void find_libraries(Rig& rig, const std::string& rig_file);
 
-/// The libraries that the rig names by a path and that its reader's own list does not have: a
-/// problem for each, as it is told when one would be loaded.
+/// A problem for each library that the rig names by a path and that is not in the user's list, with
+/// the message that would be given when it is loaded.
 std::vector<Problem> strange_libraries(const Rig& rig);
 
-/// Throws Error when a rig that the operator did not name would have libraries loaded. Call before
-/// its devices, outlets or trackers are opened.
+/// Throws Error when a rig that the operator did not name would load libraries. Call before its
+/// devices, outlets or trackers are opened.
 void check_libraries(const Rig& rig);
 
 }  // namespace dihaptic::rig

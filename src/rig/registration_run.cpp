@@ -62,7 +62,7 @@ class Endpoint {
     Endpoint& operator=(const Endpoint&) = delete;
 
     DeviceReader& reader() { return reader_; }
-    /// In the measure of the hand [m].
+    /// In the hand's units [m].
     Vec3 p_W() const { return X_WD_ * (reader_.readings()[0].p_DH / devices_->info(0).scale); }
 
   private:
@@ -81,7 +81,7 @@ class Endpoint {
     DeviceReader reader_;
 };
 
-/// The mean of places that are one, and how far apart these are.
+/// The mean of places that should be the same, and their spread.
 struct Rested {
     Vec3 sum = Vec3::Zero();
     Eigen::AlignedBox3d box;

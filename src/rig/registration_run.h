@@ -1,4 +1,4 @@
-// Takes the touches of a registration: of a person's finger or, on simulated devices, of a
+// Takes the touches of a registration, by a person's finger or, on simulated devices, by a
 // simulated one.
 #pragma once
 
@@ -16,10 +16,10 @@ struct SimulatedTouch {
     uint64_t seed = 1;
 };
 
-/// The places where a finger touched the display's crosses, in the world and the measure of the
-/// hand [m]. On simulated devices a simulated finger touches the display where `seen` says that it
-/// is. `finger`: the one that touches. Throws Error as make_devices() does, and when a device does
-/// not answer or reach; and what `guide` throws.
+/// The places where a finger touched the display's crosses, in the world and in the hand's units
+/// [m]. On simulated devices a simulated finger touches the display at its place `seen`. `finger`:
+/// the one that touches. Throws Error as make_devices() does, and when a device does not answer or
+/// reach; and what `guide` throws.
 std::vector<Vec3> lead_registration(const Rig& rig, const std::string& finger,
                                     const display::Display& seen, const Guide& guide,
                                     const SimulatedTouch& simulated = {});

@@ -1,4 +1,5 @@
-// The rig: which devices there are, where they stand, and which finger each holds (docs/files.md).
+// The rig: which devices there are, where they stand, and which finger holds each
+// (docs/files/rig.md).
 #pragma once
 
 #include "devices/device_claim.h"
@@ -135,7 +136,8 @@ struct Rig {
 
 /// Reads a rig file, its calibration and registrations; every problem goes to `diagnostics`.
 Rig read_rig(const std::string& file, Diagnostics& diagnostics, NamedBy named_by = NamedBy::a_file);
-/// Reads it without registrations, which may be missing: for a rig whose displays are registered.
+/// Reads it without registrations, which may be missing: for a rig whose displays are to be
+/// registered.
 Rig read_rig_to_register(const std::string& file, Diagnostics& diagnostics,
                          NamedBy named_by = NamedBy::a_file);
 /// Reads it without its calibration as well: for a rig to be calibrated.
@@ -170,12 +172,12 @@ void check_jig(const Rig& rig);
 void check_age(const Rig& rig, const std::string& today, Diagnostics& diagnostics);
 constexpr int kOldCalibration = 30;  // days
 
-/// The rig without calibration and scales: its readings are what the devices report.
+/// The rig without calibration and scales: its readings are those that the devices report.
 Rig uncorrected(const Rig& rig);
 
-/// What the rig says of the devices that fingers hold, in the fingers' order and the world's
-/// measure. Touches no hardware: what only an open device can say keeps its default. Throws Error
-/// when a finger has no device, or when options or calibration are wrong.
+/// What the rig file says about the devices that fingers hold, in the fingers' order and the
+/// world's units. Touches no hardware: what only an open device can tell keeps its default. Throws
+/// Error when a finger has no device, or when options or calibration are wrong.
 std::vector<frame::DeviceInfo> describe(const Rig& rig, const std::vector<std::string>& fingers,
                                         const devices::Context& context);
 /// Makes the devices for the scene's fingers, in the fingers' order, corrected and scaled.
@@ -184,8 +186,8 @@ std::vector<frame::DeviceInfo> describe(const Rig& rig, const std::vector<std::s
 std::unique_ptr<devices::DeviceGroup> make_devices(
     const Rig& rig, const std::vector<std::string>& fingers, const devices::Context& context,
     const std::optional<keeper::Keeping>& keeping = {});
-/// Claims real devices that make_devices() made for this process to own, before it activates them;
-/// a keeper does so itself. Throws Error when another program has one.
+/// Claims the real devices that make_devices() made for this process, before it activates them; a
+/// keeper does this itself. Throws Error when another program has one.
 std::vector<devices::DeviceClaim> claim_devices(const Rig& rig,
                                                 const std::vector<std::string>& fingers,
                                                 const devices::DeviceGroup& devices);

@@ -1,4 +1,4 @@
-// Takes a person through steps, on devices that are only read.
+// Leads a person through steps, on devices that are only read.
 #pragma once
 
 #include <functional>

@@ -16,7 +16,7 @@ constexpr double kFinest = 1e-3;  // least spacing of the grid [m]
 /// an axis.
 constexpr int kMostCells = 64;
 
-/// A hand that does nothing: making simulated devices takes a hand, but they are not moved.
+/// A hand that does nothing: simulated devices need a hand, but they are not moved.
 class StillDriver final : public hand::Driver {
   public:
     double duration() const override { return 0; }
@@ -90,7 +90,7 @@ class DistanceLine {
     std::vector<double> ends_;
 };
 
-/// Finds the point furthest from all points outside; beyond the grid all points are outside.
+/// Finds the point farthest from all points outside; beyond the grid all points are outside.
 void find_sphere(const Grid& grid, Workspace& out) {
     const Eigen::Vector3i n = grid.size;
     // with a margin of points outside

@@ -1,4 +1,4 @@
-// The workspace of a rig: where each of its devices reaches, and where all of them do.
+// The workspace of a rig: the reach of each of its devices, and their intersection.
 //
 // A device's reach is what its joints allow, or the box that the device or its options state. The
 // intersection is found on a grid of points; README.md says how, and how exact that is.
@@ -34,7 +34,7 @@ class Reach {
 /// The reaches of all devices of a rig. Throws Error as the rig's backend does.
 std::vector<Reach> reaches(const Rig& rig);
 
-/// A reach seen from above: which columns of grid points hold any point of it.
+/// A reach seen from above: the columns of grid points that contain any point of it.
 struct Shadow {
     std::vector<uint8_t> held;  ///< by y, then x
 };

@@ -1,13 +1,13 @@
-// Measures how late the loop's ticks come, from the ticks' times alone: these are recorded, so a
+// Measures how late the loop's ticks come, from the ticks' times alone. These are recorded, so a
 // replay finds the same.
 //
 //     L = sum T_i (T_i - h) / sum T_i
 //
 // over the last second, where h is the period and T_i the time from each tick to the next; an
 // interval of up to 3 h / 2 counts as in time. L determines the stiffness that the loop can hold
-// (haptics/late_loop.h). The longest interval is left out: a single pause is a fault if it is too
-// long, and otherwise forgiven. L reaches the coupling through a low-pass filter, so that nothing
-// that is felt changes abruptly.
+// (haptics/late_loop.h). The longest interval is left out, because a single pause is either a fault
+// (if too long) or forgiven. L reaches the coupling through a low-pass filter, so that nothing
+// changes abruptly under the hand.
 #pragma once
 
 #include <vector>

@@ -33,7 +33,7 @@ struct Timing {
     TickTimes lateness;  ///< of each tick's wake-up
     Time reached{0};     ///< time of the last tick
     int64_t overruns = 0;
-    /// The watchdog's finding that ticks no longer ended.
+    /// What the watchdog found when ticks no longer ended.
     struct Stall {
         Time at{0};            ///< since activation
         Time pause{0};         ///< since the end of the last tick

@@ -93,13 +93,13 @@ class Servo {
   private:
     void measure(Time now) noexcept;
     void judge_lateness(Time now, double elapsed) noexcept;
-    /// Sets the couplings to what is asked for, but no stiffer than the loop can hold.
+    /// Sets the couplings as requested, but no stiffer than the loop can hold.
     void retune() noexcept;
     void bound_rise(size_t finger, double share) noexcept;
     /// Sets bodies as ordered, pulls proxies to their handles, and steps the world if it is time
     /// to.
     dynamics::StepStatus advance_world() noexcept;
-    /// Puts the knobs in force, each as far as it can be in this tick.
+    /// Applies the knobs, each as far as is possible in this tick.
     void turn_knobs() noexcept;
     void turn_workspaces(double rate) noexcept;
     void make_forces(Time now) noexcept;

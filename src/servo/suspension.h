@@ -1,5 +1,6 @@
 // Suspension measures for how long the machine was suspended. The monotonic clock stands still
-// then, and by it a tick after hours of sleep would be in time, for hands that have long let go.
+// meanwhile; according to it, a tick after hours of sleep would be in time, although the hands have
+// long let go.
 #pragma once
 
 #include "base/clock.h"

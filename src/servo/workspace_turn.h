@@ -6,7 +6,7 @@
 //     v_WH = T v_0H + a' z x (p_WH - c)     and so for orientation and angular velocity
 //     f_0H = T^-1 f_WH
 //
-// where 0 denotes the world without the turn. What is fixed to the devices and judged there
+// where 0 denotes the world without the turn. Whatever is fixed to the devices and judged there
 // (speeds, walls, limits) is independent of the turn. The power f_WH . (v_WH - a' z x (p_WH - c))
 // equals f_0H . v_0H; the rest of f_WH . v_WH is the work of the turn.
 //

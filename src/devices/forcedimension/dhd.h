@@ -33,8 +33,8 @@ enum DhdForceOff : int {
 constexpr unsigned char kDhdLongestWatchdog = 255;
 constexpr double kDhdWatchdogStep = 125e-6;
 
-/// The library's functions. They return -1 for an error. 0 and more are no errors: 1 means that the
-/// time guard gave the last state again, 2 that a motor is saturated.
+/// The library's functions. They return -1 for an error. Values of 0 and more are not errors: 1
+/// means that the time guard returned the last state again, 2 that a motor is saturated.
 struct Dhd {
     int (*device_count)() = nullptr;
     int (*open_id)(char id) = nullptr;

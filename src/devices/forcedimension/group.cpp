@@ -177,7 +177,7 @@ uint32_t Group::drop_status(Running& running, Time now) noexcept {
         running.cause = 0;
         return 0;
     }
-    // however long a person keeps force off, it is no fault
+    // it is not a fault, however long a person keeps force off
     if (running.cause == kDhdByButton || running.cause == kDhdByDeadMan) return kForceDropped;
     return running.drops.status(now, true);
 }

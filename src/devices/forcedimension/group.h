@@ -21,8 +21,8 @@ struct Options {
     bool orientation = true;                  ///< whether to use it, if the device measures it
     std::optional<double> peak_torque;        ///< that the device may be asked for [N*m]
     std::optional<double> continuous_torque;  ///< that it can hold for long [N*m]
-    /// Whether to set the watchdog by which the device ends its force when it hears nothing; no:
-    /// it is left as it is.
+    /// Whether to set the watchdog by which the device ends its force when it hears nothing;
+    /// otherwise the watchdog is left as it is.
     bool watchdog = true;
 
     template <class Visitor>

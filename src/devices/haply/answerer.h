@@ -1,5 +1,5 @@
-// Whose program answers at a port of this machine: any user may open one where a service is
-// expected that does not run, and would be told positions, and believed.
+// Finds out whose program answers at a port of this machine. If a service does not run, any user
+// may open its port; that user would be told positions, and be believed.
 #pragma once
 
 #include <sys/types.h>
@@ -9,10 +9,11 @@
 namespace dihaptic::devices::haply {
 
 /// The user of the program at the other end of a TCP connection that stays within this machine,
-/// once that program has accepted it. nullopt: it does not stay there, or the kernel does not tell.
+/// once that program has accepted it. nullopt if the connection leaves the machine, or the kernel
+/// does not tell.
 std::optional<uid_t> user_at_other_end(int socket);
 
-/// Whether a service of the machine may be this user's: root's, a system user's, or our own.
+/// Whether a user may run a service of the machine: root, a system user, or the present user.
 bool may_serve(uid_t user);
 
 }  // namespace dihaptic::devices::haply

@@ -106,7 +106,8 @@ class HaplyGroup final : public DeviceGroup {
         connection_.open(url_, kSetUpTime);
         receive_first(connection_, reader_, message_, "list of devices");
         check_inventory(message_, devices_);
-        // without force: whether the service accepts commands is known before a hand feels one
+        // without force, so that we know whether the service accepts commands before a hand feels
+        // one
         std::fill(forces_D_.begin(), forces_D_.end(), Vec3::Zero());
         connection_.send(writer_.write(forces_D_, true), kSetUpTime);
         receive_first(connection_, reader_, message_, "answer to a command");

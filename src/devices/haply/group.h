@@ -6,7 +6,7 @@
 
 namespace dihaptic::devices::haply {
 
-/// What the devices' options say of them; the service says no more.
+/// What follows from the devices' options; the service adds nothing.
 std::vector<frame::DeviceInfo> describe_group(const std::vector<DeviceConfig>& configs,
                                               const Context& context, Diagnostics& diagnostics);
 /// Makes the group. Throws Error when the devices' options do not fit together.

@@ -187,8 +187,8 @@ void Group::do_pace(const std::function<bool()>& tick) {
     for (Device& device : devices_) device.framed = false;
     if (!silent_) return;
     take_errors();
-    // for an orderly end the servo goes on ticking and recording until it ends the session, and
-    // sees that no device answers
+    // for an orderly end the servo goes on ticking and recording until it ends the session; it
+    // finds that no device answers
     while (tick()) std::this_thread::sleep_for(std::chrono::duration<double>(tick_));
 }
 

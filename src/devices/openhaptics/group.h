@@ -60,7 +60,7 @@ struct Options {
               .says("Largest damping that it renders stably, in place of what it states."));
     }
 
-    /// What they say of the device.
+    /// What follows from them about the device.
     frame::DeviceInfo info() const;
 };
 

@@ -11,8 +11,8 @@ constexpr double kPerMm = 1e-3;  // [m]
 using HdHandle = unsigned;
 constexpr HdHandle kNoHandle = 0xFFFFFFFF;
 
-/// The newest error of the stack that all threads share. A stack that never empties must not hold
-/// the program up: at most kMostErrors are taken at a time.
+/// The newest error of the stack that all threads share. A stack that never empties must not block
+/// the program, so at most kMostErrors are taken at a time.
 struct HdErrorInfo {
     unsigned code;  ///< HdError
     int internal;

@@ -6,7 +6,7 @@
 // integrated by the classical Runge-Kutta method. The motors' torques J^T f_device use the angles
 // that the encoders report; an encoder's step is `position_step` at the endpoint in the reset pose.
 // Each motor's torque is limited to what gives the peak force in that pose. Coulomb friction of
-// each joint takes momentum away, and holds the joint when it can; an end stop takes all of it.
+// each joint removes momentum, and holds the joint when it can; an end stop removes all of it.
 // Gravity acts: a Premium is balanced by the weight of its motors, and what remains is felt.
 #pragma once
 

@@ -30,10 +30,10 @@ constexpr auto enum_names(Mechanics) {
 }
 
 struct Options {
-    std::string serial;                      ///< that the device reports
-    Preset preset = Preset::plant;           ///< sets all others, which may be given besides
-    double mass = 0.075;                     ///< apparent mass at the endpoint [kg]
-    double peak_force = 8.5;                 ///< larger forces are clamped [N]
+    std::string serial;             ///< that the device reports
+    Preset preset = Preset::plant;  ///< sets all other options, each of which may also be given
+    double mass = 0.075;            ///< apparent mass at the endpoint [kg]
+    double peak_force = 8.5;        ///< larger forces are clamped [N]
     std::optional<double> continuous_force;  ///< that the motors can hold for long [N]
     double position_step = 0;                ///< of the encoders, at the endpoint; 0: exact [m]
     double friction = 0;                     ///< Coulomb friction at the endpoint [N]

@@ -69,7 +69,7 @@ class Plant {
     size_t newest_ = 0;
 };
 
-/// What encoders and a driver make of a position: its steps, and a velocity from past positions.
+/// A position as encoders and a driver report it: in steps, with a velocity from past positions.
 class Encoder {
   public:
     explicit Encoder(const Options& options)
@@ -86,7 +86,7 @@ class Encoder {
     Past<Vec3> past_;
 };
 
-/// What they make of an arm, whose joints have an encoder each.
+/// The same for an arm, whose joints have an encoder each.
 class JointEncoder {
   public:
     explicit JointEncoder(const Options& options) : past_(options.velocity_window) {}
@@ -97,7 +97,7 @@ class JointEncoder {
     Past<Vec3> past_;
 };
 
-/// What they make of an orientation; the gimbal has an encoder for each angle of rotation_xyz().
+/// The same for an orientation; the gimbal has an encoder for each angle of rotation_xyz().
 class Gimbal {
   public:
     explicit Gimbal(const Options& options)

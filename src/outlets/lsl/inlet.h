@@ -18,13 +18,13 @@ class Inlet {
     Inlet(const std::string& stream, const std::string& library, const Place& place);
     ~Inlet();
 
-    /// Looks for the stream, for so long; returns whether it is there. It may come again after it
-    /// was lost. Throws Error when liblsl does not open it.
+    /// Looks for the stream, for the given time; returns whether it exists. It may reappear after
+    /// it was lost. Throws Error when liblsl does not open it.
     bool find(std::chrono::duration<double> patience);
     /// Number of values in a sample of the stream that was found.
     int channels() const;
-    /// Waits for a sample of that many values, for so long; returns whether one came. Throws Error
-    /// when the stream is lost.
+    /// Waits for a sample of that many values, for the given time; returns whether one came. Throws
+    /// Error when the stream is lost.
     bool pull(std::span<float> values, std::chrono::duration<double> patience);
 
   private:
