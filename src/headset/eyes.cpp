@@ -41,7 +41,7 @@ view::FieldOfView from_xr(const XrFovf& fov) {
     return {fov.angleLeft, fov.angleRight, fov.angleUp, fov.angleDown};
 }
 
-/// All of what an eye or a panel shows.
+/// The whole picture of an eye or a panel.
 XrSwapchainSubImage whole(const Pictures& pictures) {
     XrSwapchainSubImage out{};
     out.swapchain = pictures.swapchain;
@@ -49,7 +49,7 @@ XrSwapchainSubImage whole(const Pictures& pictures) {
     return out;
 }
 
-/// Waits for a picture that is free, and gives it back, drawn, at the end of the scope.
+/// Waits for a free picture, and returns it, drawn, at the end of the scope.
 class Taken {
   public:
     explicit Taken(const Pictures& pictures) : pictures_(pictures) {
@@ -131,7 +131,7 @@ void Eyes::connect() {
     model_ = system.systemName;
 }
 
-/// A runtime wants to be asked before there is a session.
+/// A runtime demands this query before a session is created.
 void Eyes::check_graphics() const {
     const auto requirements =
         function<PFN_xrGetOpenGLGraphicsRequirementsKHR>("xrGetOpenGLGraphicsRequirementsKHR");
@@ -312,7 +312,7 @@ void Eyes::copy_from(size_t eye, int left) {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
                            taken.texture(), 0);
-    // the scene is drawn as sRGB, which is what the runtime takes it for
+    // the scene is drawn as sRGB, and the runtime takes it as such
     glDisable(GL_FRAMEBUFFER_SRGB);
     glBlitFramebuffer(left, 0, left + to.width, to.height, 0, 0, to.width, to.height,
                       GL_COLOR_BUFFER_BIT, GL_NEAREST);

@@ -14,7 +14,7 @@
 
 namespace dihaptic::headset {
 
-/// A swapchain: pictures in OpenGL's memory that the runtime shows.
+/// A swapchain: pictures in OpenGL's memory, which the runtime shows.
 struct Pictures {
     xr::Swapchain swapchain;
     std::vector<GLuint> textures;
@@ -25,37 +25,37 @@ class Eyes {
   public:
     static constexpr size_t kCount = 2;  // left, right
 
-    /// Throws Error when there is no runtime, no headset, or not that space. `gl` is current, and
-    /// outlives this.
+    /// Throws Error when there is no runtime, no headset, or no such space. `gl` must be current,
+    /// and outlive this object.
     Eyes(const display::Headset& place, const GlxContext& gl);
     Eyes(const Eyes&) = delete;
     Eyes& operator=(const Eyes&) = delete;
 
     /// The runtime and the headset, in words.
     std::string describe() const;
-    /// Pixels of an eye's picture.
+    /// Size of an eye's picture [pixels].
     int width() const { return pictures_[0].width; }
     int height() const { return pictures_[0].height; }
 
-    /// Takes note of what the runtime says. Whether it wants pictures; throws Error when it is
-    /// over.
+    /// Handles the runtime's events. Returns whether it wants pictures; throws Error when the
+    /// session is over.
     bool wants_pictures();
 
-    /// What a picture is to be of.
+    /// The viewpoints for a picture.
     struct Look {
         XrTime time = 0;
-        bool drawn = false;  ///< whether anybody sees it
+        bool drawn = false;  ///< whether it will be visible
         std::array<view::Viewpoint, kCount> eyes;
         Pose X_WV;             ///< of the head
         bool tracked = false;  ///< whether it was measured
     };
-    /// Waits until it is time for the next picture, and says of what.
+    /// Waits until it is time for the next picture, and returns its viewpoints.
     Look begin_picture();
-    /// Copies into an eye's picture from `left` on in the framebuffer that is bound for reading.
+    /// Copies an eye's picture from the framebuffer bound for reading, starting at `left`.
     void copy_from(size_t eye, int left);
-    /// Draws words anew, which hang before the head of the look.
+    /// Draws words again, which hang before the head of the look.
     void set_words(const Words& words, const Look& look);
-    /// Hands the picture over; returns when its light comes.
+    /// Submits the picture; returns the time of its light.
     std::chrono::steady_clock::time_point end_picture(const Look& look);
 
   private:

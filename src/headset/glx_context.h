@@ -1,5 +1,5 @@
 // An OpenGL context of X11 without a window, for a thread that draws for a headset: OpenXR's
-// runtimes on Linux take pictures from such a one.
+// runtimes on Linux take pictures from such a context.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace dihaptic::headset {
 
-/// An OpenGL 3.3 core context, current in the thread that made it, on a connection of its own.
+/// An OpenGL 3.3 core context, current in the thread that made it, with its own connection to X11.
 class GlxContext {
   public:
     /// Throws Error when there is no X11, or no such OpenGL.

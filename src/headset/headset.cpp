@@ -9,10 +9,10 @@
 namespace dihaptic::headset {
 namespace {
 
-constexpr auto kIdle = std::chrono::milliseconds(10);  // between looks for what the runtime wants
+constexpr auto kIdle = std::chrono::milliseconds(10);  // between polls of the runtime
 constexpr size_t kMostShowings = 6000;
 
-/// Draws for both eyes beside each other, in one go: they share the shadows.
+/// Draws both eyes side by side in one pass, so that they share the shadows.
 class Drawing {
   public:
     Drawing(int width, int height) : width_(width), height_(height) {

@@ -1,5 +1,5 @@
-// Shows the scene in a headset, through whichever OpenXR runtime the system has, by a thread of its
-// own at the headset's own rate. README.md says what of it was tried on which headset.
+// Shows the scene in a headset, through whichever OpenXR runtime the system has, in a thread of its
+// own at the headset's own rate. README.md says what was tried with which headset.
 #pragma once
 
 #include <atomic>
@@ -20,14 +20,14 @@ namespace dihaptic::headset {
 /// A picture that was handed to the headset.
 struct Showing {
     int64_t tick = 0;  ///< of the frame that it shows
-    /// When its light comes, as the runtime foresees it; of one that does not say, when it was
-    /// handed over.
+    /// When its light comes, as the runtime predicts it or, if it does not, when the picture was
+    /// submitted.
     std::chrono::steady_clock::time_point at;
     Pose X_WV;             ///< of the head then: V is between the eyes, x right, y up, z backward
     bool tracked = false;  ///< whether X_WV was measured, not guessed
 };
 
-/// Texts to be read, drawn: they hang before where the head looked when they came.
+/// Drawn texts, which hang where the head was looking when they came.
 struct Words {
     static constexpr int kWidth = 1200, kHeight = 900;  // [pixels]
     /// Red, green, blue and opacity of each pixel, rows from top to bottom; empty: no words.
@@ -44,14 +44,15 @@ class Headset {
   public:
     using Frames = Latest<frame::Frame>;
 
-    /// Begins to show; that it cannot is a Note.
+    /// Begins to show; if it cannot, a Note says so.
     explicit Headset(const display::Headset& place);
     ~Headset();
     Headset(const Headset&) = delete;
     Headset& operator=(const Headset&) = delete;
 
-    /// Shows from now on the newest of these frames, which are of that scene. The headset's thread
-    /// is their reader. A frame whose `sequence` is negative is of no tick, and leaves no Showing.
+    /// From now on shows the newest of these frames, which belong to that scene. The headset's
+    /// thread is their reader. A frame with a negative `sequence` belongs to no tick, and leaves no
+    /// Showing.
     void show(const scene::Scene& scene, std::shared_ptr<Frames> frames);
     void set_words(Words words);
 
@@ -59,7 +60,7 @@ class Headset {
     std::vector<Showing> take_showings();
     /// What has happened since the last call.
     std::vector<Note> take_notes();
-    /// Whether the headset shows nothing more; a Note says why.
+    /// Whether the headset has stopped showing; a Note says why.
     bool ended() const { return ended_; }
 
   private:

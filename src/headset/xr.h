@@ -23,7 +23,7 @@ class Owned {
         return *this;
     }
     operator Handle() const { return handle_; }
-    /// Where a function that makes the object puts it.
+    /// The place where a function that makes the object stores it.
     Handle* out() { return &handle_; }
 
   private:
@@ -38,7 +38,7 @@ using Swapchain = Owned<XrSwapchain, xrDestroySwapchain>;
 /// Throws Error when a function called `what` did not succeed.
 void check(XrInstance instance, XrResult result, const char* what);
 
-/// What OpenXR calls a pose: R and p of a frame in a space.
+/// OpenXR's pose: R and p of a frame in a space.
 XrPosef to_xr(const Pose& X);
 Pose from_xr(const XrPosef& X);
 

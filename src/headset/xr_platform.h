@@ -1,5 +1,5 @@
-// OpenXR with what it needs to know of OpenGL and X11, whose macros are taken back: their names are
-// ordinary words.
+// OpenXR with the OpenGL and X11 headers that it needs. Their macros are undefined again, because
+// their names are ordinary words.
 #pragma once
 
 #include <Eigen/Dense>
@@ -25,7 +25,7 @@
 
 namespace dihaptic::headset::xr {
 
-/// A structure of OpenXR of its type, all else zero.
+/// An OpenXR structure with its type set and everything else zero.
 template <class Struct>
 Struct made(XrStructureType type) {
     Struct out{};

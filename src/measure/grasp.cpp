@@ -69,7 +69,7 @@ double closed_form_grip(const BenchSetup& setup) {
     return slant * slant * press_force(along);
 }
 
-/// Figures that say what is measured, and no more yet.
+/// Figures that describe what is measured, without results yet.
 GraspFigures described(const BenchSetup& base) {
     const frame::Settings& settings = base.settings;
     GraspFigures out;

@@ -137,8 +137,8 @@ double measure_drag(const BenchSetup& setup);
 /// Turn by a torque of 0.02 N*m for 0.2 s in the hold: at the torque's end, and 1 s later [deg].
 std::pair<double, double> measure_torque(const BenchSetup& setup);
 
-/// Moment about the grasp axis that soft contacts of radius r bear, when fingers hold the block at
-/// the closed form's grip: sum of mu r N sqrt(1 - (T / (mu N))^2), with T half the weight [N*m].
+/// Moment about the grasp axis that soft contacts of radius r can bear when fingers hold the block
+/// at the closed form's grip: sum of mu r N sqrt(1 - (T / (mu N))^2), with T half the weight [N*m].
 double torsion_limit(const BenchSetup& setup);
 /// Torque about the grasp axis, rising slowly in the hold, at which the block lets go, over
 /// torsion_limit().

@@ -1,5 +1,5 @@
-// The plant that all benches and their tests measure on: two simulated fingers of 75 g, pulled by
-// 300 N/m and 3 N*s/m, and a block of 4 cm and 100 g on a table.
+// The plant of all benches and their tests: two simulated fingers of 75 g, pulled by 300 N/m and 3
+// N*s/m, and a block of 4 cm and 100 g on a table.
 #pragma once
 
 #include <functional>

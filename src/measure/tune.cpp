@@ -20,8 +20,8 @@ namespace {
 using model::kGravity;
 constexpr double kHandSpread = 3;   // impedance of firm over usual, and usual over loose hand
 constexpr double kGripShare = 0.4;  // grip over the weaker device's peak force
-/// The same over what it can hold for long, which the weight adds to: motors that get too hot are
-/// given less, and what shook then would be a hold that no setting keeps.
+/// The same over the force that it can hold for long, including the weight: hot motors get less
+/// force, and a hold that shook because of this could not be kept with any setting.
 constexpr double kGripForLong = 0.8;
 constexpr double kNotMargin = 1.5;  // stiffness of TuneResult::stiffer over the proposal's
 constexpr double kAsStiff = 0.95;   // this share of the stiffest is enough if it saves damping
@@ -80,7 +80,7 @@ Verdict judge(const TuneSetup& setup, const TunePoint& point, Burden burden) {
     return hold.held ? Verdict::shaking : Verdict::dropped;
 }
 
-/// Judges points: first all as they are, then the calm ones under each burden.
+/// Judges points: first all without a burden, then the calm ones under each burden.
 void judge_all(const TuneSetup& setup, std::vector<TunePoint>& points,
                const std::atomic<bool>& stop, const std::function<void(double)>& share) {
     const auto n = static_cast<double>(points.size());
@@ -117,7 +117,7 @@ double one_digit_less(double k) {
     return rounded_down(k * 0.99);
 }
 
-/// A row of the map that gets as far as any, with its last good and its first bad K.
+/// A row of the map that reaches the highest K, with its last good and its first bad one.
 struct Bracket {
     double c;
     double smoothing;

@@ -19,7 +19,7 @@ constexpr auto enum_names(Verdict) {
     return std::array{"calm", "shaking", "dropped"};
 }
 
-/// Changes of the setup that a proposal must bear besides the setup as it is.
+/// Changes of the setup that a proposal must withstand, besides the setup itself.
 enum class Burden {
     none,
     delay,  ///< forces act one tick later

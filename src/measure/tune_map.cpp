@@ -34,7 +34,7 @@ void dot(Picture& picture, double x, double y) {
                  "#ffffff");
 }
 
-/// The burdens that a point does not bear, one letter each.
+/// The burdens that a point does not withstand, one letter each.
 std::string lacking(const TunePoint& point) {
     std::string out;
     if (!point.calm(Burden::delay)) out += 'D';

@@ -1,4 +1,4 @@
-// A simulated person's sight: where hand and targets were shown, a visual delay ago.
+// A simulated person's sight: where the hand and targets were shown, one visual delay ago.
 #pragma once
 
 #include <array>

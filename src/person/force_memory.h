@@ -5,7 +5,8 @@
 //
 // and presses against it. F is a vector in space, so that fields across the movement (curl) and
 // along it (viscous) are learned alike; both processes are learned by direction
-// (direction_memory.h). What teaches is the push felt (strain.h), by speed, beyond the expected:
+// (direction_memory.h). The teaching signal is the felt push (strain.h) per speed, beyond the
+// expected one:
 //
 //     e = sum s f_felt / sum s^2 - F(d)        over the ticks of a reach
 #pragma once

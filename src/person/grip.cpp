@@ -62,7 +62,7 @@ void Grip::end() noexcept {
     inertial_ = along_ = Vec3::Zero();
 }
 
-/// Remembers the weight felt, if the hold was long enough. A lift also takes away some of the doubt
+/// Remembers the weight felt, if the hold was long enough. A lift also removes some of the doubt
 /// about the surface's friction.
 void Grip::remember() noexcept {
     if (!weighed_) return;
@@ -164,7 +164,7 @@ void Grip::weigh(double now, Strokes& aim) noexcept {
     aim.add({Vec3::Zero(), 0, weight_ - aim.goal().load}, now, kCorrection);
 }
 
-/// Sums up what tells the object's mass while it is carried.
+/// Accumulates the evidence about the object's mass while it is carried.
 void Grip::feel_mass(const Feeling& newest) noexcept {
     if (along_ == Vec3::Zero()) return;
     const double a = newest.acceleration_W.dot(along_);
@@ -172,8 +172,8 @@ void Grip::feel_mass(const Feeling& newest) noexcept {
     moved_ += a * a;
 }
 
-/// Grip force wanted of each finger, for what the plan expects to need at this load force, or for
-/// what is felt, if that needs clearly more [N].
+/// Desired grip force of each finger, for what the plan expects at this load force or, if that
+/// clearly needs more, for what is felt [N].
 double Grip::wanted(double now, double load, const Vec3& axis) const noexcept {
     Vec3 expected = load * up();
     double peak = 1;

@@ -23,7 +23,7 @@ enum class GripPhase {
 
 class Grip {
   public:
-    /// `memory`: for each body of the scene, what its look tells.
+    /// `memory`: for each body of the scene, what its appearance suggests.
     Grip(const Traits& traits, std::vector<GripMemory> memory, double tick);
 
     void restart() noexcept;
@@ -39,7 +39,7 @@ class Grip {
     void lift(double now, Strokes& aim) noexcept;
     /// Begins to let go.
     void release(double now, Strokes& aim) noexcept;
-    /// From now on, until carried(), a held object is moved along `u`.
+    /// Call when a held object begins to be moved along `u`; ends with carried().
     void carry(const Vec3& u) noexcept;
     /// The movement along `u` has ended: the mass that was felt in it is learned.
     void carried() noexcept;
@@ -49,7 +49,7 @@ class Grip {
 
     /// Force with which each finger is to press inward [N].
     double squeeze() const { return squeeze_; }
-    /// Force on the object that the plan expects to need, beyond the aim's load [N].
+    /// Force on the object that the plan expects to be needed, beyond the aim's load [N].
     const Vec3& inertial() const { return inertial_; }
     const GripMemory& memory(int body) const { return memory_[static_cast<size_t>(body)]; }
     /// What is felt in this tick: the senses a reflex latency ago.

@@ -1,4 +1,4 @@
-// What a simulated person knows of an object, from seeing it and from earlier lifts.
+// A simulated person's knowledge of an object, from seeing it and from earlier lifts.
 #pragma once
 
 #include "base/geometry.h"
@@ -16,7 +16,7 @@ struct GripMemory {
     /// Mass beyond the weight's, by world axis, learned from carrying the object along it [kg].
     Vec3 more_mass = Vec3::Zero();
 
-    /// Force that moving the object takes, beyond carrying its weight [N].
+    /// Force needed to move the object, beyond carrying its weight [N].
     Vec3 inertial(const Vec3& acceleration_W) const noexcept {
         return (Vec3::Constant(weight / kGravity) + more_mass).cwiseProduct(acceleration_W);
     }

@@ -73,7 +73,7 @@ std::vector<hand::FingerPlace> own_places(const Situation& situation) {
     return out;
 }
 
-/// Objects as they look: of uniform, usual density, with about the friction that they have.
+/// Objects as they look: of uniform, ordinary density, with about their true friction.
 std::vector<GripMemory> looks_of(const scene::Scene& scene, const Traits& traits, uint64_t seed) {
     std::vector<GripMemory> out;
     Random random(seed, fmt::format("looks to {}", traits.id));
@@ -193,7 +193,7 @@ hand::FingerTarget Person::do_target(int finger, double t) const noexcept {
     // fingers press and carry with given forces: targets are off the handles by force / stiffness
     const double k = stiffness();
     const auto count = static_cast<double>(places_.size());
-    // what yields under the fingers is pressed less
+    // an object that yields under the fingers is pressed less
     const double yields = std::clamp((touched_ - half_ - kYields) / kYields, 0.0, 1.0);
     target.p_WT += (half_ - (1 - yields) * grip_.squeeze() / k) * place.side;
     if (grip_.phase() == GripPhase::load) target.p_WT.z() = centre_.z() + place.offset.z();
@@ -226,7 +226,7 @@ void Person::do_see(const frame::Frame& frame) noexcept {
     const bool held = grip_.holds();
     const bool loads = grip_.phase() == GripPhase::load;
     grip_.tick(now_, touch_.feel(frame), places_.front().side, aim_);
-    // a hand that has opened goes on from where it is
+    // a hand that has opened continues from where it is
     if (held && !grip_.holds()) aim_.shift({Vec3::Zero(), 2 * half_ - aim_.at(now_).aperture, 0});
     if (loads && grip_.phase() != GripPhase::load)
         aim_.shift({(centre_.z() - aim_.at(now_).centre.z()) * Vec3::UnitZ(), 0, 0});
@@ -261,8 +261,8 @@ void Person::see_targets(const Sight& sight) noexcept {
     seen_ |= sight.shown;
 }
 
-/// Follows a new state, which is seen by its targets and its message. A state that asks for no
-/// movement leaves the current movement going.
+/// Follows a new state, recognised by its targets and its message. A state that demands no movement
+/// lets the current movement continue.
 void Person::follow_cues(const Sight& sight) noexcept {
     if (sight.trial < 1 || sight.phase == task::kBetween) return await_trial();
     between_ = false;
@@ -335,7 +335,7 @@ void Person::go_on(const Sight& sight) noexcept {
     }
 }
 
-/// Repeats the steps when the trial has not gone on: what the hand did was not enough.
+/// Repeats the steps if the trial does not go on because what the hand did was not enough.
 void Person::try_again(const Sight& sight) noexcept {
     const bool failed = !between_ && trial_ > 0 && phase_ == acting_ && now_ - since_ > kRetry &&
                         !steps().empty() && steps().front().reach >= 0;
@@ -451,7 +451,8 @@ bool Person::from_above(const Vec3& displacement) const noexcept {
     return places_.size() > 1 && !grip_.holds() && std::abs(displacement.z()) > kOver;
 }
 
-/// The movement that the hand has to make to be shown to go by `displacement`, as far as learned.
+/// The movement that the hand has to make in order to be shown to move by `displacement`, as far as
+/// learned.
 Vec3 Person::made_for(const Vec3& displacement) const noexcept {
     if (displacement.norm() < 1e-9) return displacement;
     const auto state = static_cast<size_t>(acting_ - 1);
@@ -490,8 +491,8 @@ bool Person::pushed(const frame::Frame& frame) const noexcept {
         });
 }
 
-/// What the hand's strain tells in this Frame. A hand that was never pushed in this state, and is
-/// not now, takes what little there is for its own noise.
+/// What the hand's strain reveals in this Frame. If the hand was never pushed in this state, and is
+/// not pushed now, small strains are taken for its own noise.
 Strain Person::strain(const frame::Frame& frame) const noexcept {
     Strain out;
     out.hand = centre_;
@@ -511,14 +512,15 @@ Strain Person::strain(const frame::Frame& frame) const noexcept {
         out.push_W -= grip_.inertial() / count;
         out.push_W.z() = 0;  // an object's weight has a memory of its own
     }
-    // what was pressed against is felt no more, and was pushed all the same
+    // a push that was pressed against is no longer felt, but was there nevertheless
     out.push_W -= rate.centre.dot(reach_.along) * reach_.presses;
     out.speed = v_WH.dot(reach_.along);
     out.reach = reach_.number;
     return out;
 }
 
-/// Sums up what pushes the hand. Between trials the push may be gone before the movement has ended.
+/// Accumulates what pushes the hand. Between trials the push may be gone before the movement has
+/// ended.
 void Person::feel_strain() noexcept {
     const Strain& felt = strains_.before(traits_.visual_delay);
     if (!reach_.going || between_ || felt.reach != reach_.number) return;
@@ -559,7 +561,8 @@ void Person::judge_extent(const Sight& sight) noexcept {
     reach_.ended = true;
     const double shown =
         look(sight.hand - reach_.from, traits_.visual_noise, random_).dot(reach_.way.normalized());
-    const double least = 0.1 * reach_.way.norm();  // less went astray, and tells nothing of extent
+    const double least =
+        0.1 * reach_.way.norm();  // a shorter one went astray, and says nothing about extent
     if (shown < least) return;
     const Vec3 d = reach_.way.normalized();
     double wanted = reach_.way.norm();
@@ -619,7 +622,7 @@ void Person::answer(const Sight& sight) noexcept {
     key_ = yes || second == 0 ? first : second;
 }
 
-/// Types any whole number of the scale, up to a hundred: there is no model of what is rated.
+/// Types a random whole number of the scale, up to a hundred, because there is no model of ratings.
 void Person::rate(const task::Question& question) noexcept {
     const double most = std::min(question.most, question.least + 100);
     const double number = std::ceil(random_.uniform(question.least - 1, std::floor(most)));

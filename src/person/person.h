@@ -1,7 +1,7 @@
 // A simulated person, who sees what is shown, feels the handles, and moves the simulated hand. The
-// person has been told what each state of the task asks (the file's hand steps), and knows nothing
-// about kinds of trials and perturbations: these are seen and felt, or not. Fingers of a second
-// hand do the steps that name them, as the file has them.
+// person has been told what each state of the task demands (the file's hand steps), but knows
+// nothing about kinds of trials and perturbations, which are seen and felt, or not. Fingers of a
+// second hand do the steps that name them, as the file has them.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@
 
 namespace dihaptic::person {
 
-/// What a simulated person sits down to.
+/// The situation in which a simulated person sits down.
 struct Situation {
     std::shared_ptr<const task::TaskPlan> task;
     const scene::Scene& scene;
@@ -40,7 +40,7 @@ class Person final : public task::SeeingDriver {
     void restart() override;
 
     const Grip& grip() const { return grip_; }
-    /// What was learned in a state of the task, by its index.
+    /// What was learned in a state of the task, given by its index.
     const RotationMemory& rotations(size_t state) const { return rotations_[state]; }
     const ForceMemory& forces(size_t state) const { return forces_[state]; }
 

@@ -116,7 +116,7 @@ std::string without_unit(const std::string& trait) {
     return out;
 }
 
-/// Checks that traits are within bounds at the median, and furthest from it on both sides.
+/// Checks that traits are within bounds at the median, and at the extremes on both sides.
 void check_bounds(const Population& population, const std::string& group,
                   Diagnostics& diagnostics) {
     const auto rows = traits_of(population, group);
@@ -205,7 +205,7 @@ void check(const Population& population, const std::string& file, Diagnostics& d
     check_correlations(population, file, diagnostics);
 }
 
-/// The population with what it leaves out taken from `base`.
+/// The population, completed from `base`.
 Population resolved(Population change, Population base) {
     for (const TraitSpread& trait : change.traits) {
         if (TraitSpread* there = find(base.traits, trait.trait)) {

@@ -29,8 +29,8 @@ constexpr auto enum_names(Law) {
     return std::array{"normal", "log_normal", "logit", "forgetting"};
 }
 
-/// The spread of one trait. What it leaves out is as in the population, for a group's trait, or as
-/// in the file that the population is based on.
+/// The spread of one trait. What it leaves out is taken from the population, for a trait of a
+/// group, or from the file on which the population is based.
 struct TraitSpread {
     std::string trait;  ///< its key in person.yaml, with the unit if it has one
     std::optional<Law> law;
@@ -103,13 +103,13 @@ struct Population {
 
     /// Name of a person's group, by the number that ends `id`; empty without groups.
     std::string group_of(const std::string& id) const;
-    /// Number of a person within the group, from 1. Counterbalanced orders go by it: by the number
-    /// in `id`, groups would have different orders.
+    /// Number of a person within the group, from 1. Counterbalanced orders use it, because with the
+    /// number in `id` groups would have different orders.
     int number_in_group(const std::string& id) const;
 };
 
 /// Reads a population file, with the file that it is based on. Throws Error with everything that is
-/// wrong: a trait that is unknown or missing, or that z = 2.5 or -2.5 takes out of its bounds;
+/// wrong: a trait that is unknown or missing, or that leaves its bounds at z = 2.5 or -2.5;
 /// correlations that contradict each other.
 Population read_population(const std::string& file);
 /// The population of populations/adults.yaml, or of adults-real-objects.yaml, as built into the

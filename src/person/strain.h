@@ -1,11 +1,11 @@
-// What a simulated person feels of the forces that push the hand. Its springs and dampers yield to
-// a push that the hand does not press against, so that their strain tells it:
+// What a simulated person feels of the forces that push the hand. The hand's springs and dampers
+// yield to a push that it does not press against, so their strain reveals the push:
 //
 //     f_push = k (x - x_0) + c (v - v_0) + f_expected        (+ m a, which is small)
 //
 // with x where the hand is, x_0 where it would be if the push were as expected, k and c its
-// stiffness and damping, and m the handle's mass. In a channel x stays on the way: whatever the
-// hand presses with, the push seems to be the expected one, but for what the walls yield.
+// stiffness and damping, and m the handle's mass. In a channel x stays on the line: whatever the
+// hand presses with, the push seems to be the expected one, except for what the walls yield.
 #pragma once
 
 #include "base/geometry.h"

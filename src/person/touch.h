@@ -26,7 +26,7 @@ class Touch {
     Touch(std::vector<Vec3> sides, std::vector<double> frictions, double tick);
 
     void restart() noexcept;
-    /// What is felt in this Frame. Every Frame has to be given, in order.
+    /// What is felt in this Frame. Every Frame has to be passed, in order.
     Feeling feel(const frame::Frame& frame) noexcept;
 
   private:

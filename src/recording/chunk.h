@@ -26,7 +26,7 @@ constexpr uint32_t kHead = 0x44414548;    // "HEAD"
 constexpr uint32_t kData = 0x41544144;    // "DATA"
 constexpr uint32_t kPacked = 0x4B434150;  // "PACK"
 constexpr uint32_t kDone = 0x454E4F44;    // "DONE"
-/// Largest payload [bytes]: what claims more is not a chunk.
+/// Largest payload [bytes]; anything that claims more is not a chunk.
 constexpr uint32_t kMostPayload = 1u << 28;
 /// Largest payload of a head, which is text [bytes].
 constexpr uint32_t kMostHead = 1u << 24;

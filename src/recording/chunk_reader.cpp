@@ -12,8 +12,8 @@ namespace {
 
 /// The file is searched for kinds in blocks of this many bytes.
 constexpr int64_t kBlock = 1 << 16;
-/// Bytes that look like a chunk and are not one may have to be read again from each of their bytes.
-/// A file that takes more than this was made to keep its reader busy [bytes].
+/// Bytes that look like a chunk but are not one may have to be read again from each of their bytes.
+/// A file that requires more than this was made to keep its reader busy [bytes].
 constexpr int64_t kMostWasted = int64_t{1} << 30;
 constexpr std::array kKinds{kHead, kData, kPacked, kDone};
 
@@ -59,7 +59,7 @@ std::vector<ChunkPlace> ChunkReader::places() const {
     std::vector<ChunkPlace> out;
     ChunkPlace place{first_, 1};
     ChunkHeader header;
-    // what is written meanwhile does not count
+    // bytes that are written meanwhile do not count
     while (place.at < file_.size() && is_next(place, header)) {
         const int64_t end = place.at + header_size() + header.size;
         if (end > file_.size()) return out;  // it was not written completely

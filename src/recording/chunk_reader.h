@@ -1,8 +1,8 @@
-// Reads the chunks of a log in the order in which they were written, whatever has become of the
-// file since: it may have damaged bytes, and chunks that are foreign, duplicated, gone or moved.
+// Reads the chunks of a log in the order in which they were written, whatever happened to the file
+// since: it may have damaged bytes, and chunks may be foreign, duplicated, missing or out of place.
 //
-// The file is read from its beginning as long as each chunk is the one that is due. At the first
-// chunk that is not, the rest of the file is searched once, and read on in the order of the chunks'
+// The file is read from its beginning as long as each chunk is the expected one. At the first chunk
+// that is not, the rest of the file is searched once, and then read in the order of the chunks'
 // numbers. Logs of version 1, whose chunks have no numbers, are read as they stand.
 #pragma once
 
@@ -25,8 +25,8 @@ struct ChunkPlace {
 /// A whole chunk.
 struct Chunk {
     enum class Place {
-        own,        ///< the next that there is
-        moved,      ///< the next that there is, but it stands behind later ones
+        own,        ///< the next one that exists
+        moved,      ///< the next one that exists, but located behind later ones
         doubled,    ///< a chunk with its number was read before
         foreign,    ///< it belongs to another session
         after_end,  ///< it stands behind the end mark
@@ -51,19 +51,19 @@ class ChunkReader {
     /// Share of the file that has been read, from 0 to 1.
     double share() const;
 
-    /// Where the chunks with frames are, in their order. Of a log that nothing has happened to only
-    /// the headers are read, of another one all.
+    /// Where the chunks with frames are, in their order. Only the headers of an intact log are
+    /// read, but all of a damaged one.
     std::vector<ChunkPlace> places() const;
     /// Makes next() go on with this chunk.
     void go_to(const ChunkPlace& place);
-    /// Where the chunk with frames is that follows another one (null: the first), in a file that
-    /// may still be written; nullopt as long as it is not there as a whole.
+    /// The place of the chunk with frames that follows `last` (null: the first one), in a file that
+    /// may still be written; nullopt as long as it is not complete.
     std::optional<ChunkPlace> following(const ChunkPlace* last);
 
     /// After the end: number of bytes behind the last whole chunk.
     int64_t tail() const { return file_.size() - end_; }
     /// After the end: whether these bytes begin a chunk that was not written completely; `bytes` is
-    /// the size that it was to have, 0 if that is not known.
+    /// its intended size, 0 if that is not known.
     bool tail_is_unfinished(int64_t& bytes) const;
 
   private:

@@ -12,7 +12,7 @@ using frame::Frame;
 
 static_assert(sizeof(Vec3) == 24 && sizeof(Quat) == 32 && sizeof(Time) == 8);
 
-/// What a field takes in the log.
+/// The size of a field in the log.
 template <class T>
 constexpr bool kIsField =
     std::is_trivially_copyable_v<T> || std::is_same_v<T, Vec3> || std::is_same_v<T, Quat>;
@@ -47,8 +47,8 @@ class Writer {
     size_t size() const { return fits_ ? used_ : 0; }
 
   private:
-    /// The log counts in 16 bits: a frame with more is dropped, and told, rather than written
-    /// wrong.
+    /// Counts in the log have 16 bits. A frame with more items is dropped and reported, rather than
+    /// written wrongly.
     void fit(size_t count) { fits_ = fits_ && count <= std::numeric_limits<uint16_t>::max(); }
     template <class T>
     void put(const T& value) {

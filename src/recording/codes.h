@@ -1,4 +1,4 @@
-// Explains the numbers that frames have in place of names: phases, outcomes, messages, status bits,
+// Explains the numbers that stand for names in frames: phases, outcomes, messages, status bits,
 // solvers, couplings.
 #pragma once
 

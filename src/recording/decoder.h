@@ -1,5 +1,5 @@
 // Reads frames by the schema that their log carries, so that recordings outlive the program that
-// made them. A field that only the log has is skipped; a field that only a Frame has keeps its
+// made them. A field that is only in the log is skipped; a field that is only in Frame keeps its
 // default.
 #pragma once
 
@@ -18,7 +18,7 @@ class FrameDecoder {
     /// Throws Error, which names `file`, if the text is not a schema of frames.
     FrameDecoder(const std::string& schema, const std::string& file);
 
-    /// Decodes a frame over the frame before it; false if the bytes are not a frame of this layout.
+    /// Decodes a frame over the previous one; false if the bytes are not a frame of this layout.
     bool decode(std::span<const std::byte> in, const Layout& layout, frame::Frame& frame) const;
 
     /// Fields of a Frame that the log does not have, such as "force_sent of fingers".
@@ -27,7 +27,7 @@ class FrameDecoder {
     const std::vector<std::string>& unknown() const { return unknown_; }
 
   private:
-    /// Bytes that follow each other in the log and in the Frame, or in the item of one of its
+    /// Bytes that are adjacent both in the log and in the Frame, or in the item of one of its
     /// lists.
     struct Piece {
         size_t size = 0;

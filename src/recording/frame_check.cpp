@@ -32,7 +32,7 @@ bool is_possible(const frame::ContactFrame& contact, size_t all) noexcept {
            is_index(contact.b, all);
 }
 
-/// The index of what an item is about.
+/// The index of the thing to which an item refers.
 template <class Item>
 int32_t index_of(const Item& item) noexcept {
     if constexpr (requires { item.body; })

@@ -11,9 +11,9 @@
 namespace dihaptic::recording::hdf5 {
 
 // HDF5 crashes when it closes objects that it could not write for lack of space, at the latest at
-// the program's end. So once a call has failed, its thread closes nothing any more until it calls
-// create_file() again, nor is anything closed at the program's end. The leak is small, and the file
-// gives its space back when it is truncated to zero length, as write_nwb() does.
+// the program's end. Therefore, once a call has failed, its thread closes nothing until it calls
+// create_file() again, and nothing is closed at the program's end either. The leak is small, and
+// the file's space is released when it is truncated to zero length, as write_nwb() does.
 
 /// Why a file could not be written, and the system's errno; 0 where HDF5 gives none.
 struct WriteFailure : std::runtime_error {

@@ -1,5 +1,5 @@
-// Writes head.csv, which tells where the head was in each picture that a headset showed, or a
-// screen to tracked eyes; it is written while the session runs.
+// Writes head.csv, which says where the head was in each picture that a headset, or a screen with
+// tracked eyes, showed. It is written while the session runs.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ class HeadsWriter {
   public:
     explicit HeadsWriter(const SessionFolder& folder) : file_(folder.file("head.csv")) {}
     void add(const HeadSeen& head);
-    /// Hands what was added to the system, so that it survives the end of this program.
+    /// Passes what was added to the system, so that it survives the end of this program.
     void flush() { out_.flush(); }
 
   private:

@@ -1,4 +1,4 @@
-// Writes and reads heard.csv, which tells when each sound of a session was heard; it is written
+// Writes and reads heard.csv, which says when each sound of a session was heard. It is written
 // while the session runs.
 #pragma once
 
@@ -31,7 +31,7 @@ class HearingsWriter {
   public:
     explicit HearingsWriter(const SessionFolder& folder) : file_(folder.file("heard.csv")) {}
     void add(const Hearing& hearing);
-    /// Hands what was added to the system, so that it survives the end of this program.
+    /// Passes what was added to the system, so that it survives the end of this program.
     void flush() { out_.flush(); }
 
   private:

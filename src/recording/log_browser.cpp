@@ -7,10 +7,10 @@
 namespace dihaptic::recording {
 namespace {
 
-/// What is nearer ahead is read on to [s].
+/// A target less than this far ahead is reached by reading on [s].
 constexpr double kNear = 0.3;
-/// A frame has all bodies as often as a chunk begins (recorder.h), but in a log that a thread wrote
-/// not at its beginning: so many chunks before have one for sure.
+/// Every chunk contains one frame that lists all bodies (recorder.h). In a log written by the
+/// recorder's thread it need not be the first, so reading starts this many chunks earlier.
 constexpr size_t kBefore = 2;
 
 }  // namespace
@@ -41,7 +41,7 @@ double LogBrowser::time_of(size_t chunk) {
     return time;
 }
 
-/// The last chunk that begins at a time, or before it.
+/// The last chunk that begins at or before a time.
 size_t LogBrowser::chunk_at(double time) {
     size_t low = 0, high = chunks_.size();
     while (high - low > 1) {
@@ -82,7 +82,7 @@ void LogBrowser::take() {
     read_on();
 }
 
-/// Reads the next frame, of the next chunks if this one has no more.
+/// Reads the next frame, from the next chunks if this one has no more.
 void LogBrowser::read_on() {
     ahead_ = reader_.next();
     while (ahead_ == nullptr && chunk_ < chunks_.size()) {

@@ -1,5 +1,5 @@
-// Gives the frame of any moment of a log, for who looks through a session: each chunk can be read
-// by itself.
+// Finds the frame of any moment of a log, for programs that browse a session: each chunk can be
+// read by itself.
 #pragma once
 
 #include <string>
@@ -18,9 +18,10 @@ class LogBrowser {
     /// Times of the first and of the last frame [s].
     double begin() const { return begin_; }
     double end() const { return end_; }
-    /// The newest frame at a time [s]; before the first frame, that one. Valid until the next call.
+    /// The newest frame at a time [s], or the first frame before there is any. Valid until the next
+    /// call.
     const frame::Frame& at(double time);
-    /// The frame after the one that was given last; null at the end.
+    /// The frame after the last one returned; null at the end.
     const frame::Frame* next();
 
   private:

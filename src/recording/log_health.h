@@ -1,5 +1,5 @@
-// What of a session its log holds: which ticks are missing, where, and why; and what stands in it
-// that does not belong there. Found while the log is read.
+// Describes how complete a session's log is: which ticks are missing, where, and why, and what is
+// in the log that does not belong there. It is found while the log is read.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace dihaptic::recording {
 
-/// Ticks that are missing between two that are there.
+/// Missing ticks between two that are present.
 struct Gap {
     int64_t first = 0;  ///< tick
     int64_t ticks = 0;
@@ -18,10 +18,10 @@ struct Gap {
     Time after{0};   ///< of the first tick after
     int64_t damaged_bytes = 0;  ///< of the log, there
     int64_t chunks =
-        0;  ///< number of chunks that are gone there; both 0: the ticks were never written
+        0;  ///< number of chunks that are missing there; both 0: the ticks were never written
 };
 
-/// Something in a log that is not the next part of its session.
+/// Data in a log that is not the next part of its session.
 struct Stray {
     enum class Kind {
         moved,      ///< chunks behind later ones; used in the order of their numbers
@@ -51,27 +51,27 @@ struct LogHealth {
     bool unfinished = false;    ///< the tail is the beginning of a chunk, not a damaged one
     int64_t tail_ticks = 0;     ///< about how many ticks the tail had
     int64_t tail_chunks = 0;    ///< number of chunks that are gone before the end mark
-    /// Of a log of another version: fields that a frame has today and had not then, and the
+    /// For a log of another version: fields that frames have today but lacked then, and the
     /// reverse.
     std::vector<std::string> not_recorded;
     std::vector<std::string> passed_over;
 
     void note(Stray::Kind kind, int64_t count, int64_t bytes);
-    /// Number of ticks that are missing before the last one that is there.
+    /// Number of missing ticks before the last one that is present.
     int64_t missing() const;
-    /// Whether the log differs from what a session that ended in order leaves: damaged, without its
-    /// end, or with foreign parts. `ticks` is how many ticks the session had; 0 if that is not
-    /// known.
+    /// Whether the log differs from that of a session that ended properly: it is damaged, lacks its
+    /// end, or has foreign parts. `ticks` is the number of ticks that the session had; 0 if that is
+    /// not known.
     bool damaged(int64_t ticks) const;
 };
 
 /// Describes each gap, each foreign part, and the end, in sentences. `ticks` is as in damaged();
-/// `planned` is how long the session was to be [s], 0 if that is not known.
+/// `planned` is the planned length of the session [s], 0 if that is not known.
 std::vector<std::string> describe(const LogHealth& health, int64_t ticks, double planned);
 /// Describes how a log of another version differs, in sentences; empty for one of this version.
 std::vector<std::string> describe_version(const LogHealth& health);
-/// Describes the ticks that the servo left out, in a sentence; "" if there are none. `period` is
-/// that of a tick [s].
+/// Describes in a sentence the ticks that the servo skipped; "" if there are none. `period` is that
+/// of a tick [s].
 std::string describe_left_out(int64_t ticks, double period);
 
 }  // namespace dihaptic::recording

@@ -1,5 +1,5 @@
-// Records who moved the hand in a session. All files, tables and pages take this fact from here, so
-// that simulated data are never mistaken for a person's.
+// Records who moved the hand in a session. All files, tables and pages take this information from
+// here, so that simulated data are never mistaken for a person's.
 #pragma once
 
 #include <array>

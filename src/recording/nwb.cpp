@@ -59,7 +59,7 @@ std::string nwb_unit(const std::string& unit) {
 /// One series of a tick's values.
 class Series {
   public:
-    /// `frame`: whose axes positions are in; "": it is no position.
+    /// `frame`: the frame in whose axes positions are given; "" if it is not a position.
     Series(hid_t acquisition, const std::string& name, size_t columns, const std::string& unit,
            const std::string& description, const std::string& frame,
            hdf5::Numbers numbers = hdf5::Numbers::real)
@@ -94,7 +94,7 @@ class Series {
     hdf5::Rows rows_;
 };
 
-/// What a quantity is, and in whose axes.
+/// Describes a quantity, and its axes.
 std::string words_of(const frame::Term& term) {
     const std::string frame = term.frame;
     const char* const axes = frame == "W"   ? " In the world's axes."
@@ -127,9 +127,9 @@ class ListColumns {
     std::vector<Column> columns;
 };
 
-/// A list of which a tick has any number of items, or none: a table with a row an item. As a series
-/// it would have more columns than rows wherever little happens, which readers of NWB take for a
-/// series whose time runs along its columns.
+/// A list with any number of items per tick becomes a table with a row for each item. As a series
+/// it would often have more columns than rows, which readers of NWB take for a series whose time
+/// runs along its columns.
 class ListTable {
   public:
     ListTable(hid_t acquisition, const std::string& name, const std::string& meaning,
@@ -212,7 +212,7 @@ class FrameExporter {
                  const std::vector<uint16_t>&, const char*) {
         each_of(head_.bodies, name, bodies);
     }
-    /// Lists of any length: a table each, once there is an item.
+    /// Lists of any length: a table for each, once there is an item.
     template <class T>
     void each(const char* name, const std::vector<T>& items, const char* meaning) {
         for (const T& item : items) {
@@ -347,7 +347,7 @@ Table items_of(const LogHead& head) {
     return out;
 }
 
-/// As far as it is known.
+/// As far as known.
 void write_study(hid_t general, const Study& study) {
     if (!study.experimenters.empty()) write_dataset(general, "experimenter", study.experimenters);
     if (!study.institution.empty()) write_dataset(general, "institution", study.institution);
@@ -435,7 +435,7 @@ void write_file(const std::string& name, const std::string& session, RawLogReade
     hdf5::close(std::move(file));
 }
 
-/// Gives the space of a file back that failed: HDF5 may still hold it open when it goes.
+/// Releases the space of a failed file, because HDF5 may still hold it open when it is removed.
 struct Emptied {
     std::string name;
     ~Emptied() {
@@ -465,7 +465,7 @@ void write_nwb(const SessionFolder& folder, const NwbContent& content,
         throw failed(e.what(), e.error);
     }
     try {
-        sync_to_disk(output.path());  // until then a file system may keep to itself that it is full
+        sync_to_disk(output.path());  // only then does every file system report that it is full
     } catch (const Error& e) {
         throw failed(e.problems().front().what, 0);
     }

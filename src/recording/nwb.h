@@ -1,5 +1,5 @@
 // session.nwb: the session as an NWB 2 file (Neurodata Without Borders, HDF5), which h5py, MATLAB's
-// h5read and NWB tools open without this program. Made from raw.log, which stays as it is.
+// h5read and NWB tools open without this program. It is made from raw.log, which stays unchanged.
 //
 //   acquisition/                       SpatialSeries and TimeSeries, see docs/quantities.md
 //   intervals/trials, phases, events   TimeIntervals
@@ -7,7 +7,7 @@
 //   scratch/settings                   settings, each with its origin
 //   scratch/items                      names of fingers, bodies and joints, in order
 //
-// The schema is not within it (/specifications): readers use their own copy of that version.
+// The schema is not included (/specifications): readers use their own copy of that version.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@
 
 namespace dihaptic::recording {
 
-/// What the file says beyond the frames.
+/// The content of the file besides the frames.
 struct NwbContent {
     SessionInfo info;
     Table trials;    ///< columns start_time and stop_time first
@@ -26,12 +26,12 @@ struct NwbContent {
     Table settings;  ///< name, value, origin
 };
 
-/// Writes the file from the folder's raw.log, replacing it only when it is whole. `progress` gets
-/// the share done. Throws Error when it cannot be written; then what was there stays.
+/// Writes the file from the folder's raw.log, replacing an old one only when it is complete.
+/// `progress` gets the share done. Throws Error when it cannot be written; an old file then stays.
 void write_nwb(const SessionFolder& folder, const NwbContent& content,
                const std::function<void(double)>& progress);
 
-/// Ticks in the folder's session.nwb; -1: there is none that can be read.
+/// Number of ticks in the folder's session.nwb; -1 if there is no readable one.
 int64_t ticks_in_nwb(const SessionFolder& folder);
 
 }  // namespace dihaptic::recording

@@ -19,7 +19,7 @@
 namespace dihaptic::recording {
 namespace {
 
-/// A chunk that a disk kept waiting is written at this length [bytes].
+/// A chunk that had to wait for the disk is written once it has this length [bytes].
 constexpr size_t kLongChunk = 8u << 20;
 
 void write_all(int descriptor, const void* data, size_t size, const std::string& file) {
@@ -84,7 +84,7 @@ RawLogWriter::~RawLogWriter() {
     try {
         flush();
     } catch (const Error&) {
-        // the disk is full: flush() has said so before, to someone who could act
+        // the disk is full: flush() has already reported it to a caller who could act
     }
     ::close(descriptor_);
 }
@@ -170,7 +170,7 @@ bool RawLogReader::read_chunk() {
         health_.note(Stray::Kind::after_end, 1, damaged_ + chunk->bytes);
         damaged_ = 0;
     } else if (chunk->place == Place::foreign || chunk->kind == kHead) {
-        // only logs of version 1, whose chunks name no session, show a second head here
+        // only logs of version 1, whose chunks name no session, can have a second head here
         const bool doubled = chunk->place == Place::doubled;
         health_.note(doubled ? Stray::Kind::doubled : Stray::Kind::foreign, 1, chunk->bytes);
     } else if (chunk->place == Place::doubled) {
@@ -229,7 +229,7 @@ int64_t RawLogReader::ticks_in(int64_t bytes) const {
     return read_bytes_ == 0 ? 0 : bytes * health_.frames / read_bytes_;
 }
 
-/// What is not known of bodies is NaN: of all, or of those that this frame does not have.
+/// Sets unknown values of bodies to NaN: those of all bodies, or of those that this frame lacks.
 void RawLogReader::forget_bodies(bool all) {
     const Vec3 unknown = Vec3::Constant(kUnmeasured);
     for (size_t i = 0; i < frame_.bodies.size(); ++i) {
@@ -245,7 +245,7 @@ void RawLogReader::note_frame() {
     const Time period = from_seconds(head_.tick);
     const Time last = health_.frames > 0 ? health_.last_time : -period;
     const int64_t missing = frame_.sequence - health_.last_tick - 1;
-    // devices that pace keep a period of their own: whole ticks count
+    // devices that pace have their own period, so whole ticks are counted
     const int64_t periods = (frame_.time - last + period / 2) / period;
     health_.left_out += std::max<int64_t>(0, periods - missing - 1);
     if (missing > 0) {

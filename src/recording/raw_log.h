@@ -1,17 +1,17 @@
 // Writes and reads raw.log, the record of a session while it runs. It is append-only, in chunks
-// with a checksum, their session and their number (chunk.h), so that whatever was written before a
-// crash can be read after it, and nothing else is taken for it.
+// with a checksum, their session and their number (chunk.h), so that everything written before a
+// crash can be read after it, and nothing else is mistaken for it.
 //
 //   kinds   head: YAML (layout, tick, names, setup, schema)   first chunk
 //           data: records, each u32 length and a frame (codec.h, schema.h)
 //           pack: such records, packed (pack.h); this is what is written today
 //           done: i64 number of frames                   last chunk of a session that ended
 //
-// A damaged chunk is left out: the reader goes on at the next one. The first frame of a chunk that
-// was written in place has all bodies; what is not known of a body after a gap is NaN.
+// A damaged chunk is skipped: the reader continues with the next one. The first frame of a chunk
+// that was written in place has all bodies; values of bodies that are unknown after a gap are NaN.
 //
-// The log holds nothing but what the session computed, so that the same session gives the same
-// file. On the real clock no two sessions are the same, and the head's identity is random.
+// The log contains only what the session computed, so that the same session gives the same file. On
+// the real clock no two sessions are the same, and the head's identity is random.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@
 
 namespace dihaptic::recording {
 
-/// What the head of a log says about its session.
+/// The description of a session in the head of its log.
 struct LogHead : Setup {
     double tick = 1e-3;  ///< [s]
     std::vector<std::string> fingers;
@@ -70,11 +70,11 @@ class RawLogWriter {
 
     /// Adds an encoded frame to the chunk that is being filled. Throws Error if the disk is full.
     void add(std::span<const std::byte> frame);
-    /// Packs the chunk and hands it to the operating system: now it survives the end of this
-    /// program.
+    /// Packs the chunk and passes it to the operating system; from now on it survives the end of
+    /// this program.
     void flush();
-    /// Puts what was handed over on the disk: now it survives a loss of power. May be called from
-    /// any thread until finish(). Throws Error if the disk fails.
+    /// Synchronises what was written to the disk; from now on it survives a loss of power. May be
+    /// called from any thread until finish(). Throws Error if the disk fails.
     void sync() const;
     /// Writes the end mark, and synchronises.
     void finish();
@@ -100,7 +100,7 @@ class RawLogReader {
     const LogHead& head() const { return head_; }
     /// Returns the next frame, valid until the next call; null at the end of what can be read.
     const frame::Frame* next();
-    /// What was found so far; what is said of the end holds once next() has returned null.
+    /// What was found so far. Statements about the end are valid once next() has returned null.
     const LogHealth& health() const { return health_; }
     /// Reads the rest of the log, and returns what was found.
     const LogHealth& read_to_end();
@@ -109,11 +109,12 @@ class RawLogReader {
 
     /// Where the chunks with frames are, in their order.
     std::vector<ChunkPlace> places() const { return chunks_.places(); }
-    /// Where the chunk with frames is that follows another one (null: the first), in a log that may
-    /// still be written; nullopt as long as it is not there as a whole.
+    /// The place of the chunk with frames that follows `last` (null: the first one), in a log that
+    /// may still be written; nullopt as long as it is not complete.
     std::optional<ChunkPlace> following(const ChunkPlace* last) { return chunks_.following(last); }
-    /// Makes next() give the frames of this chunk alone. `follows`: it comes after what was read
-    /// last, so that bodies are where they were; otherwise what health() has found is forgotten.
+    /// Makes next() give the frames of this chunk alone. `follows`: it comes directly after what
+    /// was read last, so that bodies keep their state; otherwise the findings of health() are
+    /// forgotten.
     void go_to(const ChunkPlace& place, bool follows = false);
 
   private:

@@ -6,7 +6,7 @@
 namespace dihaptic::recording {
 namespace {
 
-/// Contacts that a frame may have at most, for the size of its buffer.
+/// Largest number of contacts of a frame, which determines the size of its buffer.
 size_t most_contacts(const LogHead& head) {
     return 64 + 8 * (head.fingers.size() + head.bodies.size());
 }
@@ -59,7 +59,7 @@ void Recorder::record(const frame::Frame& frame) {
         log_.add(bytes);
     }
     if (!taken) dropped_.fetch_add(1, std::memory_order_relaxed);
-    whole_next_ = !taken;  // the next must not build on a frame that is not there
+    whole_next_ = !taken;  // the next one must not build on a frame that is missing
     if (whole) last_whole_ = frame.time;
 }
 

@@ -17,8 +17,8 @@ namespace dihaptic::recording {
 
 enum class Writing { in_place, in_thread };
 
-/// A chunk is packed and handed to the operating system this often: little more than that a crash
-/// can lose. As often a frame has all bodies, whether they changed or not: what follows a damaged
+/// A chunk is packed and passed to the operating system this often, so a crash can lose little more
+/// than that. Equally often a frame has all bodies, changed or not, so that what follows a damaged
 /// chunk can be read.
 constexpr Time kFlushEvery = std::chrono::milliseconds(50);
 /// How often the thread empties the ring.
@@ -31,8 +31,8 @@ class Recorder {
     Recorder(const std::string& file, const LogHead& head, Writing writing, double sync = 0);
     ~Recorder();
 
-    /// Records a frame. A frame with more contacts than there is room for is dropped and counted.
-    /// With a thread, record() neither waits nor allocates, and a frame that finds the ring full is
+    /// Records a frame. A frame with too many contacts for the buffer is dropped and counted. With
+    /// a thread, record() neither waits nor allocates, and a frame that finds the ring full is
     /// dropped and counted too; in place, it throws Error when the disk is full.
     void record(const frame::Frame& frame);
     /// True once writing has failed: stop the session; finish() then throws the reason.

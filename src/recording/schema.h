@@ -1,5 +1,5 @@
-// The schema of a log has a line for each field of its frames, in the order of their bytes: name,
-// type and unit. The head of each log has the log's schema, and decoder.h reads the log by it.
+// The schema of a log has a line for each field of its frames, in the order of their bytes, with
+// name, type and unit. It is in the head of the log, and decoder.h reads the log by it.
 //
 //   grip_force float64 N
 //   fingers uint16 count, then each:

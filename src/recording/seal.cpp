@@ -62,7 +62,7 @@ std::string remedy_for(const SessionFolder& folder, bool can_be_made) {
            "simulated person, remove the folder and type the rehearsal's command.";
 }
 
-/// What is wrong with a table; "" if nothing is.
+/// What is wrong with a table; "" if it is intact.
 std::string fault_of(const SessionFolder& folder, std::string_view name, const TableSeal* sealed) {
     const std::string file(name);
     const bool there = is_there(folder.file(file));

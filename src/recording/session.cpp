@@ -36,8 +36,8 @@ std::string text_of(const std::string& file) {
     }
 }
 
-/// What YAML can be read of a text without its last line, or without some more; a line that was cut
-/// off may have a wrong meaning.
+/// Reads as much YAML as possible from a text without its last line or its last few lines, because
+/// a line that was cut off may have a wrong meaning.
 Node first_lines(std::string text) {
     // each attempt reads all lines again
     constexpr int kMostAttempts = 100;
@@ -59,11 +59,11 @@ Node first_lines(std::string text) {
 
 struct ReadablePart {
     Node node = Node::mapping();
-    bool given_up = false;  ///< too many keys were damaged: the rest was not looked at
+    bool given_up = false;  ///< too many keys were damaged: the rest was not examined
 };
 
-/// What can be read of a damaged session.yaml: all of its keys but the damaged ones, and of those
-/// the first lines.
+/// What can be read of a damaged session.yaml: all keys except the damaged ones, and the first
+/// lines of those.
 ReadablePart readable_part(const std::string& text) {
     ReadablePart out;
     const auto take = [&](const Node& part) {
@@ -289,7 +289,7 @@ std::vector<Problem> SessionFolder::changed(const std::vector<InputFile>& inputs
 
 SessionLock::SessionLock(const SessionFolder& folder)
     : descriptor_(::open(folder.raw_log().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
-    // on a file system without locks there is nothing to wait for
+    // a file system without locks offers nothing to wait for
     if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
         return;
     ::close(descriptor_);

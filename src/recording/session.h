@@ -6,8 +6,8 @@
 //   raw.log                            every tick
 //
 // and at its end (or after `dihaptic recover`) also session.nwb, trials.csv, phases.csv,
-// episodes.csv and events.csv. Last of all, the state in session.yaml changes from running: all
-// files are there then.
+// episodes.csv and events.csv. Last of all, the state in session.yaml changes from running; by then
+// all files exist.
 #pragma once
 
 #include <climits>
@@ -89,8 +89,8 @@ struct SessionInfo : Setup {
 /// A session's folder, with the names of its files.
 class SessionFolder {
   public:
-    /// Opens an existing folder, given by its path or by a file in it. Throws Error when it is no
-    /// session.
+    /// Opens an existing folder, given by its path or by a file in it. Throws Error when it is not
+    /// a session.
     static SessionFolder open(const std::string& path);
     /// Opens a folder that may have no log, only tables made from it, like a rehearsal's.
     static SessionFolder open_tables(const std::string& path);
@@ -103,12 +103,12 @@ class SessionFolder {
     std::string nwb() const { return file("session.nwb"); }
 
     SessionInfo read_info() const;
-    /// Reads what is left of session.yaml, and completes it from `setup`, the log's head; warns of
+    /// Reads what is left of session.yaml and completes it from `setup`, the log's head; warns of
     /// what is lost. Throws Error when the log belongs to another session.
     SessionInfo read_info(const Setup& setup, Diagnostics& diagnostics) const;
     /// Throws Error when the log with this head belongs to another session than session.yaml.
     void check_log(const SessionInfo& info, const Setup& setup) const;
-    /// The session's seed as a number. Throws Error when it is no whole number.
+    /// The session's seed as a number. Throws Error when it is not a whole number.
     uint64_t seed_of(const SessionInfo& info) const;
     /// Writes session.yaml; even after a loss of power, either the old or the new file is there.
     void write_info(const SessionInfo& info) const;
@@ -128,7 +128,7 @@ class SessionFolder {
 };
 
 /// A lock held by the program that writes a session's files; a second program is refused. The lock
-/// ends with its program, however that ends.
+/// ends with its program, in whatever way that ends.
 class SessionLock {
   public:
     /// Throws Error when another program holds the lock.

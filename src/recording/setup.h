@@ -35,7 +35,7 @@ struct DeviceRecord : frame::DeviceInfo {
     template <class Visitor>
     void visit(Visitor& v) {
         v("finger", finger, Field::text().required());
-        // recorded without it, late ticks softened nothing
+        // in recordings without it, late ticks did not soften the coupling
         if constexpr (requires { v.mentions("damping"); }) {
             if (!v.mentions("damping")) damping = std::numeric_limits<double>::infinity();
         }
@@ -43,7 +43,7 @@ struct DeviceRecord : frame::DeviceInfo {
     }
 };
 
-/// A frozen input, as it was when the session began.
+/// A frozen input, in its state when the session began.
 struct InputFile {
     std::string file;      ///< name in the session's folder
     std::string checksum;  ///< CRC-32, in hexadecimal

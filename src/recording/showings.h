@@ -1,6 +1,6 @@
-// Writes and reads shown.csv, which tells when each tick's picture came to the screen that the
-// subject looks at; it is written while a session with a window runs. What changed in a tick was
-// seen from the first picture of that tick or a later one.
+// Writes and reads shown.csv, which says when each tick's picture came to the subject's screen. It
+// is written while a session with a window runs. A change in a tick was visible from the first
+// picture of that tick or a later one.
 #pragma once
 
 #include <fstream>
@@ -27,7 +27,7 @@ class ShowingsWriter {
   public:
     explicit ShowingsWriter(const SessionFolder& folder) : file_(folder.file("shown.csv")) {}
     void add(const Showing& showing);
-    /// Hands what was added to the system, so that it survives the end of this program.
+    /// Passes what was added to the system, so that it survives the end of this program.
     void flush() { out_.flush(); }
 
   private:

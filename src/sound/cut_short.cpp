@@ -7,7 +7,7 @@
 namespace dihaptic::sound {
 namespace {
 
-/// A number of so many bytes, the lowest first; 0 where they are not there.
+/// A little-endian number of this many bytes; 0 if they are missing.
 uint64_t number(std::string_view bytes, size_t at, size_t count) {
     uint64_t out = 0;
     for (size_t i = count; i-- > 0;) {

@@ -1,5 +1,5 @@
-// Whether a sound file is there to its end. The library that reads them takes what is left of a
-// file that a full disk, or a copy that broke off, has cut, and says nothing.
+// Checks whether a sound file is complete. The library that reads sound files silently accepts what
+// is left of a file that was cut by a full disk or an interrupted copy.
 #pragma once
 
 #include <string>
@@ -7,8 +7,8 @@
 
 namespace dihaptic::sound {
 
-/// What shows that a WAV or Ogg file was cut short, as "ends ...", or is not what its head says; ""
-/// if nothing does. Of FLAC, the library counts fewer samples than the head has.
+/// Evidence that a WAV or Ogg file was cut short ("ends ..."), or does not match its head; "" if
+/// there is none. For FLAC, the library itself counts fewer samples than the head states.
 std::string cut_short(std::string_view bytes);
 
 }  // namespace dihaptic::sound

@@ -18,7 +18,7 @@ double swell(int64_t i, int64_t ramp) noexcept {
 
 Mixer::Mixer(std::vector<Wave> waves, double rate, double delay)
     : waves_(std::move(waves)), rate_(rate), delay_(std::llround(delay * 1e9)) {
-    // the first order that is taken makes room for all that follow
+    // the first order that is taken makes room for all following ones
     orders_.push({});
     orders_.pop();
 }

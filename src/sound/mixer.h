@@ -1,4 +1,4 @@
-// Mixes sounds into a stream of samples, each to begin a fixed time after it was ordered, to the
+// Mixes sounds into a stream of samples. Each begins a fixed time after it was ordered, to the
 // sample.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace dihaptic::sound {
 
-/// A sound that is to begin, or to end.
+/// An order for a sound to begin or to end.
 struct Order {
     int64_t tick = 0;
     int32_t sound = -1;
@@ -33,7 +33,8 @@ class Mixer {
     /// `delay`: from an order to the sound [s].
     Mixer(std::vector<Wave> waves, double rate, double delay);
 
-    /// From one thread: hands over an order; neither waits nor allocates. False when too many wait.
+    /// From one thread: adds an order; neither waits nor allocates. False when too many are
+    /// waiting.
     bool order(const Order& order) noexcept { return orders_.push(order); }
     /// From a second thread: the next samples of the stream. `first`: when the first of them is
     /// heard, by the stream's clock [ns]. Neither waits nor allocates.
@@ -42,7 +43,7 @@ class Mixer {
     std::optional<Onset> take_onset() { return onsets_.pop(); }
 
     double rate() const noexcept { return rate_; }
-    /// Sounds that were left out, because too many were heard at once.
+    /// Number of sounds that were dropped because too many were playing at once.
     int64_t left_out() const noexcept { return left_out_.load(std::memory_order_relaxed); }
 
   private:

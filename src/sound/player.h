@@ -1,5 +1,5 @@
-// Plays a task's sounds while its session runs: takes the ticks' orders from the servo, which never
-// waits for it, and writes heard.csv, which tells when each sound was heard.
+// Plays a task's sounds while its session runs. It takes the ticks' orders from the servo, which
+// never waits for it, and writes heard.csv, which says when each sound was heard.
 #pragma once
 
 #include <thread>
@@ -13,12 +13,12 @@ namespace dihaptic::sound {
 
 class Sink;
 
-/// Sounds that cannot be made, with why, go to `diagnostics`.
+/// Sounds that cannot be made are reported to `diagnostics`, with the reason.
 void check(const std::vector<task::SoundSpec>& sounds, const display::SoundOutput& output,
            Diagnostics& diagnostics);
 
-/// Opens the sound device that is meant, closes it again, and returns its name. Throws Error when
-/// it cannot be opened.
+/// Opens the selected sound device, closes it again, and returns its name. Throws Error when it
+/// cannot be opened.
 std::string try_speakers(const display::SoundOutput& output);
 
 class Player {

@@ -16,7 +16,7 @@ class Sink {
     virtual ~Sink() = default;
 
     virtual Mixer& mixer() noexcept = 0;
-    /// In a tick of this session time: what time it is by the stream's clock [ns].
+    /// In a tick at this session time: the time by the stream's clock [ns].
     virtual int64_t clock(Time session) const noexcept = 0;
     /// In the tick, once its orders are given. Neither waits nor allocates.
     virtual void pass(Time) noexcept {}
@@ -26,7 +26,7 @@ class Sink {
     virtual std::vector<std::string> finish() = 0;
 };
 
-/// Opens the system's sound device, or the one that is named. Throws Error when it cannot.
+/// Opens the system's sound device, or the named one. Throws Error when it cannot.
 std::unique_ptr<Sink> open_speakers(const std::vector<task::SoundSpec>& sounds, uint64_t seed,
                                     const display::SoundOutput& output);
 

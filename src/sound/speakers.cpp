@@ -20,7 +20,7 @@ constexpr int kChannels = 2;
 /// A snd_lib_error_handler_t.
 void say_nothing(const char*, int, const char*, int, const char*, ...) {}
 
-/// ALSA and JACK write to the terminal about each device that they try and do not find.
+/// ALSA and JACK write a message to the terminal for each device that they try in vain.
 void silence_systems() {
     const auto set = [](const char* setter, auto* handler) {
         using Set = void (*)(decltype(handler));
@@ -133,7 +133,7 @@ class Speakers final : public Sink {
     }
     void fill(float* out, size_t samples, const PaStreamCallbackTimeInfo& time,
               PaStreamCallbackFlags flags) noexcept {
-        // the first buffers are asked for all at once
+        // the first buffers are requested all at once
         if ((flags & paOutputUnderflow) != 0 && (flags & paPrimingOutput) == 0) {
             broken_.fetch_add(1, std::memory_order_relaxed);
             clock_.begin_anew();

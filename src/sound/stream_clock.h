@@ -1,5 +1,5 @@
-// Tells when a sample of a stream is heard, from what the sound system says of each buffer, whose
-// times shake by more than a sample.
+// Estimates when a sample of a stream is heard, from the times that the sound system states for
+// each buffer, which jitter by more than a sample.
 #pragma once
 
 #include <cmath>
@@ -8,12 +8,12 @@
 namespace dihaptic::sound {
 
 /// A delay-locked loop of first order: it follows the device's clock slowly, and jumps only when
-/// the stream was broken off, or when what is said is far away.
+/// the stream was interrupted, or when the stated time is far away.
 class StreamClock {
   public:
     explicit StreamClock(double rate) : period_(1e9 / rate) {}
 
-    /// When the next `samples` begin to be heard [ns]. `said`: what the sound system says.
+    /// When the next `samples` begin to be heard [ns]. `said`: the sound system's statement.
     int64_t next(int64_t said, size_t samples) noexcept {
         const double error = static_cast<double>(said) - expected_;
         if (!begun_ || std::abs(error) > kBroken) {
@@ -27,7 +27,7 @@ class StreamClock {
         return out;
     }
 
-    /// The stream was broken off: what is said next is taken as it is.
+    /// The stream was interrupted: the next statement is taken as it is.
     void begin_anew() noexcept { begun_ = false; }
 
   private:

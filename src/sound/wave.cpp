@@ -126,8 +126,8 @@ std::vector<float> resampled(const std::vector<float>& samples, double from, dou
     return out;
 }
 
-/// Refuses a file that was cut short: a sound that lasts half as long as it is meant to, or whose
-/// end is missing, would be heard by every participant.
+/// Refuses a file that was cut short: otherwise every participant would hear a sound that lasts
+/// half as long as intended, or whose end is missing.
 void check_whole(const task::SoundSpec& sound, const std::string& fault) {
     if (fault.empty()) return;
     throw Error(sound.place, "file",
@@ -149,7 +149,7 @@ std::vector<float> from_file(const task::SoundSpec& sound, double rate) {
     SF_INFO info{};
     const std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> file(
         sf_open(sound.file.c_str(), SFM_READ, &info), sf_close);
-    // the library opens what is left of a WAV or FLAC file, and not always of an Ogg one
+    // the library opens the rest of a WAV or FLAC file, but not always that of an Ogg file
     if (file || bytes.starts_with("OggS")) check_whole(sound, cut_short(bytes));
     if (!file) refuse(fmt::format("is no sound file: {}", sf_strerror(nullptr)));
     if (info.frames <= 0) refuse("has no samples");
@@ -165,7 +165,7 @@ std::vector<float> from_file(const task::SoundSpec& sound, double rate) {
     for (size_t i = 0; i < read; ++i) {
         for (size_t k = 0; k < channels; ++k)
             mean[i] += all[i * channels + k] / static_cast<float>(channels);
-        // a file of floats may have anything
+        // a file of floats may contain any value
         if (!std::isfinite(mean[i])) refuse(fmt::format("has no number for sample {}", i));
     }
     return resampled(mean, info.samplerate, rate, sound);

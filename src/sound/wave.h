@@ -14,8 +14,8 @@ struct Wave {
     double ramp = 0;             ///< in which a wave that goes on swells and fades [s]
 };
 
-/// Largest error of the frequency of a tone that goes on: it is made to fit a whole number of times
-/// into its samples.
+/// Largest error of the frequency of a continuous tone, which is adjusted so that a whole number of
+/// periods fits into its samples.
 constexpr double kDetuned = 1e-6;
 
 /// `rate`: samples in a second. `seed`: of noise. Throws Error when the sound's file cannot be

@@ -92,7 +92,7 @@ Camera find_camera(const std::vector<Camera>& cameras, const std::string& name) 
 Camera orbited(const Camera& camera, double azimuth, double elevation) {
     Orbit o = orbit_of(camera);
     o.azimuth = std::remainder(o.azimuth + azimuth, 2 * kPi);
-    // a position straight above does not tell the azimuth: stay slightly off
+    // a position straight above does not define the azimuth: stay slightly off
     constexpr double kSteepest = kPi / 2 - 1e-6;
     o.elevation = std::clamp(o.elevation + elevation, -kSteepest, kSteepest);
     return with(camera, o);

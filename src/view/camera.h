@@ -1,5 +1,5 @@
-// Cameras: those that every scene has, and the plain functions by which a mouse turns, moves and
-// zooms one.
+// The cameras that every scene has, and the functions by which a mouse turns, moves and zooms a
+// camera.
 //
 // A camera stands at the distance d from the point that it looks at, turned by the azimuth about
 // the vertical and raised by the elevation; with both zero it is on the person's side (-y):
@@ -7,7 +7,7 @@
 //     position = look_at + d (sin azimuth cos elevation, -cos azimuth cos elevation, sin elevation)
 //
 // The picture's upward axis is the derivative of this with respect to the elevation, so that
-// looking straight down is no special case: the side away from the person is up.
+// looking straight down is not a special case: the side away from the person is up.
 #pragma once
 
 #include <string>
@@ -19,8 +19,8 @@ namespace dihaptic::view {
 
 using scene::Camera;
 
-/// The scene's own cameras, then those of these that its own do not replace by name: front, as the
-/// seated person sees it, above, and side, from the person's right. Never empty.
+/// The scene's own cameras, followed by those of the following that it does not replace by name:
+/// front, as the seated person sees it; above; and side, from the person's right. Never empty.
 std::vector<Camera> cameras(const scene::Scene& scene);
 /// The camera of that name. Throws an Error that lists the names if there is none.
 Camera find_camera(const std::vector<Camera>& cameras, const std::string& name);

@@ -35,8 +35,8 @@ Axes axes(const Vec3& thumb, const Vec3& index) {
     return out;
 }
 
-/// Where the joints of a finger are whose bones are bent by the same angle against each other, in
-/// the plane of its root, its tip and `bulge`, to which it is bent.
+/// The joints of a finger whose bones all have the same angle to each other, in the plane of its
+/// root, its tip and `bulge`, toward which it is bent.
 std::array<Vec3, 4> finger(const Vec3& root, const Vec3& tip, const Lengths& lengths,
                            const Vec3& bulge) {
     using Plane = std::complex<double>;
@@ -69,7 +69,8 @@ void add(std::vector<Bone>& out, const std::array<Vec3, 4>& joints, double radiu
         out.push_back({joints[i], joints[i + 1], radius * (1 - 0.07 * static_cast<double>(i))});
 }
 
-/// How far along f the palm is from the grip: so that both reach, and are bent if there is room.
+/// Distance of the palm from the grip along f, chosen so that both fingers reach, and are bent if
+/// there is room.
 double distance_of_palm(double half_opening) {
     const auto within = [](double length, double across) {
         return std::sqrt(std::max(0.0, length * length - across * across));

@@ -1,4 +1,4 @@
-// Where the bones of a simple right hand are, whose thumb and index finger the record has.
+// Places the bones of a simple right hand, given the recorded thumb and index finger.
 #pragma once
 
 #include <vector>
@@ -14,11 +14,11 @@ struct Bone {
     double radius;
 };
 
-/// The forearm, the palm, and the bones of five fingers, of each from its root to its tip. `thumb`,
+/// The forearm, the palm, and the bones of five fingers, each from its root to its tip. `thumb`,
 /// `index`: where these touch, in W [m]. The hand comes from the person's side (-y) and a little
-/// from above; the other fingers go along with the index finger. Bones keep their lengths: fingers
-/// end before places that are too far apart for a hand. Empty where both are at one place, or at
-/// none.
+/// from above; the other fingers go along with the index finger. Bones keep their lengths, so
+/// fingers end before places that are too far apart for a hand. Empty if both are at the same
+/// place, or at none.
 std::vector<Bone> hand_bones(const Vec3& thumb, const Vec3& index);
 
 }  // namespace dihaptic::view

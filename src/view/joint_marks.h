@@ -1,4 +1,4 @@
-// Marks that show a scene's joints: axes, points, rods, and springs as wide as they are stretched.
+// Marks that show a scene's joints: axes, points, rods, and springs, stretched as they are.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// Makes videos with the program ffmpeg, which gets each picture as soon as it is drawn.
+// Makes videos with the program ffmpeg, which receives each picture as soon as it is drawn.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace dihaptic::view {
 
-/// An MP4 file (H.264) that is being made. It appears under its name once it is whole.
+/// An MP4 file (H.264) that is being made. It appears under its name once it is complete.
 class Movie {
   public:
     /// Throws Error when ffmpeg is missing, or when width or height is odd, which players refuse.

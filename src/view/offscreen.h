@@ -9,7 +9,7 @@
 namespace dihaptic::view {
 
 /// An OpenGL 3.3 core context of Mesa, current in the thread that made it, and a framebuffer to
-/// draw into. Mesa draws by a graphics card if it may use one, or else in software.
+/// draw into. Mesa uses a graphics card if it may, and otherwise draws in software.
 class Offscreen {
   public:
     /// Throws Error, with the package to install, when there is no such OpenGL.

@@ -1,5 +1,5 @@
-// What each eye sees of a display: the part of the picture that is its, and the frustum from the
-// eye through the screen's corners.
+// What each eye sees of a display: its part of the picture, and the frustum from the eye through
+// the screen's corners.
 //
 // A point X is drawn where the line from the eye E to it passes through the screen. With the
 // corner C and the edges a and b from it to the right and upward,
@@ -17,7 +17,7 @@
 
 namespace dihaptic::view {
 
-/// Where one eye is, and what it sees where.
+/// The view of one eye, and the part of the picture that shows it.
 struct Viewpoint {
     Vec3 eye_W = Vec3::Zero();                                      ///< [m]
     Eigen::Matrix4d clip_from_world = Eigen::Matrix4d::Identity();  ///< OpenGL's clip coordinates
@@ -31,9 +31,9 @@ struct Pane {
     bool red = true, green_blue = true;  ///< which colours are drawn
 };
 
-/// The panes of a display: one without stereo, or of pictures in turn, seen from the middle between
-/// the eyes; else one for the left eye and one for the right. `beyond`: how far behind the screen
-/// things are drawn [m].
+/// The panes of a display: without stereo, or with pictures in turn, a single one, seen from the
+/// middle between the eyes; otherwise one for the left eye and one for the right. `beyond`: how far
+/// behind the screen things are drawn [m].
 std::vector<Pane> panes(const display::Display& display, double beyond);
 
 /// How far to each side an eye of a headset sees, from straight ahead; left and down are negative,

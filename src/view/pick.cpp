@@ -37,9 +37,9 @@ double length_to(const Triangles& surface, const Vec3& from, const Vec3& along) 
     return nearest;
 }
 
-/// Nobody drags by what is farther away, toward the horizon [m].
+/// Nobody drags anything farther away, toward the horizon [m].
 constexpr double kHorizon = 5;
-/// A line of sight whose level part is shorter shows nothing of heights.
+/// If the horizontal part of a line of sight is shorter than this, heights cannot be judged.
 constexpr double kSteep = 0.05;
 
 /// Where a ray meets a plane; nullopt: nowhere, or beyond the horizon.
@@ -77,7 +77,7 @@ std::optional<Seen> seen_first(const scene::Scene& scene, const frame::Frame& fr
 }
 
 std::optional<Vec3> dragged(const Vec3& held_W, const Ray& from, const Ray& to, bool upright) {
-    // along z it is the pointer's way in the upright plane that faces who looks
+    // along z it is the pointer's way in the upright plane that faces the viewer
     const Vec3 level(to.along_W.x(), to.along_W.y(), 0);
     if (upright && level.norm() < kSteep) return {};
     const Vec3 normal = upright ? Vec3(level.normalized()) : Vec3(Vec3::UnitZ());

@@ -1,4 +1,4 @@
-// Which body a person points at in a picture, and where it goes when it is dragged there.
+// Finds the body at which a person points in a picture, and where it goes when it is dragged.
 #pragma once
 
 #include <optional>
@@ -25,9 +25,9 @@ struct Seen {
 std::optional<Seen> seen_first(const scene::Scene& scene, const frame::Frame& frame,
                                const Ray& ray);
 
-/// How far something goes that is held at a point, while the line of sight to the pointer changes
-/// from one to the other: in the table's plane or, `upright`, along z [m]. Nullopt: that is beyond
-/// what one can see of that plane.
+/// The displacement of something that is held at a point while the line of sight to the pointer
+/// changes from one to the other: in the table's plane or, if `upright`, along z [m]. Nullopt if
+/// that is beyond the visible part of the plane.
 std::optional<Vec3> dragged(const Vec3& held_W, const Ray& from, const Ray& to, bool upright);
 
 }  // namespace dihaptic::view

@@ -46,7 +46,7 @@ Eigen::Matrix4d placed(const Pose& X, const Vec3& scale = Vec3::Ones()) {
     return out;
 }
 
-/// Binds the framebuffer that was bound for drawing again, at the end of the scope.
+/// Restores the framebuffer that was bound for drawing, at the end of the scope.
 class KeepTarget {
   public:
     KeepTarget() { glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &target_); }
@@ -84,8 +84,8 @@ void add_grip_axis(Solids& out, const frame::Frame& frame, size_t fingers) {
     out.add_line(place(0), model::opposing_point(fingers, place), 0.0006, ink("#7b4ea3"));
 }
 
-/// A program that lights and shadows surfaces. What it can is a matter of #define instead of
-/// uniforms: a software renderer runs both sides of a branch.
+/// A program that lights and shadows surfaces. Features are selected by #define rather than by
+/// uniforms, because a software renderer executes both branches.
 gl::Program surface_program(Shadows shadows, const std::string& defined) {
     const std::string defines = defined + (shadows == Shadows::plain ? "#define PLAIN\n" : "");
     return {defines + shaders::kSurfaceVertex,
@@ -175,7 +175,7 @@ struct SceneView::Parts {
         find_start(scene);
     }
 
-    /// Each picture is one texture, whatever wears it.
+    /// Each picture is one texture, however many bodies wear it.
     GLuint texture_of(const std::optional<scene::Picture>& picture) {
         if (!picture || !picture->image) return 0;
         gl::Texture& texture = pictures[picture->image.get()];
@@ -200,7 +200,7 @@ struct SceneView::Parts {
     }
 
     /// Half of the shadow map's width: the smallest of a series of steps that holds everything that
-    /// throws shadows. Steps keep shadows from swimming as bodies move. What is too far away is
+    /// throws shadows. Steps keep shadows from swimming as bodies move. Things too far away are
     /// left out.
     double reach(const frame::Frame& frame, const Mat3& R_LW) const {
         double needed = start_radius;
@@ -250,7 +250,7 @@ struct SceneView::Parts {
                                   resolved_colour);
     }
 
-    /// Makes a program ready to draw a thing; `tint` is what an experiment colours it with, or
+    /// Prepares a program to draw a thing; `tint` is the colour that an experiment gives it, or
     /// null.
     using Prepare = std::function<const gl::Program&(const Thing&, const Vec3* tint)>;
 
@@ -294,7 +294,7 @@ struct SceneView::Parts {
         if (hand) draw_hand(frame, prepare);
     }
 
-    /// How the shadow map sees the world.
+    /// The shadow map's view of the world.
     struct Lamp {
         Eigen::Matrix4d light_from_world = Eigen::Matrix4d::Identity();
         double texel = 0;  // [m]

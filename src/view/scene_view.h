@@ -1,6 +1,6 @@
 // Draws a scene in the state that a Frame holds: bodies and proxies with the soft shadows of
-// README.md and, if asked for, overlays of what cannot be seen in the world. It does not depend on
-// where the Frame comes from or where the picture goes.
+// README.md and, if asked for, overlays of what cannot be seen in the world. It does not care where
+// the Frame comes from or where the picture goes.
 //
 // SceneView needs OpenGL 3.3 core: the same context has to be current whenever one of its functions
 // is called, the destructor included. It draws to the framebuffer that is bound for drawing, which
@@ -61,7 +61,7 @@ enum class Shadows {
 
 /// OpenGL's name of what draws in the current context.
 std::string renderer();
-/// Whether a renderer of that name is a processor, not a graphics card.
+/// Whether a renderer of that name uses the processor, not a graphics card.
 bool is_software(const std::string& renderer);
 
 class SceneView {
@@ -83,8 +83,8 @@ class SceneView {
     Shown draw(const frame::Frame& frame, std::span<const Pane> panes, int width, int height,
                const Overlays& overlays = {});
 
-    /// Pictures are drawn with so many pixels as a share of their width and height, and enlarged:
-    /// for machines that draw in software. 1 at the beginning.
+    /// Pictures are drawn at this share of their width and height, and enlarged, for machines that
+    /// draw in software. 1 at the beginning.
     void set_detail(double share);
 
     /// Unit vector toward the main light, in W.

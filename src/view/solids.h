@@ -1,4 +1,4 @@
-// The solids of which overlays are made: tubes, arrows and balls over the picture of a scene.
+// The solids from which overlays are made: tubes, arrows and balls over the picture of a scene.
 #pragma once
 
 #include <array>

@@ -10,7 +10,7 @@ namespace dihaptic::view {
 
 constexpr double kPlaneSize = 6;  // [m]
 
-/// What is drawn at one pose.
+/// Triangles that are drawn at one pose.
 struct Thing {
     gl::Model model;
     double radius = 0;
@@ -29,13 +29,13 @@ struct Thing {
     Eigen::Vector2d picture_size = Eigen::Vector2d::Constant(1);  // [m]
 
     Thing() = default;
-    /// What is drawn as `all`, in the colour `tone`; `X_WB` is its pose at the start.
+    /// A thing drawn as `all`, in the colour `tone`; `X_WB` is its pose at the start.
     Thing(Triangles all, const Pose& X_WB, const Vec3& tone);
 
-    /// Sets what a program draws of this thing. `tint`: that an experiment gives it now, in place
-    /// of its colours and its picture; null: none.
+    /// Sets up a program to draw this thing. `tint`: the colour that an experiment gives it now, in
+    /// place of its colours and its picture; null: none.
     void set(const gl::Program& program, const Vec3* tint) const;
-    /// Whether set() needs a program that knows of metals, pictures and own colours (LOOKS).
+    /// Whether set() needs a program with metals, pictures and own colours (LOOKS).
     bool has_looks(const Vec3* tint) const;
 };
 

@@ -26,10 +26,10 @@ struct Triangles {
 
 /// The surface of a shape in its body's frame. Edges of boxes, cylinders and cones are rounded
 /// inward, by 1.2 mm at most, so that they catch light. A concave mesh is drawn as it is, any other
-/// as its convex hull: what is seen is what is felt. A mesh whose colours are drawn is drawn as its
-/// file has it. A plane is a square of `plane_size` [m].
+/// mesh as its convex hull: what is seen is what is felt. A mesh whose colours are drawn is drawn
+/// as its file has it. A plane is a square of `plane_size` [m].
 Triangles triangles(const scene::Shape& shape, double plane_size = 8);
-/// What is seen of a body: its shape, or a mesh in its place.
+/// The visible surface of a body: its shape, or a mesh in its place.
 Triangles triangles(const scene::Body& body, double plane_size = 8);
 
 /// A square at z = 0 about the origin, facing up [m].
