@@ -1,4 +1,4 @@
-// Measures what those who change Dihaptic need to know of it: solvers, ticks, threads and pictures.
+// Measures what developers of Dihaptic need to know: solvers, ticks, threads and pictures.
 // docs/measures.md defines the figures. `dihaptic` has the benches that labs need.
 #include <fmt/format.h>
 

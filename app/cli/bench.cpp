@@ -15,7 +15,7 @@ struct GraspOptions {
     bool json = false;
 };
 
-/// What to measure: the setup, and for people also what it is compared with.
+/// What is measured: the setup and, in the output for people, what it is compared with.
 std::vector<measure::BenchSetup> compared(const GraspOptions& options) {
     std::vector<measure::BenchSetup> out{options.setup};
     const bool rigid = options.setup.settings.proxy.kind == scene::ProxyKind::rigid;
@@ -74,8 +74,8 @@ void add_grasp(CLI::App& bench) {
     });
 }
 
-/// Benches that only those who change this program need are in one of their own; who looks for one
-/// here is told so.
+/// Benches that only developers need are in a program of their own; anyone who looks for one here
+/// is told so.
 void add_moved(CLI::App& bench) {
     for (const char* name : {"friction", "scale", "heap", "contact", "solvers", "jitter", "view"}) {
         auto* command = bench.add_subcommand(name)->group("")->allow_extras();

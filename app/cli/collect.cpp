@@ -41,8 +41,8 @@ struct Key {
     auto operator<=>(const Key&) const = default;
 };
 
-/// Throws Error unless a folder is of the first one's rehearsal, or, with --join-seeds, of one that
-/// differs only in its seed.
+/// Throws Error unless a folder belongs to the first one's rehearsal or, with --join-seeds, to one
+/// that differs only in its seed.
 void check_same(const CollectOptions& options, const std::string& first_folder,
                 const Rehearsal& first, const std::string& folder, const Rehearsal& other) {
     Rehearsal same_seed = other;
@@ -66,17 +66,18 @@ struct Found {
     std::map<Key, std::string> people;      ///< session of each
     std::map<Key, std::string> unfinished;  ///< folder of each session that has not ended
     std::map<std::string, Wanted> wanted;   ///< by seed
-    std::vector<std::string> others;        ///< folders of sessions that are no rehearsed person's
-    std::vector<Problem> problems;          ///< of people's folders
+    std::vector<std::string>
+        others;  ///< folders of sessions that do not belong to a rehearsed person
+    std::vector<Problem> problems;                  ///< of people's folders
     std::map<std::string, std::string> identities;  ///< folder of each session's identity
     std::vector<std::string> unsealed;              ///< folders of sessions without seals
 };
 
-/// What is in a folder of a rehearsal.
+/// The contents of a rehearsal's folder.
 struct Content {
     std::vector<std::string> people;      ///< their identifiers
     std::vector<std::string> unfinished;  ///< identifiers of those whose sessions have not ended
-    std::vector<std::string> others;      ///< names of folders with sessions that are nobody's
+    std::vector<std::string> others;      ///< names of folders with sessions that belong to nobody
 };
 
 /// Whether a folder has the name of a person, "sim-003".
@@ -159,8 +160,9 @@ Found find_people(const CollectOptions& options) {
     return found;
 }
 
-/// Throws Error with all that is wrong with people's folders: a table that lacked one of them, or
-/// had somebody twice, would look like any other. Tells of what cannot be known of older ones.
+/// Throws Error with everything that is wrong with people's folders, because a table that lacked
+/// one of them, or had somebody twice, would look like any other. Reports what cannot be checked in
+/// older ones.
 void check_whole(Found& found) {
     if (!found.unsealed.empty() && found.unsealed.size() < found.identities.size()) {
         for (const std::string& session : found.unsealed) {
@@ -181,7 +183,7 @@ void check_whole(Found& found) {
         found.unsealed.size() == 1 ? "its" : "their");
 }
 
-/// Who is missing of a seed's people, by shard.
+/// The missing people of a seed, by shard.
 std::map<int, std::vector<std::string>> missing_of(const Found& found, const std::string& seed,
                                                    const Asked& asked) {
     std::map<int, std::vector<std::string>> out;
@@ -192,7 +194,7 @@ std::map<int, std::vector<std::string>> missing_of(const Found& found, const std
     return out;
 }
 
-/// Says what to type so that these shards of a rehearsal are done.
+/// Says what to type in order to do these shards of a rehearsal.
 void print_command(const Wanted& wanted, const std::vector<int>& shards) {
     const auto command = command_of(wanted.folder, wanted.rehearsal);
     if (!command) {
@@ -208,7 +210,7 @@ void print_command(const Wanted& wanted, const std::vector<int>& shards) {
                command_for(wanted.folder, asked, shards));
 }
 
-/// Names who is left out, and what to type so that those are done who were asked for.
+/// Names the people who are left out, and what to type in order to do those who were requested.
 void print_left_out(const Found& found) {
     auto others = found.unfinished;
     for (const auto& [seed, wanted] : found.wanted) {
@@ -283,8 +285,8 @@ class Collection {
     size_t rows(const std::string& name) const { return tables_.at(name).size() - 1; }
 
   private:
-    /// What people are like has a column each, though not everybody has it: people whom Python
-    /// moves need not be of one class.
+    /// Each trait has a column, even if not everybody has it: people that Python moves need not be
+    /// of one class.
     void note_traits(const Node& person) {
         for (const auto& entry : person.entries) {
             if (entry.key == "id" || entry.key == "group") continue;

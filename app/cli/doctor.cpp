@@ -7,7 +7,7 @@
 namespace dihaptic::cli {
 namespace {
 
-/// Prints each section as soon as it was looked at.
+/// Prints each section as soon as it has been examined.
 void report() {
     std::string heading;
     bool usable = true;
@@ -50,7 +50,7 @@ void add_doctor(CLI::App& app) {
         "else 1.\n"
         "\nExample:\n  dihaptic doctor");
     command->callback([section] {
-        tell_companion_waits(nullptr);  // it says itself what hangs
+        tell_companion_waits(nullptr);  // the program itself reports what hangs
         if (section->empty()) {
             report();
         } else {

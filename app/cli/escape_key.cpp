@@ -46,7 +46,8 @@ void EscapeKey::listen(std::atomic<bool>& pressed, std::atomic<char>& key) {
             pressed.store(true);  // the terminal is gone, and with it the operator
             return;
         }
-        // arrows and function keys begin with Escape: they stop as well, which harms nobody
+        // arrows and function keys begin with Escape, so they stop the session too, which harms
+        // nobody
         if (std::find(keys.begin(), keys.begin() + count, kEscape) != keys.begin() + count)
             pressed.store(true);
         else

@@ -16,7 +16,7 @@ namespace {
 /// What a fit found, for people and for programs.
 struct Fitted {
     analysis::Parameters parameters;
-    /// Further figures, for programs and for people.
+    /// Further figures, for people and for programs.
     std::vector<std::pair<const char*, double>> others;
     std::string note;
 
@@ -38,7 +38,7 @@ struct Fitted {
     }
 };
 
-/// Reads a table that somebody hands in, with these columns, and tells what it warns of.
+/// Reads a user's table with these columns, and prints its warnings.
 CsvFile given(const std::string& file, std::initializer_list<const char*> columns,
               const char* remedy) {
     Diagnostics diagnostics;
@@ -91,7 +91,7 @@ std::vector<model::AdaptationTrial> read_trials(const CsvFile& table) {
                         "Write 1 where no error was shown, whatever the person did, and 0 "
                         "elsewhere.");
         }
-        // in a clamp trial the perturbation is not learned from
+        // nothing is learned from the perturbation in a clamp trial
         const double perturbation =
             clamp == "1" ? 0
                          : number(table, i, "perturbation",

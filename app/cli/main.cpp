@@ -14,8 +14,8 @@ namespace {
 
 std::string typed;
 
-/// What to do next, for who types the program's name and nothing more. `program`: as it was typed,
-/// so that each line can be typed too.
+/// Prints first steps when the program is called without arguments. `program` is its name as typed,
+/// so that each line can be typed as printed.
 void say_what_to_do(const std::string& program) {
     struct Line {
         std::string command;

@@ -39,7 +39,7 @@ bool is_usual(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '_' || c == '.';
 }
 
-/// A name that every shell takes as it is. Throws Error with one that is near.
+/// Checks that every shell takes the name literally. Throws Error, which suggests a similar one.
 void check_name(const std::string& name) {
     const bool plain = std::all_of(name.begin(), name.end(), is_usual);
     if (plain && !name.empty() && name.front() != '-' && name.front() != '.') return;
@@ -52,7 +52,7 @@ void check_name(const std::string& name) {
                             near.empty() ? "my-study" : near));
 }
 
-/// Where the study is to be. Throws Error when it cannot be there.
+/// The place of the new study. Throws Error when it cannot be there.
 fs::path place_of(std::string path) {
     while (path.size() > 1 && path.back() == '/') path.pop_back();
     const fs::path folder(path);
@@ -68,8 +68,8 @@ fs::path place_of(std::string path) {
                 fmt::format("Make it first: mkdir -p '{}'.", above.string()));
 }
 
-/// Makes the folder under another name first, so that nothing half-made is ever found under its
-/// own.
+/// Makes the folder under another name first, so that a half-made one is never found under the
+/// final name.
 void make_study(const fs::path& folder) {
     std::optional<Output> study;
     try {

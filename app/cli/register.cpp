@@ -20,8 +20,8 @@ struct RegisterOptions {
     std::string out;
 };
 
-/// Where a simulated finger finds the screen: beside where the file says, so that one sees what the
-/// command is for.
+/// Where a simulated finger finds the screen: away from where the file has it, so that the command
+/// has something to show.
 display::Display misplaced(const display::Display& display) {
     display::Display out = display;
     const Vec3 about = display.at({0.5, 0.5});

@@ -100,7 +100,7 @@ int run_person(const RehearseOptions& options, const std::string& id,
     }
 }
 
-/// Starts a person's process, so that others go on if it fails.
+/// Starts a person's process, so that the others continue if it fails.
 pid_t start(const RehearseOptions& options, const std::string& id,
             const session::UnfinishedFolder& place) {
     std::fflush(nullptr);
@@ -122,7 +122,8 @@ std::string what_became(int status) {
     return stop_requested ? "interrupted" : "failed";
 }
 
-/// What to say of a person's process that failed. If the disk is full it left no message.
+/// The message about a person's process that failed. If the disk is full, the process left no
+/// message.
 std::string why_failed(const RehearseOptions& options, const std::string& id) {
     const std::string messages = session::messages_of(options.out, id);
     if (!messages.empty() || stop_requested) return messages;
@@ -152,7 +153,7 @@ Roster roster_of(const RehearseOptions& options, const Shard& shard) {
     return roster;
 }
 
-/// Rehearses people, as many at a time as are asked for.
+/// Rehearses people, as many at a time as requested.
 class Crowd {
   public:
     Crowd(const RehearseOptions& options, const std::vector<std::string>& people)
@@ -231,7 +232,7 @@ class Crowd {
     const std::vector<std::string>& people_;
     ProgressLine line_;
     std::map<pid_t, std::string> running_;
-    std::vector<std::string> busy_;  ///< those whom another program was doing at their turn
+    std::vector<std::string> busy_;  ///< those that another program was doing at their turn
     std::vector<std::string> failed_;
     size_t next_ = 0;
     size_t done_ = 0;
@@ -251,8 +252,8 @@ std::string command_again(const RehearseOptions& options) {
         .text();
 }
 
-/// Reads and checks everything, and claims the folder. Returns the experiment's title, and what is
-/// asked for.
+/// Reads and checks everything, and claims the folder. Returns the experiment's title and the
+/// request.
 std::pair<std::string, Asked> prepare(RehearseOptions& options, const Shard& shard) {
     options.request.simulate = true;
     options.request.participant = person_id(1);
@@ -302,7 +303,7 @@ void check_container(const RehearseOptions& options) {
     }
 }
 
-/// Hands those shards to Slurm in which somebody is missing.
+/// Submits to Slurm those shards in which somebody is missing.
 void rehearse_by_slurm(RehearseOptions& options) {
     if (options.slurm > options.people) {
         throw Error({"--slurm", 0}, "",

@@ -24,7 +24,7 @@ std::string word(const std::string& file) {
     return shell_word(whole(file));
 }
 
-/// What starts the program: this one, or that of a container.
+/// The words that start the program: this one, or that of a container.
 std::string program(std::string container) {
     // set inside of one; names a folder if Apptainer has unpacked the file for this command alone
     const char* const here = std::getenv("APPTAINER_CONTAINER");
@@ -35,14 +35,14 @@ std::string program(std::string container) {
     return "apptainer exec " + word(container) + " dihaptic";
 }
 
-/// A number from 1 to `most`; nullopt if the word is none.
+/// A number from 1 to `most`; nullopt if the word is not one.
 std::optional<int> number(const std::string& word, int most) {
     const auto out = whole_number<int>(word);
     return out && *out >= 1 && *out <= most ? out : std::nullopt;
 }
 
-/// Takes an option, and the word that belongs to it, from the front of `words`; nullopt if there is
-/// no such option, or its word cannot be.
+/// Takes an option and its word from the front of `words`; nullopt if there is no such option, or
+/// its word is not valid.
 std::optional<size_t> take(const std::vector<std::string>& words, size_t at,
                            RehearseCommand& command) {
     const std::string& option = words[at];
@@ -68,7 +68,8 @@ std::optional<size_t> take(const std::vector<std::string>& words, size_t at,
 std::optional<RehearseCommand> parse(const std::string& text) {
     auto words = shell_words(text);
     if (words && words->size() > 4 && (*words)[0] == "apptainer" && (*words)[1] == "exec")
-        words->erase(words->begin(), words->begin() + 3);  // a container is a stranger's program
+        words->erase(words->begin(),
+                     words->begin() + 3);  // a container may be a stranger's program
     if (!words || words->size() < 3 || (*words)[1] != "rehearse" || !(*words)[2].starts_with('/'))
         return std::nullopt;
     RehearseCommand out;

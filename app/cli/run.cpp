@@ -68,7 +68,7 @@ class Console {
         };
     }
 
-    /// Has the session check, before it costs a person an hour, whether the calibration of real
+    /// Lets the session check, before it costs a person an hour, whether the calibration of real
     /// devices still holds.
     void check_calibration(const session::Plan& plan, session::RunOptions& run) {
         const auto fingers = scene::finger_names(plan.scene);
@@ -77,7 +77,7 @@ class Console {
     }
 
   private:
-    /// Checks the calibration by endpoints that the person holds together; returns warnings.
+    /// Checks the calibration with endpoints that the person holds together; returns warnings.
     std::vector<Problem> check(const session::Plan& plan, devices::DeviceGroup& devices) {
         struct Skipped {};
         rig::Guide guide;
@@ -111,15 +111,15 @@ class Console {
     std::optional<app::NoSuspension> no_suspension_;
 };
 
-/// Whether a file has a task, which a person does: without one the file moves the hand itself.
+/// Whether a file has a task, which a person does; otherwise the file's script moves the hand.
 bool has_task(const std::string& file) {
     if (task::kind_of(file) != task::FileKind::experiment) return false;
     Diagnostics ignored;  // problems are reported when the plan is made
     return task::read_experiment(file, ignored).task.has_value();
 }
 
-/// Asks on the terminal for what is not known about the person yet, and again while the answer has
-/// what cannot be written down, such as that of an arrow key.
+/// Asks on the terminal for what is not yet known about the person, and asks again if the answer
+/// contains something that cannot be recorded, such as the code of an arrow key.
 void ask(recording::Participant& participant) {
     if (isatty(STDIN_FILENO) == 0) return;
     const auto question = [](const char* text, std::string& answer) {
@@ -170,7 +170,7 @@ void run_plan(session::Plan plan, session::RunOptions run) {
     console.check_calibration(plan, run);
     if (plan.movement) print_movement(*plan.movement, 12);
     if (run.clock == session::Clock::real) {
-        // said before the session costs a person an hour, not after
+        // reported before the session costs a person an hour, not after
         const int priority = plan.settings.real_time_priority;
         const auto refusals = servo::try_real_time(priority);
         if (refusals.any()) fmt::print("note: {}\n", servo::describe(refusals, priority));

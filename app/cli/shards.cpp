@@ -23,8 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 using session::Asked;
 
-/// Part of a file's name on a line that begins with #SBATCH, in quotes: sbatch replaces what
-/// follows a %, and has no way to write what is refused here.
+/// Part of a file's name on a line that begins with #SBATCH, in quotes. sbatch replaces what
+/// follows a %, and offers no way to write what is refused here.
 std::string sbatch_name(const std::string& name) {
     std::string out;
     for (const char letter : name) {
@@ -45,7 +45,7 @@ std::string task_line(const Asked& asked) {
 
 constexpr std::string_view kShell = "#!/bin/sh\n";
 
-/// What a script does: all of its lines but those of comments, among which Slurm's #SBATCH are.
+/// The effect of a script: all its lines except comments, which include Slurm's #SBATCH lines.
 std::string commands_of(const std::string& script) {
     std::string out;
     std::istringstream lines(script);
@@ -57,7 +57,8 @@ std::string commands_of(const std::string& script) {
 }
 
 /// Whether the folder has a script for these shards, perhaps with lines #SBATCH that somebody
-/// added. One that does anything else is nobody's to submit unread: the folder may be a stranger's.
+/// added. A script that does anything else must not be submitted unread, because the folder may
+/// come from a stranger.
 bool has_script(const std::string& folder, const Asked& asked) {
     const std::string script = slurm_script(folder);
     return is_there(script) &&
@@ -87,7 +88,7 @@ std::string slurm_script(const std::string& folder) {
 
 void write_slurm_script(const std::string& folder, const Asked& asked) {
     const fs::path whole = fs::absolute(folder).lexically_normal();
-    make_folders(folder, "slurm");  // Slurm makes no folder for its logs
+    make_folders(folder, "slurm");  // Slurm does not create the folder for its logs
     if (has_script(folder, asked)) return;
     write_file(
         fmt::format(

@@ -1,4 +1,4 @@
-// How the shards of a rehearsal are begun, and begun again: as an array of jobs of Slurm, by GNU
+// How the shards of a rehearsal are started, and started again: as a Slurm job array, by GNU
 // parallel, or each by hand.
 #pragma once
 
@@ -12,11 +12,12 @@ namespace dihaptic::cli {
 
 /// The shell script for sbatch in a rehearsal's folder: a task of the array for each shard.
 std::string slurm_script(const std::string& folder);
-/// Writes it, unless there is one for the same shards: somebody may have added lines to that.
+/// Writes it, unless there is already one for the same shards, to which somebody may have added
+/// lines.
 void write_slurm_script(const std::string& folder, const session::Asked& asked);
 
-/// Hands these shards to Slurm. Returns the number of the job; nullopt when there is no sbatch or
-/// it refuses, and then has said so, and what to type.
+/// Submits these shards to Slurm. Returns the number of the job; nullopt when there is no sbatch or
+/// it refuses, after printing this and what to type.
 std::optional<std::string> submit(const std::string& folder, const session::Asked& asked,
                                   const std::vector<int>& shards);
 

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 const std::vector<std::string> kLayers{"path",    "forces",    "contacts", "grip-axis",
                                        "handles", "workspace", "joints",   "hand"};
 
-/// Adds the box in which hands are kept: the rig's wall, or else the workspace of the finger's
-/// device.
+/// Adds the box in which hands are kept: the rig's wall or, without one, the workspace of the
+/// finger's device.
 void add_workspace(Showing& showing, const std::string& finger, const std::optional<Vec3>& reach) {
     const rig::Rig& rig = showing.rig;
     if (rig.wall && showing.workspaces.empty())

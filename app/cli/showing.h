@@ -1,5 +1,5 @@
 // What the commands picture and video show: a session as it was recorded, or a scene or an
-// experiment with the simulated hand in it.
+// experiment with the simulated hand.
 #pragma once
 
 #include <functional>
@@ -39,8 +39,8 @@ struct ViewOptions {
     std::vector<std::string> show;
     std::string out;
 };
-/// Throws Error when the output is what is shown, or another file of that session, or cannot be
-/// written.
+/// Throws Error when the output would overwrite what is shown or another file of that session, or
+/// cannot be written.
 void check_no_input(const ViewOptions& options);
 void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& options);
 
@@ -48,7 +48,7 @@ void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& opt
 class Drawer {
   public:
     Drawer(const Showing& showing, const ViewOptions& options);
-    /// Adds to the object's path; to be called for every frame.
+    /// Adds to the object's path; call it for every frame.
     void follow(const frame::Frame& frame);
     Image draw(const frame::Frame& frame);
     int width() const { return offscreen_->width(); }

@@ -183,7 +183,7 @@ void print_summary(const session::Recorded& session, const session::Plan& plan) 
         "{:.2f} s in {:.2f} s ({:.{}f} times real time); tick {:.1f} us median, {:.1f} us p99",
         session.simulated, session.elapsed, speed, speed < 10 ? 1 : 0, timing.ticks.quantile(0.5),
         timing.ticks.quantile(0.99));
-    // on the virtual clock no tick is late, whatever it takes
+    // on the virtual clock no tick is late, however long it takes
     if (timing.lateness.count() > 0)
         fmt::print(", {:.1f} us max; period {:.0f} us\n{}; {}", timing.ticks.quantile(1),
                    plan.settings.tick() * 1e6, describe(timing),

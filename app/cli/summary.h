@@ -5,7 +5,7 @@
 
 namespace dihaptic::cli {
 
-/// Prints the table of trials or phases, what is to be told, timing, and the folder.
+/// Prints the table of trials or phases, the notes, the timing, and the folder.
 void print_summary(const session::Recorded& session, const session::Plan& plan);
 /// Prints what was wrong with a recorded movement.
 void print_movement(const session::MovementReport& report, size_t most_lines);

@@ -1,4 +1,4 @@
-// Leads a person on the terminal: it prints what to do, and Enter says that a step is done.
+// Guides a person on the terminal: it prints what to do, and Enter confirms that a step is done.
 #pragma once
 
 #include <string>

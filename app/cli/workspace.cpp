@@ -23,7 +23,8 @@ void print_placement(const rig::Rig& rig, const rig::Workspace& found) {
         in_mm(proposed.wall.centre + rig.moved_by), in_mm(proposed.wall.size));
 }
 
-/// Prints how much of the rig's wall is out of reach: devices may have been moved since it was set.
+/// Prints how much of the rig's wall is out of reach, because devices may have been moved since it
+/// was set.
 void check_wall(const rig::Rig& rig, const std::vector<rig::Reach>& reaches) {
     if (!rig.wall) return;
     const double out = rig::out_of_reach(rig.wall->box(), reaches);

@@ -107,7 +107,7 @@ void add_json(CLI::App& command, bool& json) {
 
 namespace {
 
-/// Throws an Error that names a word which is not a command: the parser would not name it.
+/// Throws an Error that names a word which is not a command, because the parser would not name it.
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
     if (argc < 2 || argv[1][0] == '-') return;
     std::vector<std::string> commands;
@@ -123,8 +123,8 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
             fmt::format(" See {} --help.", std::filesystem::path(argv[0]).filename().string()));
 }
 
-/// What is typed, and the folder that it is typed in, go into what is recorded. Throws Error when
-/// they could not be read again from there.
+/// The command line, and the folder in which it is typed, are recorded. Throws Error when they
+/// could not be read again from the record.
 void check_typed(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) check_text(argv[i], fmt::format("command line, word {}", i));
     if (argc < 2 || argv[1][0] == '-') return;
@@ -132,7 +132,7 @@ void check_typed(int argc, char** argv) {
     check_text(std::filesystem::current_path(gone).string(), "the folder that you are in");
 }
 
-/// The command with the files that it was given, for a message.
+/// The command with its files, for a message.
 std::string what_is_done(int argc, char** argv) {
     std::string out = std::filesystem::path(argv[0]).filename().string();
     for (int i = 1; i < argc; ++i) out += std::string(" ") + argv[i];

@@ -1,4 +1,4 @@
-// What the programs of the command line share: how they parse, say how far they are, and end.
+// What the command-line programs share: parsing, progress, and how they end.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -43,7 +43,7 @@ class ProgressLine {
     size_t width_ = 0;
 };
 
-/// What `work` returns, which is called with a function that shows how far it is.
+/// Calls `work` with a function that shows its progress, and returns its result.
 template <class Work>
 auto with_progress(const std::string& label, const Work& work) {
     ProgressLine line(label);
@@ -58,8 +58,8 @@ CLI::Validator rate_range();
 CLI::Validator time_range();
 CLI::Validator seed_range();
 
-/// Takes the name of a file that is not there for that of one that comes with the program, or is in
-/// the user's own folder (base/installed.h).
+/// Replaces the name of a missing file by that of one that comes with the program, or is in the
+/// user's own folder (base/installed.h).
 CLI::Validator given_or_kept();
 
 /// The flag --json.

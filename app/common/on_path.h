@@ -1,4 +1,4 @@
-// What a shell finds when it is told the name of a program, such as the running one's.
+// Which program a shell finds under a name, such as that of the running program.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@ namespace dihaptic::app {
 /// The file that runs as `program`; "" if there is none. `paths`: the shell's PATH.
 std::string found_on(const std::string& paths, const std::string& program);
 
-/// Whether a shell that is told `dihaptic` finds this program. `paths`: its PATH.
+/// Whether a shell finds this program under the name `dihaptic`. `paths`: its PATH.
 bool shell_finds_program(const std::string& paths);
 
-/// The command after which it does.
+/// The command after which it finds it.
 std::string path_command();
 
 }  // namespace dihaptic::app

@@ -17,7 +17,7 @@ void on_signal(int signal) {
     const int before = errno;
     if (std::atomic<bool>* const stop = flag.load(); stop != nullptr) stop->store(true);
     const auto number = static_cast<char>(signal);
-    // if the pipe is full its reader has been woken already
+    // if the pipe is full, its reader has already been woken
     [[maybe_unused]] const ssize_t written = write(wake_file.load(), &number, 1);
     errno = before;
 }

@@ -1,8 +1,8 @@
-// Makes signals that ask the program to end, or to wait, end a session in order instead: a program
+// Makes signals that ask the program to end or to wait end a session properly instead: a program
 // that is gone, or suspended, leaves its devices with their last force.
 //
-// Signals of an error of the program itself, such as SIGSEGV, are left alone: after one nothing can
-// be ended in order.
+// Signals of an error of the program itself, such as SIGSEGV, are left alone, because nothing can
+// be ended properly after one.
 #pragma once
 
 #include <csignal>
@@ -14,12 +14,12 @@ namespace dihaptic::app {
 
 /// From now on a signal that would end the program from outside (Ctrl-C, Ctrl-\, a closed terminal,
 /// a log-out, a timer, a limit of the system) only sets `stop`, and writes its number as a byte to
-/// the file `wake`, if there is one. A hangup that is ignored already stays ignored, as nohup
-/// needs, and a signal with a handler already keeps it. `stop` and `wake` must live as long as the
-/// program.
+/// the file `wake`, if there is one. A hangup that is already ignored stays ignored, as nohup
+/// needs, and a signal that already has a handler keeps it. `stop` and `wake` must live as long as
+/// the program.
 void stop_on_signals(std::atomic<bool>& stop, int wake = -1);
 
-/// While this exists, signals that would suspend the program, Ctrl-Z above all, end it in order
+/// While this exists, signals that would suspend the program, above all Ctrl-Z, end it properly
 /// too.
 class NoSuspension {
   public:

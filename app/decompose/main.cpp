@@ -29,7 +29,7 @@ namespace {
 
 using namespace dihaptic::decompose;
 
-/// Volumes that are the same but for rounding.
+/// Whether volumes are equal up to rounding.
 constexpr double kSame = 1e-9;
 
 struct Shell {
@@ -94,7 +94,7 @@ class Build : public CGAL::Modifier_base<Polyhedron::HalfedgeDS> {
     const Shell& shell_;
 };
 
-/// The solid within a shell. Throws when the shell crosses or touches itself, and tells where.
+/// The solid within a shell. Throws, with a place, when the shell crosses or touches itself.
 Nef inside(const Shell& shell) {
     Polyhedron surface;
     Build build(shell);
@@ -186,7 +186,7 @@ int main(int count, char** arguments) {
     } catch (const std::bad_alloc&) {
         return 3;
     } catch (const std::exception&) {
-        // what was written says where; there are no pieces
+        // the output says where; there are no pieces
     }
     std::cout.flush();
     return std::cout ? 0 : 1;

@@ -1,5 +1,6 @@
-// The Qt application object. It sees Escape before any widget: a dialog, a menu or a field that has
-// the keyboard would use the key up. And it speaks the system's language if there is a translation.
+// The Qt application object. It sees Escape before any widget does, because a dialog, a menu or a
+// field with the keyboard focus would consume the key. It also loads the translation for the
+// system's language, if there is one.
 #pragma once
 
 #include <QApplication>
@@ -11,8 +12,8 @@ class Application : public QApplication {
     Q_OBJECT
 
   public:
-    /// Qt puts the system's language in force; that of numbers is taken back, as libraries read
-    /// them by it: 0.5 as 0.
+    /// Qt activates the system's language; for numbers this is undone, because libraries would
+    /// otherwise read 0.5 as 0.
     Application(int& argc, char** argv);
     bool notify(QObject* receiver, QEvent* event) override;
     /// From now on texts are in the system's language, if the folder has dihaptic_LANGUAGE.qm:

@@ -56,7 +56,7 @@ std::optional<Vec3> step_of(const QKeyEvent& event, const view::Camera& camera) 
     constexpr double kQuarter = M_PI / 2;
     const double turn = kQuarter * std::round(view::azimuth(camera) / kQuarter);
     const double length = event.modifiers().testFlag(Qt::ShiftModifier) ? 0.010 : 0.001;
-    // exactly along an axis, so that the file's other numbers stay as they are
+    // exactly along an axis, so that the file's other numbers stay unchanged
     return length * (about_z(turn) * step).array().round().matrix();
 }
 

@@ -14,7 +14,7 @@
 
 namespace dihaptic::gui {
 
-/// How far a body goes: what it is moved by in W [m], and turned about z [rad].
+/// The displacement of a body in W [m], and its turn about z [rad].
 struct BodyWay {
     Vec3 way = Vec3::Zero();
     double turn = 0;
@@ -25,7 +25,7 @@ struct BodyWay {
 
 class BodyDrag {
   public:
-    /// The body is held where the ray to the pointer meets it.
+    /// Begins a drag: the body is held where the ray to the pointer meets it.
     BodyDrag(const view::Seen& held, const view::Ray& ray) : held_W_(held.p_W), ray_(ray) {}
 
     /// The pointer went so many pixels, and a ray to it is this one.
@@ -39,8 +39,8 @@ class BodyDrag {
     BodyWay way_;
 };
 
-/// The step that a key asks for, along the axes of W to which what is right and away in the
-/// camera's picture is nearest [m]; nullopt: it is another key.
+/// The step for a key, along the axes of W that are closest to right and away in the camera's
+/// picture [m]; nullopt for any other key.
 std::optional<Vec3> step_of(const QKeyEvent& event, const view::Camera& camera);
 
 }  // namespace dihaptic::gui

@@ -19,18 +19,18 @@ class Calibrator : public QObject {
     /// `window`: parent of its dialogs.
     explicit Calibrator(QWidget* window) : QObject(window), window_(window) {}
 
-    /// Asks at the end whether to store the result. `named_by`: who chose that file.
+    /// At the end asks whether to store the result. `named_by`: who chose that file.
     void calibrate(const QString& rig_file, rig::NamedBy named_by);
-    /// Shows crosses on the rig's first display, and asks at the end whether to store where they
+    /// Shows crosses on the rig's first display, and at the end asks whether to store where they
     /// were touched.
     void register_display(const QString& rig_file, rig::NamedBy named_by);
-    /// Makes a check for a session's start, to be called in the session's thread: the person holds
-    /// endpoints together, or skips it, and it returns warnings if the calibration no longer holds.
-    /// `ends`: whether the session is to end.
+    /// Makes a check for the start of a session, to be called in the session's thread: the person
+    /// holds endpoints together, or skips this, and the check returns warnings if the calibration
+    /// no longer holds. `ends`: whether the session should end.
     std::function<std::vector<Problem>(devices::DeviceGroup&)> together_check(
         const rig::Rig& rig, const std::vector<std::string>& fingers,
         const std::function<bool()>& ends);
-    /// To be called when the session has ended: ends its check, wherever that is.
+    /// Call when the session has ended: ends its check, whatever its state.
     void end_check();
 
   Q_SIGNALS:

@@ -1,5 +1,5 @@
-// The checklist before a session: what is found of devices, calibration, displays, rights and disk,
-// with a button for what can be done about it.
+// The checklist before a session: the state of devices, calibration, displays, rights and disk,
+// with a button for each remedy.
 #pragma once
 
 #include <QDialog>
@@ -13,7 +13,7 @@ class Checklist : public QDialog {
     Q_OBJECT
 
   public:
-    /// `before_start`: accepting it starts the session; otherwise it is only looked at.
+    /// `before_start`: accepting it starts the session; otherwise it is only shown.
     Checklist(const std::vector<session::Finding>& findings, bool before_start, QWidget* parent);
 
   Q_SIGNALS:

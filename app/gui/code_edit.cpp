@@ -98,7 +98,7 @@ void CodeEdit::lay_out() {
 }
 
 void CodeEdit::resizeEvent(QResizeEvent* event) {
-    // problems that are told below the text take lines from it, not the one that is written
+    // problems shown below the text take space from it, but the current line stays visible
     const bool seen = QRect(QPoint(), event->oldSize()).contains(cursorRect().center());
     PlainText::resizeEvent(event);
     lay_out();
@@ -141,7 +141,7 @@ void CodeEdit::show_marks() {
 }
 
 QString CodeEdit::text() const {
-    // toPlainText() would make blanks of blanks that do not break
+    // toPlainText() would turn no-break spaces into ordinary ones
     QString out = document()->toRawText();
     return out.replace(QChar::ParagraphSeparator, '\n').replace(QChar::LineSeparator, '\n');
 }
@@ -178,7 +178,7 @@ bool CodeEdit::viewportEvent(QEvent* event) {
     return PlainText::viewportEvent(event);
 }
 
-/// `anyhow`: also where no word has begun.
+/// `anyhow`: even where no word has begun.
 void CodeEdit::ask_for_words(bool anyhow) {
     if (isReadOnly()) return;
     const WordPlace place = word_place(text(), textCursor().position());
@@ -229,7 +229,7 @@ void CodeEdit::take_word(const QModelIndex& word) {
     setTextCursor(cursor);
 }
 
-/// YAML takes no tabs, and a new line mostly goes on where the last one's keys began.
+/// YAML does not allow tabs, and a new line mostly continues at the indentation of the last one.
 void CodeEdit::keyPressEvent(QKeyEvent* event) {
     const bool choosing = words_->popup()->isVisible();
     if (choosing && QList<int>{Qt::Key_Return, Qt::Key_Enter, Qt::Key_Tab, Qt::Key_Escape}.contains(

@@ -17,20 +17,20 @@ class CodeEdit : public PlainText {
   public:
     explicit CodeEdit(QWidget* parent = nullptr);
 
-    /// Marks lines, counted from 1, each with what is wrong there; the others lose their marks.
+    /// Marks lines, counted from 1, each with its problem; all other marks are removed.
     void mark(const std::map<int, QString>& problems);
     /// Puts the cursor into a line, counted from 1, and shows it.
     void go_to(int line);
-    /// The text as it stands, with a line feed behind each line but the last.
+    /// The present text, with a line feed after each line but the last.
     QString text() const;
     /// Replaces parts of text(), by its bytes in UTF-8: one step of undo. The cursor stays where it
     /// is.
     void change(const std::vector<TextChange>& changes);
-    /// Offers words for the place where the cursor still is, if there are any that fit.
+    /// Offers words for the place of the cursor, if it is still there and any fit.
     void offer(const WordPlace& place, const std::vector<Choice>& words);
 
   Q_SIGNALS:
-    /// Who types wants to know which words may stand at the cursor, or began one.
+    /// The user asked for the words that may stand at the cursor, or began to type one.
     void words_wanted(const dihaptic::gui::WordPlace& place);
     /// A key was pressed, with Alt, that may move a body.
     void step_wanted(const QKeyEvent& event);

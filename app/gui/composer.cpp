@@ -16,7 +16,7 @@ constexpr int kPause = 400;  // [ms]
 constexpr int kLook = 100;   // [ms]
 constexpr const char* kByteOrderMark = "\xEF\xBB\xBF";
 
-/// Whether an editor can show a file's bytes, and write them again as they were.
+/// Whether an editor can show a file's bytes, and write them back unchanged.
 bool is_text(const QByteArray& content) {
     QByteArray text = content;
     if (text.startsWith(kByteOrderMark)) text.remove(0, 3);
@@ -24,7 +24,7 @@ bool is_text(const QByteArray& content) {
     return !find_fault(text.toStdString());
 }
 
-/// Line of a text, counted from 1, in which a byte is.
+/// The line of a text, counted from 1, that contains a byte.
 int line_of(const QByteArray& text, size_t at) {
     return 1 + static_cast<int>(text.left(static_cast<qsizetype>(at)).count('\n'));
 }
@@ -159,7 +159,7 @@ void Composer::offer(const Draft::Left& left) {
     offer_->open();
 }
 
-/// As a step that can be undone: before it is what the file has.
+/// As a step that can be undone: the state before it is the file's content.
 void Composer::take(const QString& text) {
     edit_->setReadOnly(false);
     QTextCursor cursor(edit_->document());
@@ -176,7 +176,7 @@ void Composer::check() {
 
 void Composer::keep_draft() {
     if (!draft_ || offer_ || !changed()) return;
-    // the window that had it may be gone; what that one left was not offered yet
+    // the window that held it may be gone, and its text has not been offered yet
     if (!has_draft_) begin_draft();
     if (!has_draft_ || offer_) return;
     try {
@@ -226,7 +226,7 @@ std::string Composer::body() const {
 }
 
 bool Composer::move(const std::string& body, const BodyWay& way) {
-    if (edit_->isReadOnly()) return false;  // it says so all the time
+    if (edit_->isReadOnly()) return false;  // it is shown all the time
     if (body.empty()) {
         state_->setText(tr("The cursor is not in the lines of a body: nothing moves."));
         return false;

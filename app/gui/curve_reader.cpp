@@ -56,7 +56,7 @@ void CurveReader::run(const Wanted& wanted, const std::stop_token& stop) {
             tell(share);
         }
     } catch (const Error&) {
-        // the session was opened, so its log was there: what was read of it is shown
+        // the session was opened, so its log existed: what was read of it is shown
     }
     if (!stop.stop_requested()) tell(1);
 }

@@ -35,7 +35,7 @@ class CurveReader : public QObject {
         double begin = 0;  ///< of the stretch [s]
         double end = 0;
     };
-    /// What was asked for before is dropped.
+    /// Earlier requests are dropped.
     void read(const Wanted& wanted);
 
   Q_SIGNALS:

@@ -20,7 +20,7 @@ class DevicePanel : public QWidget {
         double most_force = 0;  ///< largest force that is sent [N]
     };
     void set_devices(const std::vector<Device>& devices);
-    /// Shows a frame. The loop's figures are of the frames that were shown.
+    /// Shows a frame. The loop's figures refer to the frames that were shown.
     void show_frame(const frame::Frame& frame);
     /// Shows that no force acts, and why.
     void rest(const QString& why);

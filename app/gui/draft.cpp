@@ -24,7 +24,7 @@ constexpr const char* kBelow = "dihaptic/drafts";
 
 QString state_folder() {
     const QString given = qEnvironmentVariable("XDG_STATE_HOME");
-    // as the specification has it, a relative one counts for nothing
+    // a relative path is ignored, as the specification demands
     return given.startsWith('/') ? given : qEnvironmentVariable("HOME") + "/.local/state";
 }
 
@@ -47,7 +47,7 @@ Draft::~Draft() {
     ::close(lock_);
 }
 
-/// The first line says whose draft it is, to people too.
+/// The first line says to which file the draft belongs, for people too.
 QString Draft::head() const {
     return QString("Dihaptic's draft of %1\n").arg(QString(file_).replace('\n', ' '));
 }
@@ -101,7 +101,7 @@ std::optional<Draft::Left> Draft::left() const {
 }
 
 void Draft::write(const QString& text) const {
-    // nobody else is to read what is in work
+    // nobody else should read unfinished work
     Output out(path_.toStdString());
     const QString part = QString::fromStdString(out.path());
     QFile file(part);

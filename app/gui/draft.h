@@ -1,7 +1,7 @@
-// What somebody typed into a file and has not saved, so that it outlives the window. It is kept in
-// the user's own folder, $XDG_STATE_HOME/dihaptic/drafts or ~/.local/state/dihaptic/drafts, because
-// the folder of the file may be a stranger's. One window at a time has a file's draft, and is so
-// known to a second one.
+// Unsaved changes of a file, kept so that they outlive the window. It is kept in the user's own
+// folder, $XDG_STATE_HOME/dihaptic/drafts or ~/.local/state/dihaptic/drafts, because the file's
+// folder may belong to somebody else. One window at a time holds a file's draft, by which a second
+// window notices it.
 #pragma once
 
 #include <QDateTime>
@@ -17,16 +17,16 @@ class Draft {
         QDateTime at;
     };
 
-    /// `file`: by the path of what is edited, without links.
+    /// `file`: path of the edited file, without links.
     explicit Draft(const QString& file);
     ~Draft();
     Draft(const Draft&) = delete;
     Draft& operator=(const Draft&) = delete;
 
-    /// Whether this window has the draft, or has got it now; false: another window has it. Throws
-    /// Error when none can be kept.
+    /// Whether this window holds the draft, perhaps from now on; false if another window does.
+    /// Throws Error when no draft can be kept.
     bool take();
-    /// What a window left that ended before it was saved. To be called by who has the draft.
+    /// The unsaved text of a window that ended. Call only while holding the draft.
     std::optional<Left> left() const;
     /// The same. Throws Error.
     void write(const QString& text) const;

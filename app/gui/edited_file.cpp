@@ -14,7 +14,7 @@
 namespace dihaptic::gui {
 namespace {
 
-/// The path that a name stands for, without links; of what is not there, where it would be.
+/// The path behind a name, without links; for a missing file, where it would be.
 QString path_of(const QString& name) {
     const QFileInfo info(name);
     if (info.exists() || info.isSymLink()) return info.canonicalFilePath();
@@ -27,7 +27,7 @@ std::optional<QByteArray> bytes_of(const QString& file) {
     try {
         return QByteArray::fromStdString(read_bytes(file.toStdString(), kMostYaml));
     } catch (const Error&) {
-        return {};  // whoever opens it says why
+        return {};  // opening it reports why
     }
 }
 

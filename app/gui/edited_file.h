@@ -1,5 +1,5 @@
-// The file that the editor has open, as it is on the disk: whoever else changes it, removes it or
-// puts a link in its place is noticed before anything is written.
+// The file that the editor has open, as it is on the disk. If anything else changes it, removes it
+// or puts a link in its place, this is noticed before anything is written.
 #pragma once
 
 #include <QByteArray>
@@ -8,7 +8,7 @@
 
 namespace dihaptic::gui {
 
-/// A regular file's bytes; nullopt if it cannot be read, or is no text by its size.
+/// A regular file's bytes; nullopt if it cannot be read, or is too large for a text.
 std::optional<QByteArray> bytes_of(const QString& file);
 
 class EditedFile {
@@ -18,17 +18,17 @@ class EditedFile {
     explicit EditedFile(const QString& name);
 
     const QString& name() const { return name_; }
-    /// Path of what is edited: of what a link leads to, if the name is one's.
+    /// Path of the edited file: the target, if the name is a link.
     const QString& path() const { return path_; }
-    /// As it was read or written last.
+    /// Its content when it was last read or written.
     QByteArray content() const { return content_.value_or(QByteArray()); }
     bool was_readable() const { return content_.has_value(); }
     bool is_link() const;
     bool is_there() const;
     bool is_readable() const { return bytes_of(name_).has_value(); }
-    /// Whether the name leads where it led when it was opened.
+    /// Whether the name still leads to the same file as when it was opened.
     bool leads_elsewhere() const;
-    /// Whether it has become another since it was read or written: not the same bytes, or gone.
+    /// Whether the file differs from what was read or written: other bytes, or gone.
     bool has_changed() const;
     /// Replaces it, in place of whatever is there now. Throws Error when it cannot.
     void write(const QByteArray& content);

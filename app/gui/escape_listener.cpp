@@ -21,8 +21,8 @@ struct Free {
 template <class Reply>
 using Answer = std::unique_ptr<Reply, Free>;
 
-/// A connection to the X server that is told of each press of a key, whatever window has the
-/// keyboard, and though a menu keeps it for itself: XInput 2.1, "raw events".
+/// A connection to the X server that receives every key press, whatever window has the keyboard
+/// focus, and even while a menu grabs it: the "raw events" of XInput 2.1.
 class Keyboard {
   public:
     Keyboard() : x_(xcb_connect(nullptr, nullptr)) {
@@ -63,7 +63,7 @@ class Keyboard {
     }
 
   private:
-    /// Of all keys, any of which somebody may have made an Escape.
+    /// All keys are watched, because any of them may have been mapped to Escape.
     void find_escape() {
         constexpr xcb_keysym_t kEscape = 0xff1b;
         const xcb_setup_t& setup = *xcb_get_setup(x_);

@@ -1,5 +1,5 @@
-// Hears Escape in a thread of its own, so that a window that draws slowly, or hangs, does not keep
-// force on.
+// Listens for Escape in a thread of its own, so that a window that draws slowly, or hangs, does not
+// keep force on.
 #pragma once
 
 #include <QObject>
@@ -8,7 +8,7 @@
 
 namespace dihaptic::gui {
 
-/// Only on X11; elsewhere it hears nothing, and Escape goes the way of every key (Application).
+/// Only on X11; elsewhere it hears nothing, and Escape is handled like every key (Application).
 class EscapeListener : public QObject {
     Q_OBJECT
 

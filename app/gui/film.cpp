@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kRate = 30;  // pictures a second
 
-/// What a window shows, cut to an even width and height, as videos need it.
+/// The content of a window, cut to an even width and height, as videos require.
 Image picture_of(QOpenGLWidget& view, int width, int height) {
     const QImage all = view.grabFramebuffer().convertToFormat(QImage::Format_RGB888);
     Image out{width, height, {}};

@@ -16,8 +16,8 @@ struct Film {
     std::function<void(double)> show;  ///< shows a moment [s]
 };
 
-/// Makes the video while its window waits, with a bar that says how far it is and can end it.
-/// Returns whether it is there. Throws Error when it cannot be made, as where ffmpeg is missing.
+/// Makes the video while its window waits, with a progress bar that can cancel it. Returns whether
+/// it was made. Throws Error when it cannot be made, for instance because ffmpeg is missing.
 bool make_film(const Film& film, QOpenGLWidget& view, QWidget* parent);
 
 }  // namespace dihaptic::gui

@@ -24,7 +24,8 @@ GuideDialog::GuideDialog(const QString& title, const QString& leave, QWidget* pa
     setAttribute(Qt::WA_DeleteOnClose);
     setMinimumWidth(560);
     QFont large = text_->font();
-    large.setPointSizeF(large.pointSizeF() * 1.5);  // is read while both hands hold something
+    large.setPointSizeF(large.pointSizeF() *
+                        1.5);  // must be legible while both hands hold something
     text_->setFont(large);
     text_->setWordWrap(true);
     text_->setMinimumHeight(120);

@@ -1,5 +1,5 @@
-// The dialog that leads a person through a calibration or its check (rig/calibration_guide.h): it
-// shows what to do now, and progress. The work runs in another thread.
+// The dialog that guides a person through a calibration or its check (rig/calibration_guide.h): it
+// shows what to do now, and the progress. The work runs in another thread.
 #pragma once
 
 #include <QDialog>
@@ -21,7 +21,7 @@ class GuideDialog : public QDialog {
     /// rejected when the person gave up, or closed it after failed().
     GuideDialog(const QString& title, const QString& leave,
                 std::function<void(const rig::Guide&)> work, QWidget* parent);
-    /// For work that another thread does with guide(), and ends with finish(). The dialog has to
+    /// For work that another thread does with guide() and ends with finish(). The dialog must
     /// outlive that work.
     GuideDialog(const QString& title, const QString& leave, QWidget* parent);
     /// Gives up, and waits until its own work ends.
@@ -31,8 +31,7 @@ class GuideDialog : public QDialog {
 
     /// For the thread that works.
     rig::Guide guide();
-    /// To be called from any thread when the work ends; `why`: reason of a failure. The first call
-    /// counts.
+    /// Call from any thread when the work ends; `why`: reason of a failure. The first call counts.
     enum class Outcome { done, given_up, failed };
     void finish(Outcome outcome, const QString& why = "");
 

@@ -52,7 +52,7 @@ void HeadsetView::set_banner(const QString& text) {
     banner_->setVisible(!text.isEmpty());
     constexpr int kMargin = 40;
     fit_label(*banner_, Words::kWidth - kMargin);
-    // over what the hands do, which is in the middle of what the head looks at
+    // above the hands, which are in the middle of the view
     banner_->move((Words::kWidth - banner_->width()) / 2, kMargin);
     draw_words();
 }

@@ -1,4 +1,4 @@
-// What a person sees in a headset: the scene, and over it what the task says.
+// What a person sees in a headset: the scene, and over it the task's texts.
 #pragma once
 
 #include <QLabel>
@@ -19,20 +19,20 @@ class HeadsetView : public QObject {
     bool is_at(const display::Headset& place) const;
     /// Shows a frame that stays, of that scene.
     void set_scene(const scene::Scene& scene, const frame::Frame& frame);
-    /// Shows the newest of these frames of that scene, of a session that runs. Nothing else may
+    /// Shows the newest of these frames of that scene, from a running session. Nothing else may
     /// read them.
     void follow(const scene::Scene& scene, std::shared_ptr<headset::Headset::Frames> frames);
-    /// Frames for a session; until its first, the one given.
+    /// The frames for a session; until its first one, the given frame is shown.
     static std::shared_ptr<headset::Headset::Frames> frames_from(const frame::Frame& frame);
     void set_banner(const QString& text);
     /// Sets the page in place of the scene (page_view.h); empty: none.
     void set_page(const QString& text, const QString& picture);
 
   Q_SIGNALS:
-    /// What the headset, or its runtime, has to tell.
+    /// A message of the headset, or its runtime.
     void told(const QString& what, bool problem);
     void shown(const dihaptic::headset::Showing& showing);
-    /// It shows nothing more; told() said why.
+    /// It has stopped showing; told() said why.
     void ended();
 
   private:

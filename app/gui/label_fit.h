@@ -1,4 +1,4 @@
-// How wide a label over the scene is: as its text or, if that is too wide, in several lines.
+// Fits a label over the scene to its text, in several lines if necessary.
 #pragma once
 
 #include <QLabel>

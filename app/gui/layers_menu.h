@@ -1,4 +1,4 @@
-// Menu entries for what a scene's widget draws, that every window with a scene has.
+// The menu entries for what a scene's widget draws, in every window with a scene.
 #pragma once
 
 #include "scene_widget.h"

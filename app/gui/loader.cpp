@@ -58,7 +58,7 @@ Opened open(const Wanted& wanted, std::unique_ptr<devices::DeviceGroup>& devices
     return out;
 }
 
-/// The loader that is told of companions which are waited for: the program has one window.
+/// The loader that is notified of companions that are waited for; the program has one window.
 std::atomic<Loader*> told{nullptr};
 
 void tell_of_wait(const std::string& what, int seconds, int most) {

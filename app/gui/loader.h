@@ -20,7 +20,7 @@ struct Opened {
     std::vector<DevicePanel::Device> devices;
     std::vector<view::Workspace> workspaces;
     servo::WorkspaceTurn turn;
-    /// For a session that goes on with another one: its participant, and lines for the log.
+    /// For a session that continues another one: its participant, and lines for the log.
     std::optional<recording::Participant> participant;
     QStringList told;
 };
@@ -28,12 +28,12 @@ struct Opened {
 /// What to open.
 struct Wanted {
     session::Request request;
-    /// A session follows: its devices are opened too. Otherwise none is.
+    /// A session follows, so its devices are opened too; otherwise none are.
     bool to_run = false;
     bool by_person = false;  ///< a simulated person moves the hand
     /// Folder of the session to go on with, in place of the request; "": none.
     std::string resumes;
-    /// Stands in place of what the request's file has.
+    /// Text that replaces the content of the request's file.
     std::optional<std::string> text = std::nullopt;
 };
 
@@ -44,7 +44,7 @@ class Loader : public QObject {
     explicit Loader(QObject* parent = nullptr);
     ~Loader() override;
 
-    /// Drops the result of a call before that is not done yet.
+    /// Drops the result of an earlier call that is not finished.
     void load(const Wanted& wanted);
     bool loading() const { return thread_.joinable(); }
     /// The devices that were opened for the session that follows; null if none does. To be called
@@ -56,8 +56,8 @@ class Loader : public QObject {
   Q_SIGNALS:
     void opened(const dihaptic::gui::Opened& opened);
     void refused(const QStringList& problems);
-    /// After a second, and again whenever that time has doubled: what it is that takes so long, and
-    /// when that is given up [s].
+    /// After a second, and again whenever that time has doubled: what takes so long, and when it
+    /// will be given up [s].
     void waits(const QString& what, int seconds, int most);
 
   private:

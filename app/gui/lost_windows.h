@@ -1,5 +1,5 @@
-// A window that another program destroys in the X server (xdotool windowclose, a window manager's
-// kill): Qt goes on as if it were there, though nobody can see it, answer it or close it.
+// Detects windows that another program destroys in the X server (xdotool windowclose, a window
+// manager's kill). Qt goes on as if they existed, though nobody can see, answer or close them.
 #pragma once
 
 #include <QAbstractNativeEventFilter>

@@ -29,7 +29,7 @@ int look_at(const QStringList& folders) {
     return QApplication::exec();
 }
 
-/// What nobody can see is as good as closed.
+/// A window that nobody can see is as good as closed.
 void end_unseen(QWidget* gone) {
     if (auto* const window = qobject_cast<dihaptic::gui::OperatorWindow*>(gone)) {
         window->end_unseen();

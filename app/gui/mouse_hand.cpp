@@ -20,7 +20,7 @@ constexpr double kHeld = 0.5;      // grip force of a hand that holds something 
 void MouseHand::move(const QPointF& pixels, const scene::Camera& camera, int height,
                      bool in_depth) {
     const Vec3 sight = (camera.look_at - camera.position).normalized();
-    // a line of sight straight down tells no left and right: then they are the world's
+    // a line of sight straight down does not define left and right: then the world's are used
     Vec3 away(sight.x(), sight.y(), 0);
     away = away.norm() > 1e-6 ? Vec3(away.normalized()) : Vec3(0, 1, 0);
     const Vec3 right = away.cross(Vec3::UnitZ());
@@ -40,7 +40,7 @@ void MouseHand::turn(const QPointF& pixels) {
 
 void MouseHand::set_grip(double grip) {
     grip_ = grip;
-    // what was held is gone: the fingers are not to cross
+    // what was held is gone, and the fingers must not cross
     if (!(grip > kHeld)) goal_.aperture = std::max(0.0, goal_.aperture);
 }
 

@@ -28,14 +28,14 @@ class MouseHand {
         : start_(start), goal_(start), pointer_(start.centre), most_grip_(most_grip) {}
 
     /// Grip force up to which a mouse squeezes with devices of this peak force: half of it, so that
-    /// a hand can also lift with what is left [N].
+    /// the rest suffices to lift [N].
     static double grip_of(double peak_force);
 
     /// The pointer went `pixels` (x right, y down) in a picture of `height` pixels, seen by
     /// `camera`. `in_depth`: toward the person and away, in place of up and down.
     void move(const QPointF& pixels, const scene::Camera& camera, int height, bool in_depth);
     void turn(const QPointF& pixels);
-    /// To where it began, as far open as it is.
+    /// Returns to where it began, with the present aperture.
     void go_back();
     /// Grip force now [N]; NaN with one finger.
     void set_grip(double grip);
@@ -51,8 +51,8 @@ class MouseHand {
 
     hand::Posture start_;
     hand::Posture goal_;
-    /// Where the pointer would have the hand, if there were no end of the desk: the hand comes back
-    /// when the pointer does.
+    /// Where the pointer would put the hand if the desk had no end: the hand comes back when the
+    /// pointer does.
     Vec3 pointer_;
     double most_grip_;
     double grip_ = 0;

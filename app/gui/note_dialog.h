@@ -8,7 +8,7 @@ class QWidget;
 
 namespace dihaptic::gui {
 
-/// `before`: the note as it is. nullopt: it stays.
+/// `before` is the present note. nullopt if it stays unchanged.
 std::optional<QString> ask_for_note(const QString& session, const QString& before, QWidget* parent);
 
 }  // namespace dihaptic::gui

@@ -1,6 +1,6 @@
-// A field for a number, which looks and is typed the same in every language: with a point before
-// its decimals, as in files. A comma that is typed becomes one; Qt's own field would leave it out
-// where it parts thousands, and read 1,5 as 15.
+// A field for a number that looks and is typed the same in every language, with a decimal point, as
+// in files. A typed comma becomes a point; Qt's own field would take it for a separator of
+// thousands, and read 1,5 as 15.
 #pragma once
 
 #include <QDoubleSpinBox>

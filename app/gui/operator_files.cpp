@@ -1,4 +1,4 @@
-// The operator's window: the file that is open, and those that may be.
+// The operator's window: the open file, and opening others.
 #include "operator_window.h"
 
 #include <QDir>
@@ -35,7 +35,7 @@ void OperatorWindow::connect_files() {
     connect(calibrator_, &Calibrator::stored, this, &OperatorWindow::reload);
     connect(&loader_, &Loader::opened, this, &OperatorWindow::opened);
     connect(&loader_, &Loader::refused, this, &OperatorWindow::refused);
-    // emitted by the loader's thread, so that it comes here later: the loading may be over
+    // emitted by the loader's thread, so it arrives later, when loading may be over
     connect(&loader_, &Loader::waits, this, [this](const QString& what, int seconds, int most) {
         if (loader_.loading())
             session_->set_progress(most > 0 ? static_cast<double>(seconds) / most : 0,
@@ -187,7 +187,7 @@ void OperatorWindow::opened(const Opened& opened) {
     frame_ = opened.frame;
     complaint_.clear();
     text_is_wrong_ = false;
-    // of real devices that have been opened, more may be known than before
+    // more may be known now about real devices that have been opened
     QStringList warnings;
     for (const Problem& warning : plan_->warnings)
         warnings += QString::fromStdString(warning.text());
@@ -224,7 +224,7 @@ void OperatorWindow::refused(const QStringList& problems) {
     if (std::exchange(start_when_opened_, false) && text_is_wrong_) refuse_to_start();
     starts_.reset();
     composer_->show_problems(problems);
-    if (!composer_->changed()) {  // who types sees what is wrong where it is
+    if (!composer_->changed()) {  // the user sees mistakes at their place while typing
         complaint_ = problems.front();
         for (const QString& problem : problems) log(problem, true);
         if (plan_) log(tr("What was open stays as it is."));

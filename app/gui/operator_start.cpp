@@ -1,4 +1,4 @@
-// The operator's window: what comes before a session, up to its start.
+// The operator's window: everything before a session, up to its start.
 #include "operator_window.h"
 
 #include <QDate>
@@ -46,7 +46,7 @@ QString question_of(const session::Unfinished& session, const std::string& parti
              done, QString::fromStdString(session.moved_by.describe()));
 }
 
-/// A person's hand, and what stands in for it at a script's own pace, need real time.
+/// A person's hand needs real time, and so does a script that stands in for it.
 session::Clock clock_of(const session::Plan& plan, double pace) {
     const bool at_own_pace = plan.moved_by.mover == recording::Mover::simulated_person || pace != 1;
     return at_own_pace && !plan.moved_by.person() && !rig::is_real(plan.rig)
@@ -69,7 +69,7 @@ void OperatorWindow::start() {
     start_when_opened_ = loader_.loading() && !starts_;
     if (!plan_ || runner_.running() || loader_.loading()) return;
     if (text_is_wrong_ && composer_->changed()) return refuse_to_start();
-    // what can hurt is looked at before, and what cannot when one likes
+    // anything that can hurt is checked before; the rest may be checked at any time
     if (rig::is_real(plan_->rig)) {
         show_checklist(true);
     } else {

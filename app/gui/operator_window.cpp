@@ -33,7 +33,7 @@ QString texts_of(const session::Plan& plan, const frame::Frame& frame) {
     return out.join("\n");
 }
 
-/// How the rig's patch is in a frame; nullopt: there is none.
+/// The state of the rig's patch in a frame; nullopt if there is none.
 std::optional<view::PatchLook> patch_of(const session::Plan& plan, const frame::Frame& frame) {
     if (!plan.rig.patch) return {};
     const bool in_state = plan.task && frame.trial > 0 && frame.phase > 0 && frame.task.outcome < 0;
@@ -242,7 +242,7 @@ void OperatorWindow::keyPressEvent(QKeyEvent* event) {
 
 void OperatorWindow::turn_workspaces() {
     const bool follow = follow_action_->isChecked();
-    // what is felt on the right has to be seen on the right, by the subject too
+    // what is felt on the right must be seen on the right, by the subject too
     if (follow) subjects_.each([&](SceneWidget& scene) { scene.set_camera(scene_->camera()); });
     if (runner_.running()) runner_.turn_workspaces(follow ? view::azimuth(scene_->camera()) : 0);
 }
@@ -261,7 +261,7 @@ void OperatorWindow::pause(bool paused) {
 
 void OperatorWindow::force_off() {
     if (runner_.running() && !runner_.paused()) pause(true);
-    // a number that is being typed, and does not count yet, is taken back
+    // a number that is being typed, and is not valid yet, is undone
     if (auto* const number = qobject_cast<QDoubleSpinBox*>(QApplication::focusWidget()))
         number->setValue(number->value());
 }
@@ -325,7 +325,7 @@ void OperatorWindow::refresh() {
     if (runner_.finishing()) update_state();
 }
 
-/// What the person looks at, first of all.
+/// The picture that the person mainly looks at.
 SceneWidget& OperatorWindow::first_scene() {
     return subjects_.first() == nullptr ? *scene_ : *subjects_.first();
 }
@@ -490,7 +490,7 @@ void OperatorWindow::closeEvent(QCloseEvent* event) {
     settings.setValue("docks", saveState());
     subjects_.close();
     event->accept();
-    // sessions that are looked at do not keep the program
+    // windows of recorded sessions do not keep the program running
     QMetaObject::invokeMethod(qApp, &QApplication::closeAllWindows, Qt::QueuedConnection);
     if (ended_ || lost_) QCoreApplication::exit(ended_ ? 1 : 0);  // even if a dialog is open
 }

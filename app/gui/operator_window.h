@@ -40,17 +40,17 @@ class OperatorWindow : public QMainWindow {
     OperatorWindow(QString out, double sync, std::atomic<bool>& stop);
     ~OperatorWindow() override;
 
-    /// Shows what there is to begin with.
+    /// Shows the start page.
     void show_start_page();
     /// Opens a scene or an experiment. Problems go to the log, and the last good file stays.
     void open(const QString& file);
-    /// Pauses the running session: force is off from the servo's next tick until it goes on.
+    /// Pauses the running session: force is off from the servo's next tick until it continues.
     void force_off();
     /// `signal` asked the program to end, and has ended force already: the window closes once the
     /// session's files are written.
     void end(int signal);
-    /// Another program destroyed this window: the session ends, as when it is closed, and then the
-    /// program.
+    /// Another program destroyed this window: the session ends, as when the window is closed, and
+    /// then the program.
     void end_unseen();
 
   protected:
@@ -79,20 +79,20 @@ class OperatorWindow : public QMainWindow {
     void choose_session();
     void play_sessions(const QStringList& folders);
     void reload();
-    /// Shows where the text has a body that was clicked.
+    /// Shows the place in the text of a body that was clicked.
     void pick(size_t body);
-    /// Has the text put a body elsewhere, and shows it there until it has been read again; `shown`:
-    /// it already is.
+    /// Moves a body in the text, and shows it there until the text has been read again; `shown`: it
+    /// is already shown.
     void move_body(const std::string& name, const BodyWay& way, bool shown);
-    /// Moves the body in whose lines the text's cursor is.
+    /// Moves the body whose lines contain the text cursor.
     void step_body(const Vec3& step);
-    /// Puts a box about the body in whose lines the text's cursor is.
+    /// Puts a box around the body whose lines contain the text cursor.
     void mark_picked();
     void opened(const Opened& opened);
     void refused(const QStringList& problems);
     void start();
     void refuse_to_start();
-    /// Starts, after what there is to check and to ask.
+    /// Starts, after all checks and questions.
     void start_checked();
     /// Shows the checklist; `before_start`: a session follows.
     void show_checklist(bool before_start);
@@ -102,15 +102,14 @@ class OperatorWindow : public QMainWindow {
     void show_page_of_docs(const QString& name);
     /// Asks who the person is, then starts.
     void start_trials();
-    /// Offers to go on with an unfinished session of that person, if there is one.
+    /// Offers to continue an unfinished session of that person, if there is one.
     void begin_or_go_on(const recording::Participant& participant);
-    /// Reads the file again, so that the session is of the file as it is now, and starts.
-    /// `resumes`: folder of the session to go on with, whose frozen files are read instead; "":
-    /// none.
+    /// Reads the file again, so that the session uses its present content, and starts. `resumes`:
+    /// folder of the session to continue, whose frozen files are read instead; "": none.
     void begin(const recording::Participant& participant, const std::string& resumes = "");
     void run(const session::Plan& plan, const recording::Participant& participant,
              std::unique_ptr<devices::DeviceGroup> devices);
-    /// Of the rig that is chosen, or that the open file names; empty: none.
+    /// File of the rig that is chosen, or that the open file names; empty if there is none.
     QString rig_file() const;
     rig::NamedBy rig_named_by() const;
     void calibrate();
@@ -123,7 +122,7 @@ class OperatorWindow : public QMainWindow {
     void click(double share);
     const task::AskSpec* asked_by_mouse();
     void show_question();
-    /// Turns the workspaces to the camera, if they are to follow it.
+    /// Turns the workspaces to the camera, if they follow it.
     void turn_workspaces();
     void pause(bool paused);
     void session_ended(const SessionEnd& end);
@@ -136,9 +135,9 @@ class OperatorWindow : public QMainWindow {
     void show_progress(const frame::Frame& frame);
     bool has_trials() const;
     SessionPanel::State state() const;
-    /// What the task says to the person over the scene; empty: nothing.
+    /// The task's texts over the scene; empty if there are none.
     QString message() const;
-    /// Text and picture of the task's page that is shown; both empty: none.
+    /// Text and picture of the task's page that is shown; both empty if there is none.
     QString page_text() const;
     QString page_picture() const;
     /// The text over the scene: what to do next, or what is wrong.
@@ -146,9 +145,9 @@ class OperatorWindow : public QMainWindow {
     void update_state();
     void log(const QString& text, bool problem = false);
     session::Request request(const QString& file) const;
-    /// Asks what becomes of changes of the text that were not saved; false: nothing is to be done.
+    /// Asks whether to save or discard unsaved changes. Returns false if the user cancels.
     bool may_leave_text();
-    /// Keeps such changes as a draft.
+    /// Keeps unsaved changes as a draft.
     void leave_text();
 
     QString out_;

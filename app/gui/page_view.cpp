@@ -39,7 +39,7 @@ void PageView::resizeEvent(QResizeEvent* event) {
     fit();
 }
 
-/// Fits letters, which must be legible from a chair's distance, and the picture to the page.
+/// Fits the letters, which must be legible from a chair, and the picture to the page.
 void PageView::fit() {
     setStyleSheet(QString("background: #14181e; color: white; font-size: %1px;")
                       .arg(std::max(20, height() / 30)));

@@ -10,8 +10,8 @@ class PageView : public QWidget {
   public:
     explicit PageView(QWidget* parent);
 
-    /// `picture`: a file, or empty. Without text and picture there is no page. Whether it was
-    /// another one before.
+    /// `picture`: a file, or empty. Without text and picture there is no page. Returns whether the
+    /// page changed.
     bool set_page(const QString& text, const QString& picture);
 
   protected:

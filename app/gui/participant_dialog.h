@@ -14,8 +14,8 @@ class ParticipantDialog : public QDialog {
     Q_OBJECT
 
   public:
-    /// `known`: what the fields begin with. `needs_number`: the order of the trials depends on the
-    /// number at the end of the identifier.
+    /// `known`: initial content of the fields. `needs_number`: the order of the trials depends on
+    /// the number at the end of the identifier.
     ParticipantDialog(const recording::Participant& known, bool needs_number, QWidget* parent);
     recording::Participant participant() const;
 

@@ -1,6 +1,6 @@
-// A field of plain text with several lines. What is pasted or dropped may be nothing (the clipboard
-// is empty, or its owner is gone: Qt 6.4 would end the program) or anything: what no text file may
-// have is left out.
+// A field of plain text with several lines. Pasted or dropped data may be missing (an empty
+// clipboard, or one whose owner is gone, would end the program with Qt 6.4) or arbitrary:
+// characters that no text file may have are dropped.
 #pragma once
 
 #include <QPlainTextEdit>

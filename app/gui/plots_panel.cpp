@@ -9,7 +9,7 @@
 namespace dihaptic::gui {
 namespace {
 
-/// The colour as the picture of the scene shows it.
+/// The colour in which the picture of the scene shows it.
 QColor screen_colour(const Vec3& linear) {
     const auto srgb = [](double x) {  // IEC 61966-2-1
         return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;

@@ -1,5 +1,5 @@
-// The line of a question that is answered by mouse: it lies over the scene, and a click on it
-// answers.
+// The line of a question that is answered by mouse. It lies over the scene, and a click on it is
+// the answer.
 #pragma once
 
 #include <QWidget>

@@ -17,7 +17,7 @@ namespace dihaptic::gui {
 namespace {
 
 constexpr double kOrbit = 0.006;     // [rad/pixel]
-constexpr double kStill = 3;         // way of the pointer that is none [px]
+constexpr double kStill = 3;         // shorter ways of the pointer do not count [px]
 constexpr double kCoarse = 2.0 / 3;  // detail of pictures where that is needed
 constexpr size_t kPath = 300;        // length of the path [pictures]: five seconds
 
@@ -66,7 +66,7 @@ void SceneWidget::set_scene(const scene::Scene& scene, const frame::Frame& frame
     workspaces_ = std::move(workspaces);
     turn_ = turn;
     path_.clear();
-    // who drags a body goes on, though what was typed before is shown only now
+    // a drag continues even if earlier changes of the text are shown only now
     const auto is_same = [&](size_t body) {
         return body < scene.bodies.size() && scene.bodies[body].name == scene_.bodies[body].name;
     };
@@ -205,7 +205,7 @@ void SceneWidget::place_labels() {
     const int width = room.width(), height = room.height();
     page_->setGeometry({{0, 0}, room});
     rating_->setGeometry(width / 10, height * 7 / 10, width * 8 / 10, height * 2 / 10);
-    // legible from a chair's distance, on a screen of any size
+    // legible from a chair, on a screen of any size
     banner_->setStyleSheet(
         QString("background: rgba(20, 24, 30, 200); color: white; padding: 12px 20px; "
                 "font-size: %1px; border-radius: 8px;")
@@ -305,8 +305,8 @@ display::Display SceneWidget::seen_display() {
     return out;
 }
 
-/// Glasses open for the eyes in turn though a picture is late: whose the next one is follows from
-/// how often the screen was refreshed since the last.
+/// Glasses open for the eyes in turn even if a picture is late. Whose picture is next follows from
+/// the number of refreshes since the last one.
 void SceneWidget::take_turns() {
     if (!display_ || display_->stereo != display::Stereo::in_turn) return;
     const double periods =

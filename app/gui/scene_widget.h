@@ -40,7 +40,7 @@ class SceneWidget : public QOpenGLWidget {
     void set_picked(std::optional<size_t> body);
     /// Shows the picked body moved, until the next frame or scene.
     void move_picked(const BodyWay& way);
-    /// The squeezing by keys that are held now.
+    /// The squeezing by keys that are currently held.
     MouseHand::Squeeze keys() const { return keys_; }
 
     const std::vector<view::Camera>& cameras() const { return cameras_; }
@@ -48,13 +48,14 @@ class SceneWidget : public QOpenGLWidget {
     void set_camera(const view::Camera& camera);
     const view::Camera& camera() const { return camera_; }
     void reset_camera();
-    /// Draws as the person sees it on a display, in place of the camera; nullopt: by the camera.
+    /// Draws the scene as the person sees it on a display, in place of the camera's view; nullopt:
+    /// the camera's view.
     void set_display(const std::optional<display::Display>& display);
-    /// Where the head is from whose eyes it is drawn, if the display's eyes are tracked.
+    /// The head from whose eyes the scene is drawn, if the display's eyes are tracked.
     void set_head(const outlets::HeadPose& head);
     /// The head that the last picture was drawn for; nullopt: for eyes that rest.
     const std::optional<outlets::HeadPose>& shown_to() const { return shown_to_; }
-    /// What is drawn besides the scene; `path`: of the object, in the last seconds.
+    /// Selects what is drawn besides the scene; `path` is the object's path in the last seconds.
     struct Layers {
         bool handles = false;
         bool forces = false;
@@ -68,8 +69,8 @@ class SceneWidget : public QOpenGLWidget {
     };
     void set_layers(const Layers& layers);
     void set_patch(const std::optional<view::PatchLook>& patch);
-    /// Whether pictures have all pixels; otherwise, two thirds of them each way. At the beginning
-    /// they have if a graphics card draws.
+    /// Whether pictures have all pixels, or two thirds of them in each direction. At first they
+    /// have all if a graphics card draws.
     void set_fine(bool fine);
     const Layers& layers() const { return layers_; }
     /// Which frame the last picture shows.
@@ -96,7 +97,7 @@ class SceneWidget : public QOpenGLWidget {
     void dragged(size_t body, const dihaptic::gui::BodyWay& way);
     /// A key was pressed that moves the picked body by a step [m].
     void stepped(const dihaptic::Vec3& step);
-    /// OpenGL draws in software, and so in less detail; in words. Sent once.
+    /// OpenGL draws in software, and therefore in less detail; a message. Sent once.
     void draws_in_software(const QString& what);
     /// OpenGL cannot draw: why, and what to do.
     void failed(const QString& why);
@@ -116,7 +117,7 @@ class SceneWidget : public QOpenGLWidget {
   private:
     void release();
     void set_key(const QKeyEvent& event, bool down);
-    /// Keys do to the camera what the mouse does; false: this is none of them.
+    /// Moves the camera by a key, as the mouse does; false if the key is not one of these.
     bool look_by_key(const QKeyEvent& event);
     void set_staying(bool stays);
     void move_hand(const QPointF& pixels, bool in_depth);
@@ -142,8 +143,8 @@ class SceneWidget : public QOpenGLWidget {
     std::optional<outlets::HeadPose> head_, shown_to_;
     bool right_eye_ = false;  // whose picture is next, of a display for both eyes in turn
     QElapsedTimer since_swap_;
-    /// Holds page, question and texts where each eye, or a mirror, has to see them the right way;
-    /// null: they lie over the scene.
+    /// Holds page, question and texts if each eye, or a mirror, has to see them the right way
+    /// round; null: they lie over the scene.
     std::unique_ptr<QWidget> words_;
     std::optional<size_t> picked_;
     std::optional<BodyDrag> drag_;  // of the picked body, while the button is down

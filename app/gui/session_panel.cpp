@@ -73,7 +73,7 @@ SessionPanel::SessionPanel(QWidget* parent)
     set_state(State::nothing, false);
 }
 
-/// Who moves simulated hands, and how fast their time goes by.
+/// The choices of who moves simulated hands, and of how fast their time passes.
 void SessionPanel::set_up_hand() {
     hand_->addItems({tr("the mouse"), tr("the file's script"), tr("a simulated person")});
     hand_->setToolTip(tr(
@@ -125,8 +125,8 @@ void SessionPanel::set_state(State state, bool trials) {
     for (QWidget* choice : std::initializer_list<QWidget*>{open_, rig_, participant_, hand_})
         choice->setEnabled(idle);
     if (idle) {
-        // not Qt's bar without an end: its Fusion style draws on, 60 times a second, once that has
-        // an end again
+        // not Qt's busy indicator: its Fusion style keeps animating, 60 times a second, after the
+        // bar has an end again
         progress_->setRange(0, 1);
         progress_->setValue(0);
         progress_->setFormat(opening ? tr("opening") : state == State::ready ? tr("ready") : "");

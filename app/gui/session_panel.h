@@ -23,7 +23,7 @@ class SessionPanel : public QWidget {
     explicit SessionPanel(QWidget* parent = nullptr);
 
     void set_file(const QString& file);
-    /// Rig files to choose from; the first choice is the rig that the file names.
+    /// The rig files to choose from; the first choice is the rig that the file names.
     void set_rigs(const QStringList& files);
     /// `trials`: whether the file that runs, or would run, has trials.
     void set_state(State state, bool trials);
@@ -48,7 +48,7 @@ class SessionPanel : public QWidget {
     void start_requested();
     void pause_requested(bool paused);
     void skip_requested();
-    /// The session, or the opening of a file, is to stop.
+    /// The session, or the opening of a file, should stop.
     void stop_requested();
 
   private:

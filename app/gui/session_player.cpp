@@ -203,7 +203,7 @@ void SessionPlayer::make_menus() {
     page(tr("&Tables of a session"), "tables");
 }
 
-/// Lists what the session's tables say of when something happened.
+/// Lists the events in the session's tables.
 void SessionPlayer::make_moments() {
     list_ = new QTreeWidget;
     list_->setAccessibleName(tr("Moments"));
@@ -450,7 +450,7 @@ void open_sessions(const QStringList& folders) {
         SessionPlayer* const player = players[i].release();  // deletes itself when it is closed
         if (folders.size() == 2) {
             player->set_together(true);
-            // half a display has no room for the list of moments, which View shows again
+            // half a display has no room for the list of moments; View shows it again
             for (QDockWidget* dock : player->findChildren<QDockWidget*>()) dock->hide();
             player->resize(room.width() / 2, room.height());
             player->move(i == 0 ? room.left() : room.right() + 1 - player->width(), room.top());

@@ -1,5 +1,5 @@
-// A window for a recorded session: the scene at any moment, curves of what was recorded, and what
-// happened when. Two may go together, to compare sessions.
+// A window for a recorded session: the scene at any moment, curves of what was recorded, and a list
+// of events. Two windows may be linked, to compare sessions.
 #pragma once
 
 #include <QElapsedTimer>
@@ -38,14 +38,14 @@ class SessionPlayer : public QMainWindow {
     double time() const { return time_; }
     void go_to(double time);
 
-    /// A moment as a trial has it: the trial's number (0: before all trials, or there are none) and
-    /// the time since it began [s].
+    /// A moment relative to a trial: the trial's number (0: before all trials, or there are none)
+    /// and the time since it began [s].
     struct Moment {
         int trial = 0;
         double since = 0;
     };
     Moment moment() const;
-    /// Shows that moment of the trial's last attempt, at most its end, if this window goes together
+    /// Shows that moment of the trial's last attempt, at most its end, if this window is linked
     /// with others and has such a trial.
     void follow(const Moment& moment);
     /// Whether this window and others show the same moment.
@@ -62,7 +62,7 @@ class SessionPlayer : public QMainWindow {
     /// reached before is counted there.
     void list_moment(double seconds, const QString& what);
     void read_curves();
-    /// False, and says why, if a text is no expression.
+    /// False, with a message, if a text is not an expression.
     bool choose_curves();
     void play(bool on);
     void go_on();
@@ -100,8 +100,8 @@ class SessionPlayer : public QMainWindow {
     QTimer read_;  // curves of a stretch that was zoomed to
 };
 
-/// Opens a window for each of these sessions. Two stand side by side and go together. Throws Error
-/// when one cannot be read.
+/// Opens a window for each of these sessions. Two windows stand side by side and are linked. Throws
+/// Error when one cannot be read.
 void open_sessions(const QStringList& folders);
 
 }  // namespace dihaptic::gui

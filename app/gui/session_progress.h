@@ -9,7 +9,7 @@
 namespace dihaptic::gui {
 
 struct SessionProgress {
-    QString trial;     ///< which trial of how many, and what it is; empty without trials
+    QString trial;     ///< number of the trial, out of how many, and its name; empty without trials
     double share = 0;  ///< of the session that is over
     QString text;      ///< time that is left, or the time so far if that is not known
 };

@@ -13,7 +13,7 @@ constexpr int kBeat = 100;        // a tenth of Live::kLongestSilence [ms]
 constexpr int kFirstBeat = 5000;  // latest first beat, even if there is no picture [ms]
 
 /// Waits for the display: a key can take force away only if the display answers too. Asking X for
-/// the pointer's position waits for its answer.
+/// the pointer's position waits for the answer.
 void ask_display() {
     QCursor::pos();
 }
@@ -80,7 +80,7 @@ void SessionRunner::start(session::Plan plan, session::RunOptions options, doubl
     // if the window never beats, force goes off too
     session_->live.note_alive(kFirstBeat * 1e-3);
     first_beat_.start();
-    // registered anew for each session, so that exit() calls it before it destroys what was made
+    // registered again for each session, so that exit() calls it before destroying what was made
     // before the session
     std::atexit(end_program);
     options.live = &session_->live;
@@ -95,7 +95,7 @@ void SessionRunner::start(session::Plan plan, session::RunOptions options, doubl
     };
     options.stuck = [](const std::string& message) {
         std::fprintf(stderr, "%s\n", message.c_str());
-        std::_Exit(1);  // an orderly end would wait for a thread that is stuck
+        std::_Exit(1);  // a proper end would wait for a thread that is stuck
     };
     busy_ = true;
     thread_ = std::thread([this, options] {

@@ -1,5 +1,5 @@
-// Runs sessions for the window in a thread of their own, so that it never waits for one, and ends
-// their force when the window hangs or goes.
+// Runs sessions for the window in a thread of their own, so that the window never waits for one,
+// and ends their force when the window hangs or disappears.
 #pragma once
 
 #include <QObject>
@@ -27,10 +27,10 @@ class SessionRunner : public QObject {
     Q_OBJECT
 
   public:
-    /// `stop`: when it is set, force goes off at once and the session ends; has to outlive this. A
-    /// program has only one SessionRunner.
+    /// `stop`: when it is set, force goes off at once and the session ends; it must outlive this
+    /// object. A program has only one SessionRunner.
     explicit SessionRunner(std::atomic<bool>& stop);
-    /// Ends the session in order and waits for its files.
+    /// Ends the session properly and waits for its files.
     ~SessionRunner() override;
 
     /// Starts a session on its open devices, as session::run_session() does; one at a time. Sets
@@ -43,8 +43,8 @@ class SessionRunner : public QObject {
     /// The ticks are over, and files are being written.
     bool finishing() const { return running() && session_->finishing; }
 
-    /// To be called when the window shows the session: from now on force goes off if the window
-    /// falls silent. Not before, because drawing a scene for the first time may take longer.
+    /// Call when the window shows the session: from now on force goes off if the window stops
+    /// responding. Not before, because drawing a scene for the first time may take longer.
     void watch();
 
     // what follows, up to end(), only while running
@@ -64,10 +64,10 @@ class SessionRunner : public QObject {
     void set_paused(bool paused) { session_->live.paused = paused; }
     /// The folder that the session is recorded in, once; "" before it is known.
     QString take_folder() { return QString::fromStdString(session_->live.take_folder()); }
-    /// Why the session has paused by itself since the last call; "": it has not.
+    /// Why the session has paused by itself since the last call; "" if it has not.
     QString take_told() { return QString::fromStdString(session_->live.take_told()); }
     bool paused() const { return session_->live.paused; }
-    /// Turns the knobs toward these, but for the workspaces.
+    /// Turns the knobs toward these values, except for the workspaces.
     void turn_knobs(frame::Knobs knobs) {
         knobs.workspace_turn = session_->knobs.workspace_turn;
         session_->knobs = knobs;
@@ -80,7 +80,7 @@ class SessionRunner : public QObject {
     }
     /// Of a session on the virtual clock: session time over time, 0: as fast as it can be.
     void set_pace(double pace) { session_->live.pace = pace; }
-    /// Does so many ticks of it though it is paused.
+    /// Runs this many ticks of it although it is paused.
     void step(int ticks) { session_->live.steps += ticks; }
     bool on_virtual_clock() const { return session_->clock == session::Clock::virtual_clock; }
     /// Skips the current trial.
@@ -101,15 +101,15 @@ class SessionRunner : public QObject {
     void press(char key) { session_->key = key; }
     /// Passes on where on a question's line the mouse clicked, from 0 to 1.
     void click(double share) { session_->live.clicked = share; }
-    /// Ends the session in order, even while the hand holds something.
+    /// Ends the session properly, even while the hand holds something.
     void end() { session_->live.ended = true; }
     /// Whether force was switched off for good, as by a signal; also after the session's end.
     bool stopped() const { return stop_; }
     /// Whether the session is to end; only while running, from the session's thread too.
     bool ending() const { return session_->live.ended || stop_; }
-    /// For a program that must end without unwinding because its display is gone. If a session runs
-    /// it switches force off at once, waits for the session's files, and ends the program; if none
-    /// does it does nothing. From any thread but the session's.
+    /// For a program that must end without unwinding because its display is gone. If a session is
+    /// running, it switches force off at once, waits for the session's files, and ends the program;
+    /// otherwise it does nothing. From any thread but the session's.
     static void end_program();
     /// Pauses the session that runs, if one does, though the window is busy or hangs: force is off
     /// from the servo's next tick on. From any thread.

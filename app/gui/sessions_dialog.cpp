@@ -39,9 +39,9 @@ enum Column {
 };
 
 constexpr const char* kNote = "note.txt";
-constexpr int kLooked = 20;  // sessions after which columns have the widths that they need
+constexpr int kLooked = 20;  // number of sessions after which the columns' widths are adjusted
 
-/// Reads a table of a session's; calls `count` with it, if it is there and whole.
+/// Reads a table of a session; calls `count` with it, if it exists and is intact.
 template <class Row>
 QString counted_in(const QString& file, QString (*count)(const rows::RowFile<Row>&)) {
     if (!is_there(file.toStdString())) return "";
@@ -60,7 +60,7 @@ QString trials_in(const QString& session) {
     });
 }
 
-/// Number of whole lifts, of how many.
+/// Number of complete lifts, out of how many.
 QString lifts_in(const QString& session) {
     return counted_in<rows::LiftRow>(session + "/lifts.csv", [](const rows::LiftFile& lifts) {
         return SessionsDialog::tr("%1 of %2")
@@ -81,7 +81,8 @@ QString time_of(const recording::SessionFolder& folder, const recording::Session
     }
 }
 
-/// What was changed of a session's tables that are listed here since it ended, and what to do.
+/// What was changed in those of a session's tables that are listed here since it ended, and what to
+/// do.
 QString changes_of(const recording::SessionFolder& folder, const recording::SessionInfo& info) {
     constexpr std::string_view kListed[] = {"trials.csv", "lifts.csv"};
     QStringList out;
@@ -182,9 +183,9 @@ void SessionsDialog::write_note() {
     const QString session = item->data(0, Qt::UserRole).toString();
     const std::string file = (session + "/" + kNote).toStdString();
     try {
-        // before somebody writes it in vain, and before another's file is shown as a note
+        // before somebody writes a note in vain, and before somebody else's file is shown as a note
         check_replaceable(file);
-        // as it is now: somebody may have written it since the list was made
+        // read again, because somebody may have written it since the list was made
         const std::string before = is_there(file) ? read_text_file(file) : "";
         const auto note = ask_for_note(item->text(Column::folder_name),
                                        QString::fromStdString(before).trimmed(), this);

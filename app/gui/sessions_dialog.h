@@ -1,4 +1,4 @@
-// Lists the recorded sessions of a folder, to look at one again, or to write a note about it.
+// Lists the recorded sessions of a folder, to view one again or to write a note about it.
 #pragma once
 
 #include <QDialog>
@@ -32,7 +32,7 @@ class SessionsDialog : public QDialog {
     QTreeWidget* list_;
     QPushButton* open_;
     QPushButton* note_;
-    QFileInfoList waiting_;  // folders that are not listed yet
+    QFileInfoList waiting_;  // folders not yet listed
     QTimer filling_;
 };
 

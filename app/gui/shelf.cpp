@@ -14,7 +14,7 @@
 namespace dihaptic::gui {
 namespace {
 
-/// How long what the file has takes; empty if nobody can tell.
+/// How long the file's session takes; empty if nobody can tell.
 QString length_of(const session::Plan& plan) {
     if (plan.task) {
         const auto trials = plan.task->trials.size();
@@ -32,8 +32,8 @@ Shelf::~Shelf() {
 
 QString Shelf::picture_of(const QString& file) {
     QCryptographicHash hash(QCryptographicHash::Sha1);
-    // an experiment's picture is its scene's too, which may change: the program's version tells
-    // apart what it draws, and no more is needed of a small picture
+    // an experiment's picture also depends on its scene, which may change; the program's version is
+    // part of the key, which suffices for a small picture
     hash.addData(bytes_of(file).value_or(QByteArray()));
     hash.addData(QFileInfo(file).absoluteFilePath().toUtf8());
     hash.addData(QCoreApplication::applicationVersion().toUtf8());
@@ -61,7 +61,7 @@ void Shelf::read(const QStringList& files) {
                 if (!plan.title.empty()) title = QString::fromStdString(plan.title);
                 length = length_of(plan);
             } catch (const std::exception&) {
-                // what is wrong with it is said when it is opened
+                // opening it reports what is wrong
             }
             QMetaObject::invokeMethod(
                 this, [=, this] { Q_EMIT told(file, title, length); }, Qt::QueuedConnection);
@@ -86,7 +86,7 @@ void Shelf::draw_next() {
             draw_next();
         });
         drawing_->setStandardErrorFile(QProcess::nullDevice());
-        // nobody waits for the picture: it gives way to the window, and to other programs
+        // nobody waits for the picture, so it gives way to the window and to other programs
         drawing_->setChildProcessModifier([] { setpriority(PRIO_PROCESS, 0, 19); });
         drawing_->start(QCoreApplication::applicationDirPath() + "/dihaptic",
                         {"picture", file, "--size", "480x300", "-o", picture});

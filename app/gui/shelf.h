@@ -1,5 +1,5 @@
-// Reads what there is to begin with, shipped or one's own, in a thread of its own: the titles and
-// lengths of files, and small pictures of them, which `dihaptic picture` draws.
+// Reads the files for the start page, shipped ones or the user's, in a thread of its own: their
+// titles and lengths, and small pictures drawn by `dihaptic picture`.
 #pragma once
 
 #include <QObject>
@@ -16,17 +16,16 @@ class Shelf : public QObject {
     using QObject::QObject;
     ~Shelf() override;
 
-    /// Reads these files, one after the other, and draws those that have no picture yet.
+    /// Reads these files one after the other, and draws those that have no picture yet.
     void read(const QStringList& files);
-    /// Ends reading and drawing, which would keep the computer busy: a session begins.
+    /// Ends reading and drawing, which would keep the computer busy while a session begins.
     void stop();
 
-    /// Where the picture of a file is, or is to be, as the file is now.
+    /// Path of the picture of a file in its present state, whether or not it exists.
     static QString picture_of(const QString& file);
 
   Q_SIGNALS:
-    /// `length`: "45 trials", "8 s"; empty if it ends when one likes. A file with an error has
-    /// none.
+    /// `length`: "45 trials", "8 s"; empty if the user ends it. A file with an error has none.
     void told(const QString& file, const QString& title, const QString& length);
     void drawn(const QString& file, const QString& picture);
 

@@ -18,7 +18,7 @@ constexpr QSize kTileSize{224, 140};
 constexpr QSize kItem{240, 200};  // with its title and length below
 constexpr int kFile = Qt::UserRole;
 
-/// What one begins with: a scene to be played with, then trials, few of them.
+/// Files to begin with: a scene to play with, then a few with trials.
 const QStringList kFirst{"scenes/block-on-table.yaml", "experiments/first-trials.yaml",
                          "scenes/tools.yaml", "experiments/visuomotor-rotation.yaml"};
 
@@ -29,7 +29,7 @@ QStringList files_in(const QString& folder) {
     return out;
 }
 
-/// What stands at the head of a file, up to its first empty comment or key.
+/// The comment at the head of a file, up to its first empty comment line or key.
 QString head_of(const QString& file) {
     QStringList lines;
     for (const QByteArray& bytes : bytes_of(file).value_or(QByteArray()).split('\n')) {

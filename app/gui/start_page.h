@@ -1,5 +1,5 @@
-// What the window shows while no file is open: what there is to begin with, as pictures with titles
-// and lengths, and what was open before.
+// What the window shows while no file is open: files to begin with, as pictures with titles and
+// lengths, and recently opened ones.
 #pragma once
 
 #include <QListWidget>
@@ -16,15 +16,15 @@ class StartPage : public QWidget {
   public:
     explicit StartPage(QWidget* parent = nullptr);
 
-    /// Reads what there is again.
+    /// Reads the files again.
     void fill();
-    /// Leaves the computer to what is opened.
+    /// Stops reading, so that the computer is free for the file that is opened.
     void rest() { shelf_.stop(); }
 
-    /// The folder that `scenes` and `experiments` are in: the working directory, or else that of
-    /// what comes with the program; "" if they are nowhere.
+    /// The folder that contains `scenes` and `experiments`: the working directory or, failing that,
+    /// the program's own; "" if there is none.
     static QString shipped_folder();
-    /// Files that were opened before, the last one first, as long as they exist.
+    /// Recently opened files that still exist, the last one first.
     static QStringList recent_files();
 
   Q_SIGNALS:
@@ -35,7 +35,7 @@ class StartPage : public QWidget {
   private:
     QListWidget* add_list(const QString& title);
     void add(QListWidget* list, const QStringList& files);
-    /// Calls f on each item that shows the file.
+    /// Calls f for each item that shows the file.
     template <class F>
     void each(const QString& file, const F& f);
 

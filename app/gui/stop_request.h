@@ -1,5 +1,5 @@
-// A request from outside the window that the program end. The running session gets it by a flag, in
-// its next tick, and the window by its event loop.
+// A request from outside that the program should end. The running session gets it by a flag, in its
+// next tick, and the window by its event loop.
 #pragma once
 
 #include <QObject>

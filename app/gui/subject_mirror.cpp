@@ -5,8 +5,8 @@
 namespace dihaptic::gui {
 namespace {
 
-/// Between two pictures of the mirror [ms]. The scene is drawn once more for each, which takes its
-/// time where there is no graphics card.
+/// Time between two pictures of the mirror [ms]. The scene is drawn once more for each, which takes
+/// long without a graphics card.
 constexpr int kBetween = 250;
 
 }  // namespace
@@ -25,7 +25,7 @@ void SubjectMirror::follow(SceneWidget* scene, const QString& why) {
         if (scene_) scene_->disconnect(this);
         scene_ = scene;
         picture_ = {};
-        // what is not drawn anew needs no new picture
+        // an unchanged view needs no new picture
         if (scene != nullptr)
             connect(scene, &QOpenGLWidget::frameSwapped, this, [this] {
                 if (isVisible() && !wait_.isActive()) wait_.start();

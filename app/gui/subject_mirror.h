@@ -1,5 +1,5 @@
-// What the subject sees, in small, for the operator: the picture of the subject's first window,
-// texts and all.
+// A small copy of what the subject sees, for the operator: the picture of the subject's first
+// window, including texts.
 #pragma once
 
 #include <QPixmap>
@@ -26,7 +26,7 @@ class SubjectMirror : public QWidget {
     void showEvent(QShowEvent* event) override;
 
   private:
-    /// Takes a picture, if anybody sees it.
+    /// Takes a picture, if it is visible.
     void look();
 
     QPointer<SceneWidget> scene_;

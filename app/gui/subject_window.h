@@ -5,13 +5,12 @@
 
 namespace dihaptic::gui {
 
-/// The letter or digit of a key event, for a task, or what a number is typed with besides: point,
-/// minus, enter and back; 0 for any other key.
+/// The letter or digit of a key event, for a task, or another key with which numbers are typed:
+/// point, minus, Enter and Backspace; 0 for any other key.
 char task_key(const QKeyEvent& event);
 
-/// Shows a window on the whole of that monitor or, if `monitor` is empty, of one that the
-/// operator's window is not on, if there is one. What is wrong, and what to do, comes back; empty:
-/// nothing.
+/// Shows a window in full screen on that monitor or, if `monitor` is empty, on one without the
+/// operator's window, if there is one. Returns what is wrong and what to do; empty if all is well.
 QString show_on(QWidget& window, const QString& monitor, const QWidget& operator_window);
 
 class SubjectWindow : public QWidget {

@@ -29,7 +29,7 @@ void SubjectWindows::track(const std::optional<outlets::TrackedHead>& head) {
     head ? follow_.start() : follow_.stop();
 }
 
-/// Whatever a tracker's library does, it does once it is loaded.
+/// A tracker's library may do anything once it is loaded.
 void SubjectWindows::track_head_of(const rig::Rig& rig) {
     try {
         if (rig.head) rig::check_libraries(rig);

@@ -1,4 +1,4 @@
-// What the subject looks at: a window for each display of the rig and its headset, or one window
+// The windows for the subject: one for each display of the rig and its headset, or one window
 // without a display.
 #pragma once
 
@@ -24,7 +24,7 @@ class SubjectWindows : public QObject {
     void close();
     /// Whether the subject looks at the operator's window.
     bool empty() const { return windows_.empty() && !headset_; }
-    /// The window that the subject looks at first of all; null: none.
+    /// The subject's main window; null if there is none.
     SceneWidget* first() { return windows_.empty() ? nullptr : &windows_.front()->scene(); }
     HeadsetView* headset() { return headset_.get(); }
     /// Gives them a scene, and a rig that may be another one.
@@ -42,13 +42,13 @@ class SubjectWindows : public QObject {
     void key_pressed(char key);
     /// A question's line was clicked at a share of its length.
     void clicked(double share);
-    /// The picture of a tick was handed to the screen that the subject looks at first of all.
+    /// The picture of a tick was handed to the subject's main screen.
     void presented(qint64 tick);
     /// The same of a headset, or of a screen that is drawn for a tracked head.
     void shown_to_head(const dihaptic::headset::Showing& showing);
-    /// The headset shows nothing more.
+    /// The headset has stopped showing.
     void headset_ended();
-    /// A monitor is not there, or what a headset or a tracker has to tell.
+    /// A monitor is missing, or a headset or tracker has a message.
     void told(const QString& what, bool problem);
 
   private:

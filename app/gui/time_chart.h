@@ -20,10 +20,10 @@ class TimeChart : public QWidget {
     double end() const { return end_; }
     /// `begin` and `end`: of the stretch that they are of. `share`: of it that has been read.
     void set_curves(std::vector<RecordedCurve> curves, double begin, double end, double share);
-    /// Values of the curves at the cursor, in words; empty: there is none.
+    /// Values of the curves at the cursor, in words; empty if there is no cursor.
     void set_values(const QStringList& values);
     void set_moments(std::vector<double> times);
-    /// The moment that is shown [s]. One out of sight is brought into it.
+    /// The moment that is shown [s]. If it is out of sight, the chart scrolls to it.
     void set_cursor(double time);
 
     QSize sizeHint() const override { return {900, 260}; }

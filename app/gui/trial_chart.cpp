@@ -14,7 +14,7 @@ constexpr double kDot = 3;           // radius [px]
 constexpr size_t kLeastAcross = 10;  // trials that the width is for, at the beginning
 
 QColor outcome_colour(int outcome) {
-    // the first outcome is mostly the wanted one
+    // the first outcome is usually the desired one
     constexpr std::array colours{"#009e73", "#d55e00", "#0072b2", "#cc79a7", "#e69f00"};
     return outcome < 0 ? QColor("#808080")
                        : QColor(colours[static_cast<size_t>(outcome) % colours.size()]);

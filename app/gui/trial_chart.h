@@ -1,4 +1,4 @@
-// A number of each trial, one after the other: a staircase, or how a person learns.
+// A chart of a number over trials: a staircase, or how a person learns.
 #pragma once
 
 #include <QWidget>

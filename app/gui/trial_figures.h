@@ -17,9 +17,9 @@ class TrialFigures : public QObject {
     TrialFigures();
     ~TrialFigures() override;
 
-    /// Follows the session that is recorded in a folder; what was followed before is dropped.
+    /// Follows the session that is recorded in a folder; an earlier one is dropped.
     void follow(const QString& folder);
-    /// The session is over: what is still to be read of it is read.
+    /// The session is over: reads the rest of it.
     void finish() { over_ = true; }
 
   Q_SIGNALS:

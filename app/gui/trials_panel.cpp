@@ -145,7 +145,7 @@ void TrialsPanel::add(const session::TrialEnd& end) {
     ends_.push_back(end);
     fill_in(ends_.size() - 1);
     chart(charted_);
-    // who has scrolled back goes on looking there
+    // a user who has scrolled back stays there
     const QScrollBar* const bar = table_->verticalScrollBar();
     if (bar->value() >= bar->maximum() - 1) table_->scrollToItem(item);
     if (table_->topLevelItemCount() == 1) {
@@ -183,7 +183,7 @@ void TrialsPanel::set_figures(const Table& trials) {
         };
         const bool any = std::ranges::any_of(found_, has);
         table_->setColumnHidden(column, !any);
-        // what is measured says more than how long it took
+        // a measure says more than the duration
         if (any && !chosen_ && charted_ == kSeconds && !figures_[i].endsWith("_s"))
             charted_ = column;
     }

@@ -1,5 +1,5 @@
-// The panel with a row for each attempt at a trial that has ended, as they come, what is measured
-// of it a moment later, and a chart of one of its columns.
+// The panel with a row for each finished attempt at a trial, with its measures a moment later, and
+// a chart of one of the columns.
 #pragma once
 
 #include <QTreeWidget>
@@ -19,14 +19,14 @@ class TrialsPanel : public QWidget {
   public:
     explicit TrialsPanel(QWidget* parent = nullptr);
 
-    /// A session of these trials begins; null: of none.
+    /// A session with these trials begins; null if it has none.
     void set_plan(std::shared_ptr<const task::TaskPlan> plan);
     void add(const session::TrialEnd& end);
-    /// Fills in what is measured of these attempts. `trials`: as trials.csv.
+    /// Fills in the measures of these attempts. `trials`: as in trials.csv.
     void set_figures(const Table& trials);
 
   private:
-    /// What is measured of an attempt.
+    /// The measures of an attempt.
     using Figures = std::vector<double>;
 
     /// Shows a column of numbers in the chart.

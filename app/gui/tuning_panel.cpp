@@ -46,7 +46,7 @@ void TuningPanel::add(QFormLayout* form, double frame::Knobs::*knob, const frame
     });
 }
 
-/// Others than the one that was turned keep what they are, which a box may show rounded.
+/// Keeps the exact values of the other knobs; their boxes may show them rounded.
 template <class T>
 void TuningPanel::turn(T frame::Knobs::*knob, const frame::Knob& is, T value) {
     if (setting_) return;

@@ -1,4 +1,5 @@
-// The panel for what may be changed while a session runs, from one of the next ticks on.
+// The panel for the knobs that may be changed while a session runs. Changes take effect in one of
+// the next ticks.
 #pragma once
 
 #include <QFormLayout>
@@ -20,11 +21,11 @@ class TuningPanel : public QWidget {
     void set_knobs(const frame::Knobs& knobs);
 
   Q_SIGNALS:
-    /// `what`: the knob that its user turned, and its value, in words.
+    /// `what`: the knob that the user turned, and its value, in words.
     void turned(const dihaptic::frame::Knobs& knobs, const QString& what);
 
   private:
-    /// Adds a knob with what shows its value.
+    /// Adds a knob with the widget that shows its value.
     template <NamedEnum E>
     void add(QFormLayout* form, E frame::Knobs::*knob, const frame::Knob& is);
     void add(QFormLayout* form, double frame::Knobs::*knob, const frame::Knob& is);

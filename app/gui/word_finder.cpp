@@ -14,7 +14,7 @@ bool is_letter(QChar c) {
     return c.isLetterOrNumber() || c == '_' || c == '.';
 }
 
-/// What is around a place of a text, by what stands before it.
+/// The context of a place in a text, judged by what precedes it.
 struct Around {
     QChar bracket;   // the innermost that is open; null: none
     QChar quote;     // in which the place is; null: in none
@@ -94,7 +94,7 @@ class AroundFinder {
     bool begins_ = true;  // a value or a key may begin here, in quotes or brackets
 };
 
-/// What the readers know where a text has kNoWord.
+/// The words that the readers know where a text has kNoWord.
 std::vector<Choice> words_in(const std::string& file, const QString& text) {
     const Unsaved unsaved(file, text.toStdString());
     Diagnostics diagnostics;

@@ -1,6 +1,6 @@
-// Finds the words that may stand at a place of a file's text: keys, names, and what the file itself
-// gives a name. The readers of files know them: what they say of a word that is none has all that
-// are.
+// Finds the words that may stand at a place of a file's text: keys, names, and names that the file
+// itself defines. The candidates come from the file readers: their error for an unknown word lists
+// all valid ones.
 #pragma once
 
 #include <QObject>
@@ -19,14 +19,14 @@ struct WordPlace {
     bool is_key = false;     ///< otherwise, what stands after a key
     bool has_colon = false;  ///< of a key, behind it
     QString asking;          ///< the text with a word in its place that no file knows
-    /// What else to ask if the readers know nothing then, and whether the word is a key in it: it
+    /// A second text to try if the readers find nothing, and whether the word is a key in it: it
     /// may be an item of a list, or in brackets that are not closed yet.
     std::vector<std::pair<QString, bool>> otherwise;
 };
 /// The place where a cursor is, in characters from the text's start.
 WordPlace word_place(const QString& text, int cursor);
 
-/// The word that asking texts have.
+/// The placeholder word in the texts that are tried.
 constexpr const char* kNoWord = "zz_no_word";
 
 class WordFinder : public QObject {
@@ -36,10 +36,10 @@ class WordFinder : public QObject {
     using QObject::QObject;
     ~WordFinder() override;
 
-    /// Looks for words in a thread of its own; `file`: that the text is of. Only what was asked
-    /// last is answered.
+    /// Looks for words in a thread of its own; `file` is the file of the text. Only the last
+    /// request is answered.
     void find(const QString& file, const WordPlace& place);
-    /// What was asked is not to be answered.
+    /// Cancels the last request.
     void forget() { ++asked_; }
 
   Q_SIGNALS:

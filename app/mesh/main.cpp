@@ -28,8 +28,8 @@ namespace {
 /// How the program ends (base/companion.h).
 enum Status : int { kDone = 0, kRefused = 1, kOutOfMemory = 3 };
 
-/// Lets the library read the mesh, and no file that it names: materials that it knows would change
-/// the order of vertices, and with them what is felt.
+/// Lets the library read the mesh, but no file that it names: materials would change the order of
+/// vertices, and thereby what is felt.
 class OneFile final : public Assimp::MemoryIOSystem {
   public:
     OneFile(const std::string& bytes, std::string name)
@@ -89,7 +89,7 @@ void add_face(const aiFace& face, const aiMesh& part, uint32_t offset, Surface& 
             {offset + face.mIndices[a], offset + face.mIndices[b], offset + face.mIndices[c]});
 }
 
-/// How many triangles the faces make.
+/// The number of triangles of the faces.
 size_t count_triangles(const aiScene& scene) {
     size_t out = 0;
     for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
@@ -138,8 +138,8 @@ Status read(const std::string& format) {
     Assimp::Importer importer;
     importer.SetIOHandler(new OneFile(bytes, name));  // the importer owns it from now on
     const auto read_with = [&](unsigned steps) { return importer.ReadFile(name, steps); };
-    // first to count: the library leaves out what it cannot cut of faces whose corners lie in line,
-    // and does not say so; STL has triangles alone
+    // counted first, because the library silently drops faces that it cannot triangulate, such as
+    // those with corners in line; STL has triangles only
     const aiScene* scene = format == "stl" ? nullptr : read_with(kJoined);
     const size_t wanted = scene == nullptr ? 0 : count_triangles(*scene);
     scene = read_with(kJoined | aiProcess_Triangulate);
@@ -153,7 +153,7 @@ Status read(const std::string& format) {
     const bool written = write(counts) && write(surface.vertices) && write(surface.faces) &&
                          write(surface.colours) && write(surface.parts) &&
                          write(surface.materials) && std::fflush(stdout) == 0;
-    // no destructors: they may crash on what was read from a damaged file
+    // no destructors are called: they may crash on what was read from a damaged file
     std::_Exit(written ? kDone : kRefused);
 }
 

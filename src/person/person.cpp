@@ -561,8 +561,7 @@ void Person::judge_extent(const Sight& sight) noexcept {
     reach_.ended = true;
     const double shown =
         look(sight.hand - reach_.from, traits_.visual_noise, random_).dot(reach_.way.normalized());
-    const double least =
-        0.1 * reach_.way.norm();  // a shorter one went astray, and says nothing about extent
+    const double least = 0.1 * reach_.way.norm();  // a shorter one says nothing about extent
     if (shown < least) return;
     const Vec3 d = reach_.way.normalized();
     double wanted = reach_.way.norm();
