@@ -7,8 +7,8 @@
     session["grip_force"], session["block.position"], session.t       # numpy arrays
     session.plot("grip_force", "load_force", align="lift_off")
 
-docs/python.md shows what can be done, and help(dh) lists it. Reading works on any computer (dihaptic-read); what takes the
-program, or its module `_native`, raises an ImportError there that says what to do.
+docs/python.md shows what can be done, and help(dh) lists it. Reading works on any computer (dihaptic-read). What needs
+the program, or its module `_native`, raises an ImportError there that says what to do.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""What reading a session needs to know of the program, which wrote it down: python/write_facts.py."""
+"""What reading a session needs to know about the program; python/write_facts.py writes it down."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
-"""Reads what a session says of itself: session.yaml, and the head of raw.log (src/recording/chunk.h), or what session.nwb has
-of that."""
+"""Reads a session's description of itself: session.yaml, and the head of raw.log (src/recording/chunk.h) or its copy in
+session.nwb."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _MOST_HEAD = 1 << 24  # bytes
 
 @dataclass(frozen=True)
 class Head:
-    """What a log says before its first tick."""
+    """The content of a log before its first tick."""
 
     tick: float  #: [s]
     items: dict[str, list[str]]  #: of each list whose items have names: these, in their order
@@ -46,7 +46,7 @@ def read_yaml(text: str, file: Path) -> dict[str, Any]:
 
 
 def read_info(file: Path) -> dict[str, Any]:
-    """What session.yaml says. Raises Error."""
+    """The content of session.yaml. Raises Error."""
     try:
         text = file.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as why:
@@ -69,7 +69,7 @@ def read_head(file: Path) -> Head:
 
 
 def head_of_nwb(file: h5py.File) -> Head | None:
-    """The same from session.nwb, which travels lighter; None: it is of a version that did not write it."""
+    """The same from session.nwb, which is smaller to copy; None if it is of a version that did not write it."""
     if "scratch/items" not in file:
         return None
     table = file["scratch/items"]
@@ -85,7 +85,7 @@ def head_of_nwb(file: h5py.File) -> Head | None:
 
 
 def _text(value: str | bytes) -> str:
-    """A text of HDF5, which h5py gives as bytes since its version 3."""
+    """A text of HDF5, which h5py returns as bytes since its version 3."""
     return value.decode("utf-8") if isinstance(value, bytes) else value
 
 

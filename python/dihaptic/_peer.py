@@ -1,4 +1,4 @@
-"""Who is at the other end of a UNIX socket, as the kernel says."""
+"""Asks the kernel who is at the other end of a UNIX socket."""
 
 from __future__ import annotations
 

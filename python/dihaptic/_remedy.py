@@ -13,7 +13,7 @@ _LIBRARIES = {"numpy": "numpy", "pandas": "pandas", "h5py": "h5py", "yaml": "pyy
 
 
 def explain(why: ImportError) -> str:
-    """The remedy where the package cannot even read."""
+    """The remedy if the package cannot even read."""
     if why.name in _LIBRARIES:
         return f"dihaptic needs {why.name}: {_how_to_install(why.name)}."
     if why.name == "facts":
@@ -25,13 +25,13 @@ def explain(why: ImportError) -> str:
 
 
 def _versions_of_the_module() -> list[str]:
-    """The versions of Python that the module was built for, which its files' names say."""
+    """The versions of Python for which the module was built, according to its files' names."""
     tags = (re.search(r"cpython-(\d)(\d+)", path.name) for path in _FOLDER.glob("_native*.so"))
     return sorted(f"{tag[1]}.{tag[2]}" for tag in tags if tag)
 
 
 def needs_program(name: str, why: ImportError | None) -> str:
-    """The remedy where the package reads, and `name` takes the program or its module."""
+    """The remedy if the package can read, but `name` needs the program or its module."""
     if not (_FOLDER / "program.py").exists():
         there = shutil.which("dihaptic") is not None
         remedy = (

@@ -1,4 +1,4 @@
-"""Tells whether a session's tables are what they were when it ended, as src/recording/seal.h says."""
+"""Detects whether a session's tables changed since it ended (src/recording/seal.h)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .errors import Problem
 
 
 def broken_seals(folder: Path, info: dict[str, Any], table: str) -> list[str]:
-    """What is wrong with one table, and with what session.yaml says of all of them, in sentences.
+    """What is wrong with a table, and with the seal of session.yaml, in sentences.
 
     `info` is what session.yaml has, `table` the name of a file. There is nothing to say of a session
     without seals, nor of a table that no session seals.

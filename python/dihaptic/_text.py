@@ -1,4 +1,4 @@
-"""Texts that Python hands to the programs, which read UTF-8 alone."""
+"""Texts that Python passes to the programs, which read UTF-8 only."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 
 
 class Plain(str):
-    """A word that stands without quotes in a file: a number, yes or no, or a text, as its key wants it."""
+    """A word without quotes in a file: a number, yes or no, or a text, depending on its key."""
 
 
 def to_json(value: Any) -> str:

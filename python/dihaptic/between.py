@@ -1,4 +1,4 @@
-"""Decides between a session's trials, in Python: what the next one is like, or which it is."""
+"""Decides between a session's trials, in Python: which trial comes next, or what it is like."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class Attempt:
 
 @dataclass(frozen=True)
 class Next:
-    """What is to come. Whatever is left out stays as the experiment's file has it.
+    """What comes next. Whatever is left out stays as in the experiment's file.
 
     >>> import dihaptic as dh
     >>> dh.Next(variables={"force_N": 2}, message="Slower")
@@ -51,12 +51,13 @@ class Next:
 
 
 class BetweenTrials:
-    """What is decided between trials, given to run(); derive from it.
+    """Decisions between trials, to be passed to run(); derive from it.
 
     decide() is called before the first trial, and after each attempt. It runs outside of the
-    session's process: however slow it is, or wrong, no tick is late. In real time its answer counts
-    for a second, in which no trial begins; a later one, and one that raises, leave the trials as the
-    file has them, and the session's notes say so. On the virtual clock the session waits for it.
+    session's process, so no tick is late, however slow or wrong it is. In real time its answer
+    counts for a second, in which no trial begins; a later one, and one that raises, leave the
+    trials as the file has them, and the session's notes say so. On the virtual clock the session
+    waits for it.
 
     The variables are those of the task: `variables: [{ name: load }]` in the experiment's file, whose
     formulas name them, as in `body: { body: block, weight_scale: load }` of a perturbation. What was decided is recorded, so that a replay needs no Python.
@@ -80,12 +81,12 @@ class BetweenTrials:
     messages: list[str] = []
 
     def decide(self, last: Attempt) -> Next | None:
-        """What comes after an attempt; None: as the file has it."""
+        """What comes after an attempt; None: as in the file."""
         raise NotImplementedError
 
     @property
     def attempts(self) -> list[Attempt]:
-        """All that decide() was asked about in the running session."""
+        """All attempts about which decide() was asked in the running session."""
         attempts: list[Attempt] = self.__dict__.setdefault("_attempts", [])
         return attempts
 
@@ -105,7 +106,7 @@ class BetweenTrials:
 
     @property
     def failures(self) -> list[str]:
-        """What decide() raised in the running session, with where."""
+        """What decide() raised in the running session, and where."""
         failures: list[str] = self.__dict__.setdefault("_failures", [])
         return failures
 
@@ -166,7 +167,7 @@ def _check(rules: BetweenTrials) -> None:
 
 @contextlib.contextmanager
 def listening(rules: BetweenTrials | None) -> Iterator[list[str]]:
-    """The options of `dihaptic run` by which rules are asked, while they are."""
+    """The options of `dihaptic run` by which the rules are asked, as long as this lasts."""
     if rules is None:
         yield []
         return

@@ -1,4 +1,4 @@
-"""Draws a session's quantities, in the look of the program's report."""
+"""Draws a session's quantities, in the style of the program's report."""
 
 from __future__ import annotations
 
@@ -72,7 +72,8 @@ def plot(
 
 
 def _curves(session: Session, names: tuple[str, ...]) -> list[tuple[str, str, npt.NDArray[Any]]]:
-    """Of each number and each component: the quantity's name, the curve's label, and its values."""
+    """For each number and each component: the quantity's name, the curve's label, and its
+    values."""
     out = []
     for name in names:
         if name in vocabulary.lists():

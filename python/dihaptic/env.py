@@ -46,17 +46,17 @@ class Box:
         self._random = np.random.default_rng(seed)
 
     def sample(self) -> Array:
-        """An array at random, evenly, within bounds that are finite."""
+        """A random array, uniform within bounds that must be finite."""
         return self._random.uniform(self.low, self.high)
 
     def contains(self, x: npt.ArrayLike) -> bool:
-        """Whether an array is of its shape and between its bounds."""
+        """Whether an array has the right shape and lies between the bounds."""
         given = np.asarray(x, dtype=float)
         return given.shape == self.shape and bool(((given >= self.low) & (given <= self.high)).all())
 
 
 class _Env:
-    """What is used of gymnasium.Env and gymnasium.vector.VectorEnv, where they are not installed."""
+    """Stands in for gymnasium.Env and gymnasium.vector.VectorEnv where they are not installed."""
 
     metadata: dict[str, Any] = {}
     render_mode: str | None = None
@@ -67,7 +67,7 @@ class _Env:
             self._np_random = np.random.default_rng(seed)
 
     def close(self) -> None:
-        """Nothing is left open."""
+        """Does nothing: there is nothing to close."""
 
 
 _VectorEnv = _Env
@@ -172,7 +172,7 @@ class Grasps(_VectorEnv):
     ) -> tuple[Array, Info]:
         """Begins all episodes anew, or those of `which` worlds (their numbers, or an array such as
         `terminated | truncated`); each gets a goal of its own. An episode that has ended begins
-        anew in no other way. gymnasium's name of `which` is `options={"reset_mask": which}`."""
+        anew only in this way. gymnasium's name of `which` is `options={"reset_mask": which}`."""
         _refuse_options(options, "reset_mask")
         if options and which is None:
             which = options["reset_mask"]
@@ -206,7 +206,8 @@ class Grasps(_VectorEnv):
         return out
 
     def step(self, actions: npt.ArrayLike) -> tuple[Array, Array, npt.NDArray[np.bool_], npt.NDArray[np.bool_], Info]:
-        """What is seen, the rewards, which episodes are terminated, which truncated, and info."""
+        """Returns the observations, the rewards, which episodes are terminated, which are
+        truncated, and info."""
         if not self._began.all():
             raise error("an episode has not begun", "Call reset() first.")
         given = np.asarray(actions, dtype=float).reshape(len(self.worlds), self._fingers, 3)
@@ -231,7 +232,7 @@ class Grasps(_VectorEnv):
         return seen[:, 10 * self._fingers :]
 
     def _value(self, seen: Array) -> Array:
-        """What the goal is about: the object's height, or its angle about z."""
+        """The value that the goal refers to: the object's height, or its angle about z."""
         of = self._object(seen)
         if self.task != "turn":
             return of[:, 2]
@@ -274,7 +275,7 @@ class Grasp(_Env):
         self.world = self._one.worlds[0]
 
     def reset(self, *, seed: int | None = None, options: Info | None = None) -> tuple[Array, Info]:
-        """Begins an episode with a goal of its own; `options` has to be empty."""
+        """Begins an episode with a new goal; `options` must be empty."""
         _refuse_options(options)
         super().reset(seed=seed)
         self._one._np_random = self._np_random
@@ -282,7 +283,8 @@ class Grasp(_Env):
         return seen[0], _first(info)
 
     def step(self, action: npt.ArrayLike) -> tuple[Array, float, bool, bool, Info]:
-        """What is seen, the reward, whether the episode is terminated, or truncated, and info."""
+        """Returns the observation, the reward, whether the episode is terminated or truncated, and
+        info."""
         seen, reward, terminated, truncated, info = self._one.step(np.asarray(action, dtype=float)[None])
         return seen[0], float(reward[0]), bool(terminated[0]), bool(truncated[0]), _first(info)
 

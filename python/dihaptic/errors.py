@@ -1,4 +1,4 @@
-"""What is raised when an input is wrong: with the file, the line, the key and the remedy."""
+"""The errors that are raised when an input is wrong, with file, line, key and remedy."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Problem:
 class Error(ValueError):
     """An input is wrong: a file, a name, a table.
 
-    Its text is what the command line would print; `problems` has what it is made of.
+    Its text is what the command line would print; `problems` lists its parts.
 
     >>> import dihaptic as dh
     >>> dh.load("no-such-session")

@@ -1,4 +1,4 @@
-"""Scenes, rigs and experiments as objects: what one writes is the file that one would have written."""
+"""Scenes, rigs and experiments as objects, which are saved as the files that you would write by hand."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ _NO_KEY = "__no_key__"
 class Part:
     """A part of a file: its attributes are the keys of docs/reference.md, with their units.
 
-    A key that is no word of Python's is reached by `part["from"]`. `part.known()` lists the keys that
-    are known there, if the part is in a Scene, Rig or Experiment, and so does completion.
+    A key that is a keyword of Python is reached by `part["from"]`. `part.known()` lists the keys that are known there,
+    if the part is in a Scene, Rig or Experiment, and so does completion.
 
     >>> import dihaptic as dh
     >>> block = dh.Part(name="block", shape="box", size_mm=[40, 40, 40], mass_g=100)
@@ -100,7 +100,8 @@ class Part:
         return f"{type(self).__name__}({', '.join(items + [f'**{others!r}'] * bool(others))})"
 
     def known(self) -> dict[str, str]:
-        """The keys that may be added here, with what they mean; empty for a part of no file.
+        """The keys that may be added here, with their meanings; empty for a part that belongs to no
+        file.
 
         >>> import dihaptic as dh
         >>> scene = dh.Scene.load("scenes/block-on-table.yaml")
@@ -132,7 +133,7 @@ class Part:
         return part
 
     def _to_raw(self) -> dict[str, Any]:
-        """What is unchanged is as it was written, to the letter."""
+        """Unchanged values stay as they were written, to the letter."""
         return {
             key: self._raw[key] if key in self._raw and _value(self._raw[key]) == value else _to_raw(value)
             for key, value in self._keys.items()
@@ -143,7 +144,7 @@ P = TypeVar("P", bound=Part)
 
 
 class File(Part):
-    """What a scene, a rig and an experiment have in common: they are files."""
+    """The base class of scenes, rigs and experiments: they are files."""
 
     _folder: Path
     _name: str
@@ -157,8 +158,8 @@ class File(Part):
 
     @classmethod
     def load(cls: type[F], file: str | Path) -> F:
-        """Reads a file, or one that comes with the program if there is none of that name. Raises Error when it is not
-        YAML; check() says what else is wrong with it.
+        """Reads a file or, if there is none of that name, one that comes with the program. Raises Error when it is not
+        YAML; check() finds all other mistakes.
 
         >>> import dihaptic as dh
         >>> dh.Scene.load("scenes/block-on-table.yaml").bodies[1].mass_g
@@ -213,7 +214,8 @@ class File(Part):
         return out
 
     def check(self) -> list[Problem]:
-        """What is wrong with it, as `dihaptic check` says it; instead of a line, the object's path.
+        """Finds what is wrong with it, as `dihaptic check` does, with the object's path in place of
+        a line.
 
         >>> import dihaptic as dh
         >>> scene = dh.Scene.load("scenes/block-on-table.yaml")
@@ -237,7 +239,7 @@ class File(Part):
 
     @contextlib.contextmanager
     def _on_disk(self) -> Iterator[Path]:
-        """The file that it was read from, if it is as there; else one that is there for a while."""
+        """The file from which it was read, if it is unchanged; otherwise a temporary one."""
         if self._is_on_disk():
             yield self._folder / self._name
             return
@@ -325,7 +327,7 @@ Input = Union[str, Path, File]
 
 @contextlib.contextmanager
 def on_disk(given: Input) -> Iterator[str]:
-    """Path of a file, "" of none, or of an object's file, which is there for a while.
+    """Path of a file ("" for none), or of a temporary file of an object.
 
     A file that is not in the working folder is one that is kept for all studies, or that comes with
     the program, if there is one.
@@ -352,7 +354,7 @@ def _rest(problem: Problem) -> tuple[str, str, str]:
 
 
 def _value(raw: Any) -> Any:
-    """What a text of a file stands for."""
+    """The value for which a text in a file stands."""
     if isinstance(raw, dict):
         return Part._of(raw)
     if isinstance(raw, list):
@@ -380,7 +382,7 @@ def _plain(value: Any) -> Any:
 
 
 def _within(value: Any) -> Iterator[Part]:
-    """All parts that a value has."""
+    """All parts of a value."""
     if isinstance(value, Part):
         yield value
         for inner in value._keys.values():
@@ -401,7 +403,7 @@ def _to_raw(value: Any) -> Any:
 
 
 def _moved(raw: Any, old: Path, new: Path) -> Any:
-    """With the paths of files that it names as they are from another folder."""
+    """A copy in which the paths of other files are relative to another folder."""
     if old == new:
         return raw
     if isinstance(raw, dict):

@@ -1,4 +1,4 @@
-"""Fits models to what people did: the same functions as the program's report, on arrays of one's own."""
+"""Fits models to what people did: the functions of the program's report, for your own arrays."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Interval = tuple[float, float]
 
 @dataclass(frozen=True)
 class Fit:
-    """What each fit of a curve has."""
+    """The base class of fits of a curve."""
 
     predicted: npt.NDArray[np.float64] = field(repr=False)  #: in each trial, measured or not
     residual_sd: float  #: standard deviation of the residuals, with n - p in the denominator
@@ -206,7 +206,7 @@ _WORDS = {"yes": True, "1": True, "True": True, "no": False, "0": False, "False"
 
 
 def _truths(values: Sequence[Any] | npt.NDArray[Any], key: str) -> list[bool]:
-    """Of bools, of 0 and 1, and of yes and no, as tables have them."""
+    """Truth values from bools, from 0 and 1, and from yes and no, as in tables."""
     words = [str(value.item() if isinstance(value, np.generic) else value).removesuffix(".0") for value in values]
     for word in words:
         if word not in _WORDS:

@@ -1,4 +1,4 @@
-"""Finds the events and the figures of a grip-lift in forces and heights from anywhere."""
+"""Finds the events and figures of a grip-lift in forces and heights from any source."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Watches a session that runs, from another process, and steers it."""
+"""Watches a running session from another process, and steers it."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _LONGEST = 1 << 20  # message [bytes]
 
 @dataclass(frozen=True)
 class Moment:
-    """A session in one tick, or the end of an attempt at a trial.
+    """The state of a session in a tick, or the end of an attempt at a trial.
 
     >>> import dihaptic as dh
     >>> dh.Moment(tick=1200, time_s=1.2, trial_num=3, attempt=1, state="reach", values={"grip_force": 2.1}).outcome
@@ -38,10 +38,11 @@ class Moment:
 
 
 class Live:
-    """A session that runs, as observe() gives it: iterate over it, or steer it.
+    """A running session, as observe() returns it: iterate over it, or steer it.
 
-    Its moments come as they are; whoever reads slowly misses some, but no end of an attempt. To
-    steer a session that has just ended does nothing. docs/adr/0022 says why nobody is held up.
+    Moments arrive as they happen. A slow reader misses some, but never the end of an attempt.
+    Steering a session that has just ended has no effect. docs/adr/0022 says why the session never
+    waits.
 
     >>> import threading
     >>> import dihaptic as dh
@@ -86,7 +87,7 @@ class Live:
         return f"<Live {self.session}>"
 
     def __iter__(self) -> Iterator[Moment]:
-        """The moments from now on, until the session is over."""
+        """The moments from now on until the session is over."""
         while True:
             if self._waiting:
                 yield self._waiting.pop(0)
@@ -99,7 +100,7 @@ class Live:
                 yield moment
 
     def watch(self, *expressions: str, every_ms: float = 20) -> None:
-        """Chooses what the moments have: expressions of what is recorded, as of Session; lengths come in mm."""
+        """Chooses the content of the moments: expressions of what is recorded, as in Session; lengths are in mm."""
         self._send({"watch": list(expressions), "every_ms": every_ms})
         while (message := self._receive()) is not None:
             if "watching" in message:
@@ -111,7 +112,7 @@ class Live:
                 self._waiting.append(moment)
 
     def press(self, key: str) -> None:
-        """Presses a key, for a task that waits for one."""
+        """Presses a key for a task that waits for one."""
         self._send({"key": key})
 
     def trigger(self, code: int) -> None:
@@ -122,12 +123,12 @@ class Live:
         """Turns knobs: coupling, stiffness (N/m), damping (N*s/m), smoothing, proxy, friction_scale, solver.
 
         Changes are eased over 0.2 s where something is held, and are recorded. In a session of the
-        window, its panel turns them alone.
+        window, only its panel can turn them.
         """
         self._send({"turn": knobs})
 
     def end(self) -> None:
-        """Ends the session in order."""
+        """Ends the session properly."""
         self._send({"end": True})
 
     def _send(self, message: dict[str, Any]) -> None:
@@ -135,7 +136,7 @@ class Live:
             self._socket.send(to_json(message).encode())
 
     def _receive(self) -> dict[str, Any] | None:
-        """The next message; None: the session is over."""
+        """The next message; None when the session is over."""
         try:
             text = self._socket.recv(_LONGEST)
         except ConnectionResetError:
@@ -155,7 +156,7 @@ class Live:
 
 
 def _connected(folder: Path) -> socket.socket | None:
-    """The other end of src/session/onlookers.h; None: no session runs in that folder."""
+    """The other end of src/session/onlookers.h; None if no session is running in that folder."""
     try:
         descriptor = os.open(folder / "onlookers", os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
         with open(descriptor, "rb") as file:
@@ -179,7 +180,8 @@ def _connected(folder: Path) -> socket.socket | None:
 
 
 def _running(folder: Path) -> tuple[Path, socket.socket] | None:
-    """The folder itself if a session runs in it, or the newest in it in which one does."""
+    """The folder itself if a session is running in it, or the newest folder in it with a running
+    session."""
     inside = sorted((path for path in folder.glob("*/") if path.is_dir()), key=lambda path: path.name, reverse=True)
     for path in [folder, *inside]:
         connection = _connected(path)
@@ -191,7 +193,7 @@ def _running(folder: Path) -> tuple[Path, socket.socket] | None:
 def observe(
     session: str | Path = "sessions", *expressions: str, every_ms: float = 20, patience_s: float = 10
 ) -> Live:
-    """Watches a session that runs.
+    """Watches a running session.
 
     `session`: its folder, or a folder of sessions, of which the newest is taken that runs; for
     `patience_s` it is waited for. `expressions`: what its moments have, as Live.watch() says. The

@@ -1,4 +1,4 @@
-"""A simulated person in Python, who does an experiment's trials on simulated devices."""
+"""A simulated person, written in Python, who does an experiment's trials on simulated devices."""
 
 from __future__ import annotations
 
@@ -20,8 +20,9 @@ Array = npt.NDArray[np.float64]
 class Seen:
     """What a person sees and feels in a tick; valid within Person.act() alone.
 
-    What is shown may not be what is there: perturbations are in it. `seen["block.position"]` gives
-    what is there, by the names of docs/quantities.md, as no person could see it.
+    What is shown may differ from the truth, because it includes perturbations.
+    `seen["block.position"]` gives the truth, by the names of docs/quantities.md, which no person
+    could see.
 
     >>> import dihaptic as dh
     >>> sorted(name for name in vars(dh.Seen) if not name.startswith("_"))
@@ -54,7 +55,7 @@ class Seen:
 
     @property
     def message(self) -> str:
-        """What is written over the scene, numbers as {names}."""
+        """The text over the scene, with numbers as {names}."""
         return self._sitting.message()
 
     @property
@@ -64,7 +65,7 @@ class Seen:
 
     @property
     def targets(self) -> dict[str, Array]:
-        """Where each target that is shown is, by its region's name, in world axes [m]."""
+        """Where each visible target is, by its region's name, in world axes [m]."""
         return dict(self._sitting.targets())
 
     def body(self, name: str) -> Array | None:
@@ -91,11 +92,11 @@ class Seen:
 class Person:
     """A simulated person; derive from it, and give it to run().
 
-    act() is called every 10 ms of the session's time (`every`), with what is seen and felt; it leads
-    the fingers, and presses keys. Slow is allowed: the clock is virtual. What it raises ends the
-    session, whose files are made all the same; a note of the exception names its folder. Attributes
-    that are numbers or texts, or None, stand in the session's person.yaml, and are columns of the
-    people of a rehearsal; `group` is that of the tables' second column.
+    act() is called every 10 ms of the session's time (`every`), with what is seen and felt; it
+    leads the fingers, and presses keys. Slow is allowed: the clock is virtual. An exception ends
+    the session, whose files are made nevertheless; a note of the exception names its folder.
+    Attributes that are numbers or texts, or None, stand in the session's person.yaml, and are
+    columns of the people of a rehearsal; `group` is that of the tables' second column.
 
     >>> import dihaptic as dh
     >>> class Waits(dh.Person):
@@ -117,13 +118,13 @@ class Person:
     every: float = 0.01
 
     def act(self, seen: Seen) -> None:
-        """Looks, and acts by lead() and press()."""
+        """Called to look at what is seen, and to act by lead() and press()."""
         raise NotImplementedError
 
     def lead(
         self, finger: str, position: Sequence[float] | Array, velocity: Sequence[float] | Array = (0.0, 0.0, 0.0)
     ) -> None:
-        """Leads a finger: the point that it wants to be at [m], and its velocity [m/s], in world axes.
+        """Leads a finger: sets the point where it should be [m], and its velocity [m/s], in world axes.
 
         The hand's muscles pull the handle there (the experiment's `hand.impedance`).
         """
@@ -192,7 +193,7 @@ def _yaml(value: bool | int | float | str | None) -> str:
 
 @dataclass(frozen=True)
 class Ended:
-    """A session that is over, without having been opened."""
+    """A finished session that has not been opened."""
 
     folder: str
     good: bool  #: whether it came to its end, and what was felt is what was planned

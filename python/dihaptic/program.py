@@ -1,6 +1,6 @@
 """Runs the program's commands: sessions, reports, checks.
 
-Each runs in a process of its own, so that nothing that Python does keeps a servo from its tick.
+Each runs in a process of its own, so that nothing that Python does can delay a tick.
 """
 
 from __future__ import annotations
@@ -110,7 +110,7 @@ def run(
 
 
 def resume(session: Session | str | Path, *, progress: bool = True) -> Session:
-    """Goes on with a session whose trials were not all done; returns the new session.
+    """Continues a session whose trials were not all done; returns the new session.
 
     >>> import dihaptic as dh
     >>> dh.resume(lift_session)
@@ -124,7 +124,7 @@ def resume(session: Session | str | Path, *, progress: bool = True) -> Session:
 
 
 def replay(session: Session | str | Path, *, progress: bool = True) -> bool:
-    """Whether a session's forces, computed again from what its devices said, are the same to the bit.
+    """Whether a session's forces, computed again from its devices' readings, are the same to the bit.
 
     If they are not, or the session is of another version or damaged, a warning says what differs.
 
@@ -163,7 +163,8 @@ def report(session: Session | str | Path, *, progress: bool = True) -> Path:
 
 
 def check(*files: Input, rig: Input = "") -> list[Problem]:
-    """What `dihaptic check` finds in files or objects: errors and warnings; none: all is in order.
+    """What `dihaptic check` finds in files or objects: a list of errors and warnings, empty if all
+    is well.
 
     >>> import dihaptic as dh
     >>> dh.check("scenes/block-on-table.yaml", "experiments/first-trials.yaml")
@@ -177,7 +178,7 @@ def _setting(value: Any) -> Any:
 
 
 class _Answer:
-    """What a command printed, and how it ended."""
+    """The output of a command, and how it ended."""
 
     def __init__(self, code: int, output: list[str], said: list[str]) -> None:
         self.code = code
@@ -225,7 +226,7 @@ def _read(stream: IO[str], echo: bool) -> list[str]:
 
 
 def _watch(stream: IO[str], said: list[str], progress: bool) -> None:
-    """Shows the command's progress in one line, and keeps what else it says."""
+    """Shows the command's progress in one line, and keeps all other output."""
     shown = False
     for line in stream:
         at = _PROGRESS.match(line)
@@ -253,7 +254,8 @@ def _problems(lines: Sequence[str]) -> list[Problem]:
 
 
 def _problem_of_option(lines: Sequence[str]) -> Problem:
-    """What the command line says of an option is about the argument of that name."""
+    """Turns a problem with an option of the command line into one with the argument of that
+    name."""
     text = "\n".join(line for line in lines if not line.startswith("Run with --help")).rstrip(".")
     at = re.match(r"--(?P<name>[a-z-]+): (?P<what>.*)", text, re.DOTALL)
     if at is None:
@@ -271,7 +273,7 @@ def ended_of(answer: _Answer) -> Ended:
 
 
 def _open(ended: Ended) -> Session:
-    """Opens a session; what was not as planned is a warning where run() or resume() was called."""
+    """Opens a session; anything unplanned becomes a warning at the call of run() or resume()."""
     if not ended.good or any(line.startswith("WARNING: ") for line in ended.said):
         warnings.warn("\n".join(ended.said) or f"see {ended.folder}", stacklevel=3)
     return Session(ended.folder)

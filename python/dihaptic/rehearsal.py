@@ -1,4 +1,4 @@
-"""Reads what simulated people did in a rehearsal."""
+"""Reads the results of a rehearsal."""
 
 from __future__ import annotations
 
@@ -12,7 +12,8 @@ from .tables import read_table
 
 
 class Rehearsal:
-    """What a population of simulated people did: tables with a row for each person's trial or fit.
+    """The results of a population of simulated people: tables with a row for each person's trial or
+    fit.
 
     >>> import dihaptic as dh
     >>> study = dh.rehearse("experiments/first-trials.yaml", 2, out=f"{folder}/study", progress=False)
@@ -51,5 +52,5 @@ class Rehearsal:
 
     @property
     def people(self) -> pd.DataFrame:
-        """A row for each person: who they are made to be."""
+        """A row for each person, with the person's traits."""
         return self.table("people")

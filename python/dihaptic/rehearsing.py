@@ -46,13 +46,13 @@ def rehearse(
 ) -> Rehearsal:
     """Lets simulated people do an experiment, as `dihaptic rehearse` does, and collects their tables.
 
-    Who is in the folder already is not done again. The tables are the same whatever `jobs`.
+    People who are already in the folder are not done again. The tables do not depend on `jobs`.
     `person`: makes a simulated person of your own, by number, from 1; otherwise they are drawn from
     `population`. `between`: makes what decides between a person's trials. What these draw from
     `random` and `numpy.random` follows `seed` and the number; a generator of your own is to be made
-    from the number too, since people may be done in processes of their own. What one of these raises
-    ends the rehearsal, and so does a decision that cannot be; those who were done before stay.
-    `keep_recordings`: with raw.log and session.nwb of each, hundreds of MB. Raises Error.
+    from the number too, since people may be done in processes of their own. What one of these
+    raises ends the rehearsal, and so does a decision that cannot be; those who were done before
+    stay. `keep_recordings`: with raw.log and session.nwb of each, hundreds of MB. Raises Error.
 
     >>> import dihaptic as dh
     >>> study = dh.rehearse("experiments/first-trials.yaml", 2, out=f"{folder}/study", progress=False)
@@ -83,7 +83,7 @@ def rehearse(
 
 @dataclass(frozen=True)
 class _Study:
-    """A rehearsal whose people are Python's, or between whose trials Python decides."""
+    """A rehearsal with people, or with decisions between trials, that are written in Python."""
 
     file: str
     folder: Path
@@ -94,7 +94,7 @@ class _Study:
     keep_recordings: bool
 
     def claim(self, people: int, jobs: int) -> None:
-        """Checks what was given, and that nothing else is in the folder. Raises Error."""
+        """Checks the arguments, and that nothing else is in the folder. Raises Error."""
         for name, value, least, most in (
             ("people", people, 1, _native.most_people),
             ("jobs", jobs, 1, 1024),
@@ -119,7 +119,7 @@ class _Study:
         )
 
     def run(self, people: int, jobs: int, progress: bool) -> None:
-        """Lets everybody do it who has not yet."""
+        """Lets everybody who has not yet done the experiment do it."""
         waiting = [n for n in range(1, people + 1) if not (self.folder / _native.person_id(n)).exists()]
         done = 0
 
@@ -189,7 +189,7 @@ class _Study:
 
     @contextlib.contextmanager
     def _drawing(self, number: int) -> Iterator[None]:
-        """What is drawn here is a person's own; what the caller draws later is as if nothing had been."""
+        """Random numbers drawn here are a person's own; those that the caller draws later are not affected."""
         before, of_numpy = random.getstate(), np.random.get_state()
         random.seed(f"{self.seed} {number}")
         np.random.seed([self.seed & 0xFFFFFFFF, self.seed >> 32, number])
@@ -239,7 +239,7 @@ Made = TypeVar("Made", Person, BetweenTrials)
 
 
 def _made(make: Callable[[int], Made] | None, number: int, kind: type[Made]) -> Made | None:
-    """What a function of rehearse()'s made for a person, if there is one. Raises Error."""
+    """What a function given to rehearse() made for a person, if there is one. Raises Error."""
     if make is None:
         return None
     it = make(number)
@@ -249,7 +249,8 @@ def _made(make: Callable[[int], Made] | None, number: int, kind: type[Made]) -> 
 
 
 def _that_travels(why: BaseException) -> BaseException:
-    """An exception, or one that says the same if it cannot go from one process to another."""
+    """An exception, or one with the same text if it cannot be passed from one process to
+    another."""
     try:
         pickle.loads(pickle.dumps(why))
         return why

@@ -1,4 +1,4 @@
-"""Reads a recorded session: its tables, and each quantity that it recorded tick by tick."""
+"""Reads a recorded session: its tables, and the quantities that it recorded tick by tick."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 def load(folder: str | Path) -> Session:
     """Opens a session by its folder, or by a file in it. Nothing is read before it is asked for.
 
-    Raises Error when it is no session. One that still runs, or was killed, has no session.nwb yet:
-    to ask it for a quantity raises Error, too.
+    Raises Error when it is not a session. A session that is still running, or was killed, has no
+    session.nwb yet: asking it for a quantity raises Error, too.
 
     >>> import dihaptic as dh
     >>> session = dh.load(lift_session)
@@ -77,7 +77,7 @@ class Session:
 
     @cached_property
     def info(self) -> dict[str, Any]:
-        """What session.yaml says: who, when, with what, and how it ended.
+        """The content of session.yaml: who, when, with what, and how it ended.
 
         >>> import dihaptic as dh
         >>> dh.load(lift_session).info["state"]
@@ -141,7 +141,7 @@ class Session:
         return read_table(file)
 
     def _tell_changes(self, file: Path) -> None:
-        """Warns of a table that is not what it was when the session ended."""
+        """Warns of a table that changed since the session ended."""
         try:
             info = self.info
         except Error:  # its other readers refuse it
@@ -236,7 +236,7 @@ class Session:
         return iter(self.keys())
 
     def keys(self) -> list[str]:
-        """Names of all that was recorded, lists included.
+        """Names of everything that was recorded, lists included.
 
         >>> import dihaptic as dh
         >>> [name for name in dh.load(lift_session).keys() if name.startswith("block.")][:2]
@@ -254,7 +254,7 @@ class Session:
 
     @property
     def quantities(self) -> pd.DataFrame:
-        """A table of all that was recorded: name, unit, frame, columns, meaning.
+        """A table of everything that was recorded: name, unit, frame, columns, meaning.
 
         >>> import dihaptic as dh
         >>> dh.load(lift_session).quantities.loc["block.position", "unit"]
@@ -280,7 +280,7 @@ class Session:
         return self._place_of(name).quantity.unit
 
     def between(self, begin: float, end: float) -> slice:
-        """The ticks from `begin` to before `end` [s], to cut an array of the session's by.
+        """The ticks from `begin` to before `end` [s], as a slice for the session's arrays.
 
         >>> import dihaptic as dh
         >>> session = dh.load(lift_session)
@@ -380,7 +380,7 @@ class Session:
 
 
 def _what_leads_out(file: h5py.File) -> list[str]:
-    """The names whose content is in another file: links, data sets with raw data elsewhere, virtual ones."""
+    """The names whose content is in another file: links, data sets with external raw data, virtual data sets."""
     out = []
 
     def look(group: h5py.Group) -> None:

@@ -14,7 +14,7 @@ _YES = {"yes": True, "no": False}
 
 
 def read_table(file: str | Path) -> pd.DataFrame:
-    """Reads a table of the program's (docs/tables.md), or any CSV file of one's own.
+    """Reads a table of the program (docs/tables.md), or any CSV file of your own.
 
     `attrs["units"]` has the unit of each column whose name ends in one, and `attrs["meanings"]` a
     few words on each column of trials, phases, events, episodes and lifts. An empty cell is NaN.
@@ -43,7 +43,8 @@ def read_table(file: str | Path) -> pd.DataFrame:
 
 
 def _unit_of(column: str) -> str:
-    """The unit that a column's name ends with, as people write it: "N/s" of peak_grip_rate_N_s; "": none."""
+    """The unit at the end of a column's name, in the usual notation: "N/s" for peak_grip_rate_N_s; "" if there is
+    none."""
     units: dict[str, str] = facts()["units"]
     parts = str(column).split("_")
     # the longest that fits: N_s, and not s

@@ -53,7 +53,7 @@ for _quantity in _ALL:
 
 
 def of_list(name: str) -> list[Quantity]:
-    """The quantities of a list, in their order; of "", what a tick has once."""
+    """The quantities of a list, in their order; for "", those that a tick has once."""
     return list(_BY_LIST.get(name, {}).values())
 
 
@@ -96,14 +96,14 @@ def place_of(name: str, items: Items) -> Place | None:
 
 
 def lists() -> list[str]:
-    """Names of all lists that have a series as a whole: contacts, targets, loads, ..."""
+    """Names of all lists that are one series as a whole: contacts, targets, loads, ..."""
     return [name for name in _BY_LIST if name and name not in NAMED_LISTS]
 
 
 def quantity(name: str) -> Quantity:
     """The quantity of a name such as "grip_force", "thumb.force_sent" or "contacts.gap".
 
-    Behind a dot, any list with a quantity of that name will do. Raises NotThere.
+    A name after a dot is looked for in all lists. Raises NotThere.
 
     >>> import dihaptic as dh
     >>> dh.quantity("grip_force").meaning

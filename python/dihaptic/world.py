@@ -20,7 +20,7 @@ _UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 
 
 class World:
-    """A scene with simulated devices, held by a simulated hand.
+    """A scene with simulated devices that a simulated hand holds.
 
     `file` is a scene, or an experiment without trials, as a file or an object; `rig` one of simulated devices, ideal ones if
     left out; `settings` such as {"coupling.stiffness_N_m": 600}. Until a finger is led, it goes where
@@ -89,7 +89,7 @@ class World:
         self._world.step(ticks, call)
 
     def reset(self) -> None:
-        """Begins anew: as at first, at time 0, with the scene's own hand and no orders.
+        """Starts again at time 0, with the scene's own hand and no orders.
 
         >>> import dihaptic as dh
         >>> world = dh.World("scenes/block-on-table.yaml")
@@ -121,7 +121,7 @@ class World:
 
 
 class Finger:
-    """A finger of a world: its device's handle, and its proxy, what stands for it in the world.
+    """A finger of a world: its device's handle, and its proxy, which stands for it in the world.
 
     >>> import dihaptic as dh
     >>> world = dh.World("scenes/block-on-table.yaml")
@@ -167,9 +167,9 @@ class Finger:
     ) -> None:
         """Leads the finger from the next tick on, until something else is said.
 
-        `position` [m] and `velocity` [m/s] are of the point that it wants to be at, in world axes:
-        the hand's muscles pull the handle there (the scene's `hand.impedance`), so that what it
-        presses on keeps it away. `orientation`: unit quaternion w, x, y, z.
+        `position` [m] and `velocity` [m/s] are those of the point where it should be, in world
+        axes: the hand's muscles pull the handle there (the scene's `hand.impedance`), so that what
+        it presses on keeps it away. `orientation`: unit quaternion w, x, y, z.
 
         >>> import dihaptic as dh
         >>> world = dh.World("scenes/block-on-table.yaml")
@@ -260,7 +260,7 @@ class Body:
 
 
 def step_all(worlds: Iterable[World], ticks: int = 1, jobs: int | None = None) -> list[bool]:
-    """Steps many worlds side by side, on all processors, and says which of them still go on.
+    """Steps many worlds side by side, on all processors, and returns which of them still continue.
 
     >>> import dihaptic as dh
     >>> worlds = [dh.World("scenes/block-on-table.yaml", seed=seed) for seed in range(1, 4)]
