@@ -74,8 +74,8 @@ void add_grasp(CLI::App& bench) {
     });
 }
 
-/// Benches that only developers need are in a program of their own; anyone who looks for one here
-/// is told so.
+/// Benches that only developers need are in a separate program; a user who looks for one here gets
+/// a message that says so.
 void add_moved(CLI::App& bench) {
     for (const char* name : {"friction", "scale", "heap", "contact", "solvers", "jitter", "view"}) {
         auto* command = bench.add_subcommand(name)->group("")->allow_extras();

@@ -194,7 +194,7 @@ std::map<int, std::vector<std::string>> missing_of(const Found& found, const std
     return out;
 }
 
-/// Says what to type in order to do these shards of a rehearsal.
+/// Says which command does these shards of a rehearsal.
 void print_command(const Wanted& wanted, const std::vector<int>& shards) {
     const auto command = command_of(wanted.folder, wanted.rehearsal);
     if (!command) {
@@ -210,7 +210,7 @@ void print_command(const Wanted& wanted, const std::vector<int>& shards) {
                command_for(wanted.folder, asked, shards));
 }
 
-/// Names the people who are left out, and what to type in order to do those who were requested.
+/// Names the people who are left out, and the command that does those who were requested.
 void print_left_out(const Found& found) {
     auto others = found.unfinished;
     for (const auto& [seed, wanted] : found.wanted) {

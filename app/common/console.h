@@ -13,7 +13,8 @@
 
 namespace dihaptic::cli {
 
-/// Set by Ctrl-C, by SIGTERM, and when the terminal is closed: the running command ends in order.
+/// Set by Ctrl-C, by SIGTERM, and when the terminal is closed: the running command then ends in an
+/// orderly way.
 extern std::atomic<bool> stop_requested;
 
 /// What the program returns: success; a result is bad, or the command was interrupted; the input

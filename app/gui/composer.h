@@ -1,6 +1,7 @@
-// The panel in which the open file is edited: its text, checked and shown as one types, and saved.
-// The file remains authoritative: a session reads what was saved. Until then nothing in its folder
-// is touched, and the unsaved text is kept as a draft elsewhere.
+// The panel in which the open file is edited: its text is checked and shown while the user types,
+// and can be saved. The file remains authoritative: a session reads what was saved. Until the user
+// saves, nothing in the file's folder is touched, and the unsaved text is kept as a draft
+// elsewhere.
 #pragma once
 
 #include <QLabel>

@@ -31,8 +31,8 @@ class MouseHand {
     /// the rest suffices to lift [N].
     static double grip_of(double peak_force);
 
-    /// The pointer went `pixels` (x right, y down) in a picture of `height` pixels, seen by
-    /// `camera`. `in_depth`: toward the person and away, in place of up and down.
+    /// Moves the hand as the pointer moved by `pixels` (x right, y down) in a picture of `height`
+    /// pixels, seen by `camera`. `in_depth`: toward the person and away, in place of up and down.
     void move(const QPointF& pixels, const scene::Camera& camera, int height, bool in_depth);
     void turn(const QPointF& pixels);
     /// Returns to where it began, with the present aperture.

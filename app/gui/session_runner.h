@@ -51,8 +51,8 @@ class SessionRunner : public QObject {
     const session::Plan& plan() const { return session_->plan; }
     /// The frames that start() was given to fill.
     std::shared_ptr<Latest<frame::Frame>> second() const { return session_->live.second; }
-    /// The newest frame, which stays as it is until the next call: the servo then writes over what
-    /// was returned before, so that nothing may be kept of it.
+    /// The newest frame. It is valid until the next call, after which the servo overwrites it, so
+    /// do not keep references into it.
     const frame::Frame& read_frame() {
         session_->read = &session_->live.frame.read();
         return *session_->read;

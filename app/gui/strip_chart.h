@@ -24,7 +24,7 @@ class StripChart : public QWidget {
                QWidget* parent = nullptr);
 
     /// Adds values at `time` [s], one for each curve; NaN leaves a gap. A time before the last one
-    /// starts the chart anew.
+    /// restarts the chart.
     void add(double time, const std::vector<double>& values);
     void clear();
 

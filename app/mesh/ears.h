@@ -20,9 +20,9 @@ inline double dot(const Corner& a, const Corner& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// By ears: corners whose triangle turns as the face does and has no other corner in it. Corners
-/// may lie in line: the widest ear is cut each time, and what has no ear is cut as it comes, so
-/// that the triangles always join along edges, whatever the face.
+/// The method is ear clipping. An ear is a corner whose triangle turns like the face and contains
+/// no other corner. Corners may lie in line. The widest ear is cut each time; if there is no ear,
+/// the next corner is cut, so that the triangles of any face join along edges.
 inline std::vector<Indices> ears(const std::vector<Corner>& face) {
     Corner normal{};
     for (size_t i = 1; i + 1 < face.size(); ++i) {

@@ -18,7 +18,7 @@ class RegularFile {
     RegularFile(RegularFile&& other) noexcept;
     RegularFile& operator=(RegularFile&&) = delete;
 
-    /// Size of the file when it was opened, or looked at again [bytes].
+    /// Size of the file when it was opened, or last checked again [bytes].
     int64_t size() const { return size_; }
     /// Updates the size, because another program may be writing the file.
     void look_again();

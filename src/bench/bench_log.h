@@ -1,4 +1,4 @@
-// A raw log that a bench records its ticks to, in a temporary folder that is removed with it.
+// A raw log for the ticks of a bench, in a temporary folder that is removed with it.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ class BenchLog {
   public:
     BenchLog(const scene::Scene& scene, const frame::Settings& settings);
 
-    /// Makes a recorder that writes this log anew; the one before must be finished.
+    /// Makes a recorder that overwrites this log; the previous one must be finished.
     recording::Recorder record(recording::Writing writing) const;
     /// Path of a file beside the log.
     std::string file(const std::string& name) const { return folder_.file(name); }

@@ -25,8 +25,8 @@ Vec3 along_chain(double angle, double length) {
     return length * Vec3(std::sin(angle), 0, -std::cos(angle));
 }
 
-/// The equations of motion of links in a plane, by their angles from the vertical; they know
-/// nothing of our dynamics.
+/// The equations of motion of links in a plane, in terms of their angles from the vertical,
+/// independent of our dynamics.
 class ChainEquations {
   public:
     using State = Eigen::VectorXd;  ///< angles [rad], then their rates [rad/s]
@@ -84,8 +84,9 @@ class ChainEquations {
     Eigen::VectorXd weight_;
 };
 
-/// Judges where the last link goes. Simulators begin at rest at the start, or half a step or a step
-/// before, by how they take velocities; that shift in time is no error.
+/// Compares the path of the last link with its equations. Depending on how they define velocities,
+/// simulators begin at rest at the start, half a step before, or a step before; this shift in time
+/// does not count as an error.
 class EndJudge {
   public:
     EndJudge(int links) : exact_(exact_ends(links, kChainAngle, kJudged + 2 * kStep)) {}
@@ -105,7 +106,8 @@ class EndJudge {
     size_t step_ = 0;
 };
 
-/// Energy between two steps, by the difference of poses; zero where the chain hangs [J].
+/// Energy between two steps, from the difference of poses; zero when the chain hangs straight down
+/// [J].
 double energy_between(std::span<const Pose> before, std::span<const Pose> after) {
     double out = energy_of_chain_at(static_cast<int>(after.size()), 90 * kDegree);
     for (size_t i = 0; i < after.size(); ++i) {

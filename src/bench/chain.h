@@ -1,5 +1,5 @@
 // The command `dihaptic-bench chain`: chains of links on hinges in each solver and in the peers,
-// what a step costs and how exact it is. docs/measures.md defines the figures.
+// the time of a step, and its accuracy. docs/measures.md defines the figures.
 #pragma once
 
 #include <string>
@@ -33,18 +33,18 @@ struct ChainFigures {
     }
 };
 
-/// Links of 60 x 10 x 10 mm and 20 g on hinges, that hang from the origin, stretched out at an
-/// angle from the vertical, and side by side, so that they do not meet.
+/// Links of 60 x 10 x 10 mm and 20 g on hinges, which hang from the origin, stretched out at an
+/// angle from the vertical. They are placed side by side so that they do not meet.
 scene::Scene chain(int links, double angle);
-/// Where the equations of motion have the middle of the last link at each half step of 1 ms, from
-/// rest at that angle on.
+/// The position of the middle of the last link according to the equations of motion, at each half
+/// step of 1 ms, released from rest at that angle.
 std::vector<Vec3> exact_ends(int links, double angle, double duration);
 /// Energy of a link at a height, with a velocity, and an angular velocity in its own frame [J].
 double energy_of_link(double height, const Vec3& v, const Vec3& w_B);
-/// Energy of a chain that is still at that angle, over that of one that hangs [J].
+/// Energy of a chain at rest at that angle, above that of one that hangs straight down [J].
 double energy_of_chain_at(int links, double angle);
 
-/// Each of the simulators with chains of so many links.
+/// Runs each of the simulators with chains of these numbers of links.
 std::vector<ChainFigures> bench_chain(const std::vector<Simulator>& simulators,
                                       const std::vector<int>& links,
                                       const measure::Progress& progress);

@@ -36,8 +36,8 @@ int steps(double time) {
 
 /// Largest displacement of any body's centre of volume after some time [m].
 struct Drift {
-    double drawn = 0;    ///< from where it was drawn
-    double settled = 0;  ///< from where it was after a second, when soft contacts bear their load
+    double drawn = 0;    ///< from the pose that was drawn
+    double settled = 0;  ///< from its pose after a second, when soft contacts bear their load
 };
 /// Stops when a body moves further than `fallen`; `drawn` is then some displacement beyond it.
 Drift drift(const scene::Scene& scene, const Simulator& simulator, double time,

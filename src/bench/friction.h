@@ -47,9 +47,9 @@ struct FrictionFigures {
 /// All figures of one solver.
 FrictionFigures bench_friction(const frame::DynamicsSettings& settings,
                                const measure::Progress& progress);
-/// All figures except the creep, which fingers alone have.
+/// All figures except the creep, which only exists with fingers.
 FrictionFigures bench_peer_friction(const Simulator& simulator, const measure::Progress& progress);
-/// Only slopes, stack, arch and the house of two storeys: the figures that bars are set for.
+/// Only slopes, stack, arch and the house of two storeys: the figures that have acceptance limits.
 FrictionFigures bench_slides_and_piles(const Simulator& simulator,
                                        const measure::Progress& progress);
 /// Largest slip of a finger in a minute's hold [mm].

@@ -1,5 +1,5 @@
-// Measures how calmly two fingers hold objects with joints, beside the rigid block of `bench
-// grasp`, and what they cost a tick.
+// Measures how calmly two fingers hold objects with joints, compared with the rigid block of `bench
+// grasp`, and how much time they add to a tick.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace dihaptic::bench {
 
-/// What stands on the block, which with it weighs as much as the rigid block.
+/// The part on the block; together they weigh as much as the rigid block.
 enum class Held {
     nothing,
     hinge,       ///< a second block that turns about an upright axis

@@ -1,4 +1,4 @@
-// Lists a scene's hinges as simulators other than ours want them: by bodies' numbers, each body on
+// Lists a scene's hinges in the form that other simulators need: by numbers of bodies, each body on
 // its parent.
 #pragma once
 
@@ -18,7 +18,8 @@ struct Hinge {
 };
 
 /// The hinges of a scene that has no other joints, parents before the bodies on them. Throws Error
-/// for what peers are not given: other joints, loops, and springs, dampers, friction or stops.
+/// for anything that is not passed to peers: other joints, loops, and springs, dampers, friction or
+/// stops.
 std::vector<Hinge> hinges_of(const scene::Scene& scene);
 
 /// The pose of a hinge at the start, its axis along z.

@@ -30,7 +30,7 @@ Time lift(measure::Bench& bench) {
     return reached;
 }
 
-/// A tone that begins over and over, by the ticks of a servo.
+/// A tone that is started again and again by the ticks of a servo.
 class Tone {
   public:
     Tone(display::SoundTo to, const servo::Servo& servo, const recording::SessionFolder& folder)
@@ -72,7 +72,7 @@ class Tone {
     std::optional<sound::Player> player_;
 };
 
-/// A block that is held in real time, turn by turn, and recorded.
+/// A block that is held in real time, in several turns, and recorded.
 class HeldBlock {
   public:
     explicit HeldBlock(const measure::BenchSetup& setup)
@@ -84,7 +84,7 @@ class HeldBlock {
     }
 
     /// Holds the block for `turn` [s]; `published`: publishes the frames for a view to draw.
-    /// `tone`: hears of the ticks, unless it is null.
+    /// `tone`: gets the ticks, unless it is null.
     void hold(servo::Timing& timing, double turn, bool published, Tone* tone,
               const std::atomic<bool>& stop) {
         recording::Recorder recorder = log_.record(recording::Writing::in_thread);
@@ -103,7 +103,7 @@ class HeldBlock {
         recorder.finish();
         dropped_ += recorder.dropped();
     }
-    /// The same with what is beside, but for the view; returns how many sounds were heard.
+    /// The same with the additional load, except the view; returns how many sounds were heard.
     int64_t hold(servo::Timing& timing, double turn, const Beside& beside,
                  const std::atomic<bool>& stop) {
         if (!beside.sounds()) {

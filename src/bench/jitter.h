@@ -1,5 +1,5 @@
-// The command `dihaptic-bench jitter`: measures how punctual the real-time thread is, beside
-// cyclictest. docs/measures.md defines the figures.
+// The command `dihaptic-bench jitter`: measures how punctual the real-time thread is, in comparison
+// with cyclictest. docs/measures.md defines the figures.
 #pragma once
 
 #include <atomic>
@@ -41,7 +41,7 @@ struct JitterFigures {
     int64_t dropped = 0;  ///< number of frames that were not recorded
     bool held = false;    ///< the block was held to the end
     Wakeups wakeups;
-    std::string refused;  ///< what the system refused of real time; "" if nothing
+    std::string refused;  ///< the real-time rights that the system refused; "" if none
     Wakeups cyclictest;
     double pictures = 0;  ///< pictures per second of the view that draws beside both; 0: no view
     int64_t sounds = 0;   ///< that were heard beside the servo
@@ -87,19 +87,19 @@ struct JitterFigures {
     }
 };
 
-/// What goes on beside the servo.
+/// The load that runs beside the servo.
 struct Beside {
     bool view = false;  ///< one draws as fast as it can
-    /// Where a tone goes that begins twenty times a second.
+    /// Where to play a tone that begins twenty times a second.
     display::SoundTo sound = display::SoundTo::nowhere;
 
     bool sounds() const { return sound != display::SoundTo::nowhere; }
     bool anything() const { return view || sounds(); }
 };
 
-/// Two fingers hold the block in the air, and are recorded, for `seconds`, in turn with cyclictest
-/// for the same time; or until `stop`. With something beside, the servo also takes turns without
-/// it, for the same time. Throws Error when nothing can be drawn or played.
+/// Two fingers hold the block in the air, and are recorded, for `seconds`, alternating with
+/// cyclictest for the same time, or until `stop`. With an additional load, the servo also runs
+/// without it in turn, for the same time. Throws Error when nothing can be drawn or played.
 JitterFigures bench_jitter(const measure::BenchSetup& setup, double seconds, const Beside& beside,
                            const std::atomic<bool>& stop, const measure::Progress& progress);
 

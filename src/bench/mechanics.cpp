@@ -121,7 +121,7 @@ void measure_pendulum(const Bench& bench, MechanicsFigures& out) {
         (still.joints()[0].force_W - Vec3(0, 0, kMass * kGravity)).norm() / (kMass * kGravity);
 }
 
-/// Largest distance of the second of two cubes from where its equations have it, in 2 s [m].
+/// Largest distance of the second of two cubes from the solution of its equations, in 2 s [m].
 double double_pendulum_error(const Bench& bench, double h) {
     using State = Eigen::Vector4d;  // both angles from the vertical, and their rates
     const double m = kMass, l = kArm;
@@ -145,7 +145,8 @@ double double_pendulum_error(const Bench& bench, double h) {
     second.rotation = {0, -s[1], 0};
     World world = bench.make({first, second},
                              {hinge({"first"}, Vec3::Zero()), hinge({"first", "second"}, p)});
-    // a step's velocities are those of its middle: who starts at rest was so half a step before
+    // a step's velocities are those at its middle: a body that starts at rest was at rest half a
+    // step before
     s.tail<2>() = h / 2 * rate(s).tail<2>();
     double worst = 0;
     constexpr int kParts = 10;
@@ -159,7 +160,7 @@ double double_pendulum_error(const Bench& bench, double h) {
 }
 
 /// The cup of coffee, 2.4 and 0.6 kg: a cart that moves to and fro, and a bob of 10 mm. Largest
-/// distance of the bob from where its equation has it, in 5 s [m].
+/// distance of the bob from the solution of its equation, in 5 s [m].
 double cart_pendulum_error(const Bench& bench) {
     constexpr double kLength = 0.25, kRadius = 0.01, kAmplitude = 0.05, kHertz = 0.9;
     constexpr double kAbout = kLength * kLength + 0.4 * kRadius * kRadius;  // by mass
@@ -192,7 +193,7 @@ double cart_pendulum_error(const Bench& bench) {
     return worst;
 }
 
-/// What an undamped spring of a frequency does in a step: src/dynamics/README.md.
+/// How an undamped spring of a given frequency changes in a step: src/dynamics/README.md.
 struct SpringForm {
     double root;   ///< factor on amplitudes
     double phase;  ///< [rad]
@@ -272,7 +273,8 @@ scene::Body bar(const std::string& name, const Vec3& from, const Vec3& to, doubl
     return out;
 }
 
-/// Largest distance of the coupler's end from where the crank's angle has it, in 5 s [m].
+/// Largest distance of the coupler's end from its position according to the crank's angle, in 5 s
+/// [m].
 double four_bar_error(const Bench& bench) {
     constexpr double kStart = 60 * kDegree;
     const Vec3 a = FourBar::crank_end(kStart);
@@ -406,8 +408,8 @@ struct Energy {
     double above = 0;   ///< most, against the start, relative
 };
 
-/// A chain of ten links, let go stretched out at an angle from the vertical, for 60 s. Where it
-/// hangs its energy is zero.
+/// A chain of ten links, released stretched out at an angle from the vertical, for 60 s. Its energy
+/// is zero when it hangs straight down.
 Energy energy_of_chain(const Bench& bench, double angle) {
     constexpr int kLinks = 10;
     const scene::Scene scene = chain(kLinks, angle);

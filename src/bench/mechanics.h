@@ -38,7 +38,7 @@ struct MechanicsFigures {
     double tick_us = 0;
     double tick_six_us = 0;
 
-    /// Whether every figure that has a bar keeps it.
+    /// Whether every figure that has an acceptance limit meets it.
     bool within_bars() const;
 
     template <class Self, class Visitor>

@@ -188,7 +188,7 @@ Simulator simulator(const std::string& name, const Choice& choice) {
 }  // namespace
 
 std::vector<Simulator> mujoco_simulators() {
-    // settings for small, hard objects, with which contacts give way less, or friction creeps less
+    // settings for small, hard objects, which make contacts stiffer or reduce the creep of friction
     const std::string stiff = "solref='0.005 1'";
     return {simulator("mujoco", {}),
             simulator("mujoco_stiff", {"impratio='100' tolerance='1e-12'", stiff}),

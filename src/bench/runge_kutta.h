@@ -1,4 +1,5 @@
-// Integrates equations of motion that do not come from our dynamics, to judge it by.
+// Integrates equations of motion independently of our dynamics, which are tested against the
+// result.
 #pragma once
 
 namespace dihaptic::bench {

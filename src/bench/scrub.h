@@ -1,5 +1,5 @@
-// The command `dihaptic-bench scrub`: measures how soon any moment of a recorded session is there.
-// docs/measures.md defines the figures.
+// The command `dihaptic-bench scrub`: measures how fast the player can jump to any moment of a
+// recorded session. docs/measures.md defines the figures.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// A tree of bodies on hinges in Simbody. Its headers are no C++20, so what includes them is kept
-// apart, and this header is C++17.
+// A tree of bodies on hinges in Simbody. Its headers do not compile as C++20, so code that includes
+// them is kept separate, and this header is C++17.
 #pragma once
 
 #include <memory>
@@ -19,8 +19,8 @@ struct Link {
     Pose X_BJ;         ///< and in the body
 };
 
-/// Which steps it takes: those that its integrator chooses to keep its own accuracy, or
-/// semi-explicit ones of Euler.
+/// The kind of steps: those that its integrator chooses to keep its own accuracy, or Euler's
+/// semi-explicit ones.
 enum class Steps { chosen, of_1_ms };
 
 class Model {
@@ -30,7 +30,7 @@ class Model {
     Model(const Model&) = delete;
     Model& operator=(const Model&) = delete;
 
-    /// Goes on to a time [s], and writes where the links are then, as many as there are.
+    /// Advances to a time [s], and writes the poses that the links have then.
     void step_to(double time, std::vector<Pose>& X_WB);
 
   private:

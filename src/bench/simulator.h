@@ -14,7 +14,7 @@ namespace dihaptic::bench {
 
 constexpr double kStep = 1e-3;  // [s]
 
-/// A scene, and forces that act in it all the time.
+/// A scene, and constant forces that act in it.
 struct Trial {
     struct Push {
         size_t body = 0;
@@ -45,22 +45,22 @@ Simulator bullet_simulator();
 /// MuJoCo with elliptic cones, one simulator per choice of settings; empty in builds without peers.
 std::vector<Simulator> mujoco_simulators();
 
-/// All simulators that ours are compared with where bodies touch.
+/// All simulators with which ours are compared on bodies that touch.
 std::vector<Simulator> peer_simulators();
 
 /// MuJoCo with the integrators that it has for joints; empty in builds without peers, as are the
 /// next two.
 std::vector<Simulator> mujoco_jointed_simulators();
 
-/// ODE, by its exact solver and by the one that iterates. Of bodies on hinges alone: nothing
-/// touches.
+/// ODE, with its exact solver and with its iterative one. Only for bodies on hinges that do not
+/// touch.
 std::vector<Simulator> ode_simulators();
 
 /// Simbody, whose coordinates are angles of joints, with fixed steps and with steps that it
-/// chooses. Of bodies on hinges alone.
+/// chooses. Only for bodies on hinges.
 std::vector<Simulator> simbody_simulators();
 
-/// All simulators that ours are compared with where bodies hang on hinges.
+/// All simulators with which ours are compared on bodies that hang on hinges.
 std::vector<Simulator> jointed_peers();
 
 }  // namespace dihaptic::bench

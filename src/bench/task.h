@@ -14,7 +14,7 @@ struct TaskFigures {
     double more_us = 0;         ///< median difference of the two medians, over the pairs of runs
     double expressions_us = 0;  ///< of 20 expressions
 
-    /// The bars.
+    /// The acceptance limits.
     static constexpr double kMostMore = 5;         ///< [us]
     static constexpr double kMostExpressions = 2;  ///< [us]
     bool within_bars() const { return more_us <= kMostMore && expressions_us <= kMostExpressions; }

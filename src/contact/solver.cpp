@@ -16,7 +16,7 @@ namespace {
 constexpr int kMostStaggeredIterations = 200;
 constexpr size_t kFewPairs = 10;
 constexpr int kLastSweeps = 2000;
-constexpr int kConeSweeps = 200;  // until an answer that left the cone is let be
+constexpr int kConeSweeps = 200;  // that try to bring an answer back into the cone
 /// Bounds as a fallback: pairs of projections times contacts squared, and sweeps times contacts.
 constexpr size_t kMostStaggeredWork = 20'000;
 constexpr size_t kMostSweepWork = 60'000;

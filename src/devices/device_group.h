@@ -101,7 +101,7 @@ class DeviceGroup {
     /// ever told more than its peak or limit(): a larger vector is scaled down to it, which shows
     /// in the next reading, and one that is not finite becomes zero.
     void write(std::span<const Wrench> wrenches_D) noexcept;
-    /// Limits what a device is told from now on [N], [N*m]; its peaks remain in effect.
+    /// Limits the commands that a device gets from now on [N], [N*m]; its peaks remain in effect.
     void limit(int device, double force, double torque) noexcept;
     /// What the maker's library last reported about a device, in words; "" if nothing. Not to be
     /// called in the cycle.

@@ -14,8 +14,8 @@ namespace dihaptic::display {
 
 struct Display;
 
-/// A registration file. Its positions are in the frame of the rig file's; read_rig() makes them the
-/// world's, as all of the rig's.
+/// A registration file. Its positions are in the same frame as those of the rig file; read_rig()
+/// converts them all to the world's.
 struct Registration {
     std::string date;                ///< ISO 8601: 2026-11-21
     Vec3 lower_left = Vec3::Zero();  ///< corners of what the person sees [m]

@@ -192,8 +192,9 @@ struct World::Impl {
     /// Slows the island's bodies down where an answer that missed would give them energy.
     void forbid_gain();
     /// How much of the way from the first answer, after which nothing bounces, to that of the
-    /// bounces the island goes: all of it, unless this would give it energy. Newton's law asks each
-    /// contact by itself, so with friction and joints it may (Kane and Levinson 1985).
+    /// bounces the island goes: all of it, unless this would give it energy. Newton's law treats
+    /// each contact by itself, so with friction and joints this is possible (Kane and Levinson
+    /// 1985).
     double share_of_bounce() const;
     contact::Solver solver_of_island() const;
     /// Solves the island's problem, and repeats this as long as the rows of its joints change with

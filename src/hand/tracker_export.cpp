@@ -68,8 +68,8 @@ void add_once(Columns& columns, const std::string& name, size_t x, double unit,
     add_marker(columns, name, x, unit);
 }
 
-/// The line of Motive's head with this label, which older versions leave out: then the one so many
-/// lines from the head's end.
+/// The line with this label in the header of a Motive file. Older versions omit the label; the line
+/// is then found by its distance from the header's end.
 Cells line_of(const std::vector<Cells>& head, const char* label, size_t from_end) {
     for (const Cells& cells : head) {
         if (cell(cells, 1) == label) return cells;
@@ -135,9 +135,9 @@ bool take_column_names(GivenTable& table) {
     return named;
 }
 
-/// Qualisys: a line for each setting, of which MARKER_NAMES is the last but for TRAJECTORY_TYPES;
-/// perhaps a line that names the columns; then x, y, z of each marker in mm, perhaps behind a frame
-/// and a time.
+/// Qualisys: a line for each setting, the last of which is MARKER_NAMES, or TRAJECTORY_TYPES after
+/// it; optionally a line that names the columns; then x, y, z of each marker in mm, optionally
+/// after a frame number and a time.
 Columns read_qualisys(const Cells& first, GivenTable& table) {
     Columns columns;
     double period = 0;

@@ -37,8 +37,8 @@ class Eyes {
     int width() const { return pictures_[0].width; }
     int height() const { return pictures_[0].height; }
 
-    /// Handles the runtime's events. Returns whether it wants pictures; throws Error when the
-    /// session is over.
+    /// Handles the runtime's events. Returns whether the runtime needs pictures; throws Error when
+    /// the session is over.
     bool wants_pictures();
 
     /// The viewpoints for a picture.

@@ -87,8 +87,8 @@ int keep(const InRealTime& in_real_time) {
     while (const std::optional<json> message = receive(kSocket))
         send(kSocket, control.answer(*message));
 
-    // the program is gone: force goes first, then the devices end in order, unless the maker's
-    // library takes longer than kOrderly
+    // the program is gone: force ends first, then the devices are shut down in an orderly way,
+    // unless the maker's library takes longer than kOrderly
     end_force(page);
     std::thread([] {
         constexpr auto kOrderly = std::chrono::seconds(1);

@@ -63,7 +63,7 @@ class Process {
     Process& operator=(const Process&) = delete;
 
     SharedPage& page() { return *page_; }
-    /// False for good once an answer has failed to come.
+    /// Remains false once an answer has failed to come.
     bool answers() const { return answers_; }
 
     /// Sends a message and waits for the answer. Throws Error with the problems that the keeper
@@ -74,7 +74,7 @@ class Process {
             send(socket_, message);
             answer = receive(socket_, most, given_up);
         }
-        // an answer that comes too late would be taken for the next one
+        // a late answer would be mistaken for the next one
         answers_ = answer.has_value();
         if (!answers_ && given_up && given_up()) {
             throw Error("interrupted while the program that keeps the devices did not answer",
@@ -196,8 +196,8 @@ class KeptDevices final : public devices::DeviceGroup {
         if (lost_) process_.reset();
     }
 
-    /// Waits until the keeper has answered all requests. False for good when it takes longer than
-    /// `most`.
+    /// Waits until the keeper has answered all requests. Once that takes longer than `most`, this
+    /// remains false.
     bool await_answer(Time most) noexcept {
         SharedPage& page = process_->page();
         const uint32_t wanted = page.asked.load();

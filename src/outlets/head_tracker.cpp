@@ -12,7 +12,7 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr Seconds kSearch{0.3};  // between looks whether the thread is to end
+constexpr Seconds kSearch{0.3};  // between checks whether the thread should end
 constexpr Seconds kWait{0.1};
 
 double size_of(StreamUnit unit) {

@@ -445,14 +445,14 @@ void Person::move(const Aim& way, double duration, const Sight& sight) noexcept 
     aim_.add(upward, now_, part, up > 0 ? 0 : duration - part);
 }
 
-/// Whether the hand moves in two parts: an open hand comes to objects from above, and leaves them
-/// upward, so as not to sweep them away.
+/// Whether the hand moves in two parts: an open hand approaches objects from above, and leaves them
+/// upward, so that it does not sweep them away.
 bool Person::from_above(const Vec3& displacement) const noexcept {
     return places_.size() > 1 && !grip_.holds() && std::abs(displacement.z()) > kOver;
 }
 
-/// The movement that the hand has to make in order to be shown to move by `displacement`, as far as
-/// learned.
+/// The movement that the hand has to make so that it is shown to move by `displacement`, as far as
+/// this is learned.
 Vec3 Person::made_for(const Vec3& displacement) const noexcept {
     if (displacement.norm() < 1e-9) return displacement;
     const auto state = static_cast<size_t>(acting_ - 1);
@@ -492,7 +492,7 @@ bool Person::pushed(const frame::Frame& frame) const noexcept {
 }
 
 /// What the hand's strain reveals in this Frame. If the hand was never pushed in this state, and is
-/// not pushed now, small strains are taken for its own noise.
+/// not pushed now, small strains are attributed to its own noise.
 Strain Person::strain(const frame::Frame& frame) const noexcept {
     Strain out;
     out.hand = centre_;

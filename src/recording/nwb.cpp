@@ -28,7 +28,7 @@ using hdf5::Id;
 using hdf5::write_attribute;
 using hdf5::write_dataset;
 
-/// Random UUID (version 4), which NWB wants on every object.
+/// Random UUID (version 4), which NWB requires for every object.
 std::string new_uuid() {
     static std::mt19937_64 engine{std::random_device{}()};
     const uint64_t a = (engine() & ~0xF000ULL) | 0x4000ULL;

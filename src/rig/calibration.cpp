@@ -185,8 +185,8 @@ struct HeldOut {
     size_t slips = 0;                ///< number of slips among the link's samples
 };
 
-/// Solves anew without each fold, and judges the fold's samples by that. `all`: the solution from
-/// all samples. The residual of each of the link's samples goes to `out`.
+/// Solves again without each fold, and judges the fold's samples by that solution. `all`: the
+/// solution from all samples. The residual of each of the link's samples goes to `out`.
 HeldOut judge_held_out(const CalibrationInput& input, const CalibrationSolver& solver,
                        const CalibrationSolution& all, CalibrationResult& out) {
     const size_t links = input.link_samples.size();

@@ -313,7 +313,7 @@ std::string near_miss(const Mesh& mesh, const std::map<Edge, int>& open, double 
     for (const auto& [edge, count] : open) ends.insert({edge.first, edge.second});
     int nearest = -1;
     double gap = 1000 * rounding;
-    constexpr size_t kMost = 3000;  // all are looked at together
+    constexpr size_t kMost = 3000;  // all are examined together
     for (const auto& [edge, count] : open) {
         if (open.size() > kMost) break;
         for (const int end : ends) {

@@ -75,7 +75,7 @@ bool is_exact(const Hull& hull, std::span<const Vec3> points, double extent) {
     });
 }
 
-/// Qhull's state, which it wants to be freed.
+/// Qhull's state, which has to be freed.
 class Qhull {
   public:
     explicit Qhull(std::span<const Vec3> points) : coordinates_(points.begin(), points.end()) {

@@ -21,8 +21,8 @@ inline const Vec3& corner(const Mesh& mesh, int i) {
 /// have it in this one.
 std::map<Edge, int> open_edges(const Mesh& mesh);
 
-/// Corners closer than this are taken as one [m]: a millionth of the mesh's diagonal, and eight
-/// steps of a coordinate in single precision.
+/// Corners closer than this are merged [m]: a millionth of the mesh's diagonal, and eight steps of
+/// a coordinate in single precision.
 double rounding_of(const Mesh& mesh);
 
 /// The mesh without colours, with corners at equal positions merged, and without faces that have a
@@ -31,7 +31,7 @@ Mesh merged(const Mesh& mesh);
 
 struct Mended {
     Mesh mesh;
-    double largest = 0;  ///< of the distances between corners that were taken as one [m]
+    double largest = 0;  ///< of the distances between merged corners [m]
 };
 
 /// The mesh with all these repairs, within `rounding`.

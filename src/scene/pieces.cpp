@@ -123,7 +123,7 @@ std::optional<Pieces> read_pieces(const std::string& file, uint64_t mesh, double
         try {
             return read_bytes(file, kMostPieces);
         } catch (const Error&) {
-            return "";  // then the mesh is cut anew
+            return "";  // after this the mesh is cut again
         }
     }();
     const bool is_checked = text.starts_with(kFirstLine);

@@ -17,8 +17,8 @@ struct SpringCurve {
         double stiffness = 0;  ///< of the line that it is on [N/m] or [N*m/rad]
     };
     bool is_empty() const noexcept { return stretch.empty(); }
-    /// Beyond its ends the curve goes on along its first and its last line. It has two points or
-    /// more, and as many stretches as resistances.
+    /// Beyond its ends the curve continues along its first and its last line. It has two or more
+    /// points, and as many stretches as resistances.
     Point at(double x) const noexcept {
         const auto next = std::upper_bound(stretch.begin() + 1, stretch.end() - 1, x);
         const auto i = static_cast<size_t>(next - stretch.begin());

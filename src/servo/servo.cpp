@@ -9,7 +9,7 @@
 namespace dihaptic::servo {
 namespace {
 
-constexpr double kElsewhere = 5e-3;  // a handle this far off after a pause gets its proxy anew [m]
+constexpr double kElsewhere = 5e-3;  // a handle that moved this far in a pause resets its proxy [m]
 
 /// The fault that a device reports.
 FaultKind reported_by(const devices::Reading& reading) {

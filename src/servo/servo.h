@@ -26,7 +26,7 @@
 
 namespace dihaptic::servo {
 
-/// Time for which a run goes on after a fault, without force, to record what becomes of the
+/// Time for which a run goes on after a fault, without force, to record what happens to the
 /// objects.
 constexpr Time kGrace = std::chrono::seconds(1);
 
@@ -47,9 +47,9 @@ class Servo {
     /// comes back softly.
     void rest() noexcept;
     /// Call after rest(), before the next tick: hands may have moved in the meantime. Force comes
-    /// back softly, from zero in the next tick. After a fault the devices are activated anew and
-    /// the fault is forgotten; in a world that diverged, bodies that were lost are put back to
-    /// where the scene has them. Throws Error when the devices cannot be activated.
+    /// back softly, from zero in the next tick. After a fault the devices are activated again and
+    /// the fault is cleared; in a world that diverged, lost bodies are put back to their places in
+    /// the scene. Throws Error when the devices cannot be activated.
     void resume();
     /// Reserves memory in `frame` for any Frame of this servo, so that copying one into it
     /// allocates nothing.

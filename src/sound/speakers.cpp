@@ -20,7 +20,7 @@ constexpr int kChannels = 2;
 /// A snd_lib_error_handler_t.
 void say_nothing(const char*, int, const char*, int, const char*, ...) {}
 
-/// ALSA and JACK write a message to the terminal for each device that they try in vain.
+/// ALSA and JACK write a message to the terminal for each device that they fail to open.
 void silence_systems() {
     const auto set = [](const char* setter, auto* handler) {
         using Set = void (*)(decltype(handler));

@@ -16,9 +16,9 @@ struct Bone {
 
 /// The forearm, the palm, and the bones of five fingers, each from its root to its tip. `thumb`,
 /// `index`: where these touch, in W [m]. The hand comes from the person's side (-y) and a little
-/// from above; the other fingers go along with the index finger. Bones keep their lengths, so
-/// fingers end before places that are too far apart for a hand. Empty if both are at the same
-/// place, or at none.
+/// from above; the other fingers follow the index finger. Bones keep their lengths, so if the two
+/// places are too far apart for a hand, fingers end before them. Empty if both are at the same
+/// place, or if a place is unknown.
 std::vector<Bone> hand_bones(const Vec3& thumb, const Vec3& index);
 
 }  // namespace dihaptic::view

@@ -1,5 +1,5 @@
-// Whether all of Dihaptic is there: the programs beside this one, those of others that it calls,
-// and the shipped files.
+// Checks whether Dihaptic is complete: the programs beside this one, the other projects' programs
+// that it calls, and the shipped files.
 #pragma once
 
 #include <functional>

@@ -150,7 +150,7 @@ class Collision {
             if (manifold != nullptr) manifold->setContactBreakingThreshold(margin);
             return manifold;
         }
-        btScalar margin = 0;  ///< of the pair that is looked at [m]
+        btScalar margin = 0;  ///< of the pair that is being examined [m]
     } dispatcher_;
     double step_ = 1e-3;
     ContactAlgorithms algorithms_;

@@ -40,7 +40,8 @@ class ManifoldProblem {
     /// Interpolates from the kept impulses to the present ones by this share.
     void mix(double share) noexcept;
 
-    /// Adds rows of joints between bodies of the problem, started as build() was told.
+    /// Adds rows of joints between bodies of the problem, with the start that was passed to
+    /// build().
     void add_joints(Joints& joints, std::span<const size_t> which, double h,
                     bool warm_start) noexcept;
     /// As Joints::guess().
