@@ -1,7 +1,7 @@
 # %% [markdown]
 # # An adaptation study, rehearsed and fitted
 #
-# Before anybody is invited, simulated people do the whole study: what is displayed is rotated, then rotated the other way.
+# Before you invite anybody, simulated people do the whole study: the display is rotated, then rotated the other way.
 # (Simulated people are calibrated on published means; what they show about a new design is a guess.)
 
 # %%
@@ -40,7 +40,7 @@ for person, rows in adaptation.groupby("id"):
     print(f"{person}: A_slow {fit.retention_slow:.4f} ({low:.4f} to {high:.4f}), B_fast {fit.learning_fast:.3f}, n {fit.n}")
 
 # %% [markdown]
-# How many people does the study need? Draw the mean and its standard error for as many as were rehearsed:
+# How many people does the study need? Plot the mean and its standard error for the people who were rehearsed:
 
 # %%
 last = adaptation.groupby("id").tail(10).groupby("id")[measured].mean()

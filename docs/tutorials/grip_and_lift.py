@@ -1,9 +1,9 @@
 # %% [markdown]
 # # Grip and lift: does grip follow weight and friction?
 #
-# Johansson and Westling (1984) let people lift objects of three weights and three surfaces. The grip force that holds an
-# object grows with its weight, and more steeply the more slippery it is, so that the margin against slips stays. Simulated
-# people do the same experiment here; with real devices, leave out `simulate`.
+# Johansson and Westling (1984) let people lift objects of three weights and three surfaces. The grip force that holds
+# an object grows with its weight, and more steeply the more slippery it is, so that the margin against slips remains.
+# Simulated people do the same experiment here; with real devices, leave out `simulate`.
 
 # %%
 import matplotlib.pyplot as plt
@@ -40,8 +40,8 @@ axes = session.plot("grip_force", "load_force", align="lift_off", before=0.6, af
 axes.figure.savefig("forces.png")
 
 # %% [markdown]
-# The figures of the lifts come from the recorded contacts. Forces from another laboratory, which has none, are given to
-# `find_lift()`. Here the forces of one of these lifts are treated as such:
+# The figures of the lifts come from the recorded contacts. If another laboratory has recorded forces but no contacts,
+# pass the forces to `find_lift()`. Here the forces of one of these lifts are treated in that way:
 
 # %%
 first = lifts.iloc[0]

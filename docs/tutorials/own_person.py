@@ -1,8 +1,8 @@
 # %% [markdown]
-# # A person of one's own
+# # Your own simulated person
 #
-# The simulated people of the program grip, adapt and answer as people have been measured to do. Another theory of how a
-# movement is made can be tried in a few lines: a person is a class that looks and acts, a hundred times a second.
+# The simulated people of the program grip, adapt and answer as published measurements of people suggest. You can try
+# another theory of how people move in a few lines: a person is a class that looks and acts, a hundred times a second.
 
 # %%
 import numpy as np
@@ -51,15 +51,15 @@ print(session.trials[["trial_num", "perturbation", "outcome"]])
 print(session.lifts[["trial_num", "lift", "static_grip_N", "static_load_N"]])
 
 # %% [markdown]
-# What it did was recorded like anybody's. It grips all weights alike, as no person does:
+# Its session was recorded like anybody's. It grips all weights alike, as no real person does:
 
 # %%
 axes = session.plot("grip_force", align="lift_off", by="perturbation")
 axes.figure.savefig("lifter.png")
 
 # %% [markdown]
-# A study of such people is a rehearsal: each is made by its number, and what its attributes are stands in the table of
-# `people`. Here each wants to close the hand further than the one before, and grips the more firmly:
+# A study of such people is a rehearsal: each person is made from its number, and the table `people` lists its
+# attributes. Here each person closes the hand further than the one before, and so grips more firmly:
 
 # %%
 study = dh.rehearse(
