@@ -13,86 +13,10 @@
 namespace dihaptic::analysis {
 namespace {
 
-/// The number in this unit, or the text that gives it.
-std::string in_words(const Formula& number, double unit = 1) {
-    return number.computed() ? number.text : fmt::format("{:.6g}", number.value / unit);
-}
-
-std::string in_words(const FormulaVec3& v) {
-    return fmt::format("({}, {}, {})", in_words(v[0]), in_words(v[1]), in_words(v[2]));
-}
-
-std::string in_words(const Vec3& v) {
-    return in_words(FormulaVec3{v.x(), v.y(), v.z()});
-}
-
-/// Adds "NAME factor" unless the factor changes nothing.
-void add_factor(std::vector<std::string>& out, const char* name, const Formula& factor) {
-    if (factor != 1) out.push_back(fmt::format("{} {} times", name, in_words(factor)));
-}
-
-const FormulaVec3 kOnes{1, 1, 1};
-
-void say_kinds(const task::VisualSpec& visual, std::vector<std::string>& out) {
-    if (!visual.toward.empty()) out.push_back("visual clamp toward " + visual.toward);
-    if (visual.angle != 0)
-        out.push_back(fmt::format("rotation by {} deg about {}", in_words(visual.angle, kDegree),
-                                  in_words(visual.axis.value_or(Vec3::Zero()))));
-    if (visual.scale != kOnes) out.push_back("visual gain " + in_words(visual.scale));
-    add_factor(out, "displayed size", visual.size);
-    if (visual.delay != 0)
-        out.push_back(fmt::format("shown {} ms late", in_words(visual.delay, 1e-3)));
-    if (!visual.noise.isZero(0))
-        out.push_back("shaken by " + in_words(Vec3(visual.noise * 1e3)) + " mm (SD)");
-}
-
-void say_kinds(const task::BodySpec& body, std::vector<std::string>& out) {
-    if (body.mass_scale != kOnes) out.push_back("inertia " + in_words(body.mass_scale) + " times");
-    add_factor(out, "weight", body.weight_scale);
-    add_factor(out, "density", body.density_scale);
-    add_factor(out, "friction", body.friction_scale);
-    add_factor(out, "stiffness", body.stiffness_scale);
-    add_factor(out, "restitution", body.restitution_scale);
-}
-
-void say_kinds(const task::JointSpec& joint, std::vector<std::string>& out) {
-    const auto add = [&](const char* what, const Formula& factor) {
-        add_factor(out, (std::string(what) + " of " + joint.joint).c_str(), factor);
-    };
-    add("stiffness", joint.stiffness_scale);
-    add("damping", joint.damping_scale);
-    add("friction", joint.friction_scale);
-}
-
-std::string kind_and_size(const task::LoadSpec& load) {
-    switch (load.kind) {
-        case task::LoadKind::constant:
-            return fmt::format("constant force {} N", in_words(load.force)) +
-                   (load.torque == FormulaVec3{} ? ""
-                                                 : fmt::format(", {} N*m", in_words(load.torque)));
-        case task::LoadKind::viscous:
-        case task::LoadKind::curl:
-            return fmt::format("{} field of {} N*s/m", enum_name(load.kind),
-                               in_words(load.damping));
-        case task::LoadKind::general:
-            return "general field";
-        case task::LoadKind::spring:
-            return fmt::format("spring of {} N/m", in_words(load.stiffness));
-        case task::LoadKind::channel:
-            return fmt::format("force channel{} of {} N/m",
-                               load.normal || load.free ? " (a plane)" : "",
-                               in_words(load.stiffness));
-    }
-    return "";
-}
-
 /// What the perturbation is, and how large.
 std::string kind_and_size(const task::PerturbationSpec& perturbation) {
     std::vector<std::string> out;
-    if (perturbation.visual) say_kinds(*perturbation.visual, out);
-    if (perturbation.body) say_kinds(*perturbation.body, out);
-    if (perturbation.joint) say_kinds(*perturbation.joint, out);
-    for (const task::LoadSpec& load : perturbation.all_loads()) out.push_back(kind_and_size(load));
+    perturbation.each_effect([&](const auto& effect) { say(effect, out); });
     return fmt::format("{}", fmt::join(out, "; "));
 }
 

@@ -1,19 +1,19 @@
 // A number of a file that may be written as an expression: hold_s: wait, or position_mm: [0, 10 *
-// step, 20]. Whoever knows the expression's names compiles the text (task/numbers.h), and resolves
-// it into a plain number when these have values.
+// step, 20]. Whoever knows the expression's names compiles the text (task/formulas.h), and sets the
+// value when these have theirs.
 #pragma once
 
 #include <array>
-#include <span>
 #include <string>
 
 #include "base/diagnostics.h"
 #include "base/field.h"
+#include "base/geometry.h"
 
 namespace dihaptic {
 
 struct Formula {
-    double value = 0;  ///< of a number, in SI units
+    double value = 0;  ///< of the number, or what the text gives in the present trial, in SI units
     std::string text;  ///< empty: the value stands
     double to_si = 1;  ///< unit of the key, in which a text without a dimension is read
     std::string key;   ///< as in the file
@@ -34,23 +34,11 @@ struct Formula {
 /// be written again in the unit that it was given in.
 using FormulaVec3 = std::array<Formula, 3>;
 
-/// A Formula for use in the tick.
-struct Number {
-    double value = 0;
-    int index = -1;
-
-    Number() = default;
-    Number(const Formula& f)  // NOLINT(google-explicit-constructor)
-        : value(f.value), index(f.index) {}
-    /// `resolved`: what the compiled texts give, by index.
-    double in(std::span<const double> resolved) const noexcept {
-        const auto i = static_cast<size_t>(index);
-        return i < resolved.size() ? resolved[i] : value;
-    }
-};
-
-inline std::array<Number, 3> numbers(const FormulaVec3& v) {
-    return {v[0], v[1], v[2]};
+inline Vec3 value(const FormulaVec3& v) noexcept {
+    return {v[0].value, v[1].value, v[2].value};
+}
+inline FormulaVec3 as_formula(const Vec3& v) {
+    return {v.x(), v.y(), v.z()};
 }
 
 }  // namespace dihaptic

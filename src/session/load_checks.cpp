@@ -110,17 +110,14 @@ class LoadChecks {
     /// Against the largest force that reaches the hand.
     void check_force(const task::Load& load, const Demand& demand, const frame::DeviceInfo& info) {
         const double most = plan_.settings.safety.largest_force(info.peak_force, info.scale);
-        const task::LoadSpec& spec = load.spec();
-        // what keeps a hand where it is may be as hard as the device can
-        const bool wall = spec.kind == task::LoadKind::channel || spec.one_sided;
-        if (std::isfinite(demand.force) && demand.force > most && !wall) {
+        if (std::isfinite(demand.force) && demand.force > most && !demand.holds) {
             warn(load, "force",
                  fmt::format("{} reaches {:.3g} N, more than the {:.3g} N that {} may give: it is "
                              "cut off there",
                              a(load), demand.force, most, info.model),
                  "Make it weaker, or use a rig with a stronger device.");
         }
-        if (std::isinf(demand.force) && info.workspace && !wall) {
+        if (std::isinf(demand.force) && info.workspace && !demand.holds) {
             const double reach = info.workspace->norm() / 2;
             if (demand.stiffness * reach > most)
                 warn(load, "force",
@@ -130,8 +127,7 @@ class LoadChecks {
                                  most / demand.stiffness * 1e3, reach * 1e3),
                      "Lower its stiffness, or give it a zone by safe_within_mm.");
         }
-        const bool springs = wall || spec.kind == task::LoadKind::spring;
-        if (springs || demand.damping * kFastReach <= most) return;
+        if (demand.springs || demand.damping * kFastReach <= most) return;
         warn(load, "damping",
              fmt::format("{} of {:.4g} N*s/m reaches the {:.3g} N that {} may give at {:.2g} m/s, "
                          "and is cut off beyond: fast reaches move at {:g} m/s",

@@ -293,7 +293,7 @@ std::vector<Lifting> liftings(const Plan& plan) {
                                                             finger.name, finger.friction));
             }
             for (const int p : trial.perturb) {
-                const auto& changed = cell.perturbations[static_cast<size_t>(p)].properties();
+                const auto changed = cell.perturbations[static_cast<size_t>(p)].properties();
                 if (changed && changed->body == index) {
                     weight *= changed->weight_scale;
                     friction *= changed->friction_scale;
@@ -424,11 +424,15 @@ void check_wall(const Plan& plan, Diagnostics& diagnostics) {
 
 /// Whether the perturbation does no more than to hold what moves in a plane.
 bool is_plane(const task::PerturbationSpec& spec) {
-    const std::vector<task::LoadSpec> loads = spec.all_loads();
-    return !spec.visual && !spec.body && !spec.joint &&
-           std::all_of(loads.begin(), loads.end(), [](const task::LoadSpec& load) {
-               return load.kind == task::LoadKind::channel && load.normal;
-           });
+    bool out = true;
+    spec.each_effect([&](const auto& effect) {
+        if constexpr (std::is_same_v<decltype(effect), const task::LoadSpec&>) {
+            out = out && effect.kind == task::LoadKind::channel && effect.normal;
+        } else {
+            out = false;
+        }
+    });
+    return out;
 }
 
 /// Whether the region's place follows from draws, factors or variables in some condition.

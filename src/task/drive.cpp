@@ -52,7 +52,7 @@ Drive::Drive(const DriveSpec& spec, int body, Quantities& quantities, Diagnostic
     check_times(spec, diagnostics);
     check_along(spec, diagnostics);
     if (spec.axis || spec.angle != 0) axis_ = axis_of(spec.axis, spec.place, "axis", diagnostics);
-    if (spec.to || spec.by) way_ = numbers(spec.to ? *spec.to : *spec.by);
+    if (spec.to || spec.by) way_ = spec.to ? *spec.to : *spec.by;
     if (spec.path && spec.path->check(diagnostics)) path_ = spec.path;
     if (spec.along.size() != 3) return;
     for (const std::string& text : spec.along) {

@@ -64,7 +64,7 @@ class Drive {
 
     int body() const noexcept { return body_; }
     /// Where the body is `t` after the beginning of the state [s], in which it began at `from`.
-    /// `of(Number)` is a number in this trial, `values` are those of the quantities.
+    /// `of(Formula)` is a number in this trial, `values` are those of the quantities.
     template <class Of>
     Pose at(double t, const Pose& from, const Of& of,
             std::span<const double> values) const noexcept {
@@ -88,9 +88,9 @@ class Drive {
   private:
     int body_;
     bool relative_ = true;
-    std::array<Number, 3> way_{};
+    FormulaVec3 way_{};
     Vec3 axis_ = Vec3::UnitZ();
-    Number angle_{};
+    Formula angle_{};
     Course course_;
     std::vector<Expression> along_;  // none, or three
     std::optional<SampledPath> path_;

@@ -68,7 +68,7 @@ class Motor {
 
     int joint() const noexcept { return joint_; }
     /// What it does `t` after the beginning of the state [s], in which the joint began at `from`.
-    /// `of(Number)` is a number in this trial, `values` are those of the quantities.
+    /// `of(Formula)` is a number in this trial, `values` are those of the quantities.
     template <class Of>
     frame::MotorFrame at(double t, double from, const Of& of,
                          std::span<const double> values) const noexcept {
@@ -94,9 +94,9 @@ class Motor {
 
     int joint_;
     bool goes_ = false;  ///< to a place; otherwise it follows an expression, if there is one
-    Number to_{};
+    Formula to_{};
     Course course_;
-    Number most_{};
+    Formula most_{};
     Expression follow_;
     Expression push_;
 };

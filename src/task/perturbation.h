@@ -2,7 +2,9 @@
 //
 // A perturbation acts with a share from 0 to 1, so that it can begin abruptly, by a ramp over
 // trials, or by a profile within one: angles, forces, and the difference of scales from 1 are
-// proportional to the share.
+// proportional to the share. What it changes, and how, are its effects: each has a folder of
+// `effects`, with what a file says of it, what is wrong with that, what it orders, and how a report
+// states it.
 #pragma once
 
 #include <algorithm>
@@ -11,132 +13,13 @@
 #include <string>
 #include <vector>
 
-#include "base/field_reader.h"
-#include "base/formula.h"
-#include "frame/frame.h"
-#include "scene/scene.h"
-#include "task/loads.h"
+#include "task/effects/body/body.h"
+#include "task/effects/joint/joint.h"
+#include "task/effects/load/load.h"
+#include "task/effects/visual_map/visual_map.h"
 #include "task/profile.h"
 
 namespace dihaptic::task {
-
-/// A named sphere where hands are wanted, and which can be shown.
-struct Region {
-    std::string name;
-    FormulaVec3 position;   ///< centre [m]
-    Formula radius = 0.01;  ///< [m]
-    Place place;
-
-    template <class Visitor>
-    void visit(Visitor& v) {
-        v("name", name, Field::text().required().says("Name of the region."));
-        v("position", position, Field::length().within(-100, 100).required().says("Its centre."));
-        v("radius", radius, Field::length().within(1e-4, 10).says("Its radius."));
-        if constexpr (requires { v.place(); }) place = v.place();
-    }
-};
-
-/// A change of displayed motion: it is scaled and rotated about a region's centre, or led along the
-/// straight line to another region.
-struct VisualSpec {
-    std::vector<std::string> moves;  ///< proxies, object, target
-    std::string about;               ///< region
-    FormulaVec3 scale{1, 1, 1};      ///< along the world's axes
-    std::optional<Vec3> axis;        ///< axis of the rotation
-    Formula angle = 0;               ///< angle of the rotation, right-handed [rad]
-    std::string toward;              ///< region: motion is shown on the line from `about` to it, at
-                                     ///< its true distance from `about`
-    Formula size = 1;                ///< the object's displayed size over its true size
-    Formula delay = 0;               ///< proxies and object are shown this much later [s]
-    Vec3 noise = Vec3::Zero();       ///< SD of noise on where they are shown, in W [m]
-    Place place;
-
-    template <class Visitor>
-    void visit(Visitor& v) {
-        v("moves", moves,
-          Field::text().required().says(
-              "What is shown elsewhere than it is: any of proxies, object and target."));
-        v("about", about,
-          says("Region about whose centre motion is scaled and rotated, or from "
-               "which the line begins."));
-        v("scale", scale,
-          Field::number().within(-10, 10).says(
-              "Factors on displayed motion along the world's axes."));
-        v("axis", axis,
-          Field::number().within(-1000, 1000).says("Axis of the rotation, through the centre."));
-        v("angle", angle,
-          Field::of(Quantity::angle)
-              .within(-6.3, 6.3)
-              .says("Angle of the rotation, right-handed."));
-        v("toward", toward,
-          says("Region that the line leads to on which motion is shown, at its true "
-               "distance from the beginning."));
-        v("size", size,
-          Field::number().within(0.1, 10).says("Displayed over true size of the object."));
-        v("delay", delay,
-          Field::of(Quantity::time)
-              .within(0, 5)
-              .says("How much later proxies and object are shown."));
-        v("noise", noise,
-          Field::length().within(0, 1).says(
-              "Standard deviation of noise on where they are shown, along the world's axes."));
-        if constexpr (requires { v.place(); }) place = v.place();
-    }
-};
-
-/// Factors on a body's properties in the scene.
-struct BodySpec {
-    std::string body;
-    FormulaVec3 mass_scale{1, 1, 1};  ///< on inertia along the world's axes; the weight stays
-    Formula weight_scale = 1;         ///< the inertia stays
-    Formula density_scale = 1;        ///< on both, and on the moments of inertia
-    Formula friction_scale = 1;
-    Formula stiffness_scale = 1;    ///< of its surface, with its damping
-    Formula restitution_scale = 1;  ///< of its surface
-    Place place;
-
-    template <class Visitor>
-    void visit(Visitor& v) {
-        v("body", body, Field::text().required().says("Body whose properties are changed."));
-        v("mass_scale", mass_scale,
-          Field::number().within(0.05, 20).says(
-              "Factors on its inertia along the world's axes; its weight stays."));
-        v("weight_scale", weight_scale,
-          Field::number().within(-20, 20).says("Factor on its weight; its inertia stays."));
-        v("density_scale", density_scale,
-          Field::number().within(0.05, 20).says(
-              "Factor on weight, inertia and moments of inertia together."));
-        v("friction_scale", friction_scale,
-          Field::number().within(0, 20).says("Factor on its coefficients of friction."));
-        v("stiffness_scale", stiffness_scale,
-          Field::number().within(0.01, 100).says(
-              "Factor on the stiffness and damping of its surface."));
-        v("restitution_scale", restitution_scale,
-          Field::number().within(0, 100).says(
-              "Factor on the restitution of its surface, which stays at most 1."));
-        if constexpr (requires { v.place(); }) place = v.place();
-    }
-};
-
-/// Factors on a joint's properties in the scene.
-struct JointSpec {
-    std::string joint;
-    Formula stiffness_scale = 1;  ///< of its spring
-    Formula damping_scale = 1;    ///< of its damper
-    Formula friction_scale = 1;
-    Place place;
-
-    template <class Visitor>
-    void visit(Visitor& v) {
-        const Field factor = Field::number().within(0, 100);
-        v("joint", joint, Field::text().required().says("Joint whose properties are changed."));
-        v("stiffness_scale", stiffness_scale,
-          factor.says("Factor on the stiffness of its spring."));
-        v("damping_scale", damping_scale, factor.says("Factor on the damping of its damper."));
-        v("friction_scale", friction_scale, factor.says("Factor on its dry friction."));
-        if constexpr (requires { v.place(); }) place = v.place();
-    }
-};
 
 /// Any combination of a visual map, properties of a body and a joint, and loads, under one name.
 struct PerturbationSpec {
@@ -150,6 +33,14 @@ struct PerturbationSpec {
     std::vector<LoadSpec> loads;
     Place place;
 
+    /// Calls f(effect) for each effect that it has.
+    template <class F>
+    void each_effect(F f) const {
+        if (visual) f(*visual);
+        if (body) f(*body);
+        if (joint) f(*joint);
+        for (const LoadSpec& load : all_loads()) f(load);
+    }
     /// `field` and `loads` together.
     std::vector<LoadSpec> all_loads() const {
         std::vector<LoadSpec> out = loads;
@@ -197,51 +88,31 @@ class Perturbation {
     Mat3 field_gain() const;
     /// Axis of its rotation, or of its first curl field; nullopt if it has neither.
     std::optional<Vec3> axis() const;
-    /// Takes up the numbers that are formulas. `resolved`: what these give, by index.
-    void resolve(std::span<const double> resolved) noexcept;
-    bool has_map() const { return map_.has_value(); }
+    bool has_map() const { return visual_.has_value(); }
     std::span<const Load> loads() const { return loads_; }
     /// The most that the delay of what it moves on the screen may be [s].
-    double longest_delay() const { return map_ ? map_->longest_delay : 0; }
+    double longest_delay() const { return visual_ ? visual_->longest_delay() : 0; }
     /// A body's properties at share 1; unset if it changes no body.
-    const std::optional<frame::PropertiesFrame>& properties() const { return properties_; }
+    std::optional<frame::PropertiesFrame> properties() const;
+
+    /// Of the numbers of its effects.
+    template <class Visitor>
+    void visit(Visitor& v) {
+        each_effect(*this, [&](auto& effect) { effect.visit(v); });
+    }
 
   private:
-    struct Map {
-        uint32_t moves = 0;
-        int object = -1;
-        int about = -1;
-        int toward = -1;
-        std::array<Number, 3> scale_as_given;
-        Number angle_as_given;
-        Number size_as_given;
-        Number delay_as_given;
-        Vec3 scale = Vec3::Ones();
-        Vec3 axis = Vec3::UnitZ();
-        double angle = 0;
-        double size = 1;
-        double delay = 0;
-        double longest_delay = 0;
-        Vec3 noise = Vec3::Zero();
-    };
-    struct Properties {
-        std::array<Number, 3> mass;
-        Number weight;
-        Number density;
-        Number friction;
-        Number stiffness;
-        Number restitution;
-    };
-    void look_up_map(const VisualSpec& visual, const std::vector<Region>& regions,
-                     const scene::Scene& scene, Diagnostics& diagnostics);
-    void look_up_body(const BodySpec& body, const scene::Scene& scene, Diagnostics& diagnostics);
-    void look_up_joint(const JointSpec& joint, const scene::Scene& scene, Diagnostics& diagnostics);
+    template <class Self, class F>
+    static void each_effect(Self& self, F f) {
+        if (self.visual_) f(*self.visual_);
+        if (self.body_) f(*self.body_);
+        if (self.joint_) f(*self.joint_);
+        for (auto& load : self.loads_) f(load);
+    }
 
-    std::optional<Map> map_;
-    Properties properties_as_given_;
-    std::optional<frame::PropertiesFrame> properties_;
-    std::array<Number, 3> joint_as_given_{};  // factors on stiffness, damping, friction
-    std::optional<frame::JointPropertiesFrame> joint_;
+    std::optional<VisualEffect> visual_;
+    std::optional<BodyEffect> body_;
+    std::optional<JointEffect> joint_;
     std::vector<Load> loads_;
     std::optional<Profile> profile_;
 };

@@ -60,11 +60,11 @@ struct Profile {
 
 /// The way from a place to another, as a share of it, in numbers that may be a trial's own.
 struct Course {
-    Number delay{};     ///< [s]
-    Number duration{};  ///< [s]
+    Formula delay{};     ///< [s]
+    Formula duration{};  ///< [s]
     ProfileShape shape = ProfileShape::minimum_jerk;
 
-    /// The share at `t` since the beginning [s]; `of(Number)` is a number in this trial.
+    /// The share at `t` since the beginning [s]; `of(Formula)` is a number in this trial.
     template <class Of>
     double share(double t, const Of& of) const noexcept {
         Profile course;

@@ -211,18 +211,18 @@ void TaskDirector::follow(const Decision& decision, double now) noexcept {
 bool TaskDirector::clear(const frame::Frame& last) const noexcept {
     const auto& homes = numbers_.cell().homes;
     return std::all_of(homes.begin(), homes.end(),
-                       [&](const TaskPlan::Home& home) { return clear(last, home); });
+                       [&](const TaskPlan::Home& home) { return clear(last, home, home.X_WB); });
 }
 
 /// Whether a body can be put there. A body put where a finger is would push the finger out; a body
 /// taken from between fingers that press it would let them clap together.
-bool TaskDirector::clear(const frame::Frame& last, const TaskPlan::Home& home) const noexcept {
+bool TaskDirector::clear(const frame::Frame& last, const TaskPlan::Home& home,
+                         const Pose& X_WB) const noexcept {
     if (last.sequence < 0) return true;
-    if (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, home.X_WB)) return true;
+    if (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, X_WB)) return true;
     if (pressed(last, home.body)) return false;
     for (size_t i = 0; i < last.fingers.size(); ++i) {
-        if (in_the_way(home.X_WB, home.box, last.fingers[i].p_WP, plan_.finger_radius[i]))
-            return false;
+        if (in_the_way(X_WB, home.box, last.fingers[i].p_WP, plan_.finger_radius[i])) return false;
     }
     return true;
 }
@@ -507,16 +507,13 @@ void TaskDirector::put_bodies(const frame::Frame& last, frame::Commands& command
         const int body = wanted.home.body;
         if (is_put_[i] && !wanted.stays) continue;
         if (!is_put_[i]) {
-            TaskPlan::Home home = wanted.home;
-            home.X_WB.p = numbers_.of(home.position_as_given);
+            const Pose X_WB{wanted.home.X_WB.R, numbers_.of(wanted.home.position)};
             // before the first Frame nobody knows where fingers are
-            if (wanted.moves && (last.sequence < 0 || !clear(last, home))) continue;
+            if (wanted.moves && (last.sequence < 0 || !clear(last, wanted.home, X_WB))) continue;
             is_put_[i] = 1;
-            put_at_[i] = wanted.moves ? home.X_WB : pose_of(body, last, commands);
+            put_at_[i] = wanted.moves ? X_WB : pose_of(body, last, commands);
         }
-        const auto& v = wanted.home.velocity_as_given;
-        const Vec3 thrown(numbers_.of(v[0]), numbers_.of(v[1]), numbers_.of(v[2]));
-        put(body, put_at_[i], {thrown, Vec3::Zero()}, commands);
+        put(body, put_at_[i], {numbers_.of(wanted.home.velocity), Vec3::Zero()}, commands);
     }
 }
 
@@ -534,7 +531,7 @@ void TaskDirector::drive_bodies(const frame::Frame& last, double now,
             motor_from_[i] = coordinate_of(motors[i].joint(), last);
         driving_ = true;
     }
-    const auto of = [&](const Number& number) { return numbers_.of(number); };
+    const auto of = [&](const Formula& number) { return numbers_.of(number); };
     const double t = now + tick_ - entered_;
     for (size_t i = 0; i < motors.size(); ++i)
         add(commands.task.motors, motors[i].at(t, motor_from_[i], of, numbers_.values()));
@@ -556,7 +553,7 @@ void TaskDirector::order(double now, frame::Commands& commands) const noexcept {
     const TaskPlan::Cell& cell = numbers_.cell();
     for (size_t i = 0; i < cell.p_W.size(); ++i) {
         if (stage.shown >> i & 1u)
-            add(out.targets, {static_cast<int32_t>(i), cell.p_W[i], cell.radius[i]});
+            add(out.targets, {static_cast<int32_t>(i), cell.p_W[i], cell.regions[i].radius.value});
     }
     for (const int p : trial().perturb) {
         const auto i = static_cast<size_t>(p);

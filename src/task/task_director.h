@@ -50,7 +50,8 @@ class TaskDirector {
   private:
     const Trial& trial() const { return plan_.trials[static_cast<size_t>(queue_.trial())]; }
     bool clear(const frame::Frame& last) const noexcept;
-    bool clear(const frame::Frame& last, const TaskPlan::Home& home) const noexcept;
+    bool clear(const frame::Frame& last, const TaskPlan::Home& home,
+               const Pose& X_WB) const noexcept;
     void put(int body, const Pose& X_WB, const BodyMotion& motion,
              frame::Commands& commands) noexcept;
     /// Begins the next trial once the last feedback and its block's pages have been read and bodies

@@ -39,14 +39,6 @@ std::vector<T> replaced(std::vector<T> list, const std::vector<T>& others) {
     return list;
 }
 
-Vec3 vector(const FormulaVec3& v) {
-    return {v[0].value, v[1].value, v[2].value};
-}
-
-FormulaVec3 as_formula(const Vec3& v) {
-    return {v.x(), v.y(), v.z()};
-}
-
 /// A name as an expression has it.
 std::string quoted(const std::string& name) {
     std::string out = "\"";
@@ -380,7 +372,7 @@ class Planner {
             place.removed ? as_formula(away) : place.position.value_or(as_formula(body.position));
         TaskPlan::Put& put = puts.emplace_back(TaskPlan::Put{
             home(index, position), place.position || place.removed, place.held || place.removed});
-        if (place.velocity) put.home.velocity_as_given = numbers(*place.velocity);
+        if (place.velocity) put.home.velocity = *place.velocity;
     }
 
     void add_drive(const DriveSpec& spec, TaskPlan::Stage& out) {
@@ -595,24 +587,17 @@ class Planner {
         for (const Condition& round : or_one(plan_.task.rounds)) {
             for (const Condition& condition : or_one(plan_.task.conditions)) {
                 TaskPlan::Cell& cell = plan_.cells.emplace_back();
-                const auto regions =
+                cell.regions =
                     replaced(replaced(plan_.task.regions, round.regions), condition.regions);
-                for (const Region& region : regions) {
-                    cell.position_as_given.push_back(numbers(region.position));
-                    cell.radius_as_given.emplace_back(region.radius);
-                    cell.p_W.push_back(vector(region.position));
-                    cell.radius.push_back(region.radius.value);
-                }
+                for (const Region& region : cell.regions)
+                    cell.p_W.push_back(value(region.position));
                 Diagnostics found;
-                for (PerturbationSpec& spec :
+                for (const PerturbationSpec& spec :
                      replaced(replaced(plan_.task.perturbations, round.perturbations),
-                              condition.perturbations)) {
-                    add_perturbation(cell, spec, regions, found);
-                    each_formula(spec, [&](const Formula& formula) {
-                        if (formula.index >= 0) cell.in_perturbations.push_back(formula.index);
-                    });
-                }
+                              condition.perturbations))
+                    add_perturbation(cell, spec, found);
                 cell.homes = homes({&round, &condition});
+                note_formulas(cell);
                 for (const Condition* of : {&round, &condition})
                     seen_.add_looks(of->look, cell.looks, found);
                 for (const Problem& problem : found.problems()) {
@@ -622,9 +607,22 @@ class Planner {
         }
     }
 
-    void add_perturbation(TaskPlan::Cell& cell, const PerturbationSpec& spec,
-                          const std::vector<Region>& regions, Diagnostics& found) {
-        const Perturbation& added = cell.perturbations.emplace_back(spec, regions, scene_, found);
+    static void note_formulas(TaskPlan::Cell& cell) {
+        const auto note = [&](auto& list) {
+            for (auto& item : list) {
+                each_formula(item, [&](const Formula& formula) {
+                    if (formula.index >= 0) cell.formulas.push_back(formula.index);
+                });
+            }
+        };
+        note(cell.regions);
+        note(cell.homes);
+        note(cell.perturbations);
+    }
+
+    void add_perturbation(TaskPlan::Cell& cell, const PerturbationSpec& spec, Diagnostics& found) {
+        const Perturbation& added =
+            cell.perturbations.emplace_back(spec, cell.regions, scene_, found);
         for (const Load& load : added.loads())
             plan_.longest_delay = std::max(plan_.longest_delay, load.longest_delay());
         uint64_t& during = cell.during.emplace_back(0);
@@ -661,7 +659,7 @@ class Planner {
     void check_fixed(int region, const Place& place, const char* key) {
         if (region < 0) return;
         for (const TaskPlan::Cell& cell : plan_.cells) {
-            for (const Number& n : cell.position_as_given[static_cast<size_t>(region)]) {
+            for (const Formula& n : cell.regions[static_cast<size_t>(region)].position) {
                 if (n.index < 0 || plan_.formulas[static_cast<size_t>(n.index)].expression.frozen())
                     continue;
                 error(place, key, "names a region that variables move",
@@ -674,8 +672,8 @@ class Planner {
     TaskPlan::Home home(int index, const FormulaVec3& position) const {
         const scene::Body& body = scene_.bodies[static_cast<size_t>(index)];
         Pose X_WB = body.pose();
-        X_WB.p = vector(position);
-        return {index, X_WB, scene::bounds(body.shape), numbers(position)};
+        X_WB.p = value(position);
+        return {index, X_WB, scene::bounds(body.shape), position};
     }
 
     /// Whether any trial puts the body elsewhere than the scene has it.
@@ -711,7 +709,7 @@ class Planner {
                 }
             }
             TaskPlan::Home& added = out.emplace_back(home(static_cast<int>(i), position));
-            added.velocity_as_given = numbers(velocity);
+            added.velocity = velocity;
             if (by_joint != nullptr) put_by_joint(*by_joint, added);
         }
         hang(out);
@@ -804,19 +802,7 @@ std::vector<std::string> TaskPlan::phases() const {
 std::vector<int> TaskPlan::used_in(const Trial& trial) const {
     const Cell& cell = this->cell(trial);
     std::vector<int> out = in_states;
-    const auto use = [&](const Number& number) {
-        if (number.index >= 0) out.push_back(number.index);
-    };
-    for (const auto& position : cell.position_as_given)
-        std::for_each(position.begin(), position.end(), use);
-    std::for_each(cell.radius_as_given.begin(), cell.radius_as_given.end(), use);
-    for (const Home& home : cell.homes) {
-        std::for_each(home.position_as_given.begin(), home.position_as_given.end(), use);
-        std::for_each(home.velocity_as_given.begin(), home.velocity_as_given.end(), use);
-        use(home.coordinate);
-        use(home.rate);
-    }
-    out.insert(out.end(), cell.in_perturbations.begin(), cell.in_perturbations.end());
+    out.insert(out.end(), cell.formulas.begin(), cell.formulas.end());
     return out;
 }
 

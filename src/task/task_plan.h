@@ -80,14 +80,25 @@ struct TaskPlan {
         int body;
         Pose X_WB;
         scene::Bounds box;
-        std::array<Number, 3> position_as_given;
+        FormulaVec3 position;
         /// In place of that position: homes with it come after that of their joint's first body.
         std::optional<OnJoint> joint = std::nullopt;
-        Number coordinate{};
+        Formula coordinate{};
         /// The body's velocity then, or its joint's rate.
-        std::array<Number, 3> velocity_as_given{};
-        Number rate{};
+        FormulaVec3 velocity{};
+        Formula rate{};
         BodyMotion motion{};
+
+        template <class Visitor>
+        void visit(Visitor& v) {
+            if (joint) {
+                v("coordinate", coordinate);
+                v("rate", rate);
+            } else {
+                v("position", position);
+                v("velocity", velocity);
+            }
+        }
     };
     /// A body that a state puts somewhere.
     struct Put {
@@ -118,18 +129,16 @@ struct TaskPlan {
     };
     std::vector<Stage> stages;  ///< by state
 
-    /// Regions, perturbations and bodies' places of one condition in one round. Numbers that are
-    /// formulas are resolved for each trial (task/trial_numbers.h).
+    /// Regions, perturbations and bodies' places of one condition in one round. Formulas get their
+    /// values for each trial (task/trial_numbers.h).
     struct Cell {
-        std::vector<Vec3> p_W;
-        std::vector<double> radius;
+        std::vector<Region> regions;
+        std::vector<Vec3> p_W;  ///< centres of the regions
         std::vector<Perturbation> perturbations;
         std::vector<uint64_t> during;  ///< by perturbation: states in which it acts, one bit each
         std::vector<Home> homes;
         Looks looks;
-        std::vector<std::array<Number, 3>> position_as_given;  ///< by region
-        std::vector<Number> radius_as_given;
-        std::vector<int> in_perturbations;  ///< formulas
+        std::vector<int> formulas;  ///< of regions, homes and perturbations
 
         bool acts(int perturbation, int state) const {
             return state >= 0 && (during[static_cast<size_t>(perturbation)] >> state & 1u) != 0;

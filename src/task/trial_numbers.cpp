@@ -53,10 +53,6 @@ TrialNumbers::TrialNumbers(const TaskPlan& plan)
       given_(plan.formulas.size()),
       resolved_(plan.formulas.size()) {}
 
-double TrialNumbers::resolve(const Number& number) noexcept {
-    return number.index < 0 ? number.value : resolve(number.index);
-}
-
 double TrialNumbers::resolve(int index) noexcept {
     const auto i = static_cast<size_t>(index);
     const CompiledFormula& formula = plan_.formulas[i];
@@ -112,34 +108,40 @@ void TrialNumbers::begin(int trial, int attempt, std::span<const frame::Variable
     for (const TaskPlan::Home& home : cell.homes)
         quantities_.set(quantities_.start(static_cast<size_t>(home.body)),
                         Vec3::Constant(kUnmeasured));
-    const auto vector = [&](const std::array<Number, 3>& n) {
-        return Vec3(resolve(n[0]), resolve(n[1]), resolve(n[2]));
-    };
-    for (size_t i = 0; i < cell.p_W.size(); ++i) {
-        cell.p_W[i] = vector(cell.position_as_given[i]);
-        cell.radius[i] = resolve(cell.radius_as_given[i]);
+    place_regions(cell);
+    place_bodies(cell);
+    for (Perturbation& perturbation : cell.perturbations) resolve_in(perturbation);
+    for (const int index : plan_.in_states) resolve(index);
+}
+
+void TrialNumbers::place_regions(TaskPlan::Cell& cell) noexcept {
+    for (size_t i = 0; i < cell.regions.size(); ++i) {
+        Region& region = cell.regions[i];
+        resolve_in(region);
+        cell.p_W[i] = value(region.position);
         quantities_.set(quantities_.region(i), cell.p_W[i]);
-        quantities_.set(quantities_.region(i) + 3, cell.radius[i]);
+        quantities_.set(quantities_.region(i) + 3, region.radius.value);
     }
+}
+
+void TrialNumbers::place_bodies(TaskPlan::Cell& cell) noexcept {
     for (TaskPlan::Home& home : cell.homes) {
+        resolve_in(home);
         if (home.joint) {
             const auto first = std::find_if(
                 cell.homes.begin(), cell.homes.end(),
                 [&](const TaskPlan::Home& other) { return other.body == home.joint->first; });
             const bool placed = first != cell.homes.end();
             const Pose X_WA = placed ? first->X_WB : home.joint->X_WA;
-            home.X_WB = home.joint->pose(X_WA, resolve(home.coordinate));
+            home.X_WB = home.joint->pose(X_WA, home.coordinate.value);
             home.motion = home.joint->motion(X_WA, placed ? first->motion : BodyMotion{}, home.X_WB,
-                                             resolve(home.rate));
+                                             home.rate.value);
         } else {
-            home.X_WB.p = vector(home.position_as_given);
-            home.motion.v = vector(home.velocity_as_given);
+            home.X_WB.p = value(home.position);
+            home.motion.v = value(home.velocity);
         }
         quantities_.set(quantities_.start(static_cast<size_t>(home.body)), home.X_WB.p);
     }
-    for (const int index : cell.in_perturbations) resolve(index);
-    for (const int index : plan_.in_states) resolve(index);
-    for (Perturbation& perturbation : cell.perturbations) perturbation.resolve(resolved_);
 }
 
 void TrialNumbers::follow(int trial, int attempt, std::span<const frame::VariableFrame> variables,

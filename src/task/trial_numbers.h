@@ -26,11 +26,11 @@ class TrialNumbers {
     void restart() noexcept { trial_ = 0; }
 
     const TaskPlan::Cell& cell() const noexcept { return cells_[cell_]; }
-    double of(const Formula& formula) const noexcept { return Number(formula).in(resolved_); }
-    double of(const Number& number) const noexcept { return number.in(resolved_); }
-    Vec3 of(const std::array<Number, 3>& n) const noexcept {
-        return {n[0].in(resolved_), n[1].in(resolved_), n[2].in(resolved_)};
+    /// A number of a state. Those of the cell have their values.
+    double of(const Formula& f) const noexcept {
+        return f.index < 0 ? f.value : resolved_[static_cast<size_t>(f.index)];
     }
+    Vec3 of(const FormulaVec3& v) const noexcept { return {of(v[0]), of(v[1]), of(v[2])}; }
     /// What a formula gave before its bounds.
     double unbounded(size_t index) const noexcept { return given_[index]; }
     /// Whether the trial's block ends before it. `trial`: index among the plan's.
@@ -44,8 +44,16 @@ class TrialNumbers {
     int last_bounded() const noexcept { return last_bounded_; }
 
   private:
-    double resolve(const Number& number) noexcept;
     double resolve(int index) noexcept;
+    /// Gives the formulas of a struct their values.
+    template <class Struct>
+    void resolve_in(Struct& value) noexcept {
+        each_formula(value, [&](Formula& f) {
+            if (f.index >= 0) f.value = resolve(f.index);
+        });
+    }
+    void place_regions(TaskPlan::Cell& cell) noexcept;
+    void place_bodies(TaskPlan::Cell& cell) noexcept;
 
     const TaskPlan& plan_;
     Quantities quantities_;

@@ -183,7 +183,8 @@ TEST(Formulas, TheFrozenTaskAndListGiveTheSameTrials) {
         before.begin(i, 1, plan.task->start);
         after.begin(i, 1, frozen.start);
         EXPECT_EQ(before.cell().p_W, after.cell().p_W);  // to the bit
-        EXPECT_EQ(before.cell().radius, after.cell().radius);
+        for (size_t r = 0; r < before.cell().regions.size(); ++r)
+            EXPECT_EQ(before.cell().regions[r].radius.value, after.cell().regions[r].radius.value);
         EXPECT_EQ(before.of(plan.task->task.states[0].exits[0].hold),
                   after.of(frozen.task.states[0].exits[0].hold));
     }

@@ -1,6 +1,6 @@
 // Tests loads against closed forms: their laws, their zones, delays and profiles, and what bodies
 // do under them.
-#include "task/loads.h"
+#include "task/effects/load/load.h"
 
 #include <gtest/gtest.h>
 

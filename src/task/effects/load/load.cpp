@@ -1,12 +1,12 @@
-#include "task/loads.h"
+#include "task/effects/load/load.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "task/effects/factor.h"
 #include "task/lookup.h"
-#include "task/perturbation.h"
 
 namespace dihaptic::task {
 namespace {
@@ -25,8 +25,7 @@ double most_driving(const Mat3& matrix) {
 
 Load::Load(const LoadSpec& spec, const std::vector<Region>& regions, const scene::Scene& scene,
            Diagnostics& diagnostics)
-    : spec_(spec), force_as_given_(numbers(spec.force)), torque_as_given_(numbers(spec.torque)) {
-    resolve({});
+    : spec_(spec) {
     look_up_things(scene, diagnostics);
     switch (spec.kind) {
         case LoadKind::constant:
@@ -122,12 +121,12 @@ void Load::look_up_place(const std::vector<Region>& regions, Diagnostics& diagno
 
 void Load::check_spring(Diagnostics& diagnostics) const {
     const bool channel = spec_.kind == LoadKind::channel;
-    if (spec_.stiffness == 0 || (channel && now_.stiffness < 0)) {
+    if (spec_.stiffness == 0 || (channel && spec_.stiffness.value < 0)) {
         diagnostics.error(
             spec_.place, "stiffness", channel ? "a channel needs one" : "a spring needs one",
             channel ? "Add e.g. stiffness_N_m: 1000." : "Add e.g. stiffness_N_m: 50.");
     }
-    if (now_.stiffness < 0 && !spec_.zone) {
+    if (spec_.stiffness.value < 0 && !spec_.zone) {
         diagnostics.error(spec_.place, "stiffness",
                           "is negative: the load would grow without end as it drives away",
                           "Add e.g. safe_within_mm: 50, beyond which it fades to zero.");
@@ -137,7 +136,7 @@ void Load::check_spring(Diagnostics& diagnostics) const {
         diagnostics.error(spec_.place, "one_sided", "only a plane with a normal has two sides",
                           "Add e.g. normal: [0, 0, 1], to which side it pushes, or leave it out.");
     }
-    if (now_.stiffness < 0) {
+    if (spec_.stiffness.value < 0) {
         diagnostics.error(spec_.place, "one_sided", "a wall cannot have a negative stiffness",
                           "Make the stiffness positive, or leave out one_sided.");
     }
@@ -161,22 +160,12 @@ void Load::check_general(Diagnostics& diagnostics) {
     }
 }
 
-void Load::resolve(std::span<const double> resolved) noexcept {
-    for (size_t i = 0; i < 3; ++i) {
-        const auto k = static_cast<Eigen::Index>(i);
-        now_.force[k] = force_as_given_[i].in(resolved);
-        now_.torque[k] = torque_as_given_[i].in(resolved);
-    }
-    now_.damping = Number(spec_.damping).in(resolved);
-    now_.stiffness = Number(spec_.stiffness).in(resolved);
-    now_.delay = Number(spec_.delay).in(resolved);
-}
-
 bool Load::is_computed() const {
-    bool out = spec_.damping.computed() || spec_.stiffness.computed() || spec_.delay.computed();
-    for (size_t i = 0; i < 3; ++i)
-        out = out || spec_.force[i].computed() || spec_.torque[i].computed();
-    return out;
+    const auto computed = [](const FormulaVec3& v) {
+        return v[0].computed() || v[1].computed() || v[2].computed();
+    };
+    return spec_.damping.computed() || spec_.stiffness.computed() || spec_.delay.computed() ||
+           computed(spec_.force) || computed(spec_.torque);
 }
 
 double Load::longest_delay() const {
@@ -190,16 +179,19 @@ std::optional<Vec3> Load::axis() const {
 
 Load::Demand Load::demand() const {
     Demand out;
-    out.force = now_.force.norm();
-    out.torque = now_.torque.norm();
+    out.force = value(spec_.force).norm();
+    out.torque = value(spec_.torque).norm();
+    // what keeps a hand where it is may be as hard as the device can
+    out.holds = spec_.kind == LoadKind::channel || spec_.one_sided;
+    out.springs = out.holds || spec_.kind == LoadKind::spring;
     if (spec_.kind == LoadKind::general) {
         out.stiffness = spec_.A.operatorNorm();
         out.damping = spec_.B.operatorNorm();
         out.driving = most_driving(spec_.B);
     } else {
-        out.stiffness = std::abs(now_.stiffness);
-        out.damping = std::abs(now_.damping);
-        if (spec_.kind != LoadKind::curl) out.driving = std::max(0.0, -now_.damping);
+        out.stiffness = std::abs(spec_.stiffness.value);
+        out.damping = std::abs(spec_.damping.value);
+        if (spec_.kind != LoadKind::curl) out.driving = std::max(0.0, -spec_.damping.value);
     }
     if (out.stiffness == 0) return out;
     if (!spec_.zone) {
@@ -216,23 +208,33 @@ Wrench Load::act(double share, std::span<const Vec3> regions_W,
                  const Motion& motion) const noexcept {
     switch (spec_.kind) {
         case LoadKind::constant:
-            return {share * now_.force, share * now_.torque};
+            return {share * value(spec_.force), share * value(spec_.torque)};
         case LoadKind::viscous:
-            return {-share * now_.damping * motion.v_W, Vec3::Zero()};
+            return {-share * spec_.damping.value * motion.v_W, Vec3::Zero()};
         case LoadKind::curl:
-            return {share * now_.damping * direction_.cross(motion.v_W), Vec3::Zero()};
+            return {share * spec_.damping.value * direction_.cross(motion.v_W), Vec3::Zero()};
         case LoadKind::general: {
             const Vec3 arm = about_ < 0 ? Vec3::Zero()
                                         : Vec3(motion.p_W - regions_W[static_cast<size_t>(about_)]);
-            return {
-                share * left_at(arm.norm()) * (now_.force + spec_.A * arm + spec_.B * motion.v_W),
-                Vec3::Zero()};
+            return {share * left_at(arm.norm()) *
+                        (value(spec_.force) + spec_.A * arm + spec_.B * motion.v_W),
+                    Vec3::Zero()};
         }
         case LoadKind::spring:
         case LoadKind::channel:
             return {pull(share, regions_W, motion), Vec3::Zero()};
     }
     return {};
+}
+
+void Load::order(double share, std::span<const Vec3> regions_W, const Motions& motions,
+                 frame::TaskFrame& out) const noexcept {
+    for (const int thing : on_) {
+        const Motion* const motion = motions.of(thing, spec_.delay.value);
+        if (motion == nullptr) continue;
+        const Wrench wrench = act(share, regions_W, *motion);
+        add(out.loads, {thing, wrench.force, wrench.torque});
+    }
 }
 
 Mat3 Load::velocity_gain() const {
@@ -266,7 +268,7 @@ Vec3 Load::pull(double share, std::span<const Vec3> regions_W,
         across = motion.v_W.dot(direction) * direction;
     }
     if (spec_.one_sided && off.dot(direction) >= 0) return Vec3::Zero();
-    const Vec3 force = -share * (now_.stiffness * off + now_.damping * across);
+    const Vec3 force = -share * (spec_.stiffness.value * off + spec_.damping.value * across);
     if (spec_.one_sided && force.dot(direction) < 0) return Vec3::Zero();  // a wall does not hold
     return spec_.zone ? Vec3(left_at(off.norm()) * force) : force;
 }
@@ -275,6 +277,32 @@ Vec3 Load::pull(double share, std::span<const Vec3> regions_W,
 double Load::left_at(double distance) const noexcept {
     if (!spec_.zone) return 1;
     return std::clamp(1 - (distance - *spec_.zone) / spec_.fade, 0.0, 1.0);
+}
+
+void say(const LoadSpec& spec, std::vector<std::string>& out) {
+    switch (spec.kind) {
+        case LoadKind::constant:
+            out.push_back(fmt::format("constant force {} N", in_words(spec.force)));
+            if (spec.torque != FormulaVec3{})
+                out.back() += fmt::format(", {} N*m", in_words(spec.torque));
+            break;
+        case LoadKind::viscous:
+        case LoadKind::curl:
+            out.push_back(
+                fmt::format("{} field of {} N*s/m", enum_name(spec.kind), in_words(spec.damping)));
+            break;
+        case LoadKind::general:
+            out.push_back("general field");
+            break;
+        case LoadKind::spring:
+            out.push_back(fmt::format("spring of {} N/m", in_words(spec.stiffness)));
+            break;
+        case LoadKind::channel:
+            out.push_back(fmt::format("force channel{} of {} N/m",
+                                      spec.normal || spec.free ? " (a plane)" : "",
+                                      in_words(spec.stiffness)));
+            break;
+    }
 }
 
 }  // namespace dihaptic::task

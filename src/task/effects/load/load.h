@@ -18,15 +18,12 @@
 #include <string>
 #include <vector>
 
-#include "base/field_reader.h"
-#include "base/formula.h"
-#include "base/geometry.h"
+#include "frame/task_frame.h"
 #include "scene/scene.h"
-#include "task/motions.h"
+#include "task/effects/load/motions.h"
+#include "task/region.h"
 
 namespace dihaptic::task {
-
-struct Region;
 
 enum class LoadKind { constant, viscous, curl, general, spring, channel };
 constexpr auto enum_names(LoadKind) {
@@ -150,6 +147,9 @@ struct LoadSpec {
     }
 };
 
+/// Adds the load's kind and size, as a report states it.
+void say(const LoadSpec& spec, std::vector<std::string>& out);
+
 /// A load with its names looked up. In the tick it neither allocates nor throws.
 class Load {
   public:
@@ -158,16 +158,20 @@ class Load {
          Diagnostics& diagnostics);
 
     const LoadSpec& spec() const { return spec_; }
-    /// Takes up the numbers that are formulas. `resolved`: what these give, by index.
-    void resolve(std::span<const double> resolved) noexcept;
     /// Whether any of its numbers is a formula.
     bool is_computed() const;
-    double stiffness() const { return now_.stiffness; }
-    double delay() const { return now_.delay; }
+    double stiffness() const { return spec_.stiffness.value; }
+    double delay() const { return spec_.delay.value; }
     /// The most that its delay may be [s].
     double longest_delay() const;
     /// What it acts on: indices of bodies; fingers come after the scene's bodies.
     std::span<const int> on() const { return on_; }
+    void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
+               frame::TaskFrame& out) const noexcept;
+    template <class Visitor>
+    void visit(Visitor& v) {
+        spec_.visit(v);
+    }
     /// What it does to a thing with this motion. `regions_W`: centres of the regions [m].
     Wrench act(double share, std::span<const Vec3> regions_W, const Motion& motion) const noexcept;
     /// Its force over velocity, at share 1 [N*s/m]; of channels and springs zero.
@@ -183,6 +187,8 @@ class Load {
         double driving = 0;    ///< largest damping with which it drives motion on [N*s/m]
         double force = 0;      ///< at rest; infinite where it grows with the distance [N]
         double torque = 0;     ///< [N*m]
+        bool holds = false;    ///< it keeps a hand where it is, and may be as hard as it can
+        bool springs = false;  ///< its force is as large as the way, not the speed
     };
     Demand demand() const;
 
@@ -195,19 +201,7 @@ class Load {
     Vec3 pull(double share, std::span<const Vec3> regions_W, const Motion& motion) const noexcept;
     double left_at(double distance) const noexcept;
 
-    /// Its numbers in the trial.
-    struct Now {
-        Vec3 force = Vec3::Zero();
-        Vec3 torque = Vec3::Zero();
-        double damping = 0;
-        double stiffness = 0;
-        double delay = 0;
-    };
-
     LoadSpec spec_;
-    std::array<Number, 3> force_as_given_;
-    std::array<Number, 3> torque_as_given_;
-    Now now_;
     std::vector<int> on_;
     Shape shape_ = Shape::point;
     Vec3 direction_ = Vec3::UnitZ();  // of e, of a line about a region, or a plane's normal

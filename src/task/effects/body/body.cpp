@@ -1,0 +1,71 @@
+#include "task/effects/body/body.h"
+
+#include <algorithm>
+
+#include "task/lookup.h"
+
+namespace dihaptic::task {
+
+BodyEffect::BodyEffect(const BodySpec& spec, const scene::Scene& scene, Diagnostics& diagnostics)
+    : spec_(spec),
+      body_(
+          look_up(names_of(scene.bodies), spec.body, spec.place, "body", "no body", diagnostics)) {
+    if (body_ < 0) return;
+    const scene::Body& body = scene.bodies[static_cast<size_t>(body_)];
+    const bool only_surface =
+        spec.mass_scale == kNoFactors && spec.weight_scale == 1 && spec.density_scale == 1;
+    if (!only_surface && !body.moves_at_all()) {
+        diagnostics.error(spec.place, "body", "'" + spec.body + "' cannot move",
+                          "Name a body that can, or change its friction and surface alone.");
+    }
+    const auto needs = [&](const Formula& factor, const char* key, bool there, const char* what) {
+        if (factor == 1 || there) return;
+        diagnostics.error(spec.place, key, "'" + spec.body + "' has no " + what + " to change",
+                          std::string("Give it one in the scene: surface: { ") + what + ": ... }.");
+    };
+    needs(spec.stiffness_scale, "stiffness_scale", body.surface.stiffness.has_value(),
+          "stiffness_N_m");
+    needs(spec.restitution_scale, "restitution_scale", body.surface.restitution.has_value(),
+          "restitution");
+}
+
+frame::PropertiesFrame BodyEffect::properties() const noexcept {
+    const double density = spec_.density_scale.value;
+    return {body_,
+            density * value(spec_.mass_scale),
+            density * spec_.weight_scale.value,
+            density,
+            spec_.friction_scale.value,
+            spec_.stiffness_scale.value,
+            spec_.restitution_scale.value};
+}
+
+void BodyEffect::order(double share, std::span<const Vec3>, const Motions&,
+                       frame::TaskFrame& out) const noexcept {
+    frame::PropertiesFrame now = properties();
+    now.mass_scale = part_of(share, now.mass_scale);
+    for (double* factor : {&now.weight_scale, &now.turning_scale, &now.friction_scale,
+                           &now.stiffness_scale, &now.restitution_scale})
+        *factor = part_of(share, *factor);
+    const auto same = std::find_if(out.properties.begin(), out.properties.end(),
+                                   [&](const auto& other) { return other.body == now.body; });
+    if (same == out.properties.end()) return add(out.properties, now);
+    same->mass_scale = same->mass_scale.cwiseProduct(now.mass_scale);
+    same->weight_scale *= now.weight_scale;
+    same->turning_scale *= now.turning_scale;
+    same->friction_scale *= now.friction_scale;
+    same->stiffness_scale *= now.stiffness_scale;
+    same->restitution_scale *= now.restitution_scale;
+}
+
+void say(const BodySpec& spec, std::vector<std::string>& out) {
+    if (spec.mass_scale != kNoFactors)
+        out.push_back("inertia " + in_words(spec.mass_scale) + " times");
+    say_factor("weight", spec.weight_scale, out);
+    say_factor("density", spec.density_scale, out);
+    say_factor("friction", spec.friction_scale, out);
+    say_factor("stiffness", spec.stiffness_scale, out);
+    say_factor("restitution", spec.restitution_scale, out);
+}
+
+}  // namespace dihaptic::task

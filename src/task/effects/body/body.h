@@ -1,0 +1,71 @@
+// Factors on a body's properties in the scene:
+//
+//     m_i (1 + s (scale_i - 1))      of its inertia along each axis, and likewise of its weight,
+//                                    moments of inertia, friction and surface
+//
+// where s is the share. Factors of several perturbations on one body multiply.
+#pragma once
+
+#include "frame/task_frame.h"
+#include "scene/scene.h"
+#include "task/effects/factor.h"
+#include "task/effects/load/motions.h"
+
+namespace dihaptic::task {
+
+struct BodySpec {
+    std::string body;
+    FormulaVec3 mass_scale{1, 1, 1};  ///< on inertia along the world's axes; the weight stays
+    Formula weight_scale = 1;         ///< the inertia stays
+    Formula density_scale = 1;        ///< on both, and on the moments of inertia
+    Formula friction_scale = 1;
+    Formula stiffness_scale = 1;    ///< of its surface, with its damping
+    Formula restitution_scale = 1;  ///< of its surface
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("body", body, Field::text().required().says("Body whose properties are changed."));
+        v("mass_scale", mass_scale,
+          Field::number().within(0.05, 20).says(
+              "Factors on its inertia along the world's axes; its weight stays."));
+        v("weight_scale", weight_scale,
+          Field::number().within(-20, 20).says("Factor on its weight; its inertia stays."));
+        v("density_scale", density_scale,
+          Field::number().within(0.05, 20).says(
+              "Factor on weight, inertia and moments of inertia together."));
+        v("friction_scale", friction_scale,
+          Field::number().within(0, 20).says("Factor on its coefficients of friction."));
+        v("stiffness_scale", stiffness_scale,
+          Field::number().within(0.01, 100).says(
+              "Factor on the stiffness and damping of its surface."));
+        v("restitution_scale", restitution_scale,
+          Field::number().within(0, 100).says(
+              "Factor on the restitution of its surface, which stays at most 1."));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// Adds what is changed, and by how much, as a report states it.
+void say(const BodySpec& spec, std::vector<std::string>& out);
+
+class BodyEffect {
+  public:
+    /// Problems with the spec go to `diagnostics`.
+    BodyEffect(const BodySpec& spec, const scene::Scene& scene, Diagnostics& diagnostics);
+
+    /// The body's properties at share 1.
+    frame::PropertiesFrame properties() const noexcept;
+    void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
+               frame::TaskFrame& out) const noexcept;
+    template <class Visitor>
+    void visit(Visitor& v) {
+        spec_.visit(v);
+    }
+
+  private:
+    BodySpec spec_;
+    int body_;
+};
+
+}  // namespace dihaptic::task

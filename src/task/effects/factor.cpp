@@ -1,0 +1,19 @@
+#include "task/effects/factor.h"
+
+#include <fmt/format.h>
+
+namespace dihaptic::task {
+
+std::string in_words(const Formula& number, double unit) {
+    return number.computed() ? number.text : fmt::format("{:.6g}", number.value / unit);
+}
+
+std::string in_words(const FormulaVec3& v) {
+    return fmt::format("({}, {}, {})", in_words(v[0]), in_words(v[1]), in_words(v[2]));
+}
+
+void say_factor(const std::string& what, const Formula& factor, std::vector<std::string>& out) {
+    if (factor != 1) out.push_back(fmt::format("{} {} times", what, in_words(factor)));
+}
+
+}  // namespace dihaptic::task

@@ -1,0 +1,27 @@
+// Factors of which an effect consists: they are scaled by its share, and written in reports.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/formula.h"
+
+namespace dihaptic::task {
+
+inline const FormulaVec3 kNoFactors{1, 1, 1};
+
+/// What becomes of a factor at a share.
+inline double part_of(double share, double factor) noexcept {
+    return 1 + share * (factor - 1);
+}
+inline Vec3 part_of(double share, const Vec3& factors) noexcept {
+    return Vec3::Ones() + share * (factors - Vec3::Ones());
+}
+
+/// The number in this unit, or the text that gives it.
+std::string in_words(const Formula& number, double unit = 1);
+std::string in_words(const FormulaVec3& v);
+/// Adds "WHAT factor times" unless the factor changes nothing.
+void say_factor(const std::string& what, const Formula& factor, std::vector<std::string>& out);
+
+}  // namespace dihaptic::task

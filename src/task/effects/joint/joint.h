@@ -1,0 +1,51 @@
+// Factors on a joint's properties in the scene. Those of several perturbations on one joint
+// multiply.
+#pragma once
+
+#include "frame/task_frame.h"
+#include "scene/scene.h"
+#include "task/effects/factor.h"
+#include "task/effects/load/motions.h"
+
+namespace dihaptic::task {
+
+struct JointSpec {
+    std::string joint;
+    Formula stiffness_scale = 1;  ///< of its spring
+    Formula damping_scale = 1;    ///< of its damper
+    Formula friction_scale = 1;
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        const Field factor = Field::number().within(0, 100);
+        v("joint", joint, Field::text().required().says("Joint whose properties are changed."));
+        v("stiffness_scale", stiffness_scale,
+          factor.says("Factor on the stiffness of its spring."));
+        v("damping_scale", damping_scale, factor.says("Factor on the damping of its damper."));
+        v("friction_scale", friction_scale, factor.says("Factor on its dry friction."));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// Adds what is changed, and by how much, as a report states it.
+void say(const JointSpec& spec, std::vector<std::string>& out);
+
+class JointEffect {
+  public:
+    /// Problems with the spec go to `diagnostics`.
+    JointEffect(const JointSpec& spec, const scene::Scene& scene, Diagnostics& diagnostics);
+
+    void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
+               frame::TaskFrame& out) const noexcept;
+    template <class Visitor>
+    void visit(Visitor& v) {
+        spec_.visit(v);
+    }
+
+  private:
+    JointSpec spec_;
+    int joint_;
+};
+
+}  // namespace dihaptic::task

@@ -1,0 +1,103 @@
+#include "task/effects/visual_map/visual_map.h"
+
+#include <fmt/format.h>
+
+#include "base/unit.h"
+#include "task/lookup.h"
+
+namespace dihaptic::task {
+namespace {
+
+/// Bit mask of the names "proxies", "object" and "target"; an unknown name is an error and sets no
+/// bit.
+uint32_t moves_of(const VisualSpec& visual, Diagnostics& diagnostics) {
+    const std::vector<std::string> names{"proxies", "object", "target"};
+    uint32_t moves = 0;
+    for (const std::string& name : visual.moves) {
+        const int i = look_up(names, name, visual.place, "moves", "nothing to move", diagnostics);
+        if (i >= 0) moves |= 1u << i;
+    }
+    return moves;
+}
+
+bool displaces(const VisualSpec& visual) {
+    return visual.delay != 0 || !visual.noise.isZero(0);
+}
+
+/// A map that only delays or shakes what is shown needs no centre.
+bool has_centre(const VisualSpec& visual) {
+    return !displaces(visual) || !visual.about.empty() || !visual.toward.empty() ||
+           visual.angle != 0 || visual.scale != kNoFactors || visual.size != 1;
+}
+
+}  // namespace
+
+VisualEffect::VisualEffect(const VisualSpec& spec, const std::vector<Region>& regions,
+                           const scene::Scene& scene, Diagnostics& diagnostics)
+    : spec_(spec), moves_(moves_of(spec, diagnostics)), object_(scene.object_index()) {
+    const auto region = [&](const std::string& name, const char* key) {
+        return look_up(names_of(regions), name, spec.place, key, "no region", diagnostics);
+    };
+    if (has_centre(spec)) about_ = region(spec.about, "about");
+    if (!spec.toward.empty()) toward_ = region(spec.toward, "toward");
+    if (spec.axis || spec.angle != 0) axis_ = axis_of(spec.axis, spec.place, "axis", diagnostics);
+    check(diagnostics);
+}
+
+void VisualEffect::check(Diagnostics& diagnostics) const {
+    const auto error = [&](const char* key, const char* what, const char* remedy) {
+        diagnostics.error(spec_.place, key, what, remedy);
+    };
+    const bool moves_object = (moves_ & frame::kMovesObject) != 0;
+    if (displaces(spec_) && !moves_object && (moves_ & frame::kMovesProxies) == 0)
+        error(spec_.delay != 0 ? "delay" : "noise",
+              "is of proxies or the object, which are not moved", "Add proxies to moves.");
+    if (moves_object && object_ < 0)
+        error("moves", "the scene has no object that can move", "Leave out object.");
+    if (spec_.size != 1 && !moves_object)
+        error("size", "is the object's, which is not moved", "Add object to moves.");
+    if (toward_ >= 0 && (spec_.angle != 0 || spec_.scale != kNoFactors))
+        error("toward", "what is shown on a line can be neither rotated nor scaled",
+              "Leave out angle_deg and scale, or toward.");
+}
+
+std::optional<Vec3> VisualEffect::axis() const {
+    if (spec_.angle.value == 0 && spec_.angle.index < 0) return {};
+    return axis_;
+}
+
+double VisualEffect::longest_delay() const {
+    return spec_.delay.computed() ? spec_.delay.field.max : spec_.delay.value;
+}
+
+void VisualEffect::order(double share, std::span<const Vec3> regions_W, const Motions&,
+                         frame::TaskFrame& out) const noexcept {
+    frame::VisualMap shown;
+    shown.moves = moves_;
+    shown.object = object_;
+    if (about_ >= 0) shown.p_WC = regions_W[static_cast<size_t>(about_)];
+    shown.scale = part_of(share, value(spec_.scale));
+    shown.R = Quat(Eigen::AngleAxisd(share * spec_.angle.value, axis_));
+    shown.size = part_of(share, spec_.size.value);
+    shown.delay = share * spec_.delay.value;
+    shown.noise = share * spec_.noise;
+    if (toward_ >= 0) {
+        const Vec3 way = regions_W[static_cast<size_t>(toward_)] - shown.p_WC;
+        if (way.norm() > 0) shown.along_W = way.normalized();
+    }
+    add(out.visual, shown);
+}
+
+void say(const VisualSpec& spec, std::vector<std::string>& out) {
+    if (!spec.toward.empty()) out.push_back("visual clamp toward " + spec.toward);
+    if (spec.angle != 0)
+        out.push_back(fmt::format("rotation by {} deg about {}", in_words(spec.angle, kDegree),
+                                  in_words(as_formula(spec.axis.value_or(Vec3::Zero())))));
+    if (spec.scale != kNoFactors) out.push_back("visual gain " + in_words(spec.scale));
+    say_factor("displayed size", spec.size, out);
+    if (spec.delay != 0) out.push_back(fmt::format("shown {} ms late", in_words(spec.delay, 1e-3)));
+    if (!spec.noise.isZero(0))
+        out.push_back("shaken by " + in_words(as_formula(spec.noise * 1e3)) + " mm (SD)");
+}
+
+}  // namespace dihaptic::task

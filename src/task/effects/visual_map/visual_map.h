@@ -1,0 +1,97 @@
+// A visual map: the difference between displayed and true motion. At share s, a point p is shown at
+//
+//     c + R(s angle, axis) (1 + s (scale - 1)) (p - c)      c: a region's centre; or on a line,
+//     c + |p - c| e                                         e: from c toward another region
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "frame/task_frame.h"
+#include "scene/scene.h"
+#include "task/effects/factor.h"
+#include "task/effects/load/motions.h"
+#include "task/region.h"
+
+namespace dihaptic::task {
+
+/// A change of displayed motion: it is scaled and rotated about a region's centre, or led along the
+/// straight line to another region.
+struct VisualSpec {
+    std::vector<std::string> moves;  ///< proxies, object, target
+    std::string about;               ///< region
+    FormulaVec3 scale{1, 1, 1};      ///< along the world's axes
+    std::optional<Vec3> axis;        ///< axis of the rotation
+    Formula angle = 0;               ///< angle of the rotation, right-handed [rad]
+    std::string toward;              ///< region: motion is shown on the line from `about` to it, at
+                                     ///< its true distance from `about`
+    Formula size = 1;                ///< the object's displayed size over its true size
+    Formula delay = 0;               ///< proxies and object are shown this much later [s]
+    Vec3 noise = Vec3::Zero();       ///< SD of noise on where they are shown, in W [m]
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("moves", moves,
+          Field::text().required().says(
+              "What is shown elsewhere than it is: any of proxies, object and target."));
+        v("about", about,
+          says("Region about whose centre motion is scaled and rotated, or from "
+               "which the line begins."));
+        v("scale", scale,
+          Field::number().within(-10, 10).says(
+              "Factors on displayed motion along the world's axes."));
+        v("axis", axis,
+          Field::number().within(-1000, 1000).says("Axis of the rotation, through the centre."));
+        v("angle", angle,
+          Field::of(Quantity::angle)
+              .within(-6.3, 6.3)
+              .says("Angle of the rotation, right-handed."));
+        v("toward", toward,
+          says("Region that the line leads to on which motion is shown, at its true "
+               "distance from the beginning."));
+        v("size", size,
+          Field::number().within(0.1, 10).says("Displayed over true size of the object."));
+        v("delay", delay,
+          Field::of(Quantity::time)
+              .within(0, 5)
+              .says("How much later proxies and object are shown."));
+        v("noise", noise,
+          Field::length().within(0, 1).says(
+              "Standard deviation of noise on where they are shown, along the world's axes."));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// Adds what is changed, and by how much, as a report states it.
+void say(const VisualSpec& spec, std::vector<std::string>& out);
+
+class VisualEffect {
+  public:
+    /// Problems with the spec go to `diagnostics`.
+    VisualEffect(const VisualSpec& spec, const std::vector<Region>& regions,
+                 const scene::Scene& scene, Diagnostics& diagnostics);
+
+    /// The axis of its rotation; unset if it does not rotate.
+    std::optional<Vec3> axis() const;
+    /// The most that its delay may be [s].
+    double longest_delay() const;
+    void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
+               frame::TaskFrame& out) const noexcept;
+    template <class Visitor>
+    void visit(Visitor& v) {
+        spec_.visit(v);
+    }
+
+  private:
+    void check(Diagnostics& diagnostics) const;
+
+    VisualSpec spec_;
+    uint32_t moves_ = 0;  // a sum of frame::Moves
+    int object_ = -1;
+    int about_ = -1;
+    int toward_ = -1;
+    Vec3 axis_ = Vec3::UnitZ();
+};
+
+}  // namespace dihaptic::task

@@ -1,0 +1,27 @@
+// A named sphere of a task.
+#pragma once
+
+#include <string>
+
+#include "base/field_reader.h"
+#include "base/formula.h"
+
+namespace dihaptic::task {
+
+/// A named sphere where hands are wanted, and which can be shown.
+struct Region {
+    std::string name;
+    FormulaVec3 position;   ///< centre [m]
+    Formula radius = 0.01;  ///< [m]
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required().says("Name of the region."));
+        v("position", position, Field::length().within(-100, 100).required().says("Its centre."));
+        v("radius", radius, Field::length().within(1e-4, 10).says("Its radius."));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+}  // namespace dihaptic::task
