@@ -338,7 +338,7 @@ void Person::go_on(const Sight& sight) noexcept {
 /// Repeats the steps if the trial does not go on because what the hand did was not enough.
 void Person::try_again(const Sight& sight) noexcept {
     const bool failed = !between_ && trial_ > 0 && phase_ == acting_ && now_ - since_ > kRetry &&
-                        !steps().empty() && steps().front().reach >= 0;
+                        !steps().empty() && steps().front().step.reach.index >= 0;
     if (!failed) return;
     step_ = 0;
     begin_step(sight);
@@ -374,7 +374,7 @@ void Person::finish_step(const Sight& sight) noexcept {
 }
 
 Vec3 Person::target(const Sight& sight, const TaskPlan::Step& step) const noexcept {
-    const auto region = static_cast<size_t>(step.reach);
+    const auto region = static_cast<size_t>(step.step.reach.index);
     if ((sight.shown >> region & 1u) != 0) return sight.target[region] + step.step.move;
     if ((seen_ >> region & 1u) != 0) return known_[region] + step.step.move;
     // never seen: where the plan has it
@@ -397,7 +397,7 @@ void Person::begin_step(const Sight& sight) noexcept {
     }
     Aim way;
     if (!grip_.holds()) way.aperture = wanted - aperture;
-    if (next.reach >= 0) {
+    if (next.step.reach.index >= 0) {
         const Vec3 seen = look(target(sight, next), traits_.visual_noise, random_) -
                           look(sight.hand, traits_.visual_noise, random_);
         way.centre = plan_reach(sight, seen);
@@ -586,7 +586,7 @@ void Person::end_reach() noexcept {
 /// stroke, or until its end is seen.
 bool Person::correct(const Sight& sight) noexcept {
     const TaskPlan::Step& step = steps()[step_];
-    if (step.reach < 0 || corrections_ >= kMostCorrections) return false;
+    if (step.step.reach.index < 0 || corrections_ >= kMostCorrections) return false;
     if (now_ < aim_.end() + traits_.visual_delay + kSettled) return true;
     if (!sight.hand_shown) return false;  // it is taken to be where it was meant to go
     judge_extent(sight);

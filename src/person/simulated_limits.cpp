@@ -31,7 +31,7 @@ size_t keys_of(const task::TaskPlan::Stage& stage) {
 
 bool reaches(const task::TaskPlan::Stage& stage) {
     return std::any_of(stage.hand.begin(), stage.hand.end(),
-                       [](const task::TaskPlan::Step& step) { return step.reach >= 0; });
+                       [](const task::TaskPlan::Step& step) { return step.step.reach.index >= 0; });
 }
 
 void warn_of_fields(const task::TaskPlan& plan, std::vector<Problem>& out) {

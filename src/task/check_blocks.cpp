@@ -36,8 +36,8 @@ class BlockChecker {
         check_perturbations(procedure.perturb, procedure.place);
         for (const auto& [key, name] : {std::pair{"yes", &procedure.yes}, {"no", &procedure.no}}) {
             if (name->empty()) continue;
-            const int i =
-                look_up(plan_.outcomes, *name, procedure.place, key, "no outcome", diagnostics_);
+            const int i = look_up(names_of(plan_.outcomes), *name, procedure.place, key,
+                                  "no outcome", diagnostics_);
             if (i >= 0 && plan_.outcomes[static_cast<size_t>(i)].redo)
                 error(procedure.place, key, fmt::format("'{}' is done again", *name),
                       "Leave out redo where an answer ends the trial.");
@@ -45,9 +45,6 @@ class BlockChecker {
     }
 
     void check_block(const Block& block) {
-        for (const std::string& name : block.conditions)
-            look_up(task_.conditions, name, block.place, "conditions", "no condition",
-                    diagnostics_);
         check_perturbations(block.perturb, block.place);
         const size_t answers = most_answers(block);
         check_ways_to_perturb(block);
@@ -79,16 +76,14 @@ class BlockChecker {
     }
 
     /// Checks the perturbations of a trial, each and together.
-    void check_perturbations(const std::vector<std::string>& names, const Place& place) {
-        std::vector<int> which;
-        for (const std::string& name : names) {
-            const int i = look_up(task_.perturbations, name, place, "perturb", "no perturbation",
-                                  diagnostics_);
-            if (i < 0) continue;
-            if (std::find(which.begin(), which.end(), i) != which.end())
-                error(place, "perturb", fmt::format("'{}' is named twice", name),
+    void check_perturbations(const Refs<PerturbationSpec>& names, const Place& place) {
+        const std::vector<int>& which = names.indices;
+        for (auto i = which.begin(); i != which.end(); ++i) {
+            if (std::find(which.begin(), i, *i) != i)
+                error(place, "perturb",
+                      fmt::format("'{}' is named twice",
+                                  task_.perturbations[static_cast<size_t>(*i)].name),
                       "Name it once, and make it stronger if it should be.");
-            which.push_back(i);
         }
         for (const PerturbationSpec& spec : task_.perturbations) {
             if (names.size() > 1 && spec.name.find(kBetweenNames) != std::string::npos)
@@ -148,11 +143,8 @@ class BlockChecker {
     /// Largest number of trials that the block's procedures may ask for in all.
     size_t most_answers(const Block& block) {
         size_t out = 0;
-        for (const std::string& name : block.procedures) {
-            const int i = look_up(task_.procedures, name, block.place, "procedures", "no procedure",
-                                  diagnostics_);
-            if (i >= 0) out += static_cast<size_t>(task_.procedures[static_cast<size_t>(i)].trials);
-        }
+        for (const int i : block.procedures.indices)
+            out += static_cast<size_t>(task_.procedures[static_cast<size_t>(i)].trials);
         return out;
     }
 

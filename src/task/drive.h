@@ -10,8 +10,10 @@
 #include "base/diagnostics.h"
 #include "base/formula.h"
 #include "frame/task_frame.h"
+#include "scene/scene.h"
 #include "task/expression.h"
 #include "task/profile.h"
+#include "task/ref.h"
 #include "task/sampled_path.h"
 
 namespace dihaptic::task {
@@ -19,7 +21,7 @@ namespace dihaptic::task {
 /// A body's path while a state lasts: to a place, by a way, along expressions, or as a table has
 /// it. While it goes to a place or by a way it may turn, or it turns where it is.
 struct DriveSpec {
-    std::string body;
+    Ref<scene::Body> body;
     std::optional<FormulaVec3> to;    ///< where its origin ends [m]
     std::optional<FormulaVec3> by;    ///< the way from where it begins [m]
     std::optional<Vec3> axis;         ///< about which it turns, through its origin

@@ -1,12 +1,10 @@
 // The formulas of a task (base/formula.h), compiled once for its plan.
 #pragma once
 
-#include <optional>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "base/formula.h"
+#include "task/each.h"
 #include "task/expression.h"
 #include "task/quantities.h"
 
@@ -23,42 +21,13 @@ struct CompiledFormula {
     }
 };
 
-/// A visitor (base/field.h) that calls f(Formula&) with each formula of a struct.
-template <class F>
-class FormulaVisitor {
-  public:
-    explicit FormulaVisitor(F f) : f_(std::move(f)) {}
-
-    template <class T>
-    void operator()(std::string_view, T& value, Field = {}) {
-        look_into(value);
-    }
-
-  private:
-    void look_into(Formula& value) { f_(value); }
-    void look_into(FormulaVec3& value) {
-        for (Formula& component : value) f_(component);
-    }
-    template <class T>
-    void look_into(T& value) {
-        if constexpr (Described<T, FormulaVisitor>) value.visit(*this);
-    }
-    template <class T>
-    void look_into(std::optional<T>& value) {
-        if (value) look_into(*value);
-    }
-    template <class T>
-    void look_into(std::vector<T>& values) {
-        for (T& value : values) look_into(value);
-    }
-
-    F f_;
-};
-
+/// Calls f(Formula&) with each formula of a struct.
 template <class Struct, class F>
 void each_formula(Struct& value, F f) {
-    FormulaVisitor visitor(std::move(f));
-    value.visit(visitor);
+    each(value, Overloaded{[&](Formula& formula, std::string_view, const Place&) { f(formula); },
+                           [&](FormulaVec3& vector, std::string_view, const Place&) {
+                               for (Formula& component : vector) f(component);
+                           }});
 }
 
 }  // namespace dihaptic::task

@@ -39,28 +39,12 @@ inline int look_up(const std::vector<std::string>& names, const std::string& nam
                    Diagnostics& diagnostics) {
     const auto found = std::find(names.begin(), names.end(), name);
     if (found != names.end()) return static_cast<int>(found - names.begin());
+    const bool explained = diagnostics.problems().size() <= kMostExplained;
     diagnostics.error(
         place, key, name.empty() ? "is missing" : fmt::format("'{}' is {}", name, what),
         names.empty() ? "There is none to name: add one first." : meant(name, names, diagnostics),
-        choices_of(names));
+        explained ? choices_of(names) : std::vector<Choice>{});
     return -1;
-}
-
-/// The same in a list of things that have names.
-template <class Thing>
-requires requires(const Thing& thing) {
-    thing.name;
-}
-int look_up(const std::vector<Thing>& things, const std::string& name, const Place& place,
-            const std::string& key, const std::string& what, Diagnostics& diagnostics) {
-    const auto found = std::find_if(things.begin(), things.end(),
-                                    [&](const Thing& thing) { return thing.name == name; });
-    if (found != things.end()) return static_cast<int>(found - things.begin());
-    if (diagnostics.problems().size() > kMostExplained) {
-        diagnostics.error(place, key, fmt::format("'{}' is {}", name, what), "");
-        return -1;
-    }
-    return look_up(names_of(things), name, place, key, what, diagnostics);
 }
 
 /// Unit vector along what is given, or z with an error.

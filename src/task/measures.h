@@ -13,6 +13,7 @@
 #include "base/geometry.h"
 #include "base/table.h"
 #include "rows/row_file.h"
+#include "task/ref.h"
 
 namespace dihaptic::scene {
 struct Scene;
@@ -146,11 +147,13 @@ constexpr auto enum_names(Take) {
 }
 
 /// A measure of a task's own.
+struct State;
+
 struct OwnMeasure {
     std::string name;  ///< its column in trials.csv, with the unit
     std::string of;    ///< an expression, evaluated in each tick
     Take take = Take::max;
-    std::vector<std::string> during;  ///< states; empty: all
+    RefList<State> during;  ///< empty: all
     Place place;
 
     template <class Visitor>

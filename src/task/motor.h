@@ -14,12 +14,13 @@
 #include "scene/joint.h"
 #include "task/expression.h"
 #include "task/profile.h"
+#include "task/ref.h"
 
 namespace dihaptic::task {
 
 /// A joint's course while a state lasts, the force that pushes it, or both.
 struct MotorSpec {
-    std::string joint;
+    Ref<scene::Joint> joint;
     std::optional<Formula> angle;         ///< where a hinge ends [rad]
     std::optional<Formula> displacement;  ///< where a slider or a distance ends [m]
     std::optional<Formula> duration;      ///< of the way there [s]

@@ -1,6 +1,7 @@
 #include "task/on_joint.h"
 
-#include "task/lookup.h"
+#include <fmt/format.h>
+
 #include "task/task.h"
 
 namespace dihaptic::task {
@@ -95,9 +96,8 @@ void check_joint(const BodyPlace& place, const scene::Scene& scene, Diagnostics&
     if (!place.body.empty() || place.position)
         diagnostics.error(place.place, "joint", "says where its second body is, as body does",
                           "Keep one of the two.");
-    const int index = look_up(names_of(recorded_joints(scene)), place.joint, place.place, "joint",
-                              "no joint of the scene", diagnostics);
-    if (index >= 0) check_coordinate(place, scene.joints[static_cast<size_t>(index)], diagnostics);
+    if (place.joint.index >= 0)
+        check_coordinate(place, scene.joints[static_cast<size_t>(place.joint.index)], diagnostics);
 }
 
 }  // namespace dihaptic::task

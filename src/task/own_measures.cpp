@@ -39,11 +39,7 @@ void plan_own_measures(TaskPlan& plan, Diagnostics& diagnostics) {
         check_name(measure, plan, diagnostics);
         TaskPlan::Measured out;
         out.take = measure.take;
-        for (const std::string& state : measure.during) {
-            const int i = look_up(names_of(plan.task.states), state, measure.place, "during",
-                                  "no state", diagnostics);
-            if (i >= 0) out.states |= uint64_t{1} << i;
-        }
+        for (const int state : measure.during.indices) out.states |= uint64_t{1} << state;
         if (measure.during.empty()) out.states = ~uint64_t{0};
         const Formula of = formula_of(measure.of, measure.name, "of", measure.place);
         if (auto compiled = compile_formula(of, plan, plan.measured, diagnostics)) {

@@ -2,20 +2,19 @@
 
 namespace dihaptic::task {
 
-Perturbation::Perturbation(const PerturbationSpec& spec, const std::vector<Region>& regions,
+Perturbation::Perturbation(const PerturbationSpec& spec, const Names& names,
                            const scene::Scene& scene, Diagnostics& diagnostics) {
-    if (spec.visual) visual_.emplace(*spec.visual, regions, scene, diagnostics);
-    if (spec.body) body_.emplace(*spec.body, scene, diagnostics);
-    if (spec.joint) joint_.emplace(*spec.joint, scene, diagnostics);
-    for (const LoadSpec& load : spec.all_loads())
-        loads_.emplace_back(load, regions, scene, diagnostics);
+    bool any = false;
+    spec.each_effect([&]<class Spec>(const Spec& effect) {
+        std::get<std::vector<typename Spec::Effect>>(effects_).emplace_back(effect, names, scene,
+                                                                            diagnostics);
+        any = true;
+    });
     profile_ = spec.profile;
     if (profile_ && profile_->fall > 0 && !profile_->plateau) {
         diagnostics.error(profile_->place, "fall", "when it falls is missing",
                           "Add e.g. plateau_ms: 100, the time between rise and fall.");
     }
-    bool any = false;
-    spec.each_effect([&](const auto&) { any = true; });
     if (!any) {
         diagnostics.error(spec.place, spec.name, "perturbs nothing",
                           "Give it visual, body, joint, loads or field.");
@@ -23,19 +22,21 @@ Perturbation::Perturbation(const PerturbationSpec& spec, const std::vector<Regio
 }
 
 std::optional<frame::PropertiesFrame> Perturbation::properties() const {
-    if (!body_) return {};
-    return body_->properties();
+    if (of<BodyEffect>().empty()) return {};
+    return of<BodyEffect>()[0].properties();
 }
 
 Mat3 Perturbation::field_gain() const {
     Mat3 gain = Mat3::Zero();
-    for (const Load& load : loads_) gain += load.velocity_gain();
+    for (const Load& load : loads()) gain += load.velocity_gain();
     return gain;
 }
 
 std::optional<Vec3> Perturbation::axis() const {
-    if (visual_ && visual_->axis()) return visual_->axis();
-    for (const Load& load : loads_) {
+    for (const VisualEffect& map : of<VisualEffect>()) {
+        if (const auto axis = map.axis()) return axis;
+    }
+    for (const Load& load : loads()) {
         if (const auto axis = load.axis()) return axis;
     }
     return {};

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "task/effects/body/body.h"
@@ -21,10 +22,12 @@
 
 namespace dihaptic::task {
 
+struct State;
+
 /// Any combination of a visual map, properties of a body and a joint, and loads, under one name.
 struct PerturbationSpec {
     std::string name;
-    Texts during;  ///< states in which it acts; empty: all that are perturbed
+    Refs<State> during;  ///< in which it acts; empty: all that are perturbed
     std::optional<Profile> profile;
     std::optional<VisualSpec> visual;
     std::optional<BodySpec> body;
@@ -76,8 +79,8 @@ class Perturbation {
   public:
     Perturbation() = default;
     /// Problems with the spec go to `diagnostics`.
-    Perturbation(const PerturbationSpec& spec, const std::vector<Region>& regions,
-                 const scene::Scene& scene, Diagnostics& diagnostics);
+    Perturbation(const PerturbationSpec& spec, const Names& names, const scene::Scene& scene,
+                 Diagnostics& diagnostics);
 
     /// Factor on its share at `t` since its first state was entered [s].
     double share_at(double t) const noexcept { return profile_ ? profile_->share(t) : 1; }
@@ -88,10 +91,10 @@ class Perturbation {
     Mat3 field_gain() const;
     /// Axis of its rotation, or of its first curl field; nullopt if it has neither.
     std::optional<Vec3> axis() const;
-    bool has_map() const { return visual_.has_value(); }
-    std::span<const Load> loads() const { return loads_; }
+    bool has_map() const { return !of<VisualEffect>().empty(); }
+    std::span<const Load> loads() const { return of<Load>(); }
     /// The most that the delay of what it moves on the screen may be [s].
-    double longest_delay() const { return visual_ ? visual_->longest_delay() : 0; }
+    double longest_delay() const { return has_map() ? of<VisualEffect>()[0].longest_delay() : 0; }
     /// A body's properties at share 1; unset if it changes no body.
     std::optional<frame::PropertiesFrame> properties() const;
 
@@ -104,16 +107,19 @@ class Perturbation {
   private:
     template <class Self, class F>
     static void each_effect(Self& self, F f) {
-        if (self.visual_) f(*self.visual_);
-        if (self.body_) f(*self.body_);
-        if (self.joint_) f(*self.joint_);
-        for (auto& load : self.loads_) f(load);
+        const auto each = [&](auto& list) {
+            for (auto& effect : list) f(effect);
+        };
+        std::apply([&](auto&... lists) { (each(lists), ...); }, self.effects_);
+    }
+    template <class Effect>
+    const std::vector<Effect>& of() const {
+        return std::get<std::vector<Effect>>(effects_);
     }
 
-    std::optional<VisualEffect> visual_;
-    std::optional<BodyEffect> body_;
-    std::optional<JointEffect> joint_;
-    std::vector<Load> loads_;
+    std::tuple<std::vector<VisualEffect>, std::vector<BodyEffect>, std::vector<JointEffect>,
+               std::vector<Load>>
+        effects_;
     std::optional<Profile> profile_;
 };
 

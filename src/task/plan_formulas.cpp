@@ -298,10 +298,8 @@ void plan_rules(TaskPlan& plan, Diagnostics& diagnostics) {
     for (const Rule& rule : plan.task.after_trial) {
         TaskPlan::Change change;
         change.when = condition(rule.when, plan.quantities, rule.place, "when", diagnostics);
-        const int variable = look_up(names_of(plan.task.variables), rule.set, rule.place, "set",
-                                     "no variable", diagnostics);
-        if (variable < 0) continue;
-        change.variable = static_cast<size_t>(variable);
+        if (rule.set.index < 0) continue;
+        change.variable = static_cast<size_t>(rule.set.index);
         const Formula to = formula_of(rule.to, rule.set, "to", rule.place);
         if (auto compiled = compile_formula(to, plan, plan.quantities, diagnostics)) {
             change.to = std::move(*compiled);

@@ -10,6 +10,7 @@
 
 #include "base/field_reader.h"
 #include "task/procedures/procedure.h"
+#include "task/ref.h"
 
 namespace dihaptic::task {
 
@@ -163,9 +164,11 @@ constexpr auto enum_names(Design) {
     return std::array{"yes_no", "2afc"};
 }
 
+struct PerturbationSpec;
+
 struct ProcedureSpec {
     std::string name;
-    Texts perturb;      ///< perturbations whose share is the level; with `level`, that act
+    Refs<PerturbationSpec> perturb;  ///< whose share is the level; with `level`, that act
     std::string level;  ///< name of a number, in whose unit the levels are; empty: a share
     std::optional<double> standard;  ///< its value where no procedure chooses it, in the same unit
     bool logarithmic = false;        ///< the share, or the number, is 10^level

@@ -11,6 +11,8 @@
 
 #include "base/field_reader.h"
 #include "base/geometry.h"
+#include "task/ref.h"
+#include "task/region.h"
 
 namespace dihaptic::task {
 
@@ -33,7 +35,7 @@ struct AskSpec {
     std::optional<double> to;
     std::vector<std::string> labels;  ///< of the ends, or, on a likert scale, of all numbers
     AnswerBy by = AnswerBy::key;
-    std::vector<std::string> between;  ///< cursor: regions at the ends of the line
+    RefList<Region> between;  ///< cursor: at the ends of the line
     Place place;
 
     template <class Visitor>

@@ -2,39 +2,36 @@
 // hide, how things look, and the pages before blocks.
 #pragma once
 
-#include "task/task_plan.h"
+#include "task/plan/names.h"
 
 namespace dihaptic::task {
 
-class SeenPlanner {
+class SeenPlanner : Planning {
   public:
-    /// All must outlive the object; `plan` gets the texts and pages, and has the task already.
-    SeenPlanner(TaskPlan& plan, const scene::Scene& scene, Diagnostics& diagnostics);
+    explicit SeenPlanner(const Planning& given);
 
     /// Index of a text among the plan's messages, to which it is added when new; -1 if it is empty.
     int text(const std::string& text, const Place& place, const char* key);
     /// What the state shows, apart from its message.
     void plan_state(const State& state, TaskPlan::Stage& out);
-    /// Adds looks to those that are there. Problems go to `diagnostics`, once for each call.
+    /// Adds looks to those that are there. Problems go to `found`, once for each call.
     void add_looks(const std::vector<LookSpec>& specs, TaskPlan::Looks& out,
-                   Diagnostics& diagnostics) const;
+                   Diagnostics& found) const;
     /// The task's own lines, breaks and pages.
     void plan_task();
 
   private:
     void show(const Show& given, const Place& place, TaskPlan::Stage& out);
     /// Reads "name: yes or no" of bodies or fingers; `first`: index of the first of them in frames.
-    void show_some(const Node& given, const char* key, const std::vector<std::string>& names,
-                   size_t first, const char* unknown, const Place& place, TaskPlan::Looks& out);
+    template <class T>
+    void show_some(const Node& given, const char* key, size_t first, const Place& place,
+                   TaskPlan::Looks& out);
     /// Nullopt, with the problem in the diagnostics, if the name is no number's.
     std::optional<TextNumber> number(const std::string& name, const Place& place, const char* key);
     std::vector<int> lines(const std::vector<std::string>& texts, const Place& place);
 
-    TaskPlan& plan_;
-    Diagnostics& diagnostics_;
-    std::vector<std::string> regions_;
-    std::vector<std::string> bodies_;
-    std::vector<std::string> fingers_;
+    size_t bodies_;
+    size_t fingers_;
 };
 
 /// Whether the text is a key that a person may be asked to press: one letter or digit.

@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "base/field_reader.h"
+#include "scene/scene.h"
+#include "task/ref.h"
+#include "task/region.h"
 
 namespace dihaptic::task {
 
@@ -54,9 +57,9 @@ struct Show {
 
 /// How one thing looks: a body, a finger's proxy, or a target.
 struct LookSpec {
-    std::string body;
-    std::string finger;
-    std::string target;  ///< region
+    Ref<scene::Body> body;
+    Ref<scene::Finger> finger;
+    Ref<Region> target;
     std::string colour;  ///< "#rrggbb"; empty: as it is
     double scale = 1;    ///< factor on the displayed size
     Place place;

@@ -86,13 +86,15 @@ constexpr auto enum_names(When) {
 /// A remedy for a key that only these conditions have (WhenRow::Has), where `given` is another.
 std::string conditions_with(const std::string& given, unsigned any);
 
+struct State;
+
 /// One way out of a state: to another, or out of the trial with an outcome.
 struct Exit {
     When when = When::time;
     std::string condition;  ///< text of an expression
-    std::string region;     ///< inside, outside
+    Ref<Region> region;     ///< inside, outside
     bool shown = false;     ///< inside, outside: judged by where the finger is displayed
-    std::string body;       ///< touched, released, gripped, lifted
+    Ref<scene::Body> body;  ///< touched, released, gripped, lifted
     std::string what;       ///< inside, outside, still: a body, in place of a finger
     std::string finger;     ///< a finger or a hand; if empty, the first finger; touched, released:
                             ///< any finger; gripped: any two; still: all fingers; inside, outside:
@@ -105,12 +107,12 @@ struct Exit {
     std::string key;        ///< one letter or digit
     int button = 0;         ///< counted from 0
     int code = 0;           ///< trigger; 0: any
-    std::string to;         ///< state
-    std::string outcome;    ///< ends the trial with this outcome
-    int chooses = 0;        ///< ends the trial with the answer that this interval has more
-    bool redo = false;      ///< the trial is to be done again
-    std::string feedback;   ///< shown for Task::feedback at least, then until the next message
-    std::string sound;      ///< begins when the exit is taken
+    Ref<State> to;
+    std::string outcome;   ///< ends the trial with this outcome
+    int chooses = 0;       ///< ends the trial with the answer that this interval has more
+    bool redo = false;     ///< the trial is to be done again
+    std::string feedback;  ///< shown for Task::feedback at least, then until the next message
+    Ref<SoundSpec> sound;  ///< begins when the exit is taken
     Place place;
 
     /// Whether its condition has any of these (WhenRow::Has).
@@ -186,11 +188,11 @@ struct Exit {
 
 /// A step of the simulated hand in a state: as in a script, or to a region.
 struct HandStep {
-    double duration = 0;               ///< [s]
-    std::string reach;                 ///< region that the hand's centre goes to
-    Vec3 move = Vec3::Zero();          ///< displacement of the hand's centre [m]
-    std::optional<double> aperture;    ///< aperture at the end [m]
-    std::vector<std::string> fingers;  ///< only these move; empty: all
+    double duration = 0;             ///< [s]
+    Ref<Region> reach;               ///< that the hand's centre goes to
+    Vec3 move = Vec3::Zero();        ///< displacement of the hand's centre [m]
+    std::optional<double> aperture;  ///< aperture at the end [m]
+    RefList<scene::Finger> fingers;  ///< only these move; empty: all
     Place place;
 
     template <class Visitor>
@@ -217,7 +219,7 @@ struct HandStep {
 
 /// Where a state puts a body as it begins.
 struct StatePlace {
-    std::string body;
+    Ref<scene::Body> body;
     std::optional<FormulaVec3> position;  ///< unset: where it is [m]
     std::optional<FormulaVec3> velocity;  ///< unset: at rest, if it is put anywhere [m/s]
     bool held = false;                    ///< it is held still there while the state lasts
@@ -254,7 +256,7 @@ struct State {
     std::optional<AskSpec> ask;      ///< a number that is asked for
     int marker = 0;                  ///< event code on entering; 0: none
     bool patch = false;              ///< the rig's patch is white while the state lasts
-    Texts sounds;                    ///< that begin with it, or go on while it lasts
+    Refs<SoundSpec> sounds;          ///< that begin with it, or go on while it lasts
     std::vector<StatePlace> places;
     std::vector<DriveSpec> drives;
     std::vector<MotorSpec> motors;
@@ -302,9 +304,9 @@ struct State {
 /// Where a body begins the trial, in place of its position in the scene: by its position, or by the
 /// coordinate of a joint whose second body it is. What hangs on that body comes along.
 struct BodyPlace {
-    std::string body;
+    Ref<scene::Body> body;
     std::optional<FormulaVec3> position;  ///< [m]
-    std::string joint;
+    Ref<scene::Joint> joint;
     std::optional<Formula> angle;         ///< [rad]
     std::optional<Formula> displacement;  ///< [m]
     std::optional<FormulaVec3> velocity;  ///< of the body, with which it begins [m/s]
@@ -361,8 +363,8 @@ struct Factor {
 /// begin, and how things look.
 struct Condition {
     std::string name;
-    Node factors;        ///< its level of each factor
-    std::string object;  ///< body whose lifts are measured; empty: the scene's object
+    Node factors;             ///< its level of each factor
+    Ref<scene::Body> object;  ///< whose lifts are measured; empty: the scene's object
     std::vector<BodyPlace> places;
     std::vector<Region> regions;
     std::vector<PerturbationSpec> perturbations;
@@ -397,8 +399,8 @@ using rows::TrialKind;
 struct Insert {
     TrialKind kind = TrialKind::catch_trial;
     int count = 1;
-    int gap = 1;    ///< least number of other trials between two of them
-    Texts perturb;  ///< perturbations; empty: none
+    int gap = 1;  ///< least number of other trials between two of them
+    Refs<PerturbationSpec> perturb;
     Place place;
 
     template <class Visitor>
@@ -417,12 +419,12 @@ struct Insert {
 struct Block {
     std::string name;
     TrialKind kind = TrialKind::baseline;
-    std::vector<std::string> conditions;  ///< empty: all
-    int repeats = 1;                      ///< number of times that each condition is done
-    Order order = Order::shuffled;        ///< order of the conditions, made anew in each repeat
-    Texts perturb;                        ///< perturbations, which act together; empty: none
+    RefList<Condition> conditions;   ///< empty: all
+    int repeats = 1;                 ///< number of times that each condition is done
+    Order order = Order::shuffled;   ///< order of the conditions, made anew in each repeat
+    Refs<PerturbationSpec> perturb;  ///< which act together
     int ramp = 0;  ///< trials over which their share rises from 0 to 1; 0: at once
-    std::vector<std::string> procedures;  ///< if given, the block consists of their trials, mixed
+    RefList<ProcedureSpec> procedures;  ///< if given, the block consists of their trials, mixed
     std::vector<Insert> insert;
     std::string until;            ///< a condition on variables, which ends the block; empty: none
     double rest = 0;              ///< break before the block, unless it is the first [s]
@@ -479,10 +481,10 @@ constexpr auto enum_names(Measure) {
 
 struct ReachMeasure {
     Measure measure = Measure::angle;
-    std::string finger;        ///< empty: the first
-    std::string from;          ///< region
-    std::string to;            ///< region
-    std::string during;        ///< state
+    Ref<scene::Finger> finger;  ///< empty: the first
+    Ref<Region> from;
+    Ref<Region> to;
+    Ref<State> during;
     double distance = 0.05;    ///< [m]
     std::optional<Vec3> axis;  ///< unset: the axis of the first perturbation that has one, or z
     Place place;
@@ -510,7 +512,7 @@ struct ReachMeasure {
 /// Fingers that conditions judge together.
 struct Hand {
     std::string name;
-    std::vector<std::string> fingers;
+    RefList<scene::Finger> fingers;
     Place place;
 
     template <class Visitor>
@@ -542,8 +544,8 @@ struct Variable {
 /// What becomes of a variable when a trial ends.
 struct Rule {
     std::string when;  ///< a condition; empty: always
-    std::string set;   ///< variable
-    std::string to;    ///< expression
+    Ref<Variable> set;
+    std::string to;  ///< expression
     Place place;
 
     template <class Visitor>

@@ -127,11 +127,11 @@ void TaskDirector::direct(const frame::Frame& last, std::span<const frame::Handl
             next_message_ = -1;
             feedback_until_ = now + plan_.task.feedback - tick_ / 2;
         }
-        if (way->state < 0) {
+        if (way->exit.to.index < 0) {
             finish(plan_.outcome_of(*way, trial()), way->exit.redo, now, commands);
             return;
         }
-        enter(way->state, now, commands);
+        enter(way->exit.to.index, now, commands);
     }
     put_bodies(last, commands);
     drive_bodies(last, now, commands);

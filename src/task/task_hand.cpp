@@ -78,7 +78,8 @@ void TaskHand::begin_step(double now) noexcept {
         to_[i] = from_[i] = posture(i, now);
         if (!next.moves(i)) continue;
         to_[i].aperture = next.step.aperture.value_or(from_[i].aperture);
-        if (next.reach >= 0) to_[i].centre = numbers_.cell().p_W[static_cast<size_t>(next.reach)];
+        if (const int region = next.step.reach.index; region >= 0)
+            to_[i].centre = numbers_.cell().p_W[static_cast<size_t>(region)];
         to_[i].centre += next.step.move;
     }
     begun_ = now;

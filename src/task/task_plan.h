@@ -56,7 +56,6 @@ struct TaskPlan {
         Exit exit;
         Expression condition;  ///< empty: of key, button, trigger, time
         int finger = 0;        ///< whose button it is
-        int state = -1;        ///< state that it leads to
         int outcome = -1;      ///< outcome that it ends the trial with; see outcome_of()
         int feedback = -1;
         uint32_t sounds = 0;  ///< that it begins, one bit each
@@ -68,7 +67,6 @@ struct TaskPlan {
     };
     struct Step {
         HandStep step;
-        int reach = -1;                                       ///< region
         scene::FingerSet fingers = scene::FingerSet{}.set();  ///< that move
         bool moves(size_t finger) const noexcept { return scene::contains(fingers, finger); }
     };

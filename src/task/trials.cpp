@@ -63,13 +63,6 @@ int index_of(const std::vector<std::string>& names, const std::string& name) {
     return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
-template <class Thing>
-int index_of(const std::vector<Thing>& things, const std::string& name) {
-    const auto found = std::find_if(things.begin(), things.end(),
-                                    [&](const Thing& thing) { return thing.name == name; });
-    return found == things.end() ? -1 : static_cast<int>(found - things.begin());
-}
-
 /// Finds things by their names, for lists of trials that name thousands.
 class Index {
   public:
@@ -86,12 +79,6 @@ class Index {
   private:
     std::unordered_map<std::string, int> by_name_;
 };
-
-std::vector<int> perturbations_of(const Task& task, const std::vector<std::string>& names) {
-    std::vector<int> out;
-    for (const std::string& name : names) out.push_back(index_of(task.perturbations, name));
-    return out;
-}
 
 /// The names in a cell of the column `perturbation`.
 std::vector<std::string> names_in(const std::string& cell) {
@@ -112,17 +99,15 @@ std::vector<std::string> names_in(const std::string& cell) {
 std::vector<Trial> procedure_trials(const Task& task, const Block& block, Trial trial,
                                     Random& random) {
     std::vector<int> turns;
-    for (const std::string& name : block.procedures) {
-        const int i = index_of(task.procedures, name);
+    for (const int i : block.procedures.indices)
         turns.insert(turns.end(),
                      static_cast<size_t>(task.procedures[static_cast<size_t>(i)].trials), i);
-    }
     shuffle(turns, random);
     std::vector<Trial> out;
     for (const int i : turns) {
         const ProcedureSpec& procedure = task.procedures[static_cast<size_t>(i)];
         trial.procedure = i;
-        trial.perturb = perturbations_of(task, procedure.perturb);
+        trial.perturb = procedure.perturb.indices;
         trial.share = procedure.level.empty() ? std::numeric_limits<double>::quiet_NaN() : 1;
         out.push_back(trial);
     }
@@ -132,9 +117,7 @@ std::vector<Trial> procedure_trials(const Task& task, const Block& block, Trial 
 /// The block's conditions, as indices among the task's; all if the block names none, and the one
 /// without a name if the task has none.
 std::vector<int> conditions_of(const Task& task, const Block& block) {
-    std::vector<int> out;
-    const Index conditions(task.conditions);
-    for (const std::string& name : block.conditions) out.push_back(conditions(name));
+    std::vector<int> out = block.conditions.indices;
     if (out.empty()) {
         out.resize(std::max<size_t>(1, task.conditions.size()));
         std::iota(out.begin(), out.end(), 0);
@@ -172,8 +155,7 @@ std::vector<Trial> repeated_trials(const std::vector<int>& conditions, const Blo
 
 /// Inserts trials at random places, each after another trial, so that none comes first. Places with
 /// a gap between them are drawn without it, and then moved apart.
-void insert_trials(const Insert& insert, const Task& task, Random& random,
-                   std::vector<Trial>& trials) {
+void insert_trials(const Insert& insert, Random& random, std::vector<Trial>& trials) {
     const int gaps = (insert.count - 1) * (insert.gap - 1);
     const auto places = ordered(static_cast<int>(trials.size()) - gaps, Order::shuffled, 0, random);
     std::vector<int> which;
@@ -185,7 +167,7 @@ void insert_trials(const Insert& insert, const Task& task, Random& random,
     for (const int i : which) {
         Trial extra = trials[static_cast<size_t>(i)];
         extra.kind = insert.kind;
-        extra.perturb = perturbations_of(task, insert.perturb);
+        extra.perturb = insert.perturb.indices;
         extra.procedure = -1;
         if (std::isnan(extra.share)) extra.share = 1;
         trials.insert(trials.begin() + i + 1, extra);
@@ -200,7 +182,7 @@ std::vector<Trial> trials_of(const Task& task, const Block& block, int round, in
     Trial trial;
     trial.round = round;
     trial.kind = block.kind;
-    trial.perturb = perturbations_of(task, block.perturb);
+    trial.perturb = block.perturb.indices;
     const std::vector<int> conditions = conditions_of(task, block);
     const auto deal = [&](Random& from) {
         if (block.procedures.empty())
@@ -213,7 +195,7 @@ std::vector<Trial> trials_of(const Task& task, const Block& block, int round, in
     if (own) out = deal(*own);
     for (size_t i = 0; i < out.size() && block.ramp > 0; ++i)
         out[i].share = std::min(1.0, static_cast<double>(i + 1) / block.ramp);
-    for (const Insert& insert : block.insert) insert_trials(insert, task, random, out);
+    for (const Insert& insert : block.insert) insert_trials(insert, random, out);
     for (size_t i = 0; i < out.size(); ++i) out[i].in_block = static_cast<int>(i) + 1;
     return out;
 }
@@ -227,9 +209,11 @@ std::string perturbations_cell(const Task& task, const std::vector<int>& perturb
 
 /// The perturbations that such a cell names; -1 for a name that is unknown. A name may have an
 /// " + " of its own.
-std::vector<int> read_perturbations(const Task& task, const std::string& cell) {
-    const int one = index_of(task.perturbations, cell);
-    return one >= 0 ? std::vector<int>{one} : perturbations_of(task, names_in(cell));
+std::vector<int> read_perturbations(const Index& perturbations, const std::string& cell) {
+    if (const int one = perturbations(cell); one >= 0) return {one};
+    std::vector<int> out;
+    for (const std::string& name : names_in(cell)) out.push_back(perturbations(name));
+    return out;
 }
 
 template <class Thing>
@@ -406,7 +390,7 @@ std::vector<Trial> read_trial_list(const Task& task, const std::string& file) {
                     "Put back the list that the session was recorded with.");
     }
     const Index blocks(task.blocks), rounds(task.rounds), conditions(task.conditions),
-        procedures(task.procedures);
+        procedures(task.procedures), perturbations(task.perturbations);
     for (size_t i = 1; i < rows.size(); ++i) {
         const auto& row = rows[i];
         const auto bad = [&](const char* column) {
@@ -421,7 +405,7 @@ std::vector<Trial> read_trial_list(const Task& task, const std::string& file) {
         const auto kind = std::find(kinds.begin(), kinds.end(), row[4]);
         t.round = task.rounds.empty() ? 0 : rounds(row[5]);
         t.condition = task.conditions.empty() ? 0 : conditions(row[6]);
-        t.perturb = read_perturbations(task, row[7]);
+        t.perturb = read_perturbations(perturbations, row[7]);
         t.procedure = procedures(row[9]);
         if (t.block < 0) throw bad("block");
         if (kind == kinds.end()) throw bad("kind");

@@ -10,6 +10,7 @@
 #include "recording/raw_log.h"
 #include "session/replay.h"
 #include "session/test/reaches.h"
+#include "task/plan/names.h"
 #include "task/task_director.h"
 #include "testing/allocation_guard.h"
 
@@ -27,7 +28,11 @@ class OneLoad {
         read_fields(scene, parse_yaml(session::kScene, "scene.yaml"), diagnostics);
         LoadSpec spec;
         read_fields(spec, parse_yaml("on: index\n" + yaml, "load.yaml"), diagnostics);
-        load_.emplace(spec, regions_, scene, diagnostics);
+        Task task;
+        task.regions = regions_;
+        const Names names(task, scene);
+        resolve(spec, names, diagnostics);
+        load_.emplace(spec, names, scene, diagnostics);
         for (const Problem& problem : diagnostics.problems()) ADD_FAILURE() << problem.text();
     }
     Vec3 force(const Motion& motion, double share = 1) const {

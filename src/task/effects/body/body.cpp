@@ -2,16 +2,13 @@
 
 #include <algorithm>
 
-#include "task/lookup.h"
-
 namespace dihaptic::task {
 
-BodyEffect::BodyEffect(const BodySpec& spec, const scene::Scene& scene, Diagnostics& diagnostics)
-    : spec_(spec),
-      body_(
-          look_up(names_of(scene.bodies), spec.body, spec.place, "body", "no body", diagnostics)) {
-    if (body_ < 0) return;
-    const scene::Body& body = scene.bodies[static_cast<size_t>(body_)];
+BodyEffect::BodyEffect(const BodySpec& spec, const Names&, const scene::Scene& scene,
+                       Diagnostics& diagnostics)
+    : spec_(spec) {
+    if (spec.body.index < 0) return;
+    const scene::Body& body = scene.bodies[static_cast<size_t>(spec.body.index)];
     const bool only_surface =
         spec.mass_scale == kNoFactors && spec.weight_scale == 1 && spec.density_scale == 1;
     if (!only_surface && !body.moves_at_all()) {
@@ -31,7 +28,7 @@ BodyEffect::BodyEffect(const BodySpec& spec, const scene::Scene& scene, Diagnost
 
 frame::PropertiesFrame BodyEffect::properties() const noexcept {
     const double density = spec_.density_scale.value;
-    return {body_,
+    return {spec_.body.index,
             density * value(spec_.mass_scale),
             density * spec_.weight_scale.value,
             density,

@@ -10,11 +10,17 @@
 #include "scene/scene.h"
 #include "task/effects/factor.h"
 #include "task/effects/load/motions.h"
+#include "task/ref.h"
 
 namespace dihaptic::task {
 
+class Names;
+class BodyEffect;
+
 struct BodySpec {
-    std::string body;
+    using Effect = BodyEffect;
+
+    Ref<scene::Body> body;
     FormulaVec3 mass_scale{1, 1, 1};  ///< on inertia along the world's axes; the weight stays
     Formula weight_scale = 1;         ///< the inertia stays
     Formula density_scale = 1;        ///< on both, and on the moments of inertia
@@ -52,7 +58,8 @@ void say(const BodySpec& spec, std::vector<std::string>& out);
 class BodyEffect {
   public:
     /// Problems with the spec go to `diagnostics`.
-    BodyEffect(const BodySpec& spec, const scene::Scene& scene, Diagnostics& diagnostics);
+    BodyEffect(const BodySpec& spec, const Names& names, const scene::Scene& scene,
+               Diagnostics& diagnostics);
 
     /// The body's properties at share 1.
     frame::PropertiesFrame properties() const noexcept;
@@ -65,7 +72,6 @@ class BodyEffect {
 
   private:
     BodySpec spec_;
-    int body_;
 };
 
 }  // namespace dihaptic::task

@@ -2,16 +2,13 @@
 
 #include <algorithm>
 
-#include "task/lookup.h"
-
 namespace dihaptic::task {
 
-JointEffect::JointEffect(const JointSpec& spec, const scene::Scene& scene, Diagnostics& diagnostics)
-    : spec_(spec),
-      joint_(look_up(names_of(recorded_joints(scene)), spec.joint, spec.place, "joint",
-                     "no joint of the scene", diagnostics)) {
-    if (joint_ < 0) return;
-    const scene::Joint& joint = scene.joints[static_cast<size_t>(joint_)];
+JointEffect::JointEffect(const JointSpec& spec, const Names&, const scene::Scene& scene,
+                         Diagnostics& diagnostics)
+    : spec_(spec) {
+    if (spec.joint.index < 0) return;
+    const scene::Joint& joint = scene.joints[static_cast<size_t>(spec.joint.index)];
     const auto needs = [&](const Formula& factor, const char* key, bool there, const char* what) {
         if (factor == 1 || there) return;
         diagnostics.error(
@@ -25,9 +22,9 @@ JointEffect::JointEffect(const JointSpec& spec, const scene::Scene& scene, Diagn
 
 void JointEffect::order(double share, std::span<const Vec3>, const Motions&,
                         frame::TaskFrame& out) const noexcept {
-    const frame::JointPropertiesFrame now{joint_, part_of(share, spec_.stiffness_scale.value),
-                                          part_of(share, spec_.damping_scale.value),
-                                          part_of(share, spec_.friction_scale.value)};
+    const frame::JointPropertiesFrame now{
+        spec_.joint.index, part_of(share, spec_.stiffness_scale.value),
+        part_of(share, spec_.damping_scale.value), part_of(share, spec_.friction_scale.value)};
     const auto same = std::find_if(out.joint_properties.begin(), out.joint_properties.end(),
                                    [&](const auto& other) { return other.joint == now.joint; });
     if (same == out.joint_properties.end()) return add(out.joint_properties, now);

@@ -6,11 +6,17 @@
 #include "scene/scene.h"
 #include "task/effects/factor.h"
 #include "task/effects/load/motions.h"
+#include "task/ref.h"
 
 namespace dihaptic::task {
 
+class Names;
+class JointEffect;
+
 struct JointSpec {
-    std::string joint;
+    using Effect = JointEffect;
+
+    Ref<scene::Joint> joint;
     Formula stiffness_scale = 1;  ///< of its spring
     Formula damping_scale = 1;    ///< of its damper
     Formula friction_scale = 1;
@@ -34,7 +40,8 @@ void say(const JointSpec& spec, std::vector<std::string>& out);
 class JointEffect {
   public:
     /// Problems with the spec go to `diagnostics`.
-    JointEffect(const JointSpec& spec, const scene::Scene& scene, Diagnostics& diagnostics);
+    JointEffect(const JointSpec& spec, const Names& names, const scene::Scene& scene,
+                Diagnostics& diagnostics);
 
     void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
                frame::TaskFrame& out) const noexcept;
@@ -45,7 +52,6 @@ class JointEffect {
 
   private:
     JointSpec spec_;
-    int joint_;
 };
 
 }  // namespace dihaptic::task

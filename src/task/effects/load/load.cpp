@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "task/effects/factor.h"
-#include "task/lookup.h"
+#include "task/plan/names.h"
 
 namespace dihaptic::task {
 namespace {
@@ -23,10 +23,10 @@ double most_driving(const Mat3& matrix) {
 
 }  // namespace
 
-Load::Load(const LoadSpec& spec, const std::vector<Region>& regions, const scene::Scene& scene,
+Load::Load(const LoadSpec& spec, const Names& names, const scene::Scene& scene,
            Diagnostics& diagnostics)
     : spec_(spec) {
-    look_up_things(scene, diagnostics);
+    check_things(names, scene, diagnostics);
     switch (spec.kind) {
         case LoadKind::constant:
             if (spec.force == FormulaVec3{} && spec.torque == FormulaVec3{}) {
@@ -44,54 +44,47 @@ Load::Load(const LoadSpec& spec, const std::vector<Region>& regions, const scene
                 direction_ = axis_of(spec.axis, spec.place, "axis", diagnostics);
             break;
         case LoadKind::general:
-            if (!spec.about.empty())
-                about_ = look_up(names_of(regions), spec.about, spec.place, "about", "no region",
-                                 diagnostics);
+            origin_ = spec.about.index;
             check_general(diagnostics);
             break;
         case LoadKind::spring:
         case LoadKind::channel:
-            look_up_place(regions, diagnostics);
+            look_up_place(names, diagnostics);
             check_spring(diagnostics);
             break;
     }
 }
 
-void Load::look_up_things(const scene::Scene& scene, Diagnostics& diagnostics) {
-    std::vector<std::string> things = names_of(scene.bodies);
-    for (const scene::Finger& finger : scene.fingers) things.push_back(finger.name);
+void Load::check_things(const Names& names, const scene::Scene& scene,
+                        Diagnostics& diagnostics) const {
     if (spec_.on.empty()) {
         diagnostics.error(spec_.place, "on", "names nothing",
                           "Name fingers and bodies, e.g. on: [thumb, index].");
     }
-    for (const std::string& name : spec_.on) {
-        const int i = look_up(things, name, spec_.place, "on", "no finger or body", diagnostics);
-        if (i < 0) continue;
-        const auto body = static_cast<size_t>(i);
-        if (body < scene.bodies.size() && !scene.bodies[body].moves_at_all()) {
+    const std::vector<int>& on = spec_.on.indices;
+    for (auto i = on.begin(); i != on.end(); ++i) {
+        const auto thing = static_cast<size_t>(*i);
+        const std::string& name = names.all<Thing>()[thing];
+        if (thing < scene.bodies.size() && !scene.bodies[thing].moves_at_all()) {
             diagnostics.error(spec_.place, "on", "'" + name + "' cannot move",
                               "Name a body that can, or a finger.");
         }
-        if (std::find(on_.begin(), on_.end(), i) != on_.end()) {
+        if (std::find(on.begin(), i, *i) != i) {
             diagnostics.error(spec_.place, "on", "'" + name + "' is named twice",
                               "Name it once, and make the load stronger if it should be.");
         }
-        on_.push_back(i);
     }
 }
 
-void Load::look_up_place(const std::vector<Region>& regions, Diagnostics& diagnostics) {
-    const auto region = [&](const std::string& name, const char* key) {
-        return look_up(names_of(regions), name, spec_.place, key, "no region", diagnostics);
-    };
+void Load::look_up_place(const Names& names, Diagnostics& diagnostics) {
     const auto useless = [&](const char* key, bool given, const char* remedy) {
         if (given) diagnostics.error(spec_.place, key, "has no use here", remedy);
     };
     const bool channel = spec_.kind == LoadKind::channel;
     if (spec_.about.empty()) {
         between_ = true;
-        about_ = region(spec_.from, "from");
-        to_ = region(spec_.to, "to");
+        origin_ = names.need(spec_.from, spec_.place, "from", diagnostics);
+        names.need(spec_.to, spec_.place, "to", diagnostics);
         shape_ = spec_.free ? Shape::plane : Shape::line;
         if (spec_.free) direction_ = axis_of(spec_.free, spec_.place, "free", diagnostics);
         const char* const remedy = "Leave it out, or give about in place of from and to.";
@@ -99,7 +92,7 @@ void Load::look_up_place(const std::vector<Region>& regions, Diagnostics& diagno
         useless("axis", spec_.axis.has_value() && !channel, remedy);
         return;
     }
-    about_ = region(spec_.about, "about");
+    origin_ = spec_.about.index;
     const char* const remedy = "Leave it out: about is the region that the place goes through.";
     useless("from", !spec_.from.empty(), remedy);
     useless("to", !spec_.to.empty(), remedy);
@@ -214,8 +207,9 @@ Wrench Load::act(double share, std::span<const Vec3> regions_W,
         case LoadKind::curl:
             return {share * spec_.damping.value * direction_.cross(motion.v_W), Vec3::Zero()};
         case LoadKind::general: {
-            const Vec3 arm = about_ < 0 ? Vec3::Zero()
-                                        : Vec3(motion.p_W - regions_W[static_cast<size_t>(about_)]);
+            const Vec3 arm = origin_ < 0
+                                 ? Vec3::Zero()
+                                 : Vec3(motion.p_W - regions_W[static_cast<size_t>(origin_)]);
             return {share * left_at(arm.norm()) *
                         (value(spec_.force) + spec_.A * arm + spec_.B * motion.v_W),
                     Vec3::Zero()};
@@ -229,7 +223,7 @@ Wrench Load::act(double share, std::span<const Vec3> regions_W,
 
 void Load::order(double share, std::span<const Vec3> regions_W, const Motions& motions,
                  frame::TaskFrame& out) const noexcept {
-    for (const int thing : on_) {
+    for (const int thing : on()) {
         const Motion* const motion = motions.of(thing, spec_.delay.value);
         if (motion == nullptr) continue;
         const Wrench wrench = act(share, regions_W, *motion);
@@ -248,11 +242,11 @@ Mat3 Load::velocity_gain() const {
 /// Force of a spring or channel.
 Vec3 Load::pull(double share, std::span<const Vec3> regions_W,
                 const Motion& motion) const noexcept {
-    const Vec3& centre = regions_W[static_cast<size_t>(about_)];
+    const Vec3& centre = regions_W[static_cast<size_t>(origin_)];
     const Vec3 arm = motion.p_W - centre;
     Vec3 direction = direction_;
     if (between_) {
-        const Vec3 way = regions_W[static_cast<size_t>(to_)] - centre;
+        const Vec3 way = regions_W[static_cast<size_t>(spec_.to.index)] - centre;
         const double length = way.norm();
         if (length <= 0) return Vec3::Zero();
         direction = way / length;

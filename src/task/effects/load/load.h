@@ -21,9 +21,14 @@
 #include "frame/task_frame.h"
 #include "scene/scene.h"
 #include "task/effects/load/motions.h"
+#include "task/ref.h"
 #include "task/region.h"
 
 namespace dihaptic::task {
+
+class Load;
+class Names;
+struct Thing;  ///< what a load acts on: a body, or the handle of a finger
 
 enum class LoadKind { constant, viscous, curl, general, spring, channel };
 constexpr auto enum_names(LoadKind) {
@@ -32,19 +37,21 @@ constexpr auto enum_names(LoadKind) {
 
 /// A load as an experiment file describes it. A key that its kind has no use for is unknown.
 struct LoadSpec {
+    using Effect = Load;
+
     LoadKind kind = LoadKind::viscous;
-    Texts on;                    ///< handles of fingers, and bodies
+    Refs<Thing> on;
     FormulaVec3 force;           ///< f0 [N]
     FormulaVec3 torque;          ///< t0 [N*m]
     Formula damping = 0;         ///< b [N*s/m]
     Formula stiffness = 0;       ///< k; a negative one drives away [N/m]
     Mat3 A = Mat3::Zero();       ///< [N/m]
     Mat3 B = Mat3::Zero();       ///< [N*s/m]
-    std::string about;           ///< region: p0, or a point of the line or plane
+    Ref<Region> about;           ///< p0, or a point of the line or plane
     std::optional<Vec3> axis;    ///< e of a curl; direction of a spring's line
     std::optional<Vec3> normal;  ///< of a plane
-    std::string from;            ///< region on the line
-    std::string to;              ///< region on the line
+    Ref<Region> from;            ///< on the line
+    Ref<Region> to;              ///< on the line
     std::optional<Vec3> free;    ///< direction that, with the line, spans a plane
     bool one_sided = false;      ///< a plane acts only behind it, where its normal points from
     std::optional<double> zone;  ///< distance at which the load begins to fade [m]
@@ -154,7 +161,7 @@ void say(const LoadSpec& spec, std::vector<std::string>& out);
 class Load {
   public:
     /// Problems with the spec go to `diagnostics`.
-    Load(const LoadSpec& spec, const std::vector<Region>& regions, const scene::Scene& scene,
+    Load(const LoadSpec& spec, const Names& names, const scene::Scene& scene,
          Diagnostics& diagnostics);
 
     const LoadSpec& spec() const { return spec_; }
@@ -165,7 +172,7 @@ class Load {
     /// The most that its delay may be [s].
     double longest_delay() const;
     /// What it acts on: indices of bodies; fingers come after the scene's bodies.
-    std::span<const int> on() const { return on_; }
+    std::span<const int> on() const { return spec_.on.indices; }
     void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
                frame::TaskFrame& out) const noexcept;
     template <class Visitor>
@@ -194,20 +201,19 @@ class Load {
 
   private:
     enum class Shape { point, line, plane };
-    void look_up_things(const scene::Scene& scene, Diagnostics& diagnostics);
-    void look_up_place(const std::vector<Region>& regions, Diagnostics& diagnostics);
+    void check_things(const Names& names, const scene::Scene& scene,
+                      Diagnostics& diagnostics) const;
+    void look_up_place(const Names& names, Diagnostics& diagnostics);
     void check_spring(Diagnostics& diagnostics) const;
     void check_general(Diagnostics& diagnostics);
     Vec3 pull(double share, std::span<const Vec3> regions_W, const Motion& motion) const noexcept;
     double left_at(double distance) const noexcept;
 
     LoadSpec spec_;
-    std::vector<int> on_;
     Shape shape_ = Shape::point;
     Vec3 direction_ = Vec3::UnitZ();  // of e, of a line about a region, or a plane's normal
     bool between_ = false;            // the line leads from one region to another
-    int about_ = -1;                  // region; with between_, where the line begins
-    int to_ = -1;                     // region
+    int origin_ = -1;                 // region of p0, or where the line begins
 };
 
 }  // namespace dihaptic::task

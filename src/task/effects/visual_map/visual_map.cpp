@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/unit.h"
-#include "task/lookup.h"
+#include "task/plan/names.h"
 
 namespace dihaptic::task {
 namespace {
@@ -32,14 +32,10 @@ bool has_centre(const VisualSpec& visual) {
 
 }  // namespace
 
-VisualEffect::VisualEffect(const VisualSpec& spec, const std::vector<Region>& regions,
-                           const scene::Scene& scene, Diagnostics& diagnostics)
+VisualEffect::VisualEffect(const VisualSpec& spec, const Names& names, const scene::Scene& scene,
+                           Diagnostics& diagnostics)
     : spec_(spec), moves_(moves_of(spec, diagnostics)), object_(scene.object_index()) {
-    const auto region = [&](const std::string& name, const char* key) {
-        return look_up(names_of(regions), name, spec.place, key, "no region", diagnostics);
-    };
-    if (has_centre(spec)) about_ = region(spec.about, "about");
-    if (!spec.toward.empty()) toward_ = region(spec.toward, "toward");
+    if (has_centre(spec)) names.need(spec.about, spec.place, "about", diagnostics);
     if (spec.axis || spec.angle != 0) axis_ = axis_of(spec.axis, spec.place, "axis", diagnostics);
     check(diagnostics);
 }
@@ -56,7 +52,7 @@ void VisualEffect::check(Diagnostics& diagnostics) const {
         error("moves", "the scene has no object that can move", "Leave out object.");
     if (spec_.size != 1 && !moves_object)
         error("size", "is the object's, which is not moved", "Add object to moves.");
-    if (toward_ >= 0 && (spec_.angle != 0 || spec_.scale != kNoFactors))
+    if (spec_.toward.index >= 0 && (spec_.angle != 0 || spec_.scale != kNoFactors))
         error("toward", "what is shown on a line can be neither rotated nor scaled",
               "Leave out angle_deg and scale, or toward.");
 }
@@ -75,14 +71,14 @@ void VisualEffect::order(double share, std::span<const Vec3> regions_W, const Mo
     frame::VisualMap shown;
     shown.moves = moves_;
     shown.object = object_;
-    if (about_ >= 0) shown.p_WC = regions_W[static_cast<size_t>(about_)];
+    if (spec_.about.index >= 0) shown.p_WC = regions_W[static_cast<size_t>(spec_.about.index)];
     shown.scale = part_of(share, value(spec_.scale));
     shown.R = Quat(Eigen::AngleAxisd(share * spec_.angle.value, axis_));
     shown.size = part_of(share, spec_.size.value);
     shown.delay = share * spec_.delay.value;
     shown.noise = share * spec_.noise;
-    if (toward_ >= 0) {
-        const Vec3 way = regions_W[static_cast<size_t>(toward_)] - shown.p_WC;
+    if (spec_.toward.index >= 0) {
+        const Vec3 way = regions_W[static_cast<size_t>(spec_.toward.index)] - shown.p_WC;
         if (way.norm() > 0) shown.along_W = way.normalized();
     }
     add(out.visual, shown);

@@ -11,23 +11,29 @@
 #include "scene/scene.h"
 #include "task/effects/factor.h"
 #include "task/effects/load/motions.h"
+#include "task/ref.h"
 #include "task/region.h"
 
 namespace dihaptic::task {
 
+class Names;
+class VisualEffect;
+
 /// A change of displayed motion: it is scaled and rotated about a region's centre, or led along the
 /// straight line to another region.
 struct VisualSpec {
+    using Effect = VisualEffect;
+
     std::vector<std::string> moves;  ///< proxies, object, target
-    std::string about;               ///< region
-    FormulaVec3 scale{1, 1, 1};      ///< along the world's axes
-    std::optional<Vec3> axis;        ///< axis of the rotation
-    Formula angle = 0;               ///< angle of the rotation, right-handed [rad]
-    std::string toward;              ///< region: motion is shown on the line from `about` to it, at
-                                     ///< its true distance from `about`
-    Formula size = 1;                ///< the object's displayed size over its true size
-    Formula delay = 0;               ///< proxies and object are shown this much later [s]
-    Vec3 noise = Vec3::Zero();       ///< SD of noise on where they are shown, in W [m]
+    Ref<Region> about;
+    FormulaVec3 scale{1, 1, 1};  ///< along the world's axes
+    std::optional<Vec3> axis;    ///< axis of the rotation
+    Formula angle = 0;           ///< angle of the rotation, right-handed [rad]
+    Ref<Region> toward;          ///< motion is shown on the line from `about` to it, at
+                                 ///< its true distance from `about`
+    Formula size = 1;            ///< the object's displayed size over its true size
+    Formula delay = 0;           ///< proxies and object are shown this much later [s]
+    Vec3 noise = Vec3::Zero();   ///< SD of noise on where they are shown, in W [m]
     Place place;
 
     template <class Visitor>
@@ -69,8 +75,8 @@ void say(const VisualSpec& spec, std::vector<std::string>& out);
 class VisualEffect {
   public:
     /// Problems with the spec go to `diagnostics`.
-    VisualEffect(const VisualSpec& spec, const std::vector<Region>& regions,
-                 const scene::Scene& scene, Diagnostics& diagnostics);
+    VisualEffect(const VisualSpec& spec, const Names& names, const scene::Scene& scene,
+                 Diagnostics& diagnostics);
 
     /// The axis of its rotation; unset if it does not rotate.
     std::optional<Vec3> axis() const;
@@ -89,8 +95,6 @@ class VisualEffect {
     VisualSpec spec_;
     uint32_t moves_ = 0;  // a sum of frame::Moves
     int object_ = -1;
-    int about_ = -1;
-    int toward_ = -1;
     Vec3 axis_ = Vec3::UnitZ();
 };
 

@@ -1,0 +1,69 @@
+// Goes through the parts of a struct that are of some type, by its visit() (base/field.h).
+#pragma once
+
+#include <concepts>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/diagnostics.h"
+#include "base/field.h"
+
+namespace dihaptic::task {
+
+/// Functions of several types as one.
+template <class... F>
+struct Overloaded : F... {
+    using F::operator()...;
+};
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;
+
+/// A visitor that calls f(value, key, place) with each value that f takes, in a struct and all
+/// structs in it. `place`: that of the struct which has it.
+template <class F>
+class Each {
+  public:
+    explicit Each(F& f) : f_(f) {}
+
+    template <class T>
+    void operator()(std::string_view key, T& value, Field = {}) {
+        key_ = key;
+        look_into(value);
+    }
+    template <class T>
+    void look_into(T& value) {
+        if constexpr (std::invocable<F&, T&, std::string_view, const Place&>) {
+            f_(value, key_, *place_);
+        } else if constexpr (Described<T, Each>) {
+            const Place* const outer = place_;
+            if constexpr (requires { value.place.line; }) place_ = &value.place;
+            value.visit(*this);
+            place_ = outer;
+        }
+    }
+    template <class T>
+    void look_into(std::optional<T>& value) {
+        if (value) look_into(*value);
+    }
+    template <class T>
+    requires Described<T, Each>
+    void look_into(std::vector<T>& values) {
+        for (T& value : values) look_into(value);
+    }
+
+  private:
+    static inline const Place kNowhere{};
+
+    F& f_;
+    std::string_view key_;
+    const Place* place_ = &kNowhere;
+};
+
+template <class Struct, class F>
+void each(Struct& value, F f) {
+    Each<F>(f).look_into(value);
+}
+
+}  // namespace dihaptic::task

@@ -1,0 +1,221 @@
+#include "task/plan/body_planner.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace dihaptic::task {
+namespace {
+
+/// Where bodies are that a state removes: beyond any plane, and far from each other [m].
+constexpr double kAway = 1000;
+constexpr double kApart = 100;
+
+}  // namespace
+
+void BodyPlanner::check_movable(const Ref<scene::Body>& ref, const Place& place, const char* key) {
+    if (names.need(ref, place, key, diagnostics) >= 0 && !body(ref).moves_at_all())
+        error(place, key, fmt::format("'{}' cannot move", std::string(ref)),
+              "Name a body that can.");
+}
+
+void BodyPlanner::check_placeable(const Ref<scene::Body>& ref, const Place& place) {
+    if (ref.index >= 0 && body(ref).shape.kind == scene::ShapeKind::plane)
+        error(place, "body",
+              fmt::format("'{}' is a plane, which has no other place", std::string(ref)),
+              "Name another body, e.g. a box.");
+}
+
+void BodyPlanner::check(const Condition& condition) {
+    if (!condition.object.empty()) check_movable(condition.object, condition.place, "object");
+    for (const BodyPlace& place : condition.places) {
+        check_joint(place, scene, diagnostics);
+        if (place.joint.empty()) check_placeable(place.body, place.place);
+    }
+}
+
+void BodyPlanner::plan_state(const State& state, TaskPlan::Stage& out) {
+    for (const StatePlace& place : state.places) add_put(place, out.puts);
+    for (const DriveSpec& drive : state.drives) add_drive(drive, out);
+    for (const MotorSpec& motor : state.motors) add_motor(motor, out);
+}
+
+void BodyPlanner::check_put(const StatePlace& place) {
+    const scene::Body& body = this->body(place.body);
+    if (!place.position && !place.velocity && !place.held && !place.removed)
+        error(place.place, "position", "what becomes of the body is missing",
+              "Add position_mm, velocity_mm_s, held: yes or removed: yes.");
+    if (place.velocity && (place.held || place.removed || body.fixed || body.driven))
+        error(place.place, "velocity", "is of a body that is free to move",
+              "Leave it out, or held and removed, or let the body move in the scene.");
+    if (place.removed && (place.position || place.held))
+        error(place.place, "removed", "a body that is removed is nowhere else",
+              "Leave out position_mm and held.");
+    if (place.held && body.fixed)
+        error(place.place, "held", fmt::format("'{}' is fixed: it stays anyway", place.body),
+              "Leave it out.");
+}
+
+void BodyPlanner::add_put(const StatePlace& place, std::vector<TaskPlan::Put>& puts) {
+    const int index = place.body.index;
+    if (index < 0) return;
+    check_placeable(place.body, place.place);
+    check_put(place);
+    for (const TaskPlan::Put& put : puts) {
+        if (put.home.body == index)
+            error(place.place, "body", fmt::format("'{}' is put twice", place.body),
+                  "Keep one of the two.");
+    }
+    const Vec3 away(kApart * index, 0, kAway);
+    const FormulaVec3 position =
+        place.removed ? as_formula(away)
+                      : place.position.value_or(as_formula(body(place.body).position));
+    TaskPlan::Put& put = puts.emplace_back(TaskPlan::Put{
+        home(index, position), place.position || place.removed, place.held || place.removed});
+    if (place.velocity) put.home.velocity = *place.velocity;
+}
+
+void BodyPlanner::add_drive(const DriveSpec& spec, TaskPlan::Stage& out) {
+    const int index = spec.body.index;
+    if (index < 0) return;
+    const scene::Body& driven = body(spec.body);
+    if (!driven.driven && !driven.moves_at_all())
+        error(spec.place, "body", fmt::format("'{}' is fixed in the scene", spec.body),
+              "Write driven: yes there, in place of fixed: yes.");
+    const auto same = [&](const auto& other) {
+        if constexpr (requires { other.home; })
+            return other.home.body == index && other.stays;
+        else
+            return other.body() == index;
+    };
+    if (std::any_of(out.drives.begin(), out.drives.end(), same) ||
+        std::any_of(out.puts.begin(), out.puts.end(), same))
+        error(spec.place, "body", fmt::format("'{}' is driven or held twice", spec.body),
+              "Keep one of the two.");
+    out.drives.emplace_back(spec, index, plan.quantities, diagnostics);
+}
+
+void BodyPlanner::add_motor(const MotorSpec& spec, TaskPlan::Stage& out) {
+    const int index = spec.joint.index;
+    if (index < 0) return;
+    const scene::Joint& joint = scene.joints[static_cast<size_t>(index)];
+    if (!joint.has_coordinate()) {
+        error(spec.place, "joint",
+              fmt::format("'{}' has no axis that a motor could move: it is a {} joint", joint.name,
+                          enum_name(joint.kind)),
+              "Name a hinge, a slider or a distance.");
+        return;
+    }
+    if (std::any_of(out.motors.begin(), out.motors.end(),
+                    [&](const Motor& other) { return other.joint() == index; }))
+        error(spec.place, "joint", fmt::format("'{}' has two motors", joint.name),
+              "Keep one of the two: it may both go somewhere and push.");
+    if (out.motors.size() == frame::TaskFrame::kMostMotors)
+        error(spec.place, "joint", fmt::format("there are more than {} motors", out.motors.size()),
+              "Leave out some.");
+    out.motors.emplace_back(spec, joint, index, plan.quantities, diagnostics);
+}
+
+TaskPlan::Home BodyPlanner::home(int index, const FormulaVec3& position) const {
+    const scene::Body& body = scene.bodies[static_cast<size_t>(index)];
+    Pose X_WB = body.pose();
+    X_WB.p = value(position);
+    return {index, X_WB, scene::bounds(body.shape), position};
+}
+
+/// Whether any trial puts the body elsewhere than the scene has it.
+bool BodyPlanner::is_placed(int body) const {
+    const auto among = [&](const auto& places) {
+        return std::any_of(places.begin(), places.end(),
+                           [&](const auto& place) { return place.body.index == body; });
+    };
+    const auto any = [&](const auto& list) {
+        return std::any_of(list.begin(), list.end(),
+                           [&](const auto& item) { return among(item.places); });
+    };
+    return any(plan.task.conditions) || any(plan.task.rounds) || any(plan.task.states);
+}
+
+std::vector<TaskPlan::Home> BodyPlanner::homes(
+    std::initializer_list<const Condition*> conditions) const {
+    std::vector<TaskPlan::Home> out;
+    for (size_t i = 0; i < scene.bodies.size(); ++i) {
+        const scene::Body& body = scene.bodies[i];
+        if (!body.moves_at_all() && !body.driven && !is_placed(static_cast<int>(i))) continue;
+        FormulaVec3 position = as_formula(body.position);
+        FormulaVec3 velocity{};
+        const BodyPlace* by_joint = nullptr;
+        for (const Condition* condition : conditions) {
+            for (const BodyPlace& place : condition->places) {
+                if (place.body.index == static_cast<int>(i) && place.position) {
+                    position = *place.position;
+                    velocity = place.velocity.value_or(FormulaVec3{});
+                    by_joint = nullptr;
+                }
+                if (moved_by(place) == static_cast<int>(i)) by_joint = &place;
+            }
+        }
+        TaskPlan::Home& added = out.emplace_back(home(static_cast<int>(i), position));
+        added.velocity = velocity;
+        if (by_joint != nullptr) put_by_joint(*by_joint, added);
+    }
+    hang(out);
+    return out;
+}
+
+const scene::Joint* BodyPlanner::joint_of(const BodyPlace& place) const {
+    if (place.joint.index < 0) return nullptr;
+    const scene::Joint& joint = scene.joints[static_cast<size_t>(place.joint.index)];
+    return joint.has_coordinate() && !joint.is_distance() ? &joint : nullptr;
+}
+
+/// The body that a place by a joint is of; -1 if it is none.
+int BodyPlanner::moved_by(const BodyPlace& place) const {
+    const scene::Joint* const joint = joint_of(place);
+    return joint == nullptr ? -1 : scene.find(joint->between.back());
+}
+
+void BodyPlanner::put_by_joint(const BodyPlace& place, TaskPlan::Home& home) const {
+    const scene::Joint& joint = *joint_of(place);
+    home.joint = on_joint(scene, joint);
+    home.coordinate = (joint.slides() ? place.displacement : place.angle).value_or(0.0);
+    home.rate = joint.slides() ? place.speed : place.rate;
+}
+
+/// What hangs on a body that a joint places comes along; and each comes after what it hangs on.
+void BodyPlanner::hang(std::vector<TaskPlan::Home>& homes) const {
+    const auto home_of = [&](int body) {
+        return std::find_if(homes.begin(), homes.end(),
+                            [body](const auto& home) { return home.body == body; });
+    };
+    std::vector<int> ordered;
+    for (const TaskPlan::Home& home : homes) {
+        if (home.joint) ordered.push_back(home.body);
+    }
+    for (size_t i = 0; i < ordered.size(); ++i) {
+        for (const scene::Joint& joint : scene.joints) {
+            if (joint.between.size() < 2 || scene.find(joint.between[0]) != ordered[i]) continue;
+            const auto second = home_of(scene.find(joint.between[1]));
+            if (second == homes.end()) continue;
+            if (!second->joint) {
+                second->joint = on_joint(scene, joint);
+                ordered.push_back(second->body);
+            }
+        }
+    }
+    // by how many joints it is from what no joint places
+    const auto depth = [&](const TaskPlan::Home& home) {
+        size_t out = 0;
+        for (auto at = home_of(home.body); at != homes.end() && at->joint && out < homes.size();
+             at = home_of(at->joint->first))
+            ++out;
+        return out;
+    };
+    std::vector<std::pair<size_t, TaskPlan::Home>> by_depth;
+    for (const TaskPlan::Home& home : homes) by_depth.emplace_back(depth(home), home);
+    std::stable_sort(by_depth.begin(), by_depth.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (size_t i = 0; i < homes.size(); ++i) homes[i] = by_depth[i].second;
+}
+
+}  // namespace dihaptic::task

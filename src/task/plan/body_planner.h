@@ -1,0 +1,42 @@
+// Plans where bodies begin trials, where states put them, and what moves bodies and joints in them.
+#pragma once
+
+#include "task/plan/names.h"
+
+namespace dihaptic::task {
+
+class BodyPlanner : Planning {
+  public:
+    explicit BodyPlanner(const Planning& given) : Planning(given) {}
+
+    /// Reports an error if the body cannot move.
+    void check_movable(const Ref<scene::Body>& body, const Place& place, const char* key);
+    /// Checks the bodies that a condition places.
+    void check(const Condition& condition);
+    /// Where bodies begin a trial; places of later conditions replace those of earlier ones.
+    std::vector<TaskPlan::Home> homes(std::initializer_list<const Condition*> conditions) const;
+    /// What a state does with bodies and joints.
+    void plan_state(const State& state, TaskPlan::Stage& out);
+
+  private:
+    void error(const Place& place, const char* key, const std::string& what,
+               const std::string& remedy) {
+        diagnostics.error(place, key, what, remedy);
+    }
+    const scene::Body& body(const Ref<scene::Body>& ref) const {
+        return scene.bodies[static_cast<size_t>(ref.index)];
+    }
+    void check_placeable(const Ref<scene::Body>& body, const Place& place);
+    void check_put(const StatePlace& place);
+    void add_put(const StatePlace& place, std::vector<TaskPlan::Put>& puts);
+    void add_drive(const DriveSpec& spec, TaskPlan::Stage& out);
+    void add_motor(const MotorSpec& spec, TaskPlan::Stage& out);
+    TaskPlan::Home home(int index, const FormulaVec3& position) const;
+    bool is_placed(int body) const;
+    const scene::Joint* joint_of(const BodyPlace& place) const;
+    int moved_by(const BodyPlace& place) const;
+    void put_by_joint(const BodyPlace& place, TaskPlan::Home& home) const;
+    void hang(std::vector<TaskPlan::Home>& homes) const;
+};
+
+}  // namespace dihaptic::task

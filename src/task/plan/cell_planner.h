@@ -1,0 +1,12 @@
+// Plans what differs between trials: regions, perturbations, places of bodies and looks.
+#pragma once
+
+#include "task/plan/body_planner.h"
+#include "task/seen_plan.h"
+
+namespace dihaptic::task {
+
+/// Plans a cell for each condition in each round. The plan must have its formulas.
+void plan_cells(const Planning& given, const BodyPlanner& bodies, const SeenPlanner& seen);
+
+}  // namespace dihaptic::task

@@ -1,0 +1,74 @@
+// What the names in a task may mean.
+#pragma once
+
+#include <tuple>
+
+#include "task/each.h"
+#include "task/lookup.h"
+#include "task/task_plan.h"
+
+namespace dihaptic::task {
+
+/// All things of a kind that have names.
+template <class T>
+struct Known {
+    std::vector<std::string> names;
+    const char* unknown;  ///< what an error says of a name that is none of them
+};
+
+class Names {
+  public:
+    Names(const Task& task, const scene::Scene& scene);
+
+    template <class T>
+    const std::vector<std::string>& all() const {
+        return std::get<Known<T>>(known_).names;
+    }
+    /// Index of the T of this name, or -1 with an error.
+    template <class T>
+    int find(const std::string& name, const Place& place, std::string_view key,
+             Diagnostics& diagnostics) const {
+        return look_up(all<T>(), name, place, std::string(key), std::get<Known<T>>(known_).unknown,
+                       diagnostics);
+    }
+    /// Which T is meant; -1, with an error, if the name is missing. resolve() reports a name that
+    /// is unknown.
+    template <class T>
+    int need(const Ref<T>& ref, const Place& place, std::string_view key,
+             Diagnostics& diagnostics) const {
+        return ref.empty() ? find<T>(ref, place, key, diagnostics) : ref.index;
+    }
+
+  private:
+    std::tuple<Known<Region>, Known<scene::Body>, Known<scene::Joint>, Known<scene::Finger>,
+               Known<Thing>, Known<State>, Known<SoundSpec>, Known<Condition>,
+               Known<PerturbationSpec>, Known<ProcedureSpec>, Known<Variable>>
+        known_;
+};
+
+/// What every part of planning works with.
+struct Planning {
+    TaskPlan& plan;  ///< with the task, whose references are resolved, and all that is planned yet
+    const Names& names;
+    const scene::Scene& scene;
+    Diagnostics& diagnostics;
+};
+
+/// Looks up all references in a part of a task. A name that is unknown is an error.
+template <class Struct>
+void resolve(Struct& value, const Names& names, Diagnostics& diagnostics) {
+    const auto one = [&]<class T>(Ref<T>& ref, std::string_view key, const Place& place) {
+        if (!ref.empty()) ref.index = names.find<T>(ref, place, key, diagnostics);
+    };
+    const auto several = [&]<class T, class List>(Refs<T, List>& refs, std::string_view key,
+                                                  const Place& place) {
+        refs.indices.clear();
+        for (const std::string& name : refs) {
+            const int i = names.find<T>(name, place, key, diagnostics);
+            if (i >= 0) refs.indices.push_back(i);
+        }
+    };
+    each(value, Overloaded{one, several});
+}
+
+}  // namespace dihaptic::task

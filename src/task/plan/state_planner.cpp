@@ -1,0 +1,322 @@
+#include "task/plan/state_planner.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "task/levels.h"
+
+namespace dihaptic::task {
+namespace {
+
+constexpr const char* kSkipped = "skipped";
+
+/// A name as an expression has it.
+std::string quoted(const std::string& name) {
+    std::string out = "\"";
+    for (const char c : name) {
+        if (c == '"' || c == '\\') out += '\\';
+        out += c;
+    }
+    return out + '"';
+}
+
+/// A number of a condition as an expression has it.
+std::string as_expression(const Formula& number, const TaskPlan& plan, const char* unit) {
+    if (number.index < 0) return fmt::format("{}", number.value);
+    const CompiledFormula& compiled = plan.formulas[static_cast<size_t>(number.index)];
+    if (compiled.expression.dimension() != Dimension{}) return fmt::format("({})", number.text);
+    return fmt::format("({}) * {} {}", number.text, number.to_si, unit);
+}
+
+/// What a condition of the table says, as an expression; "" for what no expression can say.
+std::string as_expression(const Exit& exit, const TaskPlan& plan) {
+    const std::string who = quoted(exit.what.empty() ? exit.finger : exit.what);
+    const std::string body = quoted(exit.body);
+    switch (exit.when) {
+        case When::inside:
+        case When::outside:
+            return fmt::format("{}({}{}, {})", enum_name(exit.when), who,
+                               exit.shown ? ".shown" : "", quoted(exit.region));
+        case When::touched:
+        case When::released:
+        case When::gripped:
+            return fmt::format("{}({}, {})", enum_name(exit.when), body, who);
+        case When::lifted:
+            return fmt::format("lifted({}, {})", body, as_expression(exit.height, plan, "m"));
+        case When::still:
+            return fmt::format("still({}, {})", who, as_expression(exit.speed, plan, "m_s"));
+        case When::expression:
+            return exit.condition;
+        default:
+            return "";
+    }
+}
+
+class StatePlanner : Planning {
+  public:
+    StatePlanner(const Planning& given, BodyPlanner& bodies, SeenPlanner& seen)
+        : Planning(given), bodies_(bodies), seen_(seen) {}
+
+    TaskPlan::Stage stage(const State& state) {
+        TaskPlan::Stage out;
+        out.message = seen_.text(state.message, state.place, "message");
+        seen_.plan_state(state, out);
+        out.marker = state.marker;
+        for (const int i : state.sounds.indices) out.sounds |= sound(i, state.place, "sounds");
+        out.interval = state.interval;
+        if (state.ask) out.question = question(*state.ask);
+        check_answered(state);
+        bodies_.plan_state(state, out);
+        for (const Exit& exit : state.exits) out.ways.push_back(way(exit));
+        for (const HandStep& step : state.hand) {
+            TaskPlan::Step& added = out.hand.emplace_back(TaskPlan::Step{step});
+            if (!step.fingers.empty()) added.fingers = fingers_of(step.fingers);
+        }
+        if (state.exits.empty()) {
+            error(state.place, state.name, "never ends",
+                  "Add exits, e.g. - { when: time, after_s: 5, outcome: too late, redo: yes }.");
+        }
+        return out;
+    }
+
+  private:
+    void error(const Place& place, const std::string& key, const std::string& what,
+               const std::string& remedy, std::vector<Choice> choices = {}) {
+        diagnostics.error(place, key, what, remedy, std::move(choices));
+    }
+
+    /// The sound, one bit, which `where` begins.
+    uint32_t sound(int index, const Place& where, const char* key) {
+        if (index < 0 || index >= TaskPlan::kMostSounds) return 0;
+        if ((plan.throughout >> index & 1u) != 0)
+            error(where, key,
+                  fmt::format("'{}' lasts throughout the session",
+                              plan.task.sounds[static_cast<size_t>(index)].name),
+                  "Leave it out here, or let it last once or as long as a state.");
+        return 1u << index;
+    }
+
+    /// The sound that an exit begins.
+    uint32_t sound(const Exit& exit) {
+        const uint32_t out = sound(exit.sound.index, exit.place, "sound");
+        if ((out & plan.going_on) != 0)
+            error(
+                exit.place, "sound",
+                fmt::format("'{}' lasts as long as a state, and an exit has no length", exit.sound),
+                "Name it in the state that follows, or let it last once.");
+        return out;
+    }
+
+    Question question(const AskSpec& ask) {
+        check(ask, diagnostics);
+        const std::vector<std::string> asked = names_of(questions_of(plan.task));
+        const auto index = std::find(asked.begin(), asked.end(), ask.name) - asked.begin();
+        Question out;
+        out.least = ask.least();
+        out.most = ask.most();
+        out.whole = ask.whole();
+        out.by = ask.by;
+        out.variable = plan.task.variables.size() + plan.levels.size() + static_cast<size_t>(index);
+        out.si = split_unit(ask.name).si;
+        if (ask.by == AnswerBy::cursor && ask.between.indices.size() == 2) {
+            out.from = ask.between.indices[0];
+            out.to = ask.between.indices[1];
+        }
+        return out;
+    }
+
+    void check_answered(const State& state) {
+        for (const Exit& exit : state.exits) {
+            if (exit.when != When::answered) continue;
+            if (!state.ask) {
+                error(exit.place, "when", "the state asks for no number",
+                      "Add e.g. ask: { name: heaviness, scale: numbers, from: 1, to: 9 }.");
+            } else if (state.ask->by == AnswerBy::cursor) {
+                error(exit.place, "when", "a hand on a line has always an answer",
+                      "Say when it counts, e.g. when: still, hold_s: 1.");
+            }
+            if (exit.hold != 0)
+                error(exit.place, "hold", "an answer is given at once", "Leave it out.");
+        }
+    }
+
+    TaskPlan::Way way(const Exit& exit) {
+        TaskPlan::Way out;
+        out.exit = exit;
+        if (exit.has(WhenRow::finger) && !exit.finger.empty())
+            out.finger = names.find<scene::Finger>(exit.finger, exit.place, "finger", diagnostics);
+        out.condition = condition(exit);
+        const int ways = !exit.to.empty() + !exit.outcome.empty() + (exit.chooses > 0);
+        if (ways != 1) {
+            error(exit.place, "to", ways == 0 ? "leads nowhere" : "leads to more than one place",
+                  "Give it to: a state, or outcome: what became of the trial, or chooses: an "
+                  "interval.");
+        }
+        if (exit.chooses > 0) out.outcome = choice(exit);
+        if (!exit.outcome.empty()) out.outcome = outcome(exit);
+        out.feedback = seen_.text(exit.feedback, exit.place, "feedback");
+        out.sounds = sound(exit);
+        return out;
+    }
+
+    /// Any of the two outcomes: which it is follows from the trial.
+    int choice(const Exit& exit) {
+        if (plan.comparison < 0)
+            error(exit.place, "chooses", "there are no intervals to choose from",
+                  "Add interval: 1 and interval: 2 to states, or give it an outcome.");
+        Exit chosen = exit;
+        chosen.outcome = kStandard;
+        plan.chose_standard = outcome(chosen);
+        chosen.outcome = kComparison;
+        return plan.chose_comparison = outcome(chosen);
+    }
+
+    Expression condition(const Exit& exit) {
+        const size_t before = diagnostics.problems().size();
+        check_condition(exit);
+        if (exit.when == When::expression) check_word(exit);
+        const std::string text = as_expression(exit, plan);
+        const bool named = (!exit.has(WhenRow::region) || exit.region.index >= 0) &&
+                           (!exit.has(WhenRow::body) || exit.body.index >= 0);
+        if (text.empty() || !named || diagnostics.problems().size() > before) return {};
+        Expression out =
+            Expression::compile(text, plan.quantities, exit.place, "when", diagnostics);
+        if (!out.empty() && out.type() != Expression::Type::truth)
+            error(exit.place, "when", fmt::format("'{}' is no condition", text),
+                  fmt::format("Compare it with something, e.g. {} > 2.", text));
+        return out;
+    }
+
+    /// A single word that is no quantity was meant as one of the table's.
+    void check_word(const Exit& exit) {
+        const std::string& text = exit.condition;
+        if (!is_word(text) || plan.quantities.find(text)) return;
+        std::vector<std::string> words;
+        for (size_t i = 0; i < static_cast<size_t>(When::expression); ++i)
+            words.emplace_back(kWhenTable[i].name);
+        const std::string guess = nearest(text, words);
+        std::vector<Choice> choices = choices_of(words);
+        for (const Choice& quantity : choices_of(plan.quantities.names()))
+            choices.push_back(quantity);
+        error(exit.place, "when", fmt::format("'{}' is not known", text),
+              guess.empty() ? fmt::format("Use {}, or an expression.", fmt::join(words, ", "))
+                            : fmt::format("Did you mean {}?", guess),
+              std::move(choices));
+    }
+
+    void check_condition(const Exit& exit) {
+        if (exit.has(WhenRow::region)) names.need(exit.region, exit.place, "region", diagnostics);
+        if (exit.when == When::lifted) {
+            bodies_.check_movable(exit.body, exit.place, "body");
+        } else if (exit.has(WhenRow::body)) {
+            names.need(exit.body, exit.place, "body", diagnostics);
+        }
+        if (exit.when == When::gripped && names.all<scene::Finger>().size() < 2)
+            error(exit.place, "when", "a grip takes two fingers, and the scene has one",
+                  "Use when: touched.");
+        if (exit.has(WhenRow::any_finger)) check_who(exit);
+        if (exit.has(WhenRow::key) && !is_key(exit.key)) {
+            error(exit.place, "key", fmt::format("'{}' is no key", exit.key),
+                  "Write one letter or digit, e.g. key: y.");
+        }
+        if (exit.when == When::time && !exit.hold.computed() && exit.hold.value <= 0)
+            error(exit.place, "after", "how long is missing", "Add e.g. after_s: 2.");
+        if (exit.when == When::trigger && exit.hold != 0)
+            error(exit.place, "hold", "a trigger is over at once", "Leave it out.");
+    }
+
+    /// Whose handle, or what, the condition judges.
+    void check_who(const Exit& exit) {
+        if (!exit.what.empty()) {
+            const int i = look_up(plan.quantities.things(), exit.what, exit.place, "what",
+                                  "no body, finger or hand", diagnostics);
+            if (!exit.finger.empty())
+                error(exit.place, "finger", "is said by what already", "Leave it out.");
+            if (i >= 0 && exit.shown && plan.quantities.thing(exit.what)->body >= 0)
+                error(exit.place, "shown", "is said of fingers and hands, not of bodies",
+                      "Leave it out.");
+        }
+        if (exit.finger.empty()) return;
+        std::vector<std::string> known = names.all<scene::Finger>();
+        for (const Hand& hand : plan.task.hands) known.push_back(hand.name);
+        const int i = look_up(known, exit.finger, exit.place, "finger",
+                              "none of the scene's fingers, and no hand of the task", diagnostics);
+        if (i < 0 || exit.when != When::gripped) return;
+        if (plan.quantities.thing(exit.finger)->fingers.count() < 2)
+            error(exit.place, "finger",
+                  fmt::format("a grip takes two fingers, and '{}' is one", exit.finger),
+                  "Name a hand, or use when: touched.");
+    }
+
+    int outcome(const Exit& exit) {
+        if (exit.outcome == kSkipped)
+            error(exit.place, "outcome",
+                  fmt::format("'{}' is what a trial is that the operator skipped", kSkipped),
+                  "Call it something else.");
+        for (size_t i = 0; i < plan.outcomes.size(); ++i) {
+            if (plan.outcomes[i].name != exit.outcome) continue;
+            if (plan.outcomes[i].redo != exit.redo) {
+                error(exit.place, "redo",
+                      fmt::format("'{}' is done again after one exit, and not after another",
+                                  exit.outcome),
+                      "Give the two outcomes different names.");
+            }
+            return static_cast<int>(i);
+        }
+        plan.outcomes.push_back({exit.outcome, exit.redo});
+        return static_cast<int>(plan.outcomes.size()) - 1;
+    }
+
+    BodyPlanner& bodies_;
+    SeenPlanner& seen_;
+};
+
+/// Every state must be reachable from the first one, and must lead out of the trial.
+void check_ways(const TaskPlan& plan, Diagnostics& diagnostics) {
+    const size_t n = plan.stages.size();
+    std::vector<char> reached(n, 0);
+    std::vector<char> leaves(n, 0);
+    if (n > 0) reached[0] = 1;
+    for (size_t round = 0; round < n; ++round) {
+        for (size_t i = 0; i < n; ++i) {
+            for (const TaskPlan::Way& way : plan.stages[i].ways) {
+                if (way.outcome >= 0) leaves[i] = 1;
+                if (way.exit.to.index < 0) continue;
+                const auto to = static_cast<size_t>(way.exit.to.index);
+                if (reached[i]) reached[to] = 1;
+                if (leaves[to]) leaves[i] = 1;
+            }
+        }
+    }
+    for (size_t i = 0; i < n; ++i) {
+        const State& state = plan.task.states[i];
+        if (!reached[i]) {
+            diagnostics.warning(state.place, state.name, "no exit leads to this state",
+                                "Remove it, or lead an exit to it.");
+        } else if (!leaves[i] && !state.exits.empty()) {
+            diagnostics.error(state.place, state.name, "no way leads from here to an outcome",
+                              "Give one of its exits an outcome.");
+        }
+    }
+}
+
+}  // namespace
+
+scene::FingerSet fingers_of(const RefList<scene::Finger>& names) {
+    scene::FingerSet out;
+    for (const int i : names.indices) out.set(static_cast<size_t>(i));
+    return out;
+}
+
+void plan_states(const Planning& given, BodyPlanner& bodies, SeenPlanner& seen) {
+    TaskPlan& plan = given.plan;
+    StatePlanner planner(given, bodies, seen);
+    for (const State& state : plan.task.states) plan.stages.push_back(planner.stage(state));
+    plan.skipped = static_cast<int>(plan.outcomes.size());
+    plan.outcomes.push_back({kSkipped, false});
+    check_ways(plan, given.diagnostics);
+}
+
+}  // namespace dihaptic::task
