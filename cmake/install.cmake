@@ -8,7 +8,7 @@ foreach(companion dihaptic-decompose dihaptic-gui dihaptic-mesh)
         list(APPEND companions ${companion})
     endif()
 endforeach()
-install(TARGETS dihaptic dihaptic-bench)
+install(TARGETS dihaptic)
 install(TARGETS ${companions} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/dihaptic)
 install(DIRECTORY experiments meshes movements octave populations rigs scenes textures
     ${PROJECT_BINARY_DIR}/schema
@@ -46,7 +46,7 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/dihaptic-config-version.c
 install(FILES ${PROJECT_BINARY_DIR}/dihaptic-config-version.cmake DESTINATION ${cmake_folder})
 
 # all of that, without the tests
-add_custom_target(installed DEPENDS dihaptic dihaptic-bench ${companions})
+add_custom_target(installed DEPENDS dihaptic ${companions})
 foreach(room ${rooms})
     add_dependencies(installed dihaptic_${room})
 endforeach()

@@ -7,7 +7,7 @@ import re
 import unittest
 
 PAGE = pathlib.Path("docs/conventions.md").read_text()
-PATHS = [path for top in ("*", "app/**/*", "cmake/*", "docs/**/*", "experiments/*", "meshes/*", "python/**/*", "src/**/*", "test/**/*", "textures/*")
+PATHS = [path for top in ("*", "app/**/*", "bench/**/*", "cmake/*", "docs/**/*", "experiments/*", "meshes/*", "python/**/*", "src/**/*", "test/**/*", "textures/*")
          for path in pathlib.Path(".").glob(top)]
 CODE = "".join(path.read_text() for path in PATHS if path.suffix in (".h", ".cpp", ".cmake", ".py")
                or path.name == "CMakeLists.txt")

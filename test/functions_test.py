@@ -26,7 +26,7 @@ EXCEPTIONS = pathlib.Path(__file__).with_name("functions_exceptions.txt")
 
 def functions():
     """(file, name, lines, complexity) of each function of the product."""
-    files = [str(file) for folder in ("src", "app", "python") for file in pathlib.Path(folder).rglob("*")
+    files = [str(file) for folder in ("src", "app", "bench", "python") for file in pathlib.Path(folder).rglob("*")
              if file.suffix in (".h", ".cpp") and not {"test", "soak", "fuzz"} & set(file.parts)]
     tags = subprocess.run(["ctags", "--output-format=json", "--fields=+ne", "--kinds-C++=f", "--language-force=C++", "-f", "-", "-L", "-"],
                           input="\n".join(files), capture_output=True, text=True, check=True).stdout

@@ -29,7 +29,7 @@ OF_THE_PRODUCT = {
 
 
 def sources():
-    for folder in ("src", "app", "python/native"):
+    for folder in ("src", "app", "bench", "python/native"):
         for path in sorted(pathlib.Path(folder).rglob("*")):
             if path.suffix in (".h", ".cpp"):
                 yield str(path), path.read_text()
