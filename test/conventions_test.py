@@ -63,7 +63,7 @@ class Conventions(unittest.TestCase):
 
     def test_columns_are_looked_up_by_name_where_tables_are_read_alone(self):
         """A session's tables are read into the structs of src/rows; a table that a person hands in has no struct."""
-        given = {"app/cli/fit.cpp", "src/task/sampled_path.h", "src/task/sampled_path.cpp"}
+        given = {"app/cli/fit.cpp", "src/task/file/sampled_path.h", "src/task/file/sampled_path.cpp"}
         for path in [*pathlib.Path("src").rglob("*"), *pathlib.Path("app").rglob("*")]:
             if path.suffix not in (".h", ".cpp") or {"test", "soak", "fuzz"} & set(path.parts):
                 continue

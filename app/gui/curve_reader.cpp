@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "recording/log_browser.h"
-#include "task/recorded.h"
+#include "task/run/recorded.h"
 
 namespace dihaptic::gui {
 

@@ -6,7 +6,7 @@
 #include <QLabel>
 
 #include "session_panel.h"
-#include "task/trials.h"
+#include "task/plan/trials.h"
 
 namespace dihaptic::gui {
 

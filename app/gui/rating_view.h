@@ -4,7 +4,7 @@
 
 #include <QWidget>
 
-#include "task/rating.h"
+#include "task/file/rating.h"
 
 namespace dihaptic::gui {
 

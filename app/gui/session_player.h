@@ -11,7 +11,7 @@
 #include "curve_reader.h"
 #include "recording/log_browser.h"
 #include "recording/session.h"
-#include "task/recorded.h"
+#include "task/run/recorded.h"
 
 class QComboBox;
 class QLabel;

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "base/unit.h"
-#include "task/levels.h"
+#include "task/plan/levels.h"
 
 namespace dihaptic::gui {
 namespace {

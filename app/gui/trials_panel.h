@@ -8,7 +8,7 @@
 
 #include "base/table.h"
 #include "session/live.h"
-#include "task/task_plan.h"
+#include "task/plan/task_plan.h"
 #include "trial_chart.h"
 
 namespace dihaptic::gui {

@@ -8,9 +8,9 @@
 
 #include "base/field_reader.h"
 #include "bench/bench_log.h"
-#include "task/expression.h"
-#include "task/task_director.h"
-#include "task/trials.h"
+#include "task/expression/expression.h"
+#include "task/plan/trials.h"
+#include "task/run/task_director.h"
 
 namespace dihaptic::bench {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "analysis/report/statistics.h"
-#include "task/trials.h"
+#include "task/plan/trials.h"
 
 namespace dihaptic::analysis {
 namespace {

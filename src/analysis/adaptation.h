@@ -91,7 +91,7 @@ struct AdaptationCurve {
     void list_landmarks(FigureLister& row) const;
 };
 
-/// Columns of the measure that bears the first one's name (task/measures.h).
+/// Columns of the measure that bears the first one's name (task/plan/measures.h).
 inline constexpr const char* kAdaptationIndex = "adaptation_index";
 inline constexpr const char* kFieldShare = "field_share";
 /// Whether an adaptation index was measured in any of the trials of trials.csv.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "rows/trial_row.h"
-#include "task/reach_plan.h"
+#include "task/plan/reach_plan.h"
 
 namespace dihaptic::analysis {
 

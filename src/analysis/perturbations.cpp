@@ -8,7 +8,7 @@
 #include "base/field_reader.h"
 #include "base/regular_file.h"
 #include "base/unit.h"
-#include "task/trials.h"
+#include "task/plan/trials.h"
 
 namespace dihaptic::analysis {
 namespace {

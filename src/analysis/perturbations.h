@@ -7,7 +7,7 @@
 
 #include "base/table.h"
 #include "rows/trial_row.h"
-#include "task/task.h"
+#include "task/file/task.h"
 
 namespace dihaptic::analysis {
 

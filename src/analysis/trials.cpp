@@ -12,8 +12,8 @@
 #include "base/unit.h"
 #include "base/unmeasured.h"
 #include "frame/displayed.h"
-#include "task/measures.h"
-#include "task/trials.h"
+#include "task/plan/measures.h"
+#include "task/plan/trials.h"
 
 namespace dihaptic::analysis {
 namespace {

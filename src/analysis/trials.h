@@ -11,7 +11,7 @@
 #include "frame/frame.h"
 #include "recording/session.h"
 #include "rows/trial_row.h"
-#include "task/reach_plan.h"
+#include "task/plan/reach_plan.h"
 
 namespace dihaptic::analysis {
 

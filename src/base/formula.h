@@ -1,6 +1,6 @@
 // A number of a file that may be written as an expression: hold_s: wait, or position_mm: [0, 10 *
-// step, 20]. Whoever knows the expression's names compiles the text (task/formulas.h), and sets the
-// value when these have theirs.
+// step, 20]. Whoever knows the expression's names compiles the text (task/plan/formulas.h), and
+// sets the value when these have theirs.
 #pragma once
 
 #include <array>

@@ -15,9 +15,9 @@
 #include "person/strain.h"
 #include "person/traits.h"
 #include "scene/scene.h"
-#include "task/seeing_driver.h"
-#include "task/task_hand.h"
-#include "task/trial_numbers.h"
+#include "task/run/seeing_driver.h"
+#include "task/run/task_hand.h"
+#include "task/run/trial_numbers.h"
 
 namespace dihaptic::person {
 

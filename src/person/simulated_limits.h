@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/diagnostics.h"
-#include "task/task_plan.h"
+#include "task/plan/task_plan.h"
 
 namespace dihaptic::person {
 

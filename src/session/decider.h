@@ -24,7 +24,7 @@
 #include <vector>
 
 #include "session/plan.h"
-#include "task/between.h"
+#include "task/run/between.h"
 
 namespace dihaptic::session {
 

@@ -12,8 +12,8 @@
 #include "person/population.h"
 #include "rig/kinds.h"
 #include "scene/kinds.h"
-#include "task/experiment.h"
-#include "task/kinds.h"
+#include "task/file/experiment.h"
+#include "task/file/kinds.h"
 
 namespace dihaptic::session {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/latest.h"
 #include "servo/servo.h"
-#include "task/clearance.h"
+#include "task/run/clearance.h"
 
 namespace dihaptic::session {
 

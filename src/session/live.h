@@ -14,7 +14,7 @@
 #include "recording/showings.h"
 #include "servo/servo.h"
 #include "session/knob_turner.h"
-#include "task/rating.h"
+#include "task/file/rating.h"
 
 namespace dihaptic::session {
 

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "model/grasp.h"
-#include "task/trial_numbers.h"
+#include "task/run/trial_numbers.h"
 
 namespace dihaptic::session {
 namespace {

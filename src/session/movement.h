@@ -7,7 +7,7 @@
 
 #include "hand/recorded.h"
 #include "scene/scene.h"
-#include "task/experiment.h"
+#include "task/file/experiment.h"
 
 namespace dihaptic::session {
 

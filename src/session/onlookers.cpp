@@ -29,7 +29,7 @@
 #include "base/ring.h"
 #include "base/text_file.h"
 #include "session/knob_turner.h"
-#include "task/recorded.h"
+#include "task/run/recorded.h"
 
 namespace dihaptic::session {
 namespace {

@@ -22,8 +22,8 @@
 //
 // Moments come again and again, in real time; what is refused says why, and what to do.
 //
-// What is watched is any expression of what is recorded (task/recorded.h). Knobs have the names of
-// the log's columns, and their units. A reader that is slow misses moments, but no end of an
+// What is watched is any expression of what is recorded (task/run/recorded.h). Knobs have the names
+// of the log's columns, and their units. A reader that is slow misses moments, but no end of an
 // attempt, and holds nobody up: the tick copies its frame for the thread that does all this, and
 // only while somebody watches.
 #pragma once

@@ -21,9 +21,9 @@
 #include "session/plan_checks.h"
 #include "session/safety_limits.h"
 #include "sound/player.h"
-#include "task/opening.h"
-#include "task/task_director.h"
-#include "task/task_hand.h"
+#include "task/run/opening.h"
+#include "task/run/task_director.h"
+#include "task/run/task_hand.h"
 
 namespace dihaptic::session {
 namespace {

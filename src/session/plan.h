@@ -14,8 +14,8 @@
 #include "scene/scene.h"
 #include "servo/servo.h"
 #include "session/movement.h"
-#include "task/seeing_driver.h"
-#include "task/task_plan.h"
+#include "task/plan/task_plan.h"
+#include "task/run/seeing_driver.h"
 
 namespace dihaptic::session {
 

@@ -14,8 +14,8 @@
 #include "model/grasp.h"
 #include "session/load_checks.h"
 #include "session/mass_checks.h"
-#include "task/levels.h"
-#include "task/trial_numbers.h"
+#include "task/plan/levels.h"
+#include "task/run/trial_numbers.h"
 
 namespace dihaptic::session {
 namespace {

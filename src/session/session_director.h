@@ -12,7 +12,7 @@
 #include "session/phase_director.h"
 #include "session/session_run.h"
 #include "session/wait.h"
-#include "task/task_director.h"
+#include "task/run/task_director.h"
 
 namespace dihaptic::session {
 

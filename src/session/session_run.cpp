@@ -20,7 +20,7 @@
 #include "session/resume.h"
 #include "session/session_director.h"
 #include "sound/player.h"
-#include "task/levels.h"
+#include "task/plan/levels.h"
 
 namespace dihaptic::session {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "task/opening.h"
+#include "task/run/opening.h"
 
 namespace dihaptic::session {
 

@@ -7,7 +7,7 @@
 
 #include "recording/session.h"
 #include "servo/servo.h"
-#include "task/task_plan.h"
+#include "task/plan/task_plan.h"
 
 namespace dihaptic::session {
 

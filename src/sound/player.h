@@ -7,7 +7,7 @@
 #include "display/sound.h"
 #include "frame/frame.h"
 #include "recording/hearings.h"
-#include "task/sound.h"
+#include "task/file/sound.h"
 
 namespace dihaptic::sound {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "task/sound.h"
+#include "task/file/sound.h"
 
 namespace dihaptic::sound {
 

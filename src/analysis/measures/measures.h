@@ -1,4 +1,5 @@
-// Takes a task's measures (task/measures.h) of each attempt at a trial, while the frames go by.
+// Takes a task's measures (task/plan/measures.h) of each attempt at a trial, while the frames go
+// by.
 #pragma once
 
 #include <memory>
@@ -9,7 +10,7 @@
 #include "base/table.h"
 #include "recording/raw_log.h"
 #include "recording/session.h"
-#include "task/own_measures.h"
+#include "task/plan/own_measures.h"
 
 namespace dihaptic::analysis {
 

@@ -1,5 +1,5 @@
-// Computes the measures of a movement (task/measures.h) from the trace of one attempt at a trial.
-// docs/measures-of-behaviour.md has the rules and equations.
+// Computes the measures of a movement (task/plan/measures.h) from the trace of one attempt at a
+// trial. docs/measures-of-behaviour.md has the rules and equations.
 #pragma once
 
 #include <span>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/lifts.h"
-#include "task/measures.h"
+#include "task/plan/measures.h"
 
 namespace dihaptic::analysis {
 

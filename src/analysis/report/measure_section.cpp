@@ -11,7 +11,7 @@
 #include "analysis/perturbations.h"
 #include "analysis/report/session_page.h"
 #include "analysis/report/statistics.h"
-#include "task/measures.h"
+#include "task/plan/measures.h"
 
 namespace dihaptic::analysis {
 namespace {

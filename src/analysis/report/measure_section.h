@@ -1,5 +1,5 @@
-// The part of a session's page on the measures that its task lists (task/measures.h): a chart of
-// each over the trials, by condition, and of its means over a factor; and how often each is
+// The part of a session's page on the measures that its task lists (task/plan/measures.h): a chart
+// of each over the trials, by condition, and of its means over a factor; and how often each is
 // missing, and why.
 #pragma once
 

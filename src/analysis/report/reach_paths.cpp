@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "base/svg.h"
-#include "task/measures.h"
-#include "task/reach_plan.h"
-#include "task/task.h"
+#include "task/file/task.h"
+#include "task/plan/measures.h"
+#include "task/plan/reach_plan.h"
 
 namespace dihaptic::analysis {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/regular_file.h"
 #include "base/shell_word.h"
 #include "recording/seal.h"
-#include "task/trials.h"
+#include "task/plan/trials.h"
 
 namespace dihaptic::analysis {
 

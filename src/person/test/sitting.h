@@ -10,7 +10,7 @@
 #include "person/population.h"
 #include "servo/run.h"
 #include "session/record.h"
-#include "task/task_director.h"
+#include "task/run/task_director.h"
 #include "testing/files.h"
 
 namespace dihaptic::person {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "session/plan.h"
-#include "task/task_director.h"
+#include "task/run/task_director.h"
 #include "testing/allocation_guard.h"
 
 namespace dihaptic::session {

@@ -1,5 +1,5 @@
 // Feeds the fuzzer's input to the experiment reader.
-#include "task/experiment.h"
+#include "task/file/experiment.h"
 
 #include "testing/fuzz.h"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "task/plan/body_planner.h"
-#include "task/seen_plan.h"
+#include "task/plan/seen_plan.h"
 
 namespace dihaptic::task {
 

@@ -3,9 +3,9 @@
 
 #include <tuple>
 
-#include "task/each.h"
-#include "task/lookup.h"
-#include "task/task_plan.h"
+#include "task/plan/each.h"
+#include "task/plan/lookup.h"
+#include "task/plan/task_plan.h"
 
 namespace dihaptic::task {
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "task/levels.h"
+#include "task/plan/levels.h"
 
 namespace dihaptic::task {
 namespace {

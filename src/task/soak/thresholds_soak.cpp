@@ -8,8 +8,8 @@
 
 #include "analysis/fits/psychometric_fit.h"
 #include "base/random.h"
-#include "task/experiment.h"
-#include "task/procedure_spec.h"
+#include "task/file/experiment.h"
+#include "task/file/procedure_spec.h"
 
 namespace dihaptic::task {
 namespace {

@@ -1,5 +1,5 @@
 // What decides between trials is asked once for each attempt, and late answers count for nothing.
-#include "task/between.h"
+#include "task/run/between.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include "frame/settings.h"
 #include "rig/rig.h"
-#include "task/experiment.h"
+#include "task/file/experiment.h"
 #include "testing/bounds.h"
 
 namespace dihaptic::task::bounds_test {

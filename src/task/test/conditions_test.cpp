@@ -8,7 +8,7 @@
 #include "recording/raw_log.h"
 #include "session/replay.h"
 #include "session/test/reaches.h"
-#include "task/task_director.h"
+#include "task/run/task_director.h"
 
 namespace dihaptic::task::conditions_test {
 namespace {

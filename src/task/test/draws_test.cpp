@@ -1,6 +1,6 @@
 // Tests what is drawn for trials: the distributions against their closed forms, and that the seed
 // decides.
-#include "task/draws.h"
+#include "task/file/draws.h"
 #include "base/number.h"
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@
 
 #include "base/table.h"
 #include "scene/scene.h"
-#include "task/task_plan.h"
-#include "task/trials.h"
+#include "task/plan/task_plan.h"
+#include "task/plan/trials.h"
 #include "testing/files.h"
 
 namespace dihaptic::task::draws_test {

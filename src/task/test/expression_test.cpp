@@ -1,6 +1,6 @@
 // Tests expressions: values, dimensions and names against hand-written cases, arithmetic against
 // Python's, and the message for each mistake.
-#include "task/expression.h"
+#include "task/expression/expression.h"
 #include "base/number.h"
 
 #include <fmt/format.h>

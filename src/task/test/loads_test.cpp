@@ -11,7 +11,7 @@
 #include "session/replay.h"
 #include "session/test/reaches.h"
 #include "task/plan/names.h"
-#include "task/task_director.h"
+#include "task/run/task_director.h"
 #include "testing/allocation_guard.h"
 
 namespace dihaptic::task::loads_test {

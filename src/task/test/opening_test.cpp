@@ -1,5 +1,5 @@
 // Tests what comes before a block: a break, and pages of text and pictures.
-#include "task/opening.h"
+#include "task/run/opening.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include "recording/raw_log.h"
 #include "session/replay.h"
 #include "session/test/reaches.h"
-#include "task/task_director.h"
+#include "task/run/task_director.h"
 
 namespace dihaptic::task::opening_test {
 namespace {

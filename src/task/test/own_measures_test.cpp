@@ -1,6 +1,6 @@
 // Tests measures of a task's own against what the recorded frames say, and the error for every
 // mistake.
-#include "task/own_measures.h"
+#include "task/plan/own_measures.h"
 
 #include <gtest/gtest.h>
 

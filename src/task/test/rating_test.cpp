@@ -1,5 +1,5 @@
 // Tests ratings: what is typed or pointed at becomes a number of the trial, in tables and formulas.
-#include "task/rating.h"
+#include "task/file/rating.h"
 
 #include <gtest/gtest.h>
 

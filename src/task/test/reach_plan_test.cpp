@@ -1,5 +1,5 @@
 // Tests that how a trial's reach is measured comes out of trial-list.csv as it went in.
-#include "task/reach_plan.h"
+#include "task/plan/reach_plan.h"
 
 #include <cmath>
 #include <map>

@@ -1,5 +1,5 @@
 // Tests the values of expressions over recorded frames.
-#include "task/recorded.h"
+#include "task/run/recorded.h"
 
 #include <gtest/gtest.h>
 

@@ -17,8 +17,8 @@
 #include "person/population.h"
 #include "rig/kinds.h"
 #include "scene/kinds.h"
-#include "task/experiment.h"
-#include "task/kinds.h"
+#include "task/file/experiment.h"
+#include "task/file/kinds.h"
 #include "testing/files.h"
 
 namespace dihaptic::task::reference_test {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "session/plan.h"
-#include "task/task_director.h"
+#include "task/run/task_director.h"
 
 namespace dihaptic::task::test {
 

@@ -1,5 +1,5 @@
 // Tests tasks: states and their exits, perturbations in the file, sessions that are resumed.
-#include "task/task.h"
+#include "task/file/task.h"
 #include "base/number.h"
 
 #include <gtest/gtest.h>
@@ -13,8 +13,8 @@
 #include "session/replay.h"
 #include "session/test/allocations.h"
 #include "session/test/reaches.h"
-#include "task/task_director.h"
-#include "task/task_hand.h"
+#include "task/run/task_director.h"
+#include "task/run/task_hand.h"
 
 namespace dihaptic::task::task_test {
 namespace {

@@ -1,5 +1,5 @@
 // Tests the order of trials, and which are done again.
-#include "task/trials.h"
+#include "task/plan/trials.h"
 #include "base/number.h"
 
 #include <gtest/gtest.h>

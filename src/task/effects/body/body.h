@@ -10,7 +10,7 @@
 #include "scene/scene.h"
 #include "task/effects/factor.h"
 #include "task/effects/load/motions.h"
-#include "task/ref.h"
+#include "task/file/ref.h"
 
 namespace dihaptic::task {
 

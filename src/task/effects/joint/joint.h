@@ -6,7 +6,7 @@
 #include "scene/scene.h"
 #include "task/effects/factor.h"
 #include "task/effects/load/motions.h"
-#include "task/ref.h"
+#include "task/file/ref.h"
 
 namespace dihaptic::task {
 

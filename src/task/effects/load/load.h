@@ -21,8 +21,8 @@
 #include "frame/task_frame.h"
 #include "scene/scene.h"
 #include "task/effects/load/motions.h"
-#include "task/ref.h"
-#include "task/region.h"
+#include "task/file/ref.h"
+#include "task/file/region.h"
 
 namespace dihaptic::task {
 

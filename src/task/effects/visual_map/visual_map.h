@@ -11,8 +11,8 @@
 #include "scene/scene.h"
 #include "task/effects/factor.h"
 #include "task/effects/load/motions.h"
-#include "task/ref.h"
-#include "task/region.h"
+#include "task/file/ref.h"
+#include "task/file/region.h"
 
 namespace dihaptic::task {
 

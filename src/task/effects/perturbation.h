@@ -1,0 +1,126 @@
+// Perturbations as an experiment file describes them, and the commands that each gives in a tick.
+//
+// A perturbation acts with a share from 0 to 1, so that it can begin abruptly, by a ramp over
+// trials, or by a profile within one: angles, forces, and the difference of scales from 1 are
+// proportional to the share. What it changes, and how, are its effects: each has a folder of
+// `effects`, with what a file says of it, what is wrong with that, what it orders, and how a report
+// states it.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "task/effects/body/body.h"
+#include "task/effects/joint/joint.h"
+#include "task/effects/load/load.h"
+#include "task/effects/visual_map/visual_map.h"
+#include "task/file/profile.h"
+
+namespace dihaptic::task {
+
+struct State;
+
+/// Any combination of a visual map, properties of a body and a joint, and loads, under one name.
+struct PerturbationSpec {
+    std::string name;
+    Refs<State> during;  ///< in which it acts; empty: all that are perturbed
+    std::optional<Profile> profile;
+    std::optional<VisualSpec> visual;
+    std::optional<BodySpec> body;
+    std::optional<JointSpec> joint;
+    std::optional<LoadSpec> field;  ///< the only load, or the first
+    std::vector<LoadSpec> loads;
+    Place place;
+
+    /// Calls f(effect) for each effect that it has.
+    template <class F>
+    void each_effect(F f) const {
+        if (visual) f(*visual);
+        if (body) f(*body);
+        if (joint) f(*joint);
+        for (const LoadSpec& load : all_loads()) f(load);
+    }
+    /// `field` and `loads` together.
+    std::vector<LoadSpec> all_loads() const {
+        std::vector<LoadSpec> out = loads;
+        if (field) out.insert(out.begin(), *field);
+        return out;
+    }
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required().says("Name of the perturbation."));
+        v("during", during,
+          says("States in which it acts; left out, all but those with perturbed: no."));
+        v("profile", profile,
+          says("Its course in time within a trial; left out, it acts at once and stays."));
+        v("visual", visual, says("Difference between what is shown and what is."));
+        v("body", body, says("Change of a body's properties."));
+        v("joint", joint, says("Change of a joint's properties."));
+        v("field", field, says("A load, as in loads; it is the only one, or the first."));
+        v("loads", loads, says("Forces and torques on the handles of fingers and on bodies."));
+        if constexpr (requires { v.place(); }) place = v.place();
+    }
+};
+
+/// Whether it holds a handle or a body to a line or plane.
+inline bool is_channel(const PerturbationSpec& spec) {
+    const std::vector<LoadSpec> loads = spec.all_loads();
+    return std::any_of(loads.begin(), loads.end(),
+                       [](const LoadSpec& load) { return load.kind == LoadKind::channel; });
+}
+
+/// A perturbation with its names looked up. In the tick it neither allocates nor throws.
+class Perturbation {
+  public:
+    Perturbation() = default;
+    /// Problems with the spec go to `diagnostics`.
+    Perturbation(const PerturbationSpec& spec, const Names& names, const scene::Scene& scene,
+                 Diagnostics& diagnostics);
+
+    /// Factor on its share at `t` since its first state was entered [s].
+    double share_at(double t) const noexcept { return profile_ ? profile_->share(t) : 1; }
+    /// Adds the perturbation's commands to `out`. `regions_W`: centres of the regions [m].
+    void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
+               frame::TaskFrame& out) const noexcept;
+    /// Force of its loads over velocity, at share 1 [N*s/m]; of channels and springs zero.
+    Mat3 field_gain() const;
+    /// Axis of its rotation, or of its first curl field; nullopt if it has neither.
+    std::optional<Vec3> axis() const;
+    bool has_map() const { return !of<VisualEffect>().empty(); }
+    std::span<const Load> loads() const { return of<Load>(); }
+    /// The most that the delay of what it moves on the screen may be [s].
+    double longest_delay() const { return has_map() ? of<VisualEffect>()[0].longest_delay() : 0; }
+    /// A body's properties at share 1; unset if it changes no body.
+    std::optional<frame::PropertiesFrame> properties() const;
+
+    /// Of the numbers of its effects.
+    template <class Visitor>
+    void visit(Visitor& v) {
+        each_effect(*this, [&](auto& effect) { effect.visit(v); });
+    }
+
+  private:
+    template <class Self, class F>
+    static void each_effect(Self& self, F f) {
+        const auto each = [&](auto& list) {
+            for (auto& effect : list) f(effect);
+        };
+        std::apply([&](auto&... lists) { (each(lists), ...); }, self.effects_);
+    }
+    template <class Effect>
+    const std::vector<Effect>& of() const {
+        return std::get<std::vector<Effect>>(effects_);
+    }
+
+    std::tuple<std::vector<VisualEffect>, std::vector<BodyEffect>, std::vector<JointEffect>,
+               std::vector<Load>>
+        effects_;
+    std::optional<Profile> profile_;
+};
+
+}  // namespace dihaptic::task

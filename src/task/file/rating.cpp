@@ -1,0 +1,159 @@
+#include "task/file/rating.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+
+namespace dihaptic::task {
+namespace {
+
+constexpr double kMostMagnitude = 1e6;
+constexpr double kEndOfVas = 100;
+constexpr double kTypedBase = 10;
+constexpr size_t kMostLabels = 9;
+
+void check_likert(const AskSpec& spec, Diagnostics& diagnostics) {
+    if (spec.from || spec.to)
+        diagnostics.error(spec.place, spec.from ? "from" : "to",
+                          "has no use: a likert scale is numbered from 1",
+                          "Leave it out: there is a number for each label.");
+    if (spec.labels.size() < 2 || spec.labels.size() > kMostLabels)
+        diagnostics.error(
+            spec.place, "labels",
+            fmt::format("there are {}, and a likert scale has 2 to {}", spec.labels.size(),
+                        kMostLabels),
+            "Give each number its label, e.g. labels: [no, rather not, rather, yes].");
+}
+
+void check_ends(const AskSpec& spec, Diagnostics& diagnostics) {
+    if (!spec.labels.empty() && spec.labels.size() != 2)
+        diagnostics.error(spec.place, "labels",
+                          fmt::format("there are {}, and a scale has two ends", spec.labels.size()),
+                          "Name the ends, e.g. labels: [light, heavy], or use scale: likert.");
+    if (spec.scale == Scale::numbers && (!spec.from || !spec.to))
+        diagnostics.error(spec.place, spec.from ? "to" : "from", "is missing",
+                          "Add e.g. from: 1, to: 9.");
+    if (spec.most() <= spec.least())
+        diagnostics.error(spec.place, "to",
+                          fmt::format("is {:g}, not above {:g}, where the scale begins",
+                                      spec.most(), spec.least()),
+                          "Let the scale go up.");
+    if (spec.scale == Scale::magnitude && spec.least() < 0)
+        diagnostics.error(spec.place, "from", "is negative, and a magnitude is not",
+                          "Leave it out: it is 0.");
+}
+
+void check_by(const AskSpec& spec, Diagnostics& diagnostics) {
+    const bool cursor = spec.by == AnswerBy::cursor;
+    if (spec.by != AnswerBy::key && spec.scale == Scale::magnitude)
+        diagnostics.error(spec.place, "by", "a magnitude has no end that a line could have",
+                          "Use by: key, or scale: vas.");
+    if (cursor && spec.between.size() != 2)
+        diagnostics.error(spec.place, "between",
+                          "which two regions the line leads between is missing",
+                          "Add e.g. between: [low, high].");
+    if (!cursor && !spec.between.empty())
+        diagnostics.error(spec.place, "between",
+                          fmt::format("has no use for an answer by {}", enum_name(spec.by)),
+                          "Leave it out, or write by: cursor.");
+}
+
+/// Whether the key can be the next of a number.
+bool is_of_number(char key, bool first, const Question& question) noexcept {
+    if (std::isdigit(static_cast<unsigned char>(key)) != 0) return true;
+    return key == '.' ? !question.whole : key == '-' && first && question.least < 0;
+}
+
+}  // namespace
+
+double AskSpec::least() const {
+    return scale == Scale::likert ? 1 : from.value_or(0);
+}
+
+double AskSpec::most() const {
+    if (scale == Scale::likert) return static_cast<double>(labels.size());
+    return to.value_or(scale == Scale::vas ? kEndOfVas : kMostMagnitude);
+}
+
+void check(const AskSpec& spec, Diagnostics& diagnostics) {
+    if (spec.scale == Scale::likert) {
+        check_likert(spec, diagnostics);
+    } else {
+        check_ends(spec, diagnostics);
+    }
+    check_by(spec, diagnostics);
+}
+
+std::string line_of(const AskSpec& spec) {
+    std::vector<std::string> parts;
+    const auto plain = [](const std::string& text) {
+        std::string out;  // a brace of a label is no place for a number
+        for (const char c : text)
+            out += c == '{' || c == '}' ? std::string(2, c) : std::string(1, c);
+        return out;
+    };
+    if (spec.scale == Scale::likert) {
+        for (size_t i = 0; i < spec.labels.size(); ++i)
+            parts.push_back(fmt::format("{} {}", i + 1, plain(spec.labels[i])));
+    } else if (spec.labels.size() == 2) {
+        parts.push_back(fmt::format("{:g} {}", spec.least(), plain(spec.labels[0])));
+        parts.push_back(fmt::format("{:g} {}", spec.most(), plain(spec.labels[1])));
+    } else if (spec.scale != Scale::magnitude) {
+        parts.push_back(fmt::format("{:g} to {:g}", spec.least(), spec.most()));
+    }
+    return fmt::format("{}{}{{answer}}", fmt::join(parts, " ... "), parts.empty() ? "" : ": ");
+}
+
+void Rating::begin() noexcept {
+    length_ = 0;
+    answer_ = kNone;
+}
+
+double Rating::typed() const noexcept {
+    double value = kNone;
+    const char* const end = text_.data() + length_;
+    const auto [at, failed] = std::from_chars(text_.data(), end, value);
+    return failed == std::errc() && at == end ? value : kNone;
+}
+
+double Rating::shown() const noexcept {
+    return std::isnan(answer_) ? typed() : answer_;
+}
+
+void Rating::press(char key, const Question& question) noexcept {
+    if (!std::isnan(answer_)) return;
+    if (key == kBack && length_ > 0) --length_;
+    const bool more = is_of_number(key, length_ == 0, question) && length_ < kLongest;
+    if (more) text_[length_++] = key;
+    const double value = typed();
+    const bool full = more && question.whole && (value == 0 || kTypedBase * value > question.most);
+    if (key != kEnter && !full) return;
+    if (value >= question.least && value <= question.most) {
+        answer_ = value;
+    } else {
+        length_ = 0;
+    }
+}
+
+void Rating::point(const Vec3& p_W, const Vec3& from_W, const Vec3& to_W,
+                   const Question& question) noexcept {
+    const Vec3 way = to_W - from_W;
+    const double square = way.squaredNorm();
+    answer_ = at(square > 0 ? (p_W - from_W).dot(way) / square : 0, question);
+}
+
+void Rating::click(double share, const Question& question) noexcept {
+    if (std::isnan(answer_)) answer_ = at(share, question);
+}
+
+double Rating::at(double share, const Question& question) noexcept {
+    const double answer =
+        question.least + std::clamp(share, 0.0, 1.0) * (question.most - question.least);
+    return question.whole ? std::round(answer) : answer;
+}
+
+}  // namespace dihaptic::task

@@ -1,0 +1,127 @@
+#include "task/plan/levels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "task/plan/lookup.h"
+
+namespace dihaptic::task {
+namespace {
+
+bool has_state_of(const Task& task, int interval) {
+    return std::any_of(task.states.begin(), task.states.end(),
+                       [&](const State& state) { return state.interval == interval; });
+}
+
+void check_order(const Task& task, Diagnostics& diagnostics) {
+    for (const int interval : {1, 2}) {
+        if (has_state_of(task, interval)) continue;
+        diagnostics.error(task.states.front().place, "interval",
+                          fmt::format("no state has interval {}, and others have one", interval),
+                          fmt::format("Add interval: {} to the states of it.", interval));
+    }
+    for (const DrawSpec& draw : task.draws) {
+        if (draw.name != kComparisonInterval) continue;
+        const std::set<std::string> values(draw.values().begin(), draw.values().end());
+        if (values == std::set<std::string>{"1", "2"}) continue;
+        diagnostics.error(
+            draw.place, "name", fmt::format("'{}' is the interval of the comparison", draw.name),
+            "Draw it by choice or permutation: [1, 2], or call yours something else.");
+    }
+}
+
+/// Whether all of the block's trials have a procedure that chooses this number.
+bool chooses_always(const Task& task, const Block& block, const std::string& level) {
+    const auto chooses = [&](const std::string& name) {
+        return std::any_of(task.procedures.begin(), task.procedures.end(),
+                           [&](const auto& p) { return p.name == name && p.level == level; });
+    };
+    return !block.procedures.empty() && block.insert.empty() &&
+           std::all_of(block.procedures.begin(), block.procedures.end(), chooses);
+}
+
+/// Reports standards that are missing, or differ for one number.
+void check_standards(const Task& task, Diagnostics& diagnostics) {
+    std::set<std::string> seen;
+    for (const ProcedureSpec& first : task.procedures) {
+        if (first.level.empty() || !seen.insert(first.level).second) continue;
+        std::optional<double> standard;
+        for (const ProcedureSpec& p : task.procedures) {
+            if (p.level != first.level || !p.standard) continue;
+            if (standard && *standard != *p.standard)
+                diagnostics.error(p.place, "standard",
+                                  fmt::format("is {:g}, and another procedure has {:g} for {}",
+                                              *p.standard, *standard, p.level),
+                                  "Give both the same, or two numbers of different names.");
+            standard = p.standard;
+        }
+        const bool always =
+            !has_intervals(task) &&
+            std::all_of(task.blocks.begin(), task.blocks.end(), [&](const Block& block) {
+                return chooses_always(task, block, first.level);
+            });
+        if (standard || always) continue;
+        diagnostics.error(
+            first.place, "standard",
+            fmt::format("is missing: what {} is where no procedure chooses it", first.level),
+            "Add e.g. standard: 0.4; it holds in the other interval, and in trials without the "
+            "procedure.");
+    }
+}
+
+}  // namespace
+
+bool has_intervals(const Task& task) {
+    return has_state_of(task, 1) || has_state_of(task, 2);
+}
+
+void complete_intervals(Task& task, Diagnostics& diagnostics) {
+    check_standards(task, diagnostics);
+    if (!has_intervals(task)) return;
+    const std::vector<std::string> draws = names_of(task.draws);
+    if (std::find(draws.begin(), draws.end(), kComparisonInterval) == draws.end()) {
+        DrawSpec& order = task.draws.emplace_back();
+        order.name = kComparisonInterval;
+        order.choice = {"1", "2"};
+        order.place = task.place;
+    }
+    check_order(task, diagnostics);
+    for (ProcedureSpec& procedure : task.procedures) {
+        if (procedure.yes.empty()) procedure.yes = kComparison;
+        if (procedure.no.empty()) procedure.no = kStandard;
+    }
+}
+
+std::vector<LevelName> levels_of(const Task& task) {
+    std::vector<LevelName> out;
+    for (const ProcedureSpec& p : task.procedures) {
+        if (p.level.empty()) continue;
+        const auto same = [&](const LevelName& l) { return l.name == p.level; };
+        auto found = std::find_if(out.begin(), out.end(), same);
+        if (found == out.end()) {
+            out.push_back({p.level, p.share(p.least()), {}, p.place});
+            found = out.end() - 1;
+        }
+        if (p.standard) found->standard = *p.standard;
+        std::vector<double>& values = found->values;
+        values.insert(values.end(), {p.share(p.least()), p.share(p.most())});
+        if (!p.constant) continue;
+        for (const double level : p.constant->levels) values.push_back(p.share(level));
+    }
+    for (LevelName& level : out) level.values.push_back(level.standard);
+    return out;
+}
+
+std::vector<AskSpec> questions_of(const Task& task) {
+    std::vector<AskSpec> out;
+    for (const State& state : task.states) {
+        const auto same = [&](const AskSpec& ask) { return ask.name == state.ask->name; };
+        if (state.ask && std::none_of(out.begin(), out.end(), same)) out.push_back(*state.ask);
+    }
+    return out;
+}
+
+}  // namespace dihaptic::task

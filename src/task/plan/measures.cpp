@@ -1,0 +1,332 @@
+#include "task/plan/measures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "base/figure.h"
+#include "base/unmeasured.h"
+#include "task/plan/lookup.h"
+#include "task/plan/reach_plan.h"
+#include "task/plan/task_plan.h"
+#include "task/run/trial_numbers.h"
+
+namespace dihaptic::task {
+namespace {
+
+template <class T>
+size_t place_of(const std::vector<T>& list, const std::string& name) {
+    const auto named = [&](const T& item) { return item.name == name; };
+    return static_cast<size_t>(std::find_if(list.begin(), list.end(), named) - list.begin());
+}
+
+unsigned needs_of(const Task& task) {
+    unsigned needs = 0;
+    for (const std::string& name : task.measures) {
+        if (const MeasureRow* row = measure_row(name)) needs |= row->needs;
+    }
+    return needs;
+}
+
+bool pushes_by_velocity(const PerturbationSpec& spec) {
+    const std::vector<LoadSpec> loads = spec.all_loads();
+    return std::any_of(loads.begin(), loads.end(), [](const LoadSpec& load) {
+        return load.kind == LoadKind::viscous || load.kind == LoadKind::curl ||
+               (load.kind == LoadKind::general && !load.B.isZero(0));
+    });
+}
+
+/// Whether the load acts on what the measures are taken of.
+bool acts_on(const LoadSpec& load, const Movement& movement) {
+    return movement.of == kHand ||
+           std::find(load.on.begin(), load.on.end(), movement.of) != load.on.end();
+}
+
+/// Whether a load of the perturbation does.
+bool acts_on(const PerturbationSpec& spec, const Movement& movement) {
+    const std::vector<LoadSpec> loads = spec.all_loads();
+    return movement.of == kHand ||
+           std::any_of(loads.begin(), loads.end(),
+                       [&](const LoadSpec& load) { return acts_on(load, movement); });
+}
+
+/// The perturbation whose field is the ideal force; null if there is none.
+const PerturbationSpec* ideal_of(const Task& task, const Movement& movement) {
+    for (const PerturbationSpec& spec : task.perturbations) {
+        if (movement.ideal.empty() ? pushes_by_velocity(spec) : spec.name == movement.ideal)
+            return &spec;
+    }
+    return nullptr;
+}
+
+class MeasureChecker {
+  public:
+    MeasureChecker(const Task& task, const scene::Scene& scene, Diagnostics& diagnostics)
+        : task_(task),
+          scene_(scene),
+          diagnostics_(diagnostics),
+          movement_(movement_of(task, scene.fingers.empty() ? "" : scene.fingers.front().name)),
+          place_(task.movement ? task.movement->place : task.place) {}
+
+    void check() {
+        check_list();
+        const unsigned needs = needs_of(task_);
+        if (task_.movement && task_.measures.empty())
+            diagnostics_.warning(place_, "movement", "nothing is measured of it",
+                                 "Add e.g. measures: [reaction_time, peak_speed].");
+        for (const auto& [key, name] : {std::pair{"go", &movement_.go}, {"step", &movement_.step}})
+            if (!name->empty()) state(*name, key);
+        if (needs & MeasureRow::movement) check_movement();
+        if (needs & MeasureRow::channel) check_channel();
+        if (needs & MeasureRow::ideal) check_ideal();
+        if (needs & MeasureRow::grip) check_grip();
+        if (!movement_.error.empty()) check_error();
+        if ((needs & MeasureRow::step) && movement_.step.empty())
+            error("step", "is missing, and grip_latency counts from a load step",
+                  "Add movement: { step: the state that begins with it }.");
+    }
+
+  private:
+    void error(const char* key, const std::string& what, const std::string& remedy) {
+        diagnostics_.error(place_, key, what, remedy);
+    }
+    void state(const std::string& name, const char* key) {
+        look_up(names_of(task_.states), name, place_, key, "no state", diagnostics_);
+    }
+
+    void check_list() {
+        std::vector<std::string> names;
+        for (const MeasureRow& row : kMeasureTable) names.emplace_back(row.name);
+        for (size_t i = 0; i < task_.measures.size(); ++i) {
+            const std::string& name = task_.measures[i];
+            look_up(names, name, task_.place, "measures", "no measure", diagnostics_);
+            const auto end = task_.measures.begin() + static_cast<std::ptrdiff_t>(i);
+            if (std::find(task_.measures.begin(), end, name) != end)
+                diagnostics_.error(task_.place, "measures",
+                                   fmt::format("'{}' is there twice", name), "Leave one out.");
+        }
+    }
+
+    void check_movement() {
+        if (!task_.movement && !task_.reach) {
+            error("movement", "is missing, and measures of movement are asked for",
+                  "Add e.g. movement: { from: start, to: target, during: [reach] }, with a region, "
+                  "a region and states.");
+            return;
+        }
+        const std::vector<std::string> regions = names_of(task_.regions);
+        for (const auto& [key, name] : {std::pair{"from", &movement_.from}, {"to", &movement_.to}})
+            look_up(regions, *name, place_, key, "no region", diagnostics_);
+        if (movement_.from == movement_.to && !movement_.to.empty())
+            error("to", "is where the movement begins", "Name two regions.");
+        if (movement_.during.empty())
+            error("during", "is missing", "Name the states of the movement, e.g. during: [reach].");
+        for (const std::string& name : movement_.during) state(name, "during");
+        if (movement_.axis && movement_.axis->norm() <= 0)
+            error("axis", "has no direction", "Write e.g. axis: [0, 0, 1].");
+        check_what_moves();
+    }
+
+    void check_what_moves() {
+        std::vector<std::string> things = scene::finger_names(scene_);
+        for (const scene::Body& body : scene_.bodies) {
+            if (body.moves_at_all()) things.push_back(body.name);
+        }
+        things.emplace_back(kHand);
+        look_up(things, movement_.of, place_, "of", "nothing that moves", diagnostics_);
+    }
+
+    void check_channel() {
+        const bool any = std::any_of(
+            task_.perturbations.begin(), task_.perturbations.end(),
+            [&](const auto& spec) { return is_channel(spec) && acts_on(spec, movement_); });
+        if (!any)
+            diagnostics_.error(
+                task_.place, "measures",
+                fmt::format("force in a channel is asked for, and no channel holds '{}'",
+                            movement_.of),
+                "Add a perturbation with field: { kind: channel, ... }, or name in movement's `of` "
+                "what it acts on.");
+    }
+
+    void check_ideal() {
+        const PerturbationSpec* ideal = ideal_of(task_, movement_);
+        if (ideal == nullptr && movement_.ideal.empty()) {
+            error("ideal", "adaptation_index needs a field that is learned, and there is none",
+                  "Add a perturbation whose field is curl or viscous.");
+        } else if (ideal == nullptr) {
+            look_up(names_of(task_.perturbations), movement_.ideal, place_, "ideal",
+                    "no perturbation", diagnostics_);
+        } else if (!pushes_by_velocity(*ideal) || !acts_on(*ideal, movement_)) {
+            error("ideal",
+                  fmt::format("'{}' has no field on '{}' that follows its velocity", ideal->name,
+                              movement_.of),
+                  "Name a perturbation whose field is curl or viscous, on what is measured.");
+        }
+    }
+
+    void check_grip() {
+        if (scene_.object_index() >= 0 && scene_.fingers.size() > 1) return;
+        diagnostics_.error(task_.place, "measures",
+                           "measures of grip need an object that can move and two fingers",
+                           "Leave them out, or take a scene that has both.");
+    }
+
+    void check_error() {
+        if (!error_column(task_.measures, movement_.error).empty()) return;
+        std::vector<std::string> names;
+        for (const std::string& name : task_.measures) {
+            const MeasureRow* row = measure_row(name);
+            for (const MeasureColumn& column : row ? row->columns : decltype(row->columns){}) {
+                if (column.name != nullptr) names.emplace_back(column.name);
+            }
+        }
+        look_up(names, movement_.error, place_, "error", "no figure of the measures listed",
+                diagnostics_);
+    }
+
+    const Task& task_;
+    const scene::Scene& scene_;
+    Diagnostics& diagnostics_;
+    Movement movement_;
+    Place place_;
+};
+
+/// Whether the load is a channel that keeps what moves from going to the side: not the plane that
+/// it moves in. `regions_W`: centres of the regions [m].
+bool holds_to_line(const Load& load, std::span<const Vec3> regions_W,
+                   const MovementPlan& movement) {
+    constexpr double kAside = 1e-3;  // [m]
+    if (load.spec().kind != LoadKind::channel) return false;
+    const Vec3 left = movement.left_W();
+    if (left.hasNaN()) return true;
+    const auto force_at = [&](const Vec3& p_W) {
+        return load.act(1, regions_W, {p_W, Vec3::Zero()}).force.dot(left);
+    };
+    return force_at(movement.from_W) - force_at(movement.from_W + kAside * left) >
+           load.stiffness() * kAside / 2;
+}
+
+/// How the trial's perturbations compare with the ideal field, and whether one is a channel.
+/// `cell`: the trial's, with its numbers resolved.
+void compare(MovementPlan& out, const Task& task, const TaskPlan::Cell& cell, const Trial& trial,
+             const Movement& movement) {
+    const PerturbationSpec* ideal = ideal_of(task, movement);
+    if (ideal != nullptr)
+        out.ideal = cell.perturbations[place_of(task.perturbations, ideal->name)].field_gain();
+    out.channel = 0;
+    out.field_share = 0;
+    Mat3 gain = Mat3::Zero();
+    for (const int p : trial.perturb) {
+        const auto i = static_cast<size_t>(p);
+        const std::span<const Load> loads = cell.perturbations[i].loads();
+        const bool holds = std::any_of(loads.begin(), loads.end(), [&](const Load& load) {
+            return acts_on(load.spec(), movement) && holds_to_line(load, cell.p_W, out);
+        });
+        if (holds) out.channel = 1;
+        gain += cell.perturbations[i].field_gain();
+    }
+    if (out.channel == 1) {
+        out.field_share = kUnmeasured;
+    } else if (ideal != nullptr && !gain.isZero(0)) {
+        out.field_share = gain.cwiseProduct(out.ideal).sum() / out.ideal.squaredNorm();
+    }
+}
+
+}  // namespace
+
+const MeasureRow* measure_row(const std::string& name) {
+    const auto named = [&](const MeasureRow& row) { return row.name == name; };
+    const auto found = std::find_if(std::begin(kMeasureTable), std::end(kMeasureTable), named);
+    return found == std::end(kMeasureTable) ? nullptr : found;
+}
+
+std::vector<Table::Column> columns_of_measure(const MeasureRow& row) {
+    FigureLister out;
+    for (const MeasureColumn& column : row.columns) {
+        if (column.name != nullptr) out(column.name, 0.0, column.unit, column.what);
+    }
+    return out.columns;
+}
+
+std::string error_column(const std::vector<std::string>& measures, const std::string& error) {
+    for (const std::string& name : measures) {
+        const MeasureRow* row = measure_row(name);
+        if (row == nullptr) continue;
+        const std::vector<Table::Column> columns = columns_of_measure(*row);
+        for (size_t i = 0; i < columns.size(); ++i) {
+            if (row->columns[i].name == error) return columns[i].name;
+        }
+    }
+    return "";
+}
+
+Table::Column not_measured_column() {
+    return {kNotMeasured, "what of these measures is missing, and why"};
+}
+
+std::vector<Table::Column> measure_columns() {
+    std::vector<Table::Column> out;
+    for (const MeasureRow& row : kMeasureTable) {
+        for (Table::Column& column : columns_of_measure(row)) out.push_back(std::move(column));
+    }
+    out.push_back(not_measured_column());
+    return out;
+}
+
+Vec3 MovementPlan::left_W() const {
+    constexpr double kAlong = 1e-9;
+    const Vec3 left = axis_W.cross(along_W());
+    if (!(left.norm() > kAlong * axis_W.norm())) return Vec3::Constant(kUnmeasured);
+    return left.normalized();
+}
+
+Movement movement_of(const Task& task, const std::string& first_finger) {
+    Movement out = task.movement.value_or(Movement{});
+    const auto fill = [](std::string& own, const std::string& other) {
+        if (own.empty()) own = other;
+    };
+    if (task.reach) {
+        fill(out.of, task.reach->finger);
+        fill(out.from, task.reach->from);
+        fill(out.to, task.reach->to);
+        if (out.during.empty()) out.during = {task.reach->during};
+        if (!out.axis) out.axis = task.reach->axis;
+    }
+    fill(out.of, first_finger);
+    return out;
+}
+
+void check_measures(const TaskPlan& plan, const scene::Scene& scene, Diagnostics& diagnostics) {
+    MeasureChecker(plan.task, scene, diagnostics).check();
+}
+
+void add_movements(Table& list, const TaskPlan& plan, const scene::Scene& scene) {
+    if ((needs_of(plan.task) & MeasureRow::movement) == 0) return;
+    add_columns<MovementPlan>(list);
+    const Movement movement = movement_of(plan.task, scene.fingers.front().name);
+    const size_t from = place_of(plan.task.regions, movement.from);
+    const size_t to = place_of(plan.task.regions, movement.to);
+    TrialNumbers numbers(plan);
+    for (size_t i = 0; i < plan.trials.size(); ++i) {
+        const Trial& trial = plan.trials[i];
+        numbers.begin(static_cast<int>(i), 1, plan.start);
+        const TaskPlan::Cell& cell = numbers.cell();
+        MovementPlan out;
+        out.from_W = cell.p_W[from];
+        out.to_W = cell.p_W[to];
+        out.axis_W = movement.axis ? movement.axis->normalized() : usual_axis(cell);
+        compare(out, plan.task, cell, trial, movement);
+        add_cells(list.rows[i], out);
+    }
+}
+
+std::vector<MovementPlan> read_movements(const std::string& file) {
+    const rows::RowFile<MovementPlan> list(file);
+    if (!list.column(kFirstMovementColumn)) return {};
+    return {list.begin(), list.end()};
+}
+
+}  // namespace dihaptic::task

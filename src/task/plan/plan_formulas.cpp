@@ -1,0 +1,314 @@
+#include "task/plan/plan_formulas.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "base/number.h"
+#include "base/text_file.h"
+#include "base/unmeasured.h"
+#include "task/plan/factors.h"
+#include "task/plan/levels.h"
+#include "task/plan/lookup.h"
+
+namespace dihaptic::task {
+namespace {
+
+bool is_identifier(std::string_view text) {
+    return is_word(text) && std::isdigit(static_cast<unsigned char>(text.front())) == 0;
+}
+
+/// Defines what a task names itself, and reports names that cannot be used.
+class Definer {
+  public:
+    Definer(TaskPlan& plan, Diagnostics& diagnostics) : plan_(plan), diagnostics_(diagnostics) {}
+
+    void define() {
+        const Task& task = plan_.task;
+        for (const DrawSpec& draw : task.draws) define(draw);
+        for (const Factor& factor : factors_of(task)) define(factor);
+        for (const Variable& variable : task.variables)
+            define(variable.name, variable.start, Kind::variable, variable.place, "name");
+        define_levels(task);
+        for (const AskSpec& ask : questions_of(task))
+            define(ask.name, kUnmeasured, Kind::variable, ask.place, "name");
+        if (plan_.start.size() > frame::TaskFrame::kMostVariables) {
+            diagnostics_.error(task.place, "variables",
+                               fmt::format("there are {} with levels of procedures and answers, "
+                                           "where {} are the most",
+                                           plan_.start.size(), frame::TaskFrame::kMostVariables),
+                               "Leave some out.");
+        }
+    }
+
+  private:
+    /// Whether the name can stand in a formula, and in a table beside the others.
+    bool check_name(const std::string& name, const Place& place, const char* key) {
+        const std::string plain(split_unit(name).name);
+        Diagnostics ignored;
+        Quantities own;
+        own.define(plain, {}, Kind::draw);
+        Expression::compile(plain, own, place, key, ignored);
+        const auto in_table = [&](const Table::Column& c) { return c.name == name; };
+        const auto& columns = kTrialListColumns;
+        std::string what;
+        if (!is_identifier(plain) || ignored.has_errors()) {
+            what = "cannot be named in a formula";
+        } else if (plain == "outcome" || plan_.quantities.find(plain)) {
+            what = fmt::format("cannot be told from the quantity {}, which formulas know", plain);
+        } else if (std::any_of(columns.begin(), columns.end(), in_table)) {
+            what = "is another column of trial-list.csv";
+        } else {
+            return true;
+        }
+        diagnostics_.error(place, key, fmt::format("'{}' {}", name, what),
+                           "Use another name, of letters, digits and _, e.g. wait_s.");
+        return false;
+    }
+
+    Symbol number(const std::string& name, Kind kind) {
+        const NameInUnit unit = split_unit(name);
+        return plan_.quantities.define(std::string(unit.name), dimension(unit.quantity), kind);
+    }
+
+    std::vector<double> codes(const std::vector<std::string>& texts) {
+        std::vector<double> out;
+        for (const std::string& text : texts) out.push_back(plan_.quantities.text(text));
+        return out;
+    }
+
+    void define(const DrawSpec& draw) {
+        check(draw, diagnostics_);
+        if (!check_name(draw.name, draw.place, "name")) return;
+        const NameInUnit unit = split_unit(draw.name);
+        if (are_texts(draw.values())) {
+            const Symbol symbol =
+                plan_.quantities.define_text(std::string(unit.name), draw.values(), Kind::draw);
+            plan_.symbols.draws.push_back({symbol.slot, 1, codes(draw.values())});
+        } else {
+            const Symbol symbol = number(draw.name, Kind::draw);
+            plan_.symbols.draws.push_back({symbol.slot, unit.si, {}});
+        }
+    }
+
+    void define(const Factor& factor) {
+        if (!check_name(factor.factor, factor.place, "factor") || !all_have(factor)) return;
+        const NameInUnit unit = split_unit(factor.factor);
+        const bool texts = are_texts(factor.levels);
+        const Symbol symbol = texts ? plan_.quantities.define_text(std::string(unit.name),
+                                                                   factor.levels, Kind::factor)
+                                    : number(factor.factor, Kind::factor);
+        std::vector<double> levels;
+        for (const Condition& condition : plan_.task.conditions) {
+            const std::string level = level_of(condition, factor.factor);
+            levels.push_back(texts ? plan_.quantities.text(level)
+                                   : unit.si * *finite_number(level));
+        }
+        plan_.symbols.factors.push_back({symbol.slot, levels});
+    }
+
+    bool all_have(const Factor& factor) {
+        for (const Condition& condition : plan_.task.conditions) {
+            if (!level_of(condition, factor.factor).empty()) continue;
+            diagnostics_.error(
+                condition.place, "factors",
+                fmt::format("'{}' has no level of {}", condition.name, factor.factor),
+                fmt::format("Add e.g. factors: {{ {}: {} }}.", factor.factor,
+                            factor.levels.front()));
+            return false;
+        }
+        return true;
+    }
+
+    /// A number that changes in the session; `start` is in the unit of its name.
+    void define(const std::string& name, double start, Kind kind, const Place& place,
+                const char* key) {
+        const NameInUnit unit = split_unit(name);
+        plan_.start.push_back({start * unit.si});
+        if (!check_name(name, place, key)) {
+            plan_.symbols.variables.push_back({});
+            return;
+        }
+        const Symbol symbol = number(name, kind);
+        const Symbol between = plan_.between.define(std::string(unit.name), symbol.dimension, kind);
+        plan_.symbols.variables.push_back({symbol.slot, between.slot});
+    }
+
+    void define_levels(const Task& task) {
+        const std::vector<LevelName> levels = levels_of(task);
+        for (const LevelName& level : levels) {
+            const double si = split_unit(level.name).si;
+            TaskPlan::Level& out = plan_.levels.emplace_back();
+            out.variable = plan_.start.size();
+            out.standard = level.standard * si;
+            out.si = si;
+            for (const double value : level.values) out.values.push_back(value * si);
+            define(level.name, level.standard, Kind::level, level.place, "level");
+        }
+        for (const ProcedureSpec& procedure : task.procedures) {
+            const auto same = [&](const LevelName& l) { return l.name == procedure.level; };
+            const auto found = std::find_if(levels.begin(), levels.end(), same);
+            plan_.level_of_procedure.push_back(
+                found == levels.end() ? -1 : static_cast<int>(found - levels.begin()));
+        }
+    }
+
+    TaskPlan& plan_;
+    Diagnostics& diagnostics_;
+};
+
+/// Whether the text names an angle: the value is then in radians, and otherwise in the key's unit.
+bool names_angle(const TaskPlan& plan, std::string_view text) {
+    const auto is_angle = [&](std::string_view name) {
+        const auto named = [&](std::string_view key) {
+            const NameInUnit unit = split_unit(key);
+            return unit.name == name && unit.quantity == Quantity::angle;
+        };
+        const Task& task = plan.task;
+        const auto any = [&](const auto& list) {
+            return std::any_of(list.begin(), list.end(),
+                               [&](const auto& item) { return named(item.name); });
+        };
+        const std::vector<Factor> factors = factors_of(task);
+        return name == "deg" || name == "rad" || any(task.draws) || any(task.variables) ||
+               std::any_of(factors.begin(), factors.end(),
+                           [&](const Factor& f) { return named(f.factor); }) ||
+               std::any_of(task.procedures.begin(), task.procedures.end(),
+                           [&](const ProcedureSpec& p) { return named(p.level); });
+    };
+    size_t begin = 0;
+    for (size_t i = 0; i <= text.size(); ++i) {
+        if (i < text.size() && is_word(text.substr(i, 1))) continue;
+        if (i > begin && is_angle(text.substr(begin, i - begin))) return true;
+        begin = i + 1;
+    }
+    return false;
+}
+
+void formula_error(const Formula& formula, const std::string& what, const std::string& remedy,
+                   Diagnostics& diagnostics) {
+    diagnostics.error(formula.place, formula.key, fmt::format("{}: '{}'", what, formula.text),
+                      remedy);
+}
+
+void compile_all(TaskPlan& plan, Diagnostics& diagnostics) {
+    // a failure is reported once: what is left of the formula is a number
+    each_formula(plan.task, [&](Formula& formula) {
+        if (!formula.computed() || finite_number(formula.text)) return;
+        auto compiled = compile_formula(formula, plan, plan.quantities, diagnostics);
+        if (compiled && compiled->expression.follows_tick()) {
+            formula_error(formula,
+                          "names what changes within a trial, and is set when a trial begins",
+                          "Name draws, factors, variables and regions; or use a condition: when.",
+                          diagnostics);
+            return;
+        }
+        if (!compiled) return;
+        formula.index = static_cast<int>(plan.formulas.size());
+        compiled->formula.index = formula.index;
+        plan.formulas.push_back(std::move(*compiled));
+    });
+    for (State& state : plan.task.states) {
+        each_formula(state, [&](const Formula& formula) {
+            if (formula.index >= 0) plan.in_states.push_back(formula.index);
+        });
+    }
+}
+
+/// A condition between or after trials; empty if the text is none.
+std::optional<Expression> condition(const std::string& text, Quantities& quantities,
+                                    const Place& place, const char* key, Diagnostics& diagnostics) {
+    if (text.empty()) return {};
+    Diagnostics found;
+    Expression out = Expression::compile(text, quantities, place, key, found);
+    diagnostics.add(found.problems());
+    if (found.has_errors()) return {};
+    if (out.type() != Expression::Type::truth) {
+        diagnostics.error(place, key, fmt::format("'{}' is no condition", text),
+                          "Compare something, e.g. score > 10.");
+    }
+    return out;
+}
+
+}  // namespace
+
+Formula formula_of(const std::string& text, const std::string& name, const char* key,
+                   const Place& place) {
+    const NameInUnit unit = split_unit(name);
+    Formula out;
+    out.text = text;
+    out.to_si = unit.si;
+    out.key = key;
+    out.place = place;
+    out.field = Field::of(unit.quantity);
+    return out;
+}
+
+std::optional<CompiledFormula> compile_formula(const Formula& formula, const TaskPlan& plan,
+                                               Quantities& quantities, Diagnostics& diagnostics) {
+    CompiledFormula out;
+    Diagnostics found;
+    out.expression =
+        Expression::compile(formula.text, quantities, formula.place, formula.key, found);
+    out.formula = formula;
+    for (Problem problem : found.problems()) {
+        if (problem.severity == Severity::error)
+            problem.what = "must be a number or a formula: " + problem.what;
+        diagnostics.add({problem});
+    }
+    if (found.has_errors()) return {};
+    const Quantity wanted = formula.field.quantity;
+    const Dimension given = out.expression.dimension();
+    if (out.expression.type() != Expression::Type::number) {
+        formula_error(formula, "must be a number or a formula of one",
+                      "A condition becomes a number by if, e.g. 10 if side > 0 else 20.",
+                      diagnostics);
+    } else if (given == Dimension{}) {
+        const bool angle = wanted == Quantity::angle && names_angle(plan, formula.text);
+        out.scale = angle ? 1 : formula.to_si;
+        return out;
+    } else if (given == dimension(wanted)) {
+        return out;
+    } else {
+        formula_error(formula,
+                      fmt::format("is in {}, and must be a {}", si_symbol(given), name(wanted)),
+                      "Divide by a unit, e.g. wait / 1 s, or name something else.", diagnostics);
+    }
+    return {};
+}
+
+void plan_formulas(TaskPlan& plan, Diagnostics& diagnostics) {
+    for (const Condition& round : plan.task.rounds) {
+        if (round.factors.kind != Node::Kind::null)
+            diagnostics.error(round.place, "factors", "belong to conditions, and this is a round",
+                              "Leave them out, or cross the factor with the others: cross.");
+    }
+    Definer(plan, diagnostics).define();
+    if (!diagnostics.has_errors()) compile_all(plan, diagnostics);
+}
+
+void plan_rules(TaskPlan& plan, Diagnostics& diagnostics) {
+    std::vector<std::string> outcomes;
+    for (const TaskPlan::Outcome& outcome : plan.outcomes) outcomes.push_back(outcome.name);
+    plan.symbols.outcome = plan.quantities.define_text("outcome", outcomes, Kind::figure).slot;
+    for (const std::string& outcome : outcomes)
+        plan.symbols.outcomes.push_back(plan.quantities.text(outcome));
+    for (const Rule& rule : plan.task.after_trial) {
+        TaskPlan::Change change;
+        change.when = condition(rule.when, plan.quantities, rule.place, "when", diagnostics);
+        if (rule.set.index < 0) continue;
+        change.variable = static_cast<size_t>(rule.set.index);
+        const Formula to = formula_of(rule.to, rule.set, "to", rule.place);
+        if (auto compiled = compile_formula(to, plan, plan.quantities, diagnostics)) {
+            change.to = std::move(*compiled);
+            plan.changes.push_back(std::move(change));
+        }
+    }
+    for (const Block& block : plan.task.blocks)
+        plan.until.push_back(
+            condition(block.until, plan.between, block.place, "until", diagnostics));
+}
+
+}  // namespace dihaptic::task

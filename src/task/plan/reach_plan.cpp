@@ -1,0 +1,41 @@
+#include "task/plan/reach_plan.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "task/run/trial_numbers.h"
+
+namespace dihaptic::task {
+Vec3 usual_axis(const TaskPlan::Cell& cell) {
+    for (const Perturbation& perturbation : cell.perturbations) {
+        if (const auto axis = perturbation.axis()) return *axis;
+    }
+    return Vec3::UnitZ();
+}
+
+void add_reaches(Table& list, const TaskPlan& plan, const scene::Scene& scene) {
+    add_columns<ReachPlan>(list);
+    const ReachMeasure& measured = *plan.task.reach;
+    ReachPlan reach;
+    reach.finger = measured.finger.empty() ? scene.fingers.front().name : measured.finger;
+    reach.distance = measured.distance;
+    reach.phase = measured.during.index + 1;
+    reach.measure = measured.measure;
+    TrialNumbers numbers(plan);
+    for (size_t i = 0; i < plan.trials.size(); ++i) {
+        numbers.begin(static_cast<int>(i), 1, plan.start);
+        const TaskPlan::Cell& cell = numbers.cell();
+        reach.from_W = cell.p_W[static_cast<size_t>(measured.from.index)];
+        reach.to_W = cell.p_W[static_cast<size_t>(measured.to.index)];
+        reach.axis_W = measured.axis ? measured.axis->normalized() : usual_axis(cell);
+        add_cells(list.rows[i], reach);
+    }
+}
+
+std::vector<ReachPlan> read_reaches(const std::string& file) {
+    const rows::RowFile<ReachPlan> list(file);
+    if (!list.column(kFirstReachColumn)) return {};
+    return {list.begin(), list.end()};
+}
+
+}  // namespace dihaptic::task

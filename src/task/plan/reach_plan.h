@@ -1,0 +1,49 @@
+// How each trial's reach is measured (ReachMeasure): frozen in trial-list.csv, beside the trial, in
+// columns named reach_...
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rows/row_file.h"
+#include "task/plan/task_plan.h"
+
+namespace dihaptic::task {
+
+struct ReachPlan {
+    std::string finger;          ///< name
+    double distance = 0;         ///< distance from from_W at which the angle is measured [m]
+    Vec3 from_W = Vec3::Zero();  ///< [m]
+    Vec3 to_W = Vec3::Zero();
+    Vec3 axis_W = Vec3::UnitZ();  ///< axis of the angles; unit vector
+    int phase = -1;               ///< phase in which it is measured; -1: none
+    Measure measure = Measure::angle;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("reach_finger", f.finger, "", "whose reach is measured");
+        v("reach_at", f.distance, "mm", "from its beginning");
+        rows::visit_vector(v, "reach_from", f.from_W, "mm", "where it begins");
+        rows::visit_vector(v, "reach_to", f.to_W, "mm", "where it leads");
+        rows::visit_vector(v, "reach_axis", f.axis_W, "1", "that angles are about");
+        v("reach_phase", f.phase, "1", "in which it is measured");
+        v("reach_measure", f.measure, "", "angle or extent");
+    }
+};
+
+/// Adds the columns of the reaches to a list with a row for each of the plan's trials. The task
+/// must measure a reach.
+void add_reaches(Table& list, const TaskPlan& plan, const scene::Scene& scene);
+
+/// Name of the first of these columns: the list's own stand before it.
+inline constexpr const char* kFirstReachColumn = "reach_finger";
+
+/// The axis of the cell's first perturbation that has one: trials without the block's perturbation
+/// are measured as those with it are.
+Vec3 usual_axis(const TaskPlan::Cell& cell);
+
+/// Reads the reaches from trial-list.csv, by trial; none if its task measures none. Of a line that
+/// is cut off, the finger is empty and numbers are NaN from there on.
+std::vector<ReachPlan> read_reaches(const std::string& file);
+
+}  // namespace dihaptic::task

@@ -1,0 +1,224 @@
+#include "task/plan/task_plan.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/unmeasured.h"
+#include "rows/procedure_row.h"
+#include "task/plan/cell_planner.h"
+#include "task/plan/check_blocks.h"
+#include "task/plan/factors.h"
+#include "task/plan/levels.h"
+#include "task/plan/own_measures.h"
+#include "task/plan/plan_formulas.h"
+#include "task/plan/reach_plan.h"
+#include "task/plan/state_planner.h"
+#include "task/run/clearance.h"
+
+namespace dihaptic::task {
+namespace {
+
+constexpr const char* kMoveAway = "Take the hands off the objects";
+
+void check_lists(const Task& task, Diagnostics& diagnostics) {
+    check_names(task.hands, "hands", diagnostics);
+    check_names(task.regions, "regions", diagnostics);
+    check_names(task.perturbations, "perturbations", diagnostics);
+    check_names(task.sounds, "sounds", diagnostics);
+    check_names(task.states, "states", diagnostics);
+    check_names(task.conditions, "conditions", diagnostics);
+    check_names(task.draws, "draws", diagnostics);
+    check_names(task.variables, "variables", diagnostics);
+    check_names(task.rounds, "rounds", diagnostics);
+    check_names(task.procedures, "procedures", diagnostics);
+    check_names(task.blocks, "blocks", diagnostics);
+    if (task.regions.size() > frame::TaskFrame::kMostTargets) {
+        diagnostics.error(task.place, "regions",
+                          fmt::format("there are {}, where {} are the most", task.regions.size(),
+                                      frame::TaskFrame::kMostTargets),
+                          "Let conditions move one region about.");
+    }
+    if (task.sounds.size() > TaskPlan::kMostSounds)
+        diagnostics.error(task.sounds.back().place, "sounds",
+                          fmt::format("there are {}, where {} are the most", task.sounds.size(),
+                                      TaskPlan::kMostSounds),
+                          "Leave out those that no state needs.");
+    if (task.states.empty())
+        diagnostics.error(task.place, "states", "there are none", "Add one at least.");
+    if (task.states.size() > TaskPlan::kMostStates)
+        diagnostics.error(task.place, "states",
+                          fmt::format("there are more than {}", TaskPlan::kMostStates), "");
+    if (task.blocks.empty())
+        diagnostics.error(task.place, "blocks", "there are none",
+                          "Add one at least, with its trials.");
+}
+
+/// Plans a task part by part: what each part names must have been planned before it.
+class Planner : Planning {
+  public:
+    explicit Planner(const Planning& given) : Planning(given), seen_(given), bodies_(given) {}
+
+    void plan_all() {
+        name_quantities();
+        for (const auto* list : {&plan.task.conditions, &plan.task.rounds}) {
+            for (const Condition& condition : *list) check_condition(condition);
+        }
+        if (has_intervals(plan.task))
+            plan.comparison = look_up(names_of(plan.task.draws), kComparisonInterval,
+                                      plan.task.place, "draws", "no draw", diagnostics);
+        plan_formulas(plan, diagnostics);
+        plan.move_away = seen_.text(kMoveAway, plan.task.place, "message");
+        plan_sounds();
+        plan_states(*this, bodies_, seen_);
+        plan_cells(*this, bodies_, seen_);
+        seen_.plan_task();
+        check_blocks(plan, diagnostics);
+        check_reach();
+        plan_rules(plan, diagnostics);
+        check_measures(plan, scene, diagnostics);
+        plan_own_measures(plan, diagnostics);
+        for (const scene::Finger& finger : scene.fingers)
+            plan.finger_radius.push_back(reach_of(finger));
+    }
+
+  private:
+    void name_quantities() {
+        plan.quantities = Quantities({.fingers = names.all<scene::Finger>(),
+                                      .bodies = names.all<scene::Body>(),
+                                      .joints = names.all<scene::Joint>(),
+                                      .regions = names.all<Region>(),
+                                      .hands = hands()});
+        // what no trial places stays there
+        for (size_t i = 0; i < scene.bodies.size(); ++i)
+            plan.quantities.set(plan.quantities.start(i), scene.bodies[i].pose().p);
+        plan.bodies = scene.bodies.size();
+    }
+
+    std::vector<Quantities::Names::Hand> hands() {
+        std::vector<Quantities::Names::Hand> out;
+        for (const Hand& hand : plan.task.hands) {
+            out.push_back({hand.name, fingers_of(hand.fingers)});
+            const auto among = [&](const std::vector<std::string>& list) {
+                return std::find(list.begin(), list.end(), hand.name) != list.end();
+            };
+            if (among(names.all<Thing>()) || among(names.all<scene::Joint>()))
+                diagnostics.error(
+                    hand.place, "name",
+                    fmt::format("'{}' is a finger, a body or a joint of the scene", hand.name),
+                    "Call the hand something else.");
+            if (hand.fingers.empty())
+                diagnostics.error(hand.place, "fingers", "there are none", "Name one at least.");
+        }
+        return out;
+    }
+
+    void check_condition(const Condition& condition) {
+        bodies_.check(condition);
+        for (const Region& region : condition.regions)
+            look_up(names.all<Region>(), region.name, region.place, "name", "no region of the task",
+                    diagnostics);
+        for (const PerturbationSpec& spec : condition.perturbations)
+            look_up(names.all<PerturbationSpec>(), spec.name, spec.place, "name",
+                    "no perturbation of the task", diagnostics);
+    }
+
+    void plan_sounds() {
+        const std::vector<SoundSpec>& sounds = plan.task.sounds;
+        for (size_t i = 0; i < sounds.size() && i < TaskPlan::kMostSounds; ++i) {
+            check(sounds[i], diagnostics);
+            if (sounds[i].lasts == Lasts::state) plan.going_on |= 1u << i;
+            if (sounds[i].lasts == Lasts::session) plan.throughout |= 1u << i;
+        }
+    }
+
+    void check_reach() {
+        if (!plan.task.reach) return;
+        const ReachMeasure& reach = *plan.task.reach;
+        check_fixed(reach.from.index, reach.place, "from");
+        check_fixed(reach.to.index, reach.place, "to");
+        if (reach.axis && reach.axis->norm() <= 0)
+            diagnostics.error(reach.place, "axis", "has no direction",
+                              "Write e.g. axis: [0, 0, 1].");
+    }
+
+    /// How a reach is measured is frozen before the session.
+    void check_fixed(int region, const Place& place, const char* key) {
+        if (region < 0) return;
+        for (const TaskPlan::Cell& cell : plan.cells) {
+            for (const Formula& n : cell.regions[static_cast<size_t>(region)].position) {
+                if (n.index < 0 || plan.formulas[static_cast<size_t>(n.index)].expression.frozen())
+                    continue;
+                diagnostics.error(
+                    place, key, "names a region that variables move",
+                    "Measure between regions that follow from draws and factors alone.");
+                return;
+            }
+        }
+    }
+
+    SeenPlanner seen_;
+    BodyPlanner bodies_;
+};
+
+}  // namespace
+
+std::string conditions_with(const std::string& given, unsigned any) {
+    std::vector<std::string> names;
+    for (const WhenRow& row : kWhenTable) {
+        if ((row.has & any) != 0) names.emplace_back(*row.name == 0 ? "an expression" : row.name);
+    }
+    if (const std::string guess = nearest(given, names); !guess.empty() && guess != given)
+        return fmt::format("Did you mean when: {}?", guess);
+    return fmt::format("It belongs to when: {}.", fmt::join(names, ", "));
+}
+
+std::vector<std::string> TaskPlan::phases() const {
+    std::vector<std::string> out{"between trials"};
+    for (const State& state : task.states) out.push_back(state.name);
+    return out;
+}
+
+std::vector<int> TaskPlan::used_in(const Trial& trial) const {
+    const Cell& cell = this->cell(trial);
+    std::vector<int> out = in_states;
+    out.insert(out.end(), cell.formulas.begin(), cell.formulas.end());
+    return out;
+}
+
+double TaskPlan::largest(const Formula& number) const {
+    if (number.index < 0) return number.value;
+    const CompiledFormula& compiled = formulas[static_cast<size_t>(number.index)];
+    return compiled.expression.foreseen() ? compiled.largest : compiled.formula.field.max;
+}
+
+TaskPlan plan_task(const Task& task, const scene::Scene& scene, Diagnostics& diagnostics) {
+    TaskPlan out;
+    out.task = task;
+    cross_factors(out.task, diagnostics);
+    complete_intervals(out.task, diagnostics);
+    check_lists(out.task, diagnostics);
+    const Names names(out.task, scene);
+    resolve(out.task, names, diagnostics);
+    Planner({out, names, scene, diagnostics}).plan_all();
+    return out;
+}
+
+Table frozen_list(const TaskPlan& plan, const scene::Scene& scene) {
+    Table table = trial_list(plan.task, plan.trials);
+    if (plan.task.reach) add_reaches(table, plan, scene);
+    add_movements(table, plan, scene);
+    return table;
+}
+
+Table procedure_table(const TaskPlan& plan) {
+    std::vector<rows::ProcedureRow> out;
+    for (const ProcedureSpec& p : plan.task.procedures) {
+        out.push_back({p.name, std::string(p.kind()),
+                       fmt::format("{}", fmt::join(p.perturb, kBetweenNames)), p.logarithmic, p.yes,
+                       p.no, p.fitted(), p.known_shape().value_or(kUnmeasured), p.guess,
+                       p.guess_is_lapse, p.level, p.standard.value_or(kUnmeasured)});
+    }
+    return figure_table<rows::ProcedureRow>(out);
+}
+
+}  // namespace dihaptic::task

@@ -1,0 +1,275 @@
+// A task with its names looked up in a scene: constant data that the tick and the simulated hand
+// read.
+#pragma once
+
+#include "frame/task_frame.h"
+#include "task/plan/formulas.h"
+#include "task/plan/on_joint.h"
+#include "task/plan/trials.h"
+
+namespace dihaptic::task {
+
+/// Phase number, in frames, of the time before a trial's first state.
+constexpr int kBetween = 0;
+
+/// A number about the trials that a text may have. `countdown`: seconds that the state or the break
+/// may last still, rounded up.
+enum class Figure {
+    trial_num,
+    trials,
+    trials_left,  ///< with the running one
+    trial_num_in_block,
+    block_num,
+    blocks,
+    attempt,
+    countdown,
+    answer,  ///< typed so far, or pointed at
+};
+constexpr auto enum_names(Figure) {
+    return std::array{"trial_num", "trials", "trials_left", "trial_num_in_block",
+                      "block_num", "blocks", "attempt",     "countdown",
+                      "answer"};
+}
+
+/// A number in a text: a quantity of the task, or else a Figure.
+struct TextNumber {
+    Figure figure;
+    Expression quantity;
+};
+
+struct TaskPlan {
+    static constexpr size_t kMostStates = 64;  ///< sets of states are one bit each
+    static constexpr int kMostSounds = frame::TaskFrame::kMostSounds;  ///< and of sounds
+
+    Task task;
+    std::vector<Trial> trials;
+    std::vector<std::string> messages;
+    std::vector<std::vector<TextNumber>> numbers;  ///< by message: those in its text, in order
+    struct Outcome {
+        std::string name;
+        bool redo;
+    };
+    std::vector<Outcome> outcomes;
+    int skipped = -1;  ///< the outcome of a trial that the operator skips
+
+    struct Way {
+        Exit exit;
+        Expression condition;  ///< empty: of key, button, trigger, time
+        int finger = 0;        ///< whose button it is
+        int outcome = -1;      ///< outcome that it ends the trial with; see outcome_of()
+        int feedback = -1;
+        uint32_t sounds = 0;  ///< that it begins, one bit each
+
+        /// Whether it comes whatever the hand does.
+        bool comes() const {
+            return condition.empty() ? exit.has(WhenRow::comes) : !condition.follows_tick();
+        }
+    };
+    struct Step {
+        HandStep step;
+        scene::FingerSet fingers = scene::FingerSet{}.set();  ///< that move
+        bool moves(size_t finger) const noexcept { return scene::contains(fingers, finger); }
+    };
+    /// What conditions and formulas name; a director has a copy.
+    Quantities quantities;
+
+    /// A body that is put somewhere, and the box that must then be clear of fingers.
+    struct Home {
+        int body;
+        Pose X_WB;
+        scene::Bounds box;
+        FormulaVec3 position;
+        /// In place of that position: homes with it come after that of their joint's first body.
+        std::optional<OnJoint> joint = std::nullopt;
+        Formula coordinate{};
+        /// The body's velocity then, or its joint's rate.
+        FormulaVec3 velocity{};
+        Formula rate{};
+        BodyMotion motion{};
+
+        template <class Visitor>
+        void visit(Visitor& v) {
+            if (joint) {
+                v("coordinate", coordinate);
+                v("rate", rate);
+            } else {
+                v("position", position);
+                v("velocity", velocity);
+            }
+        }
+    };
+    /// A body that a state puts somewhere.
+    struct Put {
+        Home home;   // where, unless it stays where it is
+        bool moves;  // whether it is put elsewhere
+        bool stays;  // whether it is kept there while the state lasts
+    };
+    /// How bodies, proxies and targets look; of a target the radius is the factor on it.
+    struct Looks {
+        std::vector<frame::LookFrame> things;
+        std::vector<frame::TargetFrame> targets;
+    };
+    struct Stage {
+        uint32_t shown = 0;  ///< regions shown, one bit each
+        Looks looks;
+        bool holds_cursor = false;
+        std::vector<int> lines;  ///< messages
+        int message = -1;
+        int marker = 0;
+        uint32_t sounds = 0;  ///< one bit each
+        int interval = 0;
+        std::optional<Question> question;
+        std::vector<Put> puts;
+        std::vector<Drive> drives;
+        std::vector<Motor> motors;
+        std::vector<Way> ways;
+        std::vector<Step> hand;
+    };
+    std::vector<Stage> stages;  ///< by state
+
+    /// Regions, perturbations and bodies' places of one condition in one round. Formulas get their
+    /// values for each trial (task/run/trial_numbers.h).
+    struct Cell {
+        std::vector<Region> regions;
+        std::vector<Vec3> p_W;  ///< centres of the regions
+        std::vector<Perturbation> perturbations;
+        std::vector<uint64_t> during;  ///< by perturbation: states in which it acts, one bit each
+        std::vector<Home> homes;
+        Looks looks;
+        std::vector<int> formulas;  ///< of regions, homes and perturbations
+
+        bool acts(int perturbation, int state) const {
+            return state >= 0 && (during[static_cast<size_t>(perturbation)] >> state & 1u) != 0;
+        }
+    };
+    std::vector<Cell> cells;            ///< by round, then condition
+    size_t bodies = 0;                  ///< of the scene
+    std::vector<double> finger_radius;  ///< radius of the sphere around each finger's shape [m]
+    double longest_delay = 0;           ///< of the loads [s]
+    int move_away = -1;                 ///< message while a finger is in the way
+
+    struct Page {
+        PageSpec spec;
+        int message = -1;  ///< its text
+
+        /// A key that turns the page.
+        char any_key() const { return spec.key.empty() ? '1' : spec.key.front(); }
+    };
+    std::vector<Page> pages;
+    struct Opening {
+        double rest = 0;  ///< [s]
+        int first = 0;    ///< index of its first page
+        int pages = 0;
+    };
+    std::vector<Opening> openings;  ///< by block of the task
+    int rest = -1;                  ///< message during a break
+    int countdown = -1;             ///< line that counts down
+    std::vector<int> lines;         ///< messages that are shown throughout
+    int object = -1;                ///< the scene's
+    uint32_t going_on = 0;          ///< sounds that last while states name them, one bit each
+    uint32_t throughout = 0;        ///< sounds that last throughout the session
+
+    /// What formulas may name, and where its values go.
+    struct Symbols {
+        struct Draw {
+            int slot;
+            double si;                  ///< unit of the draw's name
+            std::vector<double> codes;  ///< of texts
+            double value(double drawn) const noexcept {
+                return codes.empty() ? si * drawn : codes[static_cast<size_t>(drawn)];
+            }
+        };
+        struct Levels {
+            int slot;
+            std::vector<double> by_condition;
+        };
+        std::vector<Draw> draws;
+        std::vector<Levels> factors;
+        struct Changing {
+            int slot = 0;
+            int between = 0;  ///< slot in TaskPlan::between
+        };
+        std::vector<Changing> variables;
+        int outcome = 0;
+        std::vector<double> outcomes;  ///< code of each outcome's name
+    };
+    /// A measure of the task's own.
+    struct Measured {
+        CompiledFormula value;  ///< with the slots of `measured`
+        Take take = Take::max;
+        uint64_t states = 0;  ///< one bit each
+    };
+    Quantities measured;  ///< `quantities`, and what measures name besides
+    std::vector<Measured> own_measures;
+    /// What happens to a variable after a trial.
+    struct Change {
+        std::optional<Expression> when;
+        size_t variable = 0;
+        CompiledFormula to;
+    };
+    Quantities between;  ///< what ends a block: variables alone
+    Symbols symbols;
+    std::vector<CompiledFormula> formulas;
+    std::vector<int> in_states;  ///< formulas
+    /// A number that procedures choose. In frames it follows the variables.
+    struct Level {
+        size_t variable = 0;
+        double standard = 0;         ///< [SI]
+        double si = 1;               ///< unit of its name
+        std::vector<double> values;  ///< at which trials are looked at before the session [SI]
+    };
+    std::vector<Level> levels;
+    std::vector<int> level_of_procedure;  ///< index among the levels; -1: it chooses a share
+    int comparison = -1;                  ///< draw of the interval of the comparison
+    int chose_comparison = -1;            ///< outcome
+    int chose_standard = -1;              ///< outcome
+    /// What variables, then levels, and then answers are at the session's start.
+    std::vector<frame::VariableFrame> start;
+    std::vector<Change> changes;
+    std::vector<std::optional<Expression>> until;  ///< by block
+
+    size_t cell_index(const Trial& trial) const noexcept {
+        const size_t conditions = std::max<size_t>(1, task.conditions.size());
+        return static_cast<size_t>(trial.round) * conditions + static_cast<size_t>(trial.condition);
+    }
+    const Cell& cell(const Trial& trial) const { return cells[cell_index(trial)]; }
+    /// Whether levels, and shares that procedures choose, are at their standard in the state; -1:
+    /// in none.
+    bool shows_standard(const Trial& trial, int state) const noexcept {
+        return comparison >= 0 && state >= 0 &&
+               stages[static_cast<size_t>(state)].interval != interval_of(trial);
+    }
+    /// Interval of the comparison.
+    int interval_of(const Trial& trial) const noexcept {
+        return static_cast<int>(trial.draws[static_cast<size_t>(comparison)]);
+    }
+    /// Outcome of a trial that ends this way.
+    int outcome_of(const Way& way, const Trial& trial) const noexcept {
+        if (way.exit.chooses == 0) return way.outcome;
+        return way.exit.chooses == interval_of(trial) ? chose_comparison : chose_standard;
+    }
+    /// The number that the trial's procedure chooses; null if it chooses none.
+    const Level* level_of(const Trial& trial) const noexcept {
+        if (trial.procedure < 0) return nullptr;
+        const int i = level_of_procedure[static_cast<size_t>(trial.procedure)];
+        return i < 0 ? nullptr : &levels[static_cast<size_t>(i)];
+    }
+    /// The formulas that the trial uses.
+    std::vector<int> used_in(const Trial& trial) const;
+    /// The largest value of a number that may be a formula, over all trials and levels; where
+    /// variables change it, the largest that it may have [SI].
+    double largest(const Formula& number) const;
+    /// Names of the phases: "between trials", then the states.
+    std::vector<std::string> phases() const;
+};
+
+/// Problems with the task go to `diagnostics`. If there is no error, trials may be made.
+TaskPlan plan_task(const Task& task, const scene::Scene& scene, Diagnostics& diagnostics);
+
+/// trial-list.csv, with what is needed to measure each trial (task/plan/reach_plan.h).
+Table frozen_list(const TaskPlan& plan, const scene::Scene& scene);
+
+/// procedures.csv: what is needed of each procedure to fit its answers.
+Table procedure_table(const TaskPlan& plan);
+
+}  // namespace dihaptic::task

@@ -1,0 +1,129 @@
+#include "task/run/displayer.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "frame/displayed.h"
+
+namespace dihaptic::task {
+namespace {
+
+constexpr double kShake = 1.0 / 60;  // the noise is drawn anew this often: a screen's picture [s]
+
+/// Rows of the ring: what the longest delay asks for.
+size_t rows_of(const TaskPlan& plan, double tick) {
+    double longest = 0;
+    for (const TaskPlan::Cell& cell : plan.cells) {
+        for (const Perturbation& perturbation : cell.perturbations)
+            longest = std::max(longest, perturbation.longest_delay());
+    }
+    return static_cast<size_t>(std::max(1L, std::lround(longest / tick)));
+}
+
+/// Adds looks to those that are there: what they say replaces what was said.
+void put_on(const std::vector<frame::LookFrame>& looks, frame::TaskFrame& out) noexcept {
+    for (const frame::LookFrame& look : looks) {
+        const auto there =
+            std::find_if(out.looks.begin(), out.looks.end(),
+                         [&](const frame::LookFrame& other) { return other.body == look.body; });
+        if (there == out.looks.end()) {
+            add(out.looks, look);
+            continue;
+        }
+        there->hidden = look.hidden;
+        if (look.colour >= 0) there->colour = look.colour;
+        there->scale *= look.scale;
+    }
+}
+
+void put_on(const std::vector<frame::TargetFrame>& looks, frame::TaskFrame& out) noexcept {
+    for (const frame::TargetFrame& look : looks) {
+        for (frame::TargetFrame& target : out.targets) {
+            if (target.region != look.region) continue;
+            if (look.colour >= 0) target.colour = look.colour;
+            target.radius *= look.radius;
+        }
+    }
+}
+
+}  // namespace
+
+Displayer::Displayer(const TaskPlan& plan, uint64_t seed, double tick)
+    : fingers_(plan.finger_radius.size()),
+      object_(plan.object),
+      tick_(tick),
+      random_(seed, "displayed noise"),
+      things_(fingers_ + (object_ >= 0 ? 1 : 0)),
+      rows_(rows_of(plan, tick)),
+      past_(rows_ * things_),
+      held_(fingers_) {}
+
+void Displayer::see(const frame::Frame& last) noexcept {
+    if (last.sequence < 0) return;
+    bodies_ = last.bodies.size();
+    newest_ = (newest_ + 1) % rows_;
+    seen_ = std::min(seen_ + 1, rows_);
+    Pose* const row = &past_[newest_ * things_];
+    for (size_t i = 0; i < fingers_; ++i) row[i] = frame::mapped_proxy(last, i);
+    if (object_ >= 0) row[fingers_] = frame::mapped_body(last, static_cast<size_t>(object_));
+}
+
+void Displayer::enter(const TaskPlan::Stage& stage, const TaskPlan::Cell& cell,
+                      bool new_trial) noexcept {
+    stage_ = &stage;
+    cell_ = &cell;
+    // held from one state to the next, a cursor stays where it is
+    if (stage.holds_cursor && (new_trial || !holds_)) {
+        for (size_t i = 0; i < fingers_; ++i) held_[i] = past(i, 1);
+    }
+    holds_ = stage.holds_cursor && seen_ > 0;
+}
+
+const Pose& Displayer::past(size_t thing, long ticks) const noexcept {
+    const size_t back = std::clamp<size_t>(static_cast<size_t>(std::max(1L, ticks)), 1,
+                                           std::max<size_t>(1, seen_)) -
+                        1;
+    return past_[(newest_ + rows_ - back) % rows_ * things_ + thing];
+}
+
+void Displayer::order(double now, frame::TaskFrame& out) noexcept {
+    if (stage_ == nullptr) return;
+    for (const TaskPlan::Looks* looks : {&cell_->looks, &stage_->looks}) {
+        put_on(looks->things, out);
+        put_on(looks->targets, out);
+    }
+    if (!out.visual.empty() && seen_ > 0) {
+        const frame::VisualMap& map = out.visual.front();
+        const bool shakes = !map.noise.isZero(0);
+        if (shakes && (shaken_ < 0 || now - shaken_ >= kShake - tick_ / 2)) {
+            shake_ = Vec3(random_.normal(), random_.normal(), random_.normal());
+            shaken_ = now;
+        }
+        if (shakes || map.delay > 0) displace(map, out);
+    }
+    if (!holds_) return;
+    const auto is_finger = [&](const frame::DisplacedFrame& displaced) {
+        return displaced.body >= static_cast<int32_t>(bodies_);
+    };
+    out.displaced.erase(std::remove_if(out.displaced.begin(), out.displaced.end(), is_finger),
+                        out.displaced.end());
+    for (size_t i = 0; i < fingers_; ++i)
+        add(out.displaced, {static_cast<int32_t>(bodies_ + i), held_[i]});
+}
+
+/// What is shaken but not late is shown a tick late: where it is in this tick is not known yet.
+void Displayer::displace(const frame::VisualMap& map, frame::TaskFrame& out) const noexcept {
+    const long ticks = std::lround(map.delay / tick_);
+    const auto show = [&](size_t thing, size_t body) {
+        Pose X_WB = past(thing, ticks);
+        X_WB.p += map.noise.cwiseProduct(shake_);
+        add(out.displaced, {static_cast<int32_t>(body), X_WB});
+    };
+    if ((map.moves & frame::kMovesProxies) != 0) {
+        for (size_t i = 0; i < fingers_; ++i) show(i, bodies_ + i);
+    }
+    if ((map.moves & frame::kMovesObject) != 0 && object_ >= 0)
+        show(fingers_, static_cast<size_t>(object_));
+}
+
+}  // namespace dihaptic::task

@@ -1,0 +1,34 @@
+// The values that expressions have of what was recorded, frame by frame.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+#include "task/expression/expression.h"
+
+namespace dihaptic::task {
+
+/// The handles as a frame has them.
+void handles_of(const frame::Frame& frame, std::vector<frame::Handle>& out);
+
+/// An expression of a recording, by itself: what a task defines (regions, variables, times in a
+/// state) has no name in it.
+class RecordedValue {
+  public:
+    /// A mistake goes to `diagnostics`; the value is then 0.
+    RecordedValue(const std::string& text, const scene::Scene& scene, Diagnostics& diagnostics);
+
+    double operator()(const frame::Frame& frame);
+    /// Of the value; lengths are in mm.
+    const std::string& unit() const { return unit_; }
+
+  private:
+    Quantities quantities_;
+    Expression expression_;
+    std::vector<frame::Handle> handles_;
+    std::string unit_;
+    double scale_ = 1;
+};
+
+}  // namespace dihaptic::task

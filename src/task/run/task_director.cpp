@@ -1,0 +1,571 @@
+#include "task/run/task_director.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "task/run/clearance.h"
+
+namespace dihaptic::task {
+namespace {
+
+constexpr double kAtHome = 1e-6;  // tolerance for a body to be in its place [m], [rad], [m/s]
+constexpr double kNever = -1;
+
+bool same_pose(const Pose& a, const Pose& b) noexcept {
+    return (a.p - b.p).norm() < kAtHome && a.R.angularDistance(b.R) < kAtHome;
+}
+
+/// Whether a finger presses the body.
+bool pressed(const frame::Frame& last, int body) noexcept {
+    const auto bodies = static_cast<int>(last.bodies.size());
+    return std::any_of(
+        last.contacts.begin(), last.contacts.end(), [&](const frame::ContactFrame& contact) {
+            const bool of_body = contact.a == body || contact.b == body;
+            return contact.normal_force > 0 && of_body && std::max(contact.a, contact.b) >= bodies;
+        });
+}
+
+/// A time to the nanosecond: sums of ticks are off by their rounding.
+double exact(double time) noexcept {
+    return std::round(time * 1e9) / 1e9;
+}
+
+/// Where the body is, or is put in this tick.
+Pose pose_of(int body, const frame::Frame& last, const frame::Commands& commands) noexcept {
+    for (const frame::PlacementFrame& placed : commands.task.placements) {
+        if (placed.body == body) return placed.X_WB;
+    }
+    return last.bodies[static_cast<size_t>(body)].X_WB;
+}
+
+/// Where the joint's coordinate is.
+double coordinate_of(int joint, const frame::Frame& last) noexcept {
+    const frame::JointFrame& frame = last.joints[static_cast<size_t>(joint)];
+    return std::isnan(frame.angle) ? frame.displacement : frame.angle;
+}
+
+}  // namespace
+
+TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
+                           const std::vector<Attempt>& done)
+    : plan_(plan),
+      tick_(tick),
+      queue_(plan.trials, plan.task.redo, plan.task.most_attempts, seed),
+      numbers_(plan),
+      variables_(plan.start),
+      motions_(plan.bodies, plan.finger_radius.size(), plan.longest_delay, tick),
+      began_(plan.task.perturbations.size(), kNever),
+      displayer_(plan, seed, tick),
+      sounder_(plan),
+      opening_(plan) {
+    for (const ProcedureSpec& spec : plan.task.procedures)
+        procedures_.push_back(make_procedure(spec, seed));
+    skip_done();
+    for (const Attempt& attempt : done) {
+        for (size_t i = 0; i < attempt.variables.size(); ++i)
+            variables_[i].value = attempt.variables[i];
+        if (!queue_.go_to(attempt.trial, attempt.attempt) || attempt.outcome < 0) continue;
+        take_answer(attempt.outcome);
+        queue_.finish(plan.outcomes[static_cast<size_t>(attempt.outcome)].redo);
+        skip_done();
+    }
+    share_ = static_cast<double>(queue_.done()) / queue_.all();
+    size_t ways = 0;
+    size_t puts = 0;
+    size_t drives = 0;
+    size_t motors = 0;
+    for (const TaskPlan::Stage& stage : plan.stages) {
+        ways = std::max(ways, stage.ways.size());
+        puts = std::max(puts, stage.puts.size());
+        drives = std::max(drives, stage.drives.size());
+        motors = std::max(motors, stage.motors.size());
+    }
+    judged_.assign(ways, {});
+    is_put_.assign(puts, 0);
+    put_at_.resize(puts);
+    drive_from_.resize(drives);
+    motor_from_.resize(motors);
+}
+
+void TaskDirector::operator()(const frame::Frame& last, std::span<const frame::Handle> handles,
+                              frame::Commands& commands) noexcept {
+    const double now = last.sequence < 0 ? 0 : seconds(last.time) + tick_;
+    motions_.add(last, handles);
+    displayer_.see(last);
+    // texts name quantities between trials too
+    numbers_.quantities().update(last, handles);
+    direct(last, handles, now, commands);
+    displayer_.order(now, commands.task);
+    sounder_.order(state_ < 0 ? nullptr : &plan_.stages[static_cast<size_t>(state_)],
+                   commands.task);
+    say(now, commands.task);
+}
+
+void TaskDirector::direct(const frame::Frame& last, std::span<const frame::Handle> handles,
+                          double now, frame::Commands& commands) noexcept {
+    if (now >= feedback_until_ && next_message_ >= 0) message_ = std::exchange(next_message_, -1);
+    // taken in every tick, so that input between trials counts for no trial
+    const Input input{key_.exchange(0, std::memory_order_relaxed),
+                      trigger_.exchange(0, std::memory_order_relaxed),
+                      clicked_.exchange(Rating::kNowhere, std::memory_order_relaxed)};
+    if (queue_.empty()) {
+        order_end(now, commands);
+        return;
+    }
+    if (skip_.exchange(false, std::memory_order_relaxed)) {
+        finish(plan_.skipped, false, now, commands);
+        return;
+    }
+    take_answers(handles, input);
+    if (state_ < 0) {
+        begin(last, input.key, now, commands);
+    } else if (const TaskPlan::Way* way = way_out(last, input, now)) {
+        sounder_.take(*way);
+        if (way->feedback >= 0) {
+            (plan_.task.feedback_beside ? feedback_ : message_) = way->feedback;
+            next_message_ = -1;
+            feedback_until_ = now + plan_.task.feedback - tick_ / 2;
+        }
+        if (way->exit.to.index < 0) {
+            finish(plan_.outcome_of(*way, trial()), way->exit.redo, now, commands);
+            return;
+        }
+        enter(way->exit.to.index, now, commands);
+    }
+    put_bodies(last, commands);
+    drive_bodies(last, now, commands);
+    order(now, commands);
+}
+
+void TaskDirector::begin(const frame::Frame& last, char key, double now,
+                         frame::Commands& commands) noexcept {
+    if (!decided(now)) return;
+    if (now < feedback_until_) return;  // the feedback is still being read
+    if (!opening_.over(trial(), last_trial_ > 0, key, now)) return;
+    if (!begun_) resolve();
+    if (!clear(last)) {
+        message_ = plan_.move_away;
+        return;
+    }
+    for (const TaskPlan::Home& home : numbers_.cell().homes) {
+        const bool there =
+            last.sequence >= 0 &&
+            (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, home.X_WB) &&
+             last.bodies[static_cast<size_t>(home.body)].v_WB.norm() < kAtHome &&
+             home.motion.v.isZero(0) && home.motion.w.isZero(0));
+        if (!there) put(home.body, home.X_WB, home.motion, commands);
+    }
+    if (message_ == plan_.move_away) message_ = -1;
+    enter(0, now, commands);
+}
+
+void TaskDirector::decide_by(Between& between) noexcept {
+    between_ = &between;
+    ask(0, -1, 0);
+}
+
+void TaskDirector::ask(int attempt, int outcome, double now) noexcept {
+    if (between_ == nullptr) return;
+    Ended ended;
+    ended.trial = last_trial_;
+    ended.attempt = attempt;
+    ended.outcome = outcome;
+    for (size_t i = 0; i < plan_.task.variables.size(); ++i)
+        ended.variables[i] = variables_[i].value;
+    between_->ask(ended);
+    asked_ = true;
+    ask_until_ = now + between_->patience();
+}
+
+bool TaskDirector::decided(double now) noexcept {
+    if (!asked_) return true;
+    if (const Decision* const decision = between_->answer()) {
+        follow(*decision, now);
+    } else if (now < ask_until_ && !between_->gone()) {
+        return false;
+    } else {
+        between_->note_late();
+    }
+    asked_ = false;
+    return true;
+}
+
+void TaskDirector::follow(const Decision& decision, double now) noexcept {
+    for (size_t i = 0; i < plan_.task.variables.size(); ++i) {
+        if (std::isfinite(decision.variables[i])) variables_[i].value = decision.variables[i];
+    }
+    if (const int next = decision.next - 1; next >= 0) {
+        // pages and pauses come before a block, so that a trial of another one cannot be next
+        const bool here = plan_.trials[static_cast<size_t>(next)].number == trial().number;
+        if (!here || !queue_.go_to(next, 1)) between_->note_refused();
+    }
+    skip_done();
+    if (decision.message < 0) return;
+    message_ = decision.message;
+    next_message_ = -1;
+    feedback_until_ = now + plan_.task.feedback - tick_ / 2;
+}
+
+/// Whether all bodies can be put back.
+bool TaskDirector::clear(const frame::Frame& last) const noexcept {
+    const auto& homes = numbers_.cell().homes;
+    return std::all_of(homes.begin(), homes.end(),
+                       [&](const TaskPlan::Home& home) { return clear(last, home, home.X_WB); });
+}
+
+/// Whether a body can be put there. A body put where a finger is would push the finger out; a body
+/// taken from between fingers that press it would let them clap together.
+bool TaskDirector::clear(const frame::Frame& last, const TaskPlan::Home& home,
+                         const Pose& X_WB) const noexcept {
+    if (last.sequence < 0) return true;
+    if (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, X_WB)) return true;
+    if (pressed(last, home.body)) return false;
+    for (size_t i = 0; i < last.fingers.size(); ++i) {
+        if (in_the_way(X_WB, home.box, last.fingers[i].p_WP, plan_.finger_radius[i])) return false;
+    }
+    return true;
+}
+
+/// Orders that the body be put there in this tick, whatever was ordered of it before.
+void TaskDirector::put(int body, const Pose& X_WB, const BodyMotion& motion,
+                       frame::Commands& commands) noexcept {
+    std::vector<frame::PlacementFrame>& list = commands.task.placements;
+    const auto same = std::find_if(list.begin(), list.end(),
+                                   [&](const auto& placed) { return placed.body == body; });
+    if (same == list.end()) {
+        add(list, {body, X_WB, motion.v, motion.w});
+    } else {
+        *same = {body, X_WB, motion.v, motion.w};
+    }
+    motions_.put(body, X_WB.p);
+}
+
+void TaskDirector::enter(int state, double now, frame::Commands& commands) noexcept {
+    if (state_ < 0) trial_began_ = now;
+    numbers_.follow(queue_.trial() + 1, queue_.attempt(), variables_, state);
+    const TaskPlan::Cell& cell = numbers_.cell();
+    for (const int i : trial().perturb) {
+        if (cell.acts(i, state) && !cell.acts(i, state_)) began_[static_cast<size_t>(i)] = now;
+    }
+    displayer_.enter(plan_.stages[static_cast<size_t>(state)], cell, state_ < 0);
+    sounder_.enter(plan_.stages[static_cast<size_t>(state)]);
+    state_ = state;
+    entered_ = now;
+    numbers_.quantities().set(Quantities::kTimeInState, 0);  // drives ask for it in this tick
+    rating_.begin();
+    std::fill(judged_.begin(), judged_.end(), Judged{});
+    std::fill(is_put_.begin(), is_put_.end(), 0);
+    driving_ = false;
+    const TaskPlan::Stage& stage = plan_.stages[static_cast<size_t>(state)];
+    const bool waits = now < feedback_until_ && !plan_.task.feedback_beside;
+    if (stage.message >= 0) (waits ? next_message_ : message_) = stage.message;
+    commands.task.marker = stage.marker;
+}
+
+const TaskPlan::Way* TaskDirector::way_out(const frame::Frame& last, const Input& input,
+                                           double now) noexcept {
+    const auto& ways = plan_.stages[static_cast<size_t>(state_)].ways;
+    Quantities& quantities = numbers_.quantities();
+    quantities.set(Quantities::kTimeInState, exact(now - entered_));
+    quantities.set(Quantities::kTimeInTrial, exact(now - trial_began_));
+    for (size_t i = 0; i < ways.size(); ++i) {
+        const TaskPlan::Way& way = ways[i];
+        // half a tick of tolerance, because times are sums of ticks, which round
+        if (way.exit.when == When::time) {
+            if (now - entered_ >= numbers_.of(way.exit.hold) - tick_ / 2) return &way;
+            continue;
+        }
+        Judged& judged = judged_[i];
+        if (!holds(way, last, input)) {
+            judged.since = kNever;
+            judged.met = false;
+            continue;
+        }
+        if (judged.since == kNever) judged.since = now;
+        if (judged.met || now - judged.since < numbers_.of(way.exit.hold) - tick_ / 2) continue;
+        judged.met = true;
+        if (++judged.count >= way.exit.count) return &way;
+    }
+    return nullptr;
+}
+
+bool TaskDirector::holds(const TaskPlan::Way& way, const frame::Frame& last,
+                         const Input& input) const noexcept {
+    switch (way.exit.when) {
+        case When::key:
+            return input.key == way.exit.key.front();
+        case When::button: {
+            const auto finger = static_cast<size_t>(std::max(0, way.finger));
+            return (last.fingers[finger].buttons >> way.exit.button & 1u) != 0;
+        }
+        case When::trigger:
+            return input.trigger == kAnyTrigger ||
+                   (input.trigger != 0 && (way.exit.code == 0 || input.trigger == way.exit.code));
+        case When::answered:
+            return !std::isnan(rating_.answer());
+        default:
+            return way.condition(numbers_.values()) != 0;
+    }
+}
+
+void TaskDirector::finish(int outcome, bool redo, double now, frame::Commands& commands) noexcept {
+    last_trial_ = queue_.trial() + 1;
+    last_attempt_ = queue_.attempt();
+    commands.trial = last_trial_;
+    // a trial skipped before it began has its only frame in its first state
+    commands.phase = std::max(state_, 0) + 1;
+    commands.task.attempt = last_attempt_;
+    commands.task.outcome = outcome;
+    commands.task.message = message_;
+    follow_rules(outcome);
+    commands.task.variables = variables_;
+    take_answer(outcome);
+    queue_.finish(redo);
+    skip_done();
+    state_ = -1;
+    begun_ = false;
+    share_.store(static_cast<double>(queue_.done()) / queue_.all(), std::memory_order_relaxed);
+    if (!queue_.empty()) ask(last_attempt_, outcome, now);
+    commands.stop = queue_.empty() && now >= feedback_until_;
+}
+
+/// After the last trial, the session lasts until its feedback has been read. A session that was
+/// over when it was resumed ends at once.
+void TaskDirector::order_end(double now, frame::Commands& commands) const noexcept {
+    commands.stop = now >= feedback_until_;
+    commands.trial = last_trial_;
+    commands.phase = 0;
+    commands.task.attempt = last_attempt_;
+    commands.task.message = message_;
+    commands.task.variables = variables_;
+}
+
+void TaskDirector::say(double now, frame::TaskFrame& out) const noexcept {
+    if (const int page = opening_.page(); page >= 0) {
+        out.page = page;
+        out.message = plan_.pages[static_cast<size_t>(page)].message;
+        say(out.message, now, out);
+        return;
+    }
+    const bool rests = opening_.on();
+    if (rests) out.message = plan_.rest;
+    say(out.message, now, out);
+    const auto add_line = [&](int message) {
+        add(out.lines, {message});
+        say(message, now, out);
+    };
+    if (feedback_ >= 0 && now < feedback_until_) add_line(feedback_);
+    if (rests) add_line(plan_.countdown);
+    if (state_ >= 0) {
+        for (const int line : plan_.stages[static_cast<size_t>(state_)].lines) add_line(line);
+    }
+    for (const int line : plan_.lines) add_line(line);
+}
+
+void TaskDirector::say(int message, double now, frame::TaskFrame& out) const noexcept {
+    if (message < 0) return;
+    for (const TextNumber& number : plan_.numbers[static_cast<size_t>(message)]) {
+        if (!number.quantity.empty()) {
+            add(out.numbers, {number.quantity(numbers_.values())});
+        } else {
+            add(out.numbers,
+                {number.figure == Figure::answer ? rating_.shown() : value_of(number.figure, now)});
+        }
+    }
+}
+
+double TaskDirector::value_of(Figure figure, double now) const noexcept {
+    // between trials a text is about the one that ended, a page about the one that comes
+    const bool ended = state_ < 0 && !opening_.on() && last_trial_ > 0;
+    if (queue_.empty() && !ended) return kUnmeasured;
+    const int number = ended ? last_trial_ : queue_.trial() + 1;
+    const Trial& trial = plan_.trials[static_cast<size_t>(number - 1)];
+    switch (figure) {
+        case Figure::trial_num:
+            return number;
+        case Figure::trials:
+            return static_cast<double>(plan_.trials.size());
+        case Figure::trials_left:
+            return queue_.all() - queue_.done();
+        case Figure::trial_num_in_block:
+            return trial.in_block;
+        case Figure::block_num:
+            return trial.number;
+        case Figure::blocks:
+            return plan_.trials.back().number;
+        case Figure::attempt:
+            return ended ? last_attempt_ : queue_.attempt();
+        case Figure::countdown:
+            return countdown(now);
+        default:
+            return kUnmeasured;
+    }
+}
+
+/// Half a tick of tolerance, because times are sums of ticks, which round.
+double TaskDirector::countdown(double now) const noexcept {
+    const double rest = opening_.rest_left(now);
+    if (rest >= 0) return std::ceil(rest - tick_ / 2);
+    if (state_ < 0) return kUnmeasured;
+    for (const TaskPlan::Way& way : plan_.stages[static_cast<size_t>(state_)].ways) {
+        if (way.exit.when == When::time)
+            return std::max(0.0,
+                            std::ceil(numbers_.of(way.exit.hold) - (now - entered_) - tick_ / 2));
+    }
+    return kUnmeasured;
+}
+
+void TaskDirector::skip_done() noexcept {
+    numbers_.set(variables_);
+    while (!queue_.empty() && is_done()) queue_.finish(false);
+}
+
+bool TaskDirector::is_done() noexcept {
+    if (numbers_.ends_before(queue_.trial())) return true;
+    return trial().procedure >= 0 && procedures_[static_cast<size_t>(trial().procedure)].done();
+}
+
+void TaskDirector::follow_rules(int outcome) noexcept {
+    // a trial that is skipped before it began has its numbers all the same
+    if (!begun_) resolve();
+    Quantities& quantities = numbers_.quantities();
+    quantities.set(plan_.symbols.outcome, plan_.symbols.outcomes[static_cast<size_t>(outcome)]);
+    for (const TaskPlan::Change& change : plan_.changes) {
+        if (change.when && (*change.when)(quantities.values()) == 0) continue;
+        const double value = change.to.value(quantities.values());
+        if (!std::isfinite(value)) continue;
+        variables_[change.variable].value = value;
+        numbers_.set(variables_);
+    }
+}
+
+void TaskDirector::take_answers(std::span<const frame::Handle> handles,
+                                const Input& input) noexcept {
+    if (state_ < 0 || !plan_.stages[static_cast<size_t>(state_)].question) return;
+    const Question& question = *plan_.stages[static_cast<size_t>(state_)].question;
+    if (question.by != AnswerBy::cursor) {
+        rating_.press(input.key, question);
+        if (question.by == AnswerBy::mouse && input.clicked != Rating::kNowhere)
+            rating_.click(input.clicked, question);
+    } else {
+        Vec3 middle_W = Vec3::Zero();
+        for (const frame::Handle& handle : handles)
+            middle_W += handle.p_WH / static_cast<double>(handles.size());
+        const auto& p_W = numbers_.cell().p_W;
+        rating_.point(middle_W, p_W[static_cast<size_t>(question.from)],
+                      p_W[static_cast<size_t>(question.to)], question);
+    }
+    const double answer = question.si * rating_.answer();
+    variables_[question.variable].value = answer;
+    numbers_.quantities().set(plan_.symbols.variables[question.variable].slot, answer);
+}
+
+void TaskDirector::resolve() noexcept {
+    begun_ = true;
+    for (size_t i = plan_.task.variables.size() + plan_.levels.size(); i < variables_.size(); ++i)
+        variables_[i].value = kUnmeasured;
+    for (const TaskPlan::Level& level : plan_.levels)
+        variables_[level.variable].value = level.standard;
+    if (const TaskPlan::Level* const chosen = plan_.level_of(trial())) {
+        const auto i = static_cast<size_t>(trial().procedure);
+        variables_[chosen->variable].value = chosen->si * plan_.task.procedures[i].share(level());
+    }
+    numbers_.begin(queue_.trial(), queue_.attempt(), variables_, 0);
+}
+
+/// The level that the trial's procedure chose, within its range.
+double TaskDirector::level() const noexcept {
+    const auto i = static_cast<size_t>(trial().procedure);
+    const ProcedureSpec& spec = plan_.task.procedures[i];
+    return std::clamp(procedures_[i].level(), spec.least(), spec.most());
+}
+
+double TaskDirector::share_of_trial() const noexcept {
+    if (trial().procedure < 0 || plan_.level_of(trial()) != nullptr) return trial().share;
+    if (plan_.shows_standard(trial(), state_)) return 0;
+    return plan_.task.procedures[static_cast<size_t>(trial().procedure)].share(level());
+}
+
+/// Gives the outcome of the ending trial to its procedure. An outcome that is neither its yes nor
+/// its no is no answer.
+void TaskDirector::take_answer(int outcome) noexcept {
+    if (trial().procedure < 0) return;
+    const auto i = static_cast<size_t>(trial().procedure);
+    const std::string& name = plan_.outcomes[static_cast<size_t>(outcome)].name;
+    const bool yes = name == plan_.task.procedures[i].yes;
+    if (yes || name == plan_.task.procedures[i].no) procedures_[i].answer(level(), yes);
+}
+
+/// Puts the state's bodies, each as soon as no finger presses it or is in its way, and keeps in
+/// place those that stay.
+void TaskDirector::put_bodies(const frame::Frame& last, frame::Commands& commands) noexcept {
+    if (state_ < 0) return;
+    const auto& puts = plan_.stages[static_cast<size_t>(state_)].puts;
+    for (size_t i = 0; i < puts.size(); ++i) {
+        const TaskPlan::Put& wanted = puts[i];
+        const int body = wanted.home.body;
+        if (is_put_[i] && !wanted.stays) continue;
+        if (!is_put_[i]) {
+            const Pose X_WB{wanted.home.X_WB.R, numbers_.of(wanted.home.position)};
+            // before the first Frame nobody knows where fingers are
+            if (wanted.moves && (last.sequence < 0 || !clear(last, wanted.home, X_WB))) continue;
+            is_put_[i] = 1;
+            put_at_[i] = wanted.moves ? X_WB : pose_of(body, last, commands);
+        }
+        put(body, put_at_[i], {numbers_.of(wanted.home.velocity), Vec3::Zero()}, commands);
+    }
+}
+
+/// Orders where the state's drives and motors get by the end of the tick, each from where its body
+/// or joint is as the state begins.
+void TaskDirector::drive_bodies(const frame::Frame& last, double now,
+                                frame::Commands& commands) noexcept {
+    if (state_ < 0 || last.sequence < 0) return;
+    const auto& drives = plan_.stages[static_cast<size_t>(state_)].drives;
+    const auto& motors = plan_.stages[static_cast<size_t>(state_)].motors;
+    if (!driving_) {
+        for (size_t i = 0; i < drives.size(); ++i)
+            drive_from_[i] = pose_of(drives[i].body(), last, commands);
+        for (size_t i = 0; i < motors.size(); ++i)
+            motor_from_[i] = coordinate_of(motors[i].joint(), last);
+        driving_ = true;
+    }
+    const auto of = [&](const Formula& number) { return numbers_.of(number); };
+    const double t = now + tick_ - entered_;
+    for (size_t i = 0; i < motors.size(); ++i)
+        add(commands.task.motors, motors[i].at(t, motor_from_[i], of, numbers_.values()));
+    for (size_t i = 0; i < drives.size(); ++i) {
+        const Pose X_WB = drives[i].at(t, drive_from_[i], of, numbers_.values());
+        add(commands.task.drives, {drives[i].body(), X_WB});
+    }
+}
+
+void TaskDirector::order(double now, frame::Commands& commands) const noexcept {
+    commands.trial = queue_.trial() + 1;
+    commands.phase = state_ + 1;
+    frame::TaskFrame& out = commands.task;
+    out.attempt = queue_.attempt();
+    out.message = message_;
+    out.variables = variables_;
+    if (state_ < 0) return;
+    const TaskPlan::Stage& stage = plan_.stages[static_cast<size_t>(state_)];
+    const TaskPlan::Cell& cell = numbers_.cell();
+    for (size_t i = 0; i < cell.p_W.size(); ++i) {
+        if (stage.shown >> i & 1u)
+            add(out.targets, {static_cast<int32_t>(i), cell.p_W[i], cell.regions[i].radius.value});
+    }
+    for (const int p : trial().perturb) {
+        const auto i = static_cast<size_t>(p);
+        if (!cell.acts(p, state_)) continue;
+        const double part = cell.perturbations[i].share_at(now - began_[i]);
+        if (part == 0) continue;  // its profile has not begun, or is over
+        // the trial's share: what the profile makes of it shows in what is ordered
+        const double share = share_of_trial();
+        if (share == 0 && plan_.shows_standard(trial(), state_)) continue;
+        out.share = share;
+        cell.perturbations[i].order(part * out.share, cell.p_W, motions_, out);
+    }
+}
+
+}  // namespace dihaptic::task

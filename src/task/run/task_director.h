@@ -1,0 +1,150 @@
+// Runs a session's trials inside the tick: keeps the current state, commands what it shows and
+// perturbs, judges its exits, and chooses the next trial. Once constructed it neither allocates,
+// locks nor throws.
+#pragma once
+
+#include <atomic>
+
+#include "frame/orders.h"
+#include "task/run/between.h"
+#include "task/run/displayer.h"
+#include "task/run/opening.h"
+#include "task/run/sounder.h"
+#include "task/run/trial_numbers.h"
+
+namespace dihaptic::task {
+
+class TaskDirector {
+  public:
+    /// `plan` must outlive the director. `done`: attempts made by an earlier part of the session,
+    /// in order.
+    TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
+                 const std::vector<Attempt>& done = {});
+
+    void operator()(const frame::Frame& last, std::span<const frame::Handle> handles,
+                    frame::Commands& commands) noexcept;
+
+    /// The operator pressed a key; from any thread.
+    void press(char key) noexcept { key_.store(key, std::memory_order_relaxed); }
+    /// A question's line was clicked at a share of its length; from any thread.
+    void click(double share) noexcept { clicked_.store(share, std::memory_order_relaxed); }
+    /// A trigger came from outside; from any thread. `code`: 1 to 255, or kAnyTrigger.
+    void trigger(int code) noexcept { trigger_.store(code, std::memory_order_relaxed); }
+    static constexpr int kAnyTrigger = -1;  ///< counts as any code that is waited for
+    /// Ends the trial in the next tick, as skipped and not to be done again; from any thread.
+    void skip() noexcept { skip_.store(true, std::memory_order_relaxed); }
+    /// Before the first tick: asks `between`, which must outlive the director, before each attempt.
+    void decide_by(Between& between) noexcept;
+    /// Call between two ticks: a running trial begins anew.
+    void interrupt() noexcept {
+        if (!queue_.empty() && state_ >= 0) queue_.again();
+        state_ = -1;
+        begun_ = false;
+        motions_.forget();
+    }
+    /// The numbers of the trials so far: whether formulas of theirs had to be kept within bounds.
+    const TrialNumbers& numbers() const noexcept { return numbers_; }
+    /// Share of the trials that are done, from any thread.
+    double share() const noexcept { return share_.load(std::memory_order_relaxed); }
+
+  private:
+    const Trial& trial() const { return plan_.trials[static_cast<size_t>(queue_.trial())]; }
+    bool clear(const frame::Frame& last) const noexcept;
+    bool clear(const frame::Frame& last, const TaskPlan::Home& home,
+               const Pose& X_WB) const noexcept;
+    void put(int body, const Pose& X_WB, const BodyMotion& motion,
+             frame::Commands& commands) noexcept;
+    /// Begins the next trial once the last feedback and its block's pages have been read and bodies
+    /// can be put back.
+    void begin(const frame::Frame& last, char key, double now, frame::Commands& commands) noexcept;
+    /// Asks what decides between trials, if anything does.
+    void ask(int attempt, int outcome, double now) noexcept;
+    /// Whether what decides between trials has answered, or is too late.
+    bool decided(double now) noexcept;
+    void follow(const Decision& decision, double now) noexcept;
+    void enter(int state, double now, frame::Commands& commands) noexcept;
+    /// What came in from outside since the last tick.
+    struct Input {
+        char key;     // 0: none
+        int trigger;  // 0: none
+        double clicked;
+    };
+    bool holds(const TaskPlan::Way& way, const frame::Frame& last,
+               const Input& input) const noexcept;
+    const TaskPlan::Way* way_out(const frame::Frame& last, const Input& input, double now) noexcept;
+    void finish(int outcome, bool redo, double now, frame::Commands& commands) noexcept;
+    void order_end(double now, frame::Commands& commands) const noexcept;
+    void order(double now, frame::Commands& commands) const noexcept;
+    void put_bodies(const frame::Frame& last, frame::Commands& commands) noexcept;
+    void drive_bodies(const frame::Frame& last, double now, frame::Commands& commands) noexcept;
+    /// Takes what was typed, or where the hands are, as the answer that the state asks for.
+    void take_answers(std::span<const frame::Handle> handles, const Input& input) noexcept;
+
+    /// As operator(), but for how things look and sound, and what texts say.
+    void direct(const frame::Frame& last, std::span<const frame::Handle> handles, double now,
+                frame::Commands& commands) noexcept;
+    /// Orders the texts, once the message is ordered, or the page in their place.
+    void say(double now, frame::TaskFrame& out) const noexcept;
+    void say(int message, double now, frame::TaskFrame& out) const noexcept;
+    /// Number in a text; NaN if there is none now.
+    double value_of(Figure figure, double now) const noexcept;
+    double countdown(double now) const noexcept;
+
+    /// Skips trials whose procedure is done, or whose block: they may need fewer trials than the
+    /// list has.
+    void skip_done() noexcept;
+    bool is_done() noexcept;
+    /// Changes the variables by the rules for the trial that ends.
+    void follow_rules(int outcome) noexcept;
+    /// Chooses the numbers of the trial that begins, and resolves its formulas.
+    void resolve() noexcept;
+    double level() const noexcept;
+    double share_of_trial() const noexcept;
+    void take_answer(int outcome) noexcept;
+
+    const TaskPlan& plan_;
+    double tick_;
+    std::vector<Procedure> procedures_;
+    TrialQueue queue_;
+    TrialNumbers numbers_;
+    std::vector<frame::VariableFrame> variables_;
+    bool begun_ = false;      // the trial's numbers are resolved
+    int state_ = -1;          // -1: between trials
+    double trial_began_ = 0;  // when the trial entered its first state [s]
+    double entered_ = 0;      // [s]
+    int message_ = -1;
+    int next_message_ = -1;       // shown once the feedback has been read
+    int feedback_ = -1;           // line below the message
+    double feedback_until_ = -1;  // [s]
+    int last_trial_ = 0;          // last trial that ended, from 1; 0: none yet
+    int last_attempt_ = 0;
+    /// Of a way: its condition.
+    struct Judged {
+        double since = -1;  // when it began to hold; -1: it does not hold [s]
+        bool met = false;   // it has held long enough since then
+        int count = 0;      // how often it was met in the state
+    };
+    std::vector<Judged> judged_;
+    std::vector<char> is_put_;        // by the state's puts: whether it could be done yet
+    std::vector<Pose> put_at_;        // and where
+    std::vector<Pose> drive_from_;    // by drive of the state: where its body was as it began
+    std::vector<double> motor_from_;  // by motor of the state: where its joint was then
+    bool driving_ = false;            // drive_from_ and motor_from_ are of this state
+    Motions motions_;
+    // by perturbation: when a state in which it acts was entered from one in which it does not [s]
+    std::vector<double> began_;
+    Rating rating_;
+    Displayer displayer_;
+    Sounder sounder_;
+    Opening opening_;
+    Between* between_ = nullptr;
+    bool asked_ = false;    // and not yet decided
+    double ask_until_ = 0;  // [s]
+    std::atomic<char> key_{0};
+    std::atomic<double> clicked_{Rating::kNowhere};
+    std::atomic<int> trigger_{0};
+    std::atomic<bool> skip_{false};
+    std::atomic<double> share_{0};
+};
+
+}  // namespace dihaptic::task
