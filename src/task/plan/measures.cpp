@@ -32,10 +32,8 @@ unsigned needs_of(const Task& task) {
 
 bool pushes_by_velocity(const PerturbationSpec& spec) {
     const std::vector<LoadSpec> loads = spec.all_loads();
-    return std::any_of(loads.begin(), loads.end(), [](const LoadSpec& load) {
-        return load.kind == LoadKind::viscous || load.kind == LoadKind::curl ||
-               (load.kind == LoadKind::general && !load.B.isZero(0));
-    });
+    return std::any_of(loads.begin(), loads.end(),
+                       [](const LoadSpec& load) { return load.pushes_by_velocity(); });
 }
 
 /// Whether the load acts on what the measures are taken of.

@@ -23,6 +23,11 @@ double most_driving(const Mat3& matrix) {
 
 }  // namespace
 
+bool LoadSpec::pushes_by_velocity() const {
+    return kind == LoadKind::viscous || kind == LoadKind::curl ||
+           (kind == LoadKind::general && !B.isZero(0));
+}
+
 Load::Load(const LoadSpec& spec, const Names& names, const scene::Scene& scene,
            Diagnostics& diagnostics)
     : spec_(spec) {

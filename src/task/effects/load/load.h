@@ -119,6 +119,9 @@ struct LoadSpec {
         if constexpr (requires { v.place(); }) place = v.place();
     }
 
+    /// Whether it is a field whose force follows the velocity alone, or among others.
+    bool pushes_by_velocity() const;
+
   private:
     static constexpr Field direction() { return Field::number().within(-1000, 1000); }
     template <class Visitor>
