@@ -48,6 +48,27 @@ class Conventions(unittest.TestCase):
         listed = set(re.findall(r"`([\w-]+\.yaml)`", pathlib.Path("docs/experiments.md").read_text()))
         self.assertEqual(listed, {path.name for path in pathlib.Path("experiments").glob("*.yaml")})
 
+    def test_an_addition_touches_three_files_beside_its_own(self):
+        """Of one that exists of each kind: the files outside its own that know its name. Those of two kinds are more, which
+        must not grow."""
+        added = {  # kind: (name in the code, its own files, most others)
+            "a load": (r"LoadKind::curl\b", "src/task/effects/load/", 3),
+            "a place of perturbation": (r"\bJointSpec\b|\bjoint_properties\b", "src/task/effects/joint/", 3),
+            "a measure of behaviour": (r"\bspectral_arc_length\b", "src/analysis/measures/", 3),
+            "a command": (r"\badd_export\b", "app/cli/export.cpp", 3),
+            "a status bit": (r"\bkAbandoned\b", "src/base/status.h", 3),
+            "a device backend": (r"\bhaply\b", "src/devices/haply/", 3),
+            "a contact solver": (r"\bstaggered_projections\b", "src/contact/staggered_projections/", 7),
+            "a kind of joint": (r"\buniversal\b", "src/scene/joint.h", 3)}
+        sources = {path.as_posix(): re.sub(r"//.*", "", path.read_text()) for top in ("src", "app", "bench")
+                   for path in pathlib.Path(top).rglob("*")
+                   if path.suffix in (".h", ".cpp") and not {"test", "soak", "fuzz"} & set(path.parts)}
+        for kind, (name, own, most) in added.items():
+            with self.subTest(kind):
+                others = [path for path, text in sources.items() if re.search(name, text) and not path.startswith(own)]
+                self.assertTrue(any(re.search(name, text) for path, text in sources.items() if path.startswith(own)))
+                self.assertLessEqual(len(others), most, others)
+
     def test_rooms_that_read_the_record_include_none_that_makes_it(self):
         """Neither themselves nor by their CMake file: docs/adr/0028-the-record-is-a-room.md."""
         makers = "devices|dynamics|haptics|keeper|rig|servo"
