@@ -140,7 +140,7 @@ class Live(unittest.TestCase):
 
     def test_refuses_what_cannot_be_done_and_goes_on(self):
         run = self.start(self.task())
-        with self.assertRaisesRegex(dh.Error, "grip_forc: column 1: 'grip_forc' is no quantity. Did you mean grip_force"):
+        with self.assertRaisesRegex(dh.Error, "grip_forc: column 1: 'grip_forc' is not a quantity. Did you mean grip_force"):
             dh.observe(self.out, "grip_forc")
         with dh.observe(self.out) as live:
             for steer, why in [

@@ -1,4 +1,4 @@
-// Factors of which an effect consists: they are scaled by its share, and written in reports.
+// Factors that make up an effect: scaled by its share, and formatted for reports.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@ namespace dihaptic::task {
 
 inline const FormulaVec3 kNoFactors{1, 1, 1};
 
-/// What becomes of a factor at a share.
+/// The effective factor at a share.
 inline double part_of(double share, double factor) noexcept {
     return 1 + share * (factor - 1);
 }
@@ -18,7 +18,7 @@ inline Vec3 part_of(double share, const Vec3& factors) noexcept {
     return Vec3::Ones() + share * (factors - Vec3::Ones());
 }
 
-/// The number in this unit, or the text that gives it.
+/// The number in this unit, or the text of its formula.
 std::string in_words(const Formula& number, double unit = 1);
 std::string in_words(const FormulaVec3& v);
 /// Adds "WHAT factor times" unless the factor changes nothing.

@@ -12,7 +12,7 @@ Perturbation::Perturbation(const PerturbationSpec& spec, const Names& names,
     });
     profile_ = spec.profile;
     if (profile_ && profile_->fall > 0 && !profile_->plateau) {
-        diagnostics.error(profile_->place, "fall", "when it falls is missing",
+        diagnostics.error(profile_->place, "fall", "has no effect without plateau",
                           "Add e.g. plateau_ms: 100, the time between rise and fall.");
     }
     if (!any) {

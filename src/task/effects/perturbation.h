@@ -1,10 +1,9 @@
-// Perturbations as an experiment file describes them, and the commands that each gives in a tick.
+// Perturbations as described in an experiment file, and the commands of each in a tick.
 //
-// A perturbation acts with a share from 0 to 1, so that it can begin abruptly, by a ramp over
-// trials, or by a profile within one: angles, forces, and the difference of scales from 1 are
-// proportional to the share. What it changes, and how, are its effects: each has a folder of
-// `effects`, with what a file says of it, what is wrong with that, what it orders, and how a report
-// states it.
+// A perturbation acts with a share from 0 to 1, so that it can start abruptly, by a ramp over
+// trials, or by a profile within a trial: angles, forces, and the differences of scales from 1 are
+// proportional to the share. A perturbation consists of effects. Each has a folder in `effects`,
+// with its keys in the file, its checks, its commands, and its words in a report.
 #pragma once
 
 #include <algorithm>
@@ -27,16 +26,16 @@ struct State;
 /// Any combination of a visual map, properties of a body and a joint, and loads, under one name.
 struct PerturbationSpec {
     std::string name;
-    Refs<State> during;  ///< in which it acts; empty: all that are perturbed
+    Refs<State> during;  ///< states in which it acts; empty: all with perturbed: yes
     std::optional<Profile> profile;
     std::optional<VisualSpec> visual;
     std::optional<BodySpec> body;
     std::optional<JointSpec> joint;
-    std::optional<LoadSpec> field;  ///< the only load, or the first
+    std::optional<LoadSpec> field;  ///< the only load, or the first one
     std::vector<LoadSpec> loads;
     Place place;
 
-    /// Calls f(effect) for each effect that it has.
+    /// Calls f(effect) for each of its effects.
     template <class F>
     void each_effect(F f) const {
         if (visual) f(*visual);
@@ -55,19 +54,20 @@ struct PerturbationSpec {
     void visit(Visitor& v) {
         v("name", name, Field::text().required().says("Name of the perturbation."));
         v("during", during,
-          says("States in which it acts; left out, all but those with perturbed: no."));
+          says("States in which it acts; all but those with perturbed: no if omitted."));
         v("profile", profile,
-          says("Its course in time within a trial; left out, it acts at once and stays."));
-        v("visual", visual, says("Difference between what is shown and what is."));
-        v("body", body, says("Change of a body's properties."));
-        v("joint", joint, says("Change of a joint's properties."));
-        v("field", field, says("A load, as in loads; it is the only one, or the first."));
+          says("Time course within a trial; if omitted, it acts at once and throughout."));
+        v("visual", visual, says("Difference between displayed and true motion."));
+        v("body", body, says("Change in a body's properties."));
+        v("joint", joint, says("Change in a joint's properties."));
+        v("field", field,
+          says("A single load, or the first one, with the same keys as in 'loads'."));
         v("loads", loads, says("Forces and torques on the handles of fingers and on bodies."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// Whether it holds a handle or a body to a line or plane.
+/// Whether it confines a handle or a body to a line or plane.
 inline bool is_channel(const PerturbationSpec& spec) {
     const std::vector<LoadSpec> loads = spec.all_loads();
     return std::any_of(loads.begin(), loads.end(),
@@ -78,27 +78,28 @@ inline bool is_channel(const PerturbationSpec& spec) {
 class Perturbation {
   public:
     Perturbation() = default;
-    /// Problems with the spec go to `diagnostics`.
+    /// Problems in the spec go to `diagnostics`.
     Perturbation(const PerturbationSpec& spec, const Names& names, const scene::Scene& scene,
                  Diagnostics& diagnostics);
 
-    /// Factor on its share at `t` since its first state was entered [s].
+    /// Factor on its share at `t` since entry into its first state [s].
     double share_at(double t) const noexcept { return profile_ ? profile_->share(t) : 1; }
     /// Adds the perturbation's commands to `out`. `regions_W`: centres of the regions [m].
     void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
                frame::TaskFrame& out) const noexcept;
-    /// Force of its loads over velocity, at share 1 [N*s/m]; of channels and springs zero.
+    /// Matrix from velocity to the force of its loads at share 1 [N*s/m]; zero for channels and
+    /// springs.
     Mat3 field_gain() const;
     /// Axis of its rotation, or of its first curl field; nullopt if it has neither.
     std::optional<Vec3> axis() const;
     bool has_map() const { return !of<VisualEffect>().empty(); }
     std::span<const Load> loads() const { return of<Load>(); }
-    /// The most that the delay of what it moves on the screen may be [s].
+    /// Upper bound of its visual delay [s].
     double longest_delay() const { return has_map() ? of<VisualEffect>()[0].longest_delay() : 0; }
-    /// A body's properties at share 1; unset if it changes no body.
+    /// The body's properties at share 1; unset if it changes no body.
     std::optional<frame::PropertiesFrame> properties() const;
 
-    /// Of the numbers of its effects.
+    /// Formulas among the numbers of its effects.
     template <class Visitor>
     void visit(Visitor& v) {
         each_effect(*this, [&](auto& effect) { effect.visit(v); });

@@ -15,14 +15,14 @@ namespace dihaptic::task {
 namespace {
 
 constexpr size_t kLongestText = 2000;
-constexpr int kDeepestText = 40;  // brackets within brackets
+constexpr int kDeepestText = 40;  // depth of nested brackets
 
 constexpr std::array kWords{"and", "or", "not", "if", "else"};
 
 }  // namespace
 
-/// Reads the text by precedence, checks what its parts are, and puts the program together. Faults
-/// are thrown.
+/// Parses the text by precedence, checks the types of its parts, and builds the program. Throws
+/// faults.
 class Compiler : Parts {
   public:
     using Parts::remarks_;
@@ -34,7 +34,7 @@ class Compiler : Parts {
         const Value value = choice();
         if (token().kind != Token::Kind::end)
             throw Fault{token().column, fmt::format("'{}' is not expected here", shown(token())),
-                        "Write an operator before it, or leave it out."};
+                        "Write an operator before this, or leave it out."};
         if (value.type == Type::vector)
             throw Fault{value.column, "is a vector", "Name a component (.x), or write norm(...)."};
         Expression out;
@@ -65,11 +65,11 @@ class Compiler : Parts {
         return token.kind == Token::Kind::number ? fmt::format("{}", token.value) : token.text;
     }
 
-    // grammar, from what binds least
+    // grammar, from the lowest precedence
 
     Value choice() {
         if (++depth_ > kDeepestText)
-            throw Fault{token().column, "has too many brackets within brackets", "Simplify it."};
+            throw Fault{token().column, "has too many nested brackets", "Simplify it."};
         Value a = either();
         if (token().is("if")) {
             const size_t column = token().column;
@@ -79,8 +79,8 @@ class Compiler : Parts {
             expect("else");
             Value b = choice();
             if (a.type != b.type)
-                throw Fault{column, fmt::format("is {}, or else {}", what(a), what(b)),
-                            "Let both be of one kind."};
+                throw Fault{column, fmt::format("is either {} or {}", what(a), what(b)),
+                            "Make both the same kind."};
             match(a, b, column);
             a.literal = a.literal && a.type == Type::number;
             if (a.levels != b.levels) a.levels = nullptr;
@@ -150,25 +150,26 @@ class Compiler : Parts {
     }
     void check_comparison(Value& a, Value& b, bool equality, size_t column) {
         if (a.type != b.type || a.type == Type::vector) {
-            throw Fault{column, fmt::format("one side is {}, the other {}", what(a), what(b)),
+            throw Fault{column,
+                        fmt::format("one side is {}, but the other is {}", what(a), what(b)),
                         "Compare numbers with numbers, and texts with quoted texts."};
         }
         if (a.type != Type::number && !equality)
-            throw Fault{column, fmt::format("neither side is a number, but {}", what(a)),
-                        "Only == and != can be asked of it."};
+            throw Fault{column, fmt::format("each side is {}, not a number", what(a)),
+                        "Use only == and !=."};
         if (a.type == Type::text) check_levels(a, b);
         if (a.type == Type::text) check_levels(b, a);
         match(a, b, column);
     }
-    /// A quoted text must be one that the other side can be.
+    /// Checks that a quoted text is a possible value of the other side.
     void check_levels(const Value& quoted, const Value& other) const {
         if (!quoted.literal || other.levels == nullptr) return;
         const std::string& text = quantities_.text(static_cast<int>(constant_of(quoted.node[0])));
         const auto& levels = *other.levels;
         if (std::find(levels.begin(), levels.end(), text) != levels.end()) return;
         const std::string guess = nearest(text, levels);
-        throw Fault{quoted.column, fmt::format("it is never \"{}\"", text),
-                    guess.empty() ? fmt::format("It may be: {}.", fmt::join(levels, ", "))
+        throw Fault{quoted.column, fmt::format("the other side is never \"{}\"", text),
+                    guess.empty() ? fmt::format("Possible: {}.", fmt::join(levels, ", "))
                                   : fmt::format("Did you mean \"{}\"?", guess),
                     levels};
     }
@@ -269,17 +270,18 @@ class Compiler : Parts {
                 }
             case Token::Kind::end:
                 --at_;
-                throw Fault{first.column, "ends where a value is expected",
+                throw Fault{first.column, "the expression ends where a value is expected",
                             "Write what is missing."};
         }
-        throw Fault{first.column, fmt::format("'{}' stands where a value is expected", first.text),
+        throw Fault{first.column,
+                    fmt::format("'{}' is given where a value is expected", first.text),
                     "Write a number, a name or a bracket."};
     }
     static bool is_word(std::string_view text) {
         return std::find(kWords.begin(), kWords.end(), text) != kWords.end();
     }
 
-    /// A number with the unit that may follow it: 5 mm, 20 mm/s, 9.81 m/s^2.
+    /// A number with an optional unit: 5 mm, 20 mm/s, 9.81 m/s^2.
     Value with_unit(const Token& first) {
         double value = first.value;
         if (!is_unit(token())) return number(constant(value), {}, first.column, true);
@@ -299,7 +301,8 @@ class Compiler : Parts {
         }
         return number(constant(value), dimension, first.column);
     }
-    /// 700 ms is 0.7 s to the bit: what is a whole part of the SI unit is divided by.
+    /// 700 ms is exactly the double 0.7 s: for integer fractions of the SI unit, the number is
+    /// divided.
     static double in_si(double value, double unit) {
         const double parts = std::round(1 / unit);
         return parts > 1 && unit == 1 / parts ? value / parts : value * unit;
@@ -307,7 +310,7 @@ class Compiler : Parts {
     static bool is_unit(const Token& word) {
         return word.kind == Token::Kind::name && find_unit_in_si(word.text).has_value();
     }
-    /// Whether a unit goes on: with what is not also the name of a quantity.
+    /// Whether a unit continues with a further unit that is not also the name of a quantity.
     bool unit_goes_on() const {
         return (token().is("*") || token().is("/")) && is_unit(next()) &&
                !quantities_.knows(next().text);
@@ -343,14 +346,14 @@ class Compiler : Parts {
     Fault unknown(const Token& name) const {
         if (find_unit_in_si(name.text))
             return {name.column, fmt::format("'{}' is a unit", name.text),
-                    fmt::format("Write it behind a number: 1 {}.", name.text)};
+                    fmt::format("Write it after a number: 1 {}.", name.text)};
         if (quantities_.has_level(name.text))
-            return {name.column, fmt::format("'{}' is no quantity, but a text", name.text),
-                    fmt::format("Texts stand in quotes: \"{}\".", name.text)};
+            return {name.column, fmt::format("'{}' is not a quantity, but a text", name.text),
+                    fmt::format("Put texts in quotes: \"{}\".", name.text)};
         const std::vector<std::string> names = quantities_.names();
         const std::string guess = nearest(name.text, names);
-        return {name.column, fmt::format("'{}' is no quantity", name.text),
-                guess.empty() ? "docs/files.md (conditions) says what has a name."
+        return {name.column, fmt::format("'{}' is not a quantity", name.text),
+                guess.empty() ? "docs/files.md (conditions) lists the quantities."
                               : fmt::format("Did you mean {}?", guess),
                 names};
     }
@@ -375,7 +378,7 @@ class Compiler : Parts {
         for (const NamedFunction& function : kFunctions) known.emplace_back(function.name);
         for (const ShortForm& form : kShortForms) known.emplace_back(form.name);
         const std::string guess = nearest(name.text, known);
-        throw Fault{name.column, fmt::format("'{}' is no function", name.text),
+        throw Fault{name.column, fmt::format("'{}' is not a function", name.text),
                     guess.empty() ? fmt::format("Known: {}.", fmt::join(known, ", "))
                                   : fmt::format("Did you mean {}?", guess),
                     known};
@@ -392,15 +395,15 @@ class Compiler : Parts {
             throw Fault{
                 name.column,
                 fmt::format("{} has {} argument{}", name.text, count, count == 1 ? "" : "s"),
-                least == most ? fmt::format("It takes {}.", least)
-                              : fmt::format("It takes {} or more.", least)};
+                least == most ? fmt::format("It needs {}.", least)
+                              : fmt::format("It needs at least {}.", least)};
         return out;
     }
     Value call(const Token& name, const NamedFunction& function) {
         std::vector<Value> all = arguments(name, function.least, function.most);
         for (Value& value : all) demand(value, Type::number);
         for (size_t i = 1; i < all.size(); ++i) match(all[i - 1], all[i], all[i].column);
-        // numbers without a unit may stand before the first that has one
+        // numbers without a unit may precede the first number with a unit
         for (size_t i = all.size() - 1; i > 0; --i) match(all[i - 1], all[i], all[i].column);
         Value out = all.front();
         out.column = name.column;
@@ -412,7 +415,7 @@ class Compiler : Parts {
         const auto taken = static_cast<size_t>(function.operation.arguments);
         for (size_t i = 0; i < taken; ++i) nodes[i] = all[i].node[0];
         out.node[0] = apply(function.operation, nodes);
-        for (size_t i = taken; i < all.size(); ++i)  // min and max, of any number
+        for (size_t i = taken; i < all.size(); ++i)  // min and max, with any number of arguments
             out.node[0] = apply(function.operation, out.node[0], all[i].node[0]);
         return out;
     }
@@ -429,7 +432,7 @@ class Compiler : Parts {
         return number(apply(kAdd, apply(kAdd, products[0], products[1]), products[2]),
                       all[0].dimension * all[1].dimension, name.column);
     }
-    // short forms of conditions, which name things
+    // short forms of conditions, whose arguments are names
 
     struct ShortForm {
         std::string_view name;
@@ -442,7 +445,7 @@ class Compiler : Parts {
     std::string name_argument(const char* wanted) {
         const Token& name = token();
         if (name.kind != Token::Kind::name && name.kind != Token::Kind::quoted)
-            throw Fault{name.column, fmt::format("{} is missing", wanted), "Name it."};
+            throw Fault{name.column, fmt::format("{} is missing", wanted), "Add its name."};
         ++at_;
         return name.text;
     }
@@ -475,9 +478,9 @@ class Compiler : Parts {
         const Quantities::Thing thing = thing_argument();
         if (thing.body < 0) return thing.fingers;
         throw Fault{column, fmt::format("'{}' is neither a finger nor a hand", thing_),
-                    "Name one, or leave it out."};
+                    "Name a finger or a hand, or leave the argument out."};
     }
-    /// A number behind a comma, or what it is when it is left out.
+    /// A number after a comma, or the default.
     Value number_argument(double value, const Dimension& dimension) {
         if (!take(",")) return number(constant(value), dimension, token().column);
         Value out = choice();
@@ -486,7 +489,7 @@ class Compiler : Parts {
         match(out, wanted, out.column);
         return out;
     }
-    /// A vector of the thing: its place ("") or another member.
+    /// A vector of the thing: its position ("") or another member.
     Value of_thing(const std::string& thing, const std::string& member, size_t column) {
         Token name;
         name.kind = Token::Kind::name;
@@ -495,7 +498,7 @@ class Compiler : Parts {
         return quantity(name);
     }
 
-    /// Of index.shown it is judged where that is displayed.
+    /// For index.shown, the displayed position is tested.
     Value inside(const Token& name) {
         constexpr std::string_view kShown = ".shown";
         std::string& first = tokens_[at_].text;
@@ -522,7 +525,7 @@ class Compiler : Parts {
         value.node[0] = apply(kNot, {value.node[0], -1, -1});
         return value;
     }
-    /// Whether at least so many fingers press a body.
+    /// Condition that at least this number of fingers press a body.
     Value pressed(const Token& name, int fingers) {
         const int body = body_argument();
         const int count = slot(quantities_.pressing(body, fingers_argument()));
@@ -571,7 +574,7 @@ class Compiler : Parts {
     std::vector<Token> tokens_;
     size_t at_ = 0;
     int depth_ = 0;
-    std::string thing_;  // name of the last thing_argument()
+    std::string thing_;  // name in the last thing_argument()
     Kind latest_ = Kind::draw;
 };
 
@@ -590,7 +593,7 @@ Expression Expression::compile(std::string_view text, Quantities& quantities, co
                                std::string_view key, Diagnostics& diagnostics) {
     try {
         if (text.size() > kLongestText)
-            throw Fault{kLongestText, "is too long", "Compute parts of it as variables."};
+            throw Fault{kLongestText, "is too long", "Split it into several variables."};
         Compiler compiler(text, quantities);
         Expression out = compiler.compile();
         for (const Fault& remark : compiler.remarks_)
@@ -620,13 +623,14 @@ Expression Expression::compile_of(Quantity quantity, const char* what, std::stri
     const bool fits =
         out.type() == Type::number && out.dimension() == ::dihaptic::dimension(quantity);
     if (out.empty() || fits || text == "0") return out;
-    diagnostics.error(place, std::string(key), fmt::format("'{}' is no {}", text, what), example);
+    diagnostics.error(place, std::string(key),
+                      fmt::format("'{}' does not have the dimension of {}", text, what), example);
     return {};
 }
 
 double Expression::operator()(std::span<const double> values) const noexcept {
     std::array<double, kDeepest + 1> stack{};
-    double* top = stack.data();  // where the next value goes
+    double* top = stack.data();  // position of the next value
     for (const Step& step : program_) {
         if (step.function == nullptr) {
             *top++ = step.slot < 0 ? step.value : values[static_cast<size_t>(step.slot)];

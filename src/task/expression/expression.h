@@ -3,10 +3,11 @@
 //     grip_force > 2 and block.z - table_top > 5 mm            a condition
 //     0.5 + wait if trial_num > 10 else 200 ms                 a number
 //
-// Every number has a dimension. One without a unit adopts the unit of what it is added to or
-// compared with, in SI; names, and numbers with a unit, have theirs. Operators bind as in Python,
-// with ^ for powers and a < b < c for both; % has the sign of its right side. Vectors are added,
-// subtracted, and multiplied by numbers. Of texts only == and != can be asked. Functions:
+// Every number has a dimension. A number without a unit adopts the SI unit of the quantity to which
+// it is added or with which it is compared; names, and numbers with a unit, have their own.
+// Operators have the precedence of Python, with ^ for powers, and a < b < c tests both comparisons;
+// % has the sign of its right side. Vectors can be added, subtracted, and multiplied by numbers.
+// Texts can only be compared with == and !=. Functions:
 //
 //     abs min max sqrt exp log sin cos tan atan2 hypot floor ceil round sign clamp
 //     norm(v) distance(a, b) dot(a, b)
@@ -15,7 +16,7 @@
 //     lifted(body, height) still(thing, speed)                             20 mm, 20 mm/s
 //     contact_force(thing, thing)                                          normal force [N]
 //
-// A name with other characters than letters, digits and _ stands in quotes: "left plate".x.
+// A name that contains characters other than letters, digits and _ is quoted: "left plate".x.
 #pragma once
 
 #include <span>
@@ -29,15 +30,15 @@ namespace dihaptic::task {
 
 class Expression {
   public:
-    /// Without a program: its value is 0.
+    /// An empty expression, whose value is 0.
     Expression() = default;
-    /// A mistake goes to `diagnostics`, at `place` and `key`, with the column in the text; the
+    /// Mistakes go to `diagnostics`, at `place` and `key`, with the column in the text; the
     /// expression is then empty.
     static Expression compile(std::string_view text, Quantities& quantities, const Place& place,
                               std::string_view key, Diagnostics& diagnostics);
 
-    /// The same of an expression that is to have a quantity's unit, which `what` calls; empty for
-    /// an empty text. The error for any other has `example` as its remedy.
+    /// Compiles an expression that must have the unit of a quantity, which `what` describes; empty
+    /// for an empty text. The error for another unit has `example` as its remedy.
     static Expression compile_of(Quantity quantity, const char* what, std::string_view text,
                                  Quantities& quantities, const Place& place, std::string_view key,
                                  const std::string& example, Diagnostics& diagnostics);
@@ -47,16 +48,16 @@ class Expression {
     enum class Type { number, truth, text };
     Type type() const { return type_; }
     Dimension dimension() const { return dimension_; }
-    /// Whether it depends on nothing that changes within a session but with the list of trials.
+    /// Whether it changes within a session only with the list of trials.
     bool frozen() const { return latest_ <= Kind::region; }
-    /// Whether it depends on the list of trials, and on levels of procedures, alone.
+    /// Whether it depends only on the list of trials and on levels of procedures.
     bool foreseen() const { return latest_ <= Kind::level; }
-    /// Whether it depends on what is measured in the tick.
+    /// Whether it depends on quantities measured in the tick.
     bool follows_tick() const { return latest_ == Kind::tick; }
-    /// Whether the value in the slot stands in it.
+    /// Whether it uses the value in the slot.
     bool names(int slot) const;
 
-    /// `values`: those of the Quantities that it was compiled with, or of a copy.
+    /// `values`: of the Quantities with which it was compiled, or of a copy.
     double operator()(std::span<const double> values) const noexcept;
 
   private:
@@ -64,18 +65,18 @@ class Expression {
     friend class Parts;
     static constexpr size_t kDeepest = 32;  // values on the stack
     using Function = double (*)(const double* arguments) noexcept;
-    /// Puts a value on the stack, or a function's value in the place of its arguments.
+    /// Pushes a value onto the stack, or replaces a function's arguments with its value.
     struct Step {
         Function function = nullptr;
         int arguments = 0;
-        int slot = -1;     // without a function: of the value; -1: the constant
+        int slot = -1;     // without a function: slot of the value; -1: the constant
         double value = 0;  // the constant
     };
 
     std::vector<Step> program_;
     Type type_ = Type::number;
     Dimension dimension_;
-    Kind latest_ = Kind::draw;  // of what it depends on
+    Kind latest_ = Kind::draw;  // latest kind among its quantities
 };
 
 }  // namespace dihaptic::task

@@ -1,5 +1,5 @@
-// Parts puts an expression together from its parts, of which it checks that they fit, and writes
-// its program. What is known before the session is computed at once.
+// Parts builds an expression from its parts after checking that they fit, and writes its program.
+// Constant parts are computed immediately.
 #pragma once
 
 #include <fmt/format.h>
@@ -23,13 +23,13 @@ class Parts {
     struct Value {
         Type type = Type::number;
         Dimension dimension;
-        bool literal = false;  // adopts the dimension of what it meets; of a text: a quoted one
-        std::array<int, 3> node{-1, -1, -1};  // of a vector's components; else the first
+        bool literal = false;  // adopts the dimension of the other operand; a text: quoted
+        std::array<int, 3> node{-1, -1, -1};  // of a vector's components; otherwise the first
         size_t column = 1;
-        const std::vector<std::string>* levels = nullptr;  // that a text may be
+        const std::vector<std::string>* levels = nullptr;  // possible values of a text
     };
     struct Node {
-        Operation operation{0, nullptr};  // none: a slot, or a constant
+        Operation operation{0, nullptr};  // none: a slot or a constant
         std::array<int, 3> arguments{-1, -1, -1};
         int slot = -1;
         double value = 0;
@@ -60,11 +60,11 @@ class Parts {
         return static_cast<int>(nodes_.size()) - 1;
     }
     int apply(const Operation& operation, int a, int b) { return apply(operation, {a, b, -1}); }
-    /// The program of a node whose value ends up `depth` above the bottom of the stack.
+    /// Writes the program of a node whose value will be `depth` above the bottom of the stack.
     void emit(int node, size_t depth, std::vector<Expression::Step>& out) const {
         const Node& n = nodes_[static_cast<size_t>(node)];
         if (depth >= Expression::kDeepest || out.size() >= kLongestProgram)
-            throw Fault{1, "is too long", "Compute parts of it as variables of their own."};
+            throw Fault{1, "is too long", "Split it into several variables."};
         for (size_t i = 0; i < static_cast<size_t>(n.operation.arguments); ++i)
             emit(n.arguments[i], depth + i, out);
         out.push_back({n.operation.function, n.operation.arguments, n.slot, n.value});
@@ -80,25 +80,27 @@ class Parts {
     static void demand(const Value& value, Type type) {
         if (value.type == type) return;
         throw Fault{value.column,
-                    fmt::format("is {}, where {} is wanted", what(value),
+                    fmt::format("is {}, but must be {}", what(value),
                                 type == Type::truth    ? "a condition"
                                 : type == Type::vector ? "a vector"
                                                        : "a number"),
                     type == Type::truth    ? "Compare it, e.g. x > 2."
                     : type == Type::vector ? "Name a body, a finger, a hand or a region."
-                                           : "Name a component (.x), or write norm(...) of a "
-                                             "vector, and 1 if ... else 0 of a condition."};
+                                           : "Name a component (.x), or use norm(...) for a "
+                                             "vector, and 1 if ... else 0 for a condition."};
     }
-    /// Gives a number without a unit the dimension of the other; they must then have the same.
+    /// Gives a number without a unit the dimension of the other; the dimensions must then be equal.
     void match(Value& a, Value& b, size_t column) {
         if (a.literal) adopt(a, b.dimension);
         if (b.literal) adopt(b, a.dimension);
         a.literal = b.literal = a.literal && b.literal;
         if (a.dimension == b.dimension) return;
-        throw Fault{column, fmt::format("one side is {}, the other {}", what(a), what(b)),
-                    "Only like goes with like: give numbers their unit (5 mm, 200 ms, 2 N)."};
+        throw Fault{
+            column, fmt::format("one side is {}, but the other is {}", what(a), what(b)),
+            "Give both sides the same dimension, and numbers their unit (5 mm, 200 ms, 2 N)."};
     }
-    /// 40 beside a speed is 40 m/s, where 40 mm/s may have been meant.
+    /// Warns that, for example, 40 compared with a speed is 40 m/s, where 40 mm/s may have been
+    /// meant.
     void adopt(Value& value, const Dimension& dimension) {
         value.dimension = dimension;
         if (value.type != Type::number || !is_constant(value.node[0])) return;
@@ -109,15 +111,15 @@ class Parts {
                 continue;
             remarks_.push_back(
                 {value.column,
-                 fmt::format("{} has no unit and counts in {}", size, si_symbol(dimension)),
-                 fmt::format("Write its unit behind it, as in {} {}.", size, scale.unit),
+                 fmt::format("{} has no unit and is read in {}", size, si_symbol(dimension)),
+                 fmt::format("Write its unit after it, as in {} {}.", size, scale.unit),
                  {}});
         }
     }
     static void demand_pure(Value& value) {
         demand(value, Type::number);
         if (value.dimension == Dimension{}) return;
-        throw Fault{value.column, fmt::format("is {}, where a pure number is wanted", what(value)),
+        throw Fault{value.column, fmt::format("is {}, but must be a pure number", what(value)),
                     fmt::format("Divide it by a unit: x / (1 {}).", si_symbol(value.dimension))};
     }
     Value number(int node, const Dimension& dimension, size_t column, bool literal = false) {
@@ -127,7 +129,7 @@ class Parts {
         return {Type::truth, {}, false, {node, -1, -1}, column, nullptr};
     }
 
-    /// Of two numbers or two vectors that must have the same dimension.
+    /// Combines two numbers or two vectors, which must have the same dimension.
     Value joined(const Operation& operation, Value a, Value b, size_t column) {
         match(a, b, column);
         for (size_t i = 0; i < (a.type == Type::vector ? 3u : 1u); ++i)
@@ -144,10 +146,11 @@ class Parts {
     Value length(const Value& vector, size_t column) {
         return number(apply(kNorm, vector.node), vector.dimension, column);
     }
-    /// Dimension of a power, and of a root.
+    /// Dimension of a power or a root.
     Dimension raised(const Value& base, const Value& exponent) const {
         if (!is_constant(exponent.node[0]))
-            throw Fault{exponent.column, fmt::format("the power of what is {} changes", what(base)),
+            throw Fault{exponent.column,
+                        fmt::format("the exponent of a value that is {} varies", what(base)),
                         "Write a number as the exponent."};
         return raised(base, constant_of(exponent.node[0]));
     }
@@ -155,22 +158,22 @@ class Parts {
         const auto times = [&](int exponent) {
             const double out = exponent * power;
             if (out != std::round(out) || std::abs(out) > 100)
-                throw Fault{
-                    base.column,
-                    fmt::format("is {}, of which this root or power has no unit", what(base)),
-                    fmt::format("Divide it by a unit before: x / (1 {}).",
-                                si_symbol(base.dimension))};
+                throw Fault{base.column,
+                            fmt::format("is {}, and this root or power of it has no valid unit",
+                                        what(base)),
+                            fmt::format("Divide it by a unit first: x / (1 {}).",
+                                        si_symbol(base.dimension))};
             return static_cast<int>(out);
         };
         return {times(base.dimension.m), times(base.dimension.kg), times(base.dimension.s)};
     }
 
-    std::vector<Fault> remarks_;  // on what is allowed, and is hardly meant
+    std::vector<Fault> remarks_;  // on valid but probably unintended text
 
   private:
     static constexpr size_t kLongestProgram = 1000;  // steps
 
-    /// What is more than hands do, of what is often given in a smaller unit.
+    /// A value beyond the range of hands, for a quantity that is often given in a smaller unit.
     struct Scale {
         Quantity quantity;
         double much;  // [SI]

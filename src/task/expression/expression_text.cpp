@@ -55,11 +55,11 @@ class Lexer {
         const char* end = text_.data() + text_.size();
         const auto result = std::from_chars(text_.data() + at_, end, token.value);
         if (result.ec != std::errc())
-            throw Fault{token.column, "is too large or too small a number", "Correct it."};
+            throw Fault{token.column, "the number is too large or too small", "Correct it."};
         at_ = static_cast<size_t>(result.ptr - text_.data());
     }
 
-    /// Letters, digits and dots between them.
+    /// A word of letters and digits, with dots between them.
     void read_name(Token& token) {
         const auto goes_on = [&] {
             if (at_ >= text_.size()) return false;
@@ -69,7 +69,7 @@ class Lexer {
         while (goes_on()) token.text += text_[at_++];
     }
 
-    /// A text, or the quoted name of a thing with a member behind it.
+    /// A text, or the quoted name of a thing followed by a member.
     void read_quoted(Token& token) {
         token.kind = Token::Kind::quoted;
         const char quote = text_[at_++];
@@ -78,7 +78,7 @@ class Lexer {
             token.text += text_[at_++];
         }
         if (at_++ >= text_.size())
-            throw Fault{token.column, "a quoted text does not end", "Close the quotes."};
+            throw Fault{token.column, "a quoted text has no closing quote", "Close the quotes."};
         if (at_ < text_.size() && text_[at_] == '.') {
             token.kind = Token::Kind::name;
             token.text += text_[at_++];
@@ -106,7 +106,7 @@ class Lexer {
             if (rest.starts_with("**")) throw Fault{token.column, "'**' is not known", "Write ^."};
             return;
         }
-        throw Fault{token.column, fmt::format("'{}' means nothing here", rest.front()),
+        throw Fault{token.column, fmt::format("'{}' has no meaning here", rest.front()),
                     "Leave it out; put names with such characters in quotes."};
     }
 

@@ -7,12 +7,12 @@
 
 namespace dihaptic::task {
 
-/// What is wrong with the text, and where; thrown while it is compiled.
+/// A fault in the text, with its location; thrown during compilation.
 struct Fault {
     size_t column;  // from 1
     std::string what;
     std::string remedy;
-    std::vector<std::string> known = {};  // what may stand there
+    std::vector<std::string> known = {};  // the valid names
 };
 
 struct Token {

@@ -1,4 +1,4 @@
-// The arithmetic of expressions: what operators and functions compute.
+// The arithmetic of expressions: the operators and functions.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,7 @@ inline double norm_of(const double* a) noexcept {
     return Vec3(a[0], a[1], a[2]).norm();
 }
 
-/// A function of numbers, with its arguments in order.
+/// A function of numbers; the arguments are in order.
 struct Operation {
     int arguments;
     double (*function)(const double* arguments) noexcept;
@@ -44,7 +44,7 @@ inline constexpr Operation kUnequal{2,
 inline constexpr Operation kAnd{2, [](const double* a) noexcept { return a[0] * a[1]; }};
 inline constexpr Operation kOr{2, [](const double* a) noexcept { return double(a[0] + a[1] > 0); }};
 inline constexpr Operation kNot{1, [](const double* a) noexcept { return 1 - a[0]; }};
-/// The first if the second holds, else the third.
+/// The first argument if the second is true, otherwise the third.
 inline constexpr Operation kSelect{
     3, [](const double* a) noexcept { return a[1] != 0 ? a[0] : a[2]; }};
 inline constexpr Operation kMin{2,
@@ -54,8 +54,8 @@ inline constexpr Operation kMax{2,
 inline constexpr Operation kSquareRoot{1, [](const double* a) noexcept { return std::sqrt(a[0]); }};
 inline constexpr Operation kNorm{3, norm_of};
 
-/// What becomes of the dimensions of a function's arguments, which must be the same: the value has
-/// it too; half of it; none; or the arguments must have none.
+/// Rule for the dimension of a function's arguments, which must be equal. The value has the same
+/// dimension; half of it; none; or the arguments must be pure numbers.
 enum class Takes { same, root, any, pure };
 
 struct NamedFunction {

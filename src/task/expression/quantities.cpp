@@ -11,8 +11,8 @@ namespace {
 
 constexpr int kComponent = sizeof(double);  // from one component of a vector to the next, in bytes
 
-/// What follows the thing's name and a dot in `name`, "" if nothing does; nullopt if it is the name
-/// of something else.
+/// The part of `name` after the thing's name and a dot, "" if there is none; nullopt if `name`
+/// belongs to something else.
 std::optional<std::string_view> member_of(std::string_view name, const std::string& thing) {
     if (!name.starts_with(thing)) return std::nullopt;
     name.remove_prefix(thing.size());
@@ -21,7 +21,7 @@ std::optional<std::string_view> member_of(std::string_view name, const std::stri
     return name.substr(1);
 }
 
-/// -1 if `member` is `whole`, or which component of it; nullopt if it is neither.
+/// -1 if `member` is `whole`, or the index of the component; nullopt if it is neither.
 std::optional<int> component_of(std::string_view member, std::string_view whole, int count = 3) {
     if (!member.starts_with(whole)) return std::nullopt;
     std::string_view rest = member.substr(whole.size());
@@ -36,7 +36,7 @@ std::optional<int> component_of(std::string_view member, std::string_view whole,
     return static_cast<int>(i);
 }
 
-/// Whether the contact's body is the thing; fingers come after the scene's bodies.
+/// Whether the contact's body belongs to the thing; fingers come after the scene's bodies.
 bool is_thing(const Quantities::Thing& thing, int body, int bodies) noexcept {
     const int finger = body - bodies;
     if (finger < 0) return body == thing.body;
@@ -75,12 +75,12 @@ struct Quantities::Member {
     std::string_view name;
     Source::Format format;
     int offset;
-    int count;  // of components
+    int count;  // number of components
     Dimension dimension;
     double scale;
 };
 
-/// A visitor of an item's visit(), which finds where in the item each quantity is.
+/// A visitor that finds the offset of each quantity within an item.
 struct Quantities::Lister {
     const void* item;
     std::vector<Member> members{};
@@ -344,7 +344,7 @@ std::optional<Symbol> Quantities::find_of_body(const std::string& name, std::str
     return found;
 }
 
-/// Its middle, where that is displayed, and its speed.
+/// The middle of a hand, its displayed position, and its speed.
 std::optional<Symbol> Quantities::find_of_hand(const std::string& name, std::string_view member,
                                                const scene::FingerSet& fingers) {
     Source source{.from = Source::From::middle, .a = {-1, fingers}};
@@ -439,7 +439,7 @@ double Quantities::read(const Source& source, const frame::Frame& last,
             look_in(handles);
             break;
         case From::turn:
-            // the list does not say which finger each is of
+            // the list does not give the finger of each entry
             if (last.turns.size() == last.fingers.size()) look_in(last.turns);
             break;
         case From::body:

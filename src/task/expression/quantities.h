@@ -1,20 +1,20 @@
-// The quantities that the expressions of a task can name, and their values in a tick.
+// The quantities available to the expressions of a task, and their values in a tick.
 //
-// What the Frame records has the name that visit() gives it: grip_force, time; with the name of a
-// finger or body before it, thumb.handle_position.z, block.velocity.y. A name that has components
-// is a vector; .x, .y, .z (and .w of a rotation) name them. Beside these there are
+// Quantities in the Frame have their names in visit(): grip_force, time; preceded by the name of a
+// finger or body, thumb.handle_position.z, block.velocity.y. A name with components is a vector;
+// .x, .y, .z (and .w for a rotation) select them. In addition, there are
 //
-//     block, block.x, block.speed         of a body's origin
-//     index, index.x, index.speed         of a finger's handle
-//     left, left.x, left.speed            of the middle of a hand's handles
-//     index.shown, left.shown             where that is displayed
-//     block.start                         where a body begins the trial
-//     hinge.angle, rail.displacement      of a joint, which has no place of its own
-//     goal, goal.x, goal.radius           of a region
+//     block, block.x, block.speed         a body's origin
+//     index, index.x, index.speed         a finger's handle
+//     left, left.x, left.speed            the middle of a hand's handles
+//     index.shown, left.shown             the displayed position
+//     block.start                         a body's position at the beginning of the trial
+//     hinge.angle, rail.displacement      a joint's coordinate; joints have no position
+//     goal, goal.x, goal.radius           a region
 //     time_in_state, time_in_trial, trial_num, attempt
 //
-// and what is defined by name: draws, variables, factors. Handles are those of this tick,
-// everything else is from the last Frame; all in SI units. What is not measured is NaN.
+// and the names that a task defines: draws, variables, factors. Handles are from this tick,
+// everything else from the last Frame; all in SI units. Unmeasured values are NaN.
 #pragma once
 
 #include <cstdint>
@@ -31,14 +31,14 @@
 
 namespace dihaptic::task {
 
-/// What a quantity's value follows from. Up to `region` it changes with the trial alone, as the
-/// list of trials has it; a level lies in a range that is known before the session.
+/// The source of a quantity's value. Up to `region` it changes only with the trial, according to
+/// the list of trials; a level lies in a range that is known before the session.
 enum class Kind { draw, factor, region, level, variable, figure, tick };
 
-/// Where the values of a name are.
+/// Location of the values of a name.
 struct Symbol {
     enum class Type { number, text, vector };
-    int slot = -1;  ///< of a vector: x; y and z follow
+    int slot = -1;  ///< for a vector: slot of x; y and z follow
     Type type = Type::number;
     Dimension dimension{};
     Kind kind = Kind::tick;
@@ -46,7 +46,7 @@ struct Symbol {
 
 class Quantities {
   public:
-    /// What has a place: a body, or one or more fingers.
+    /// A thing with a position: a body, or one or more fingers.
     struct Thing {
         int body = -1;
         scene::FingerSet fingers{};
@@ -67,37 +67,39 @@ class Quantities {
     Quantities() : Quantities(Names{}) {}
     explicit Quantities(Names names);
 
-    /// Nullopt if nothing has that name.
+    /// The quantity of this name; nullopt if there is none.
     std::optional<Symbol> find(std::string_view name);
-    /// A number of one's own; replaces what has had the name. Its value is 0 until it is set.
+    /// Defines a number, which replaces an earlier one of the same name. Its value is 0 until it is
+    /// set.
     Symbol define(std::string name, Dimension dimension, Kind kind);
-    /// A text of one's own, which is one of these; its value is a text's index, see text().
+    /// Defines a text with these possible values; its value is the index of a text, see text().
     Symbol define_text(std::string name, std::vector<std::string> levels, Kind kind);
-    /// Index by which a text is compared.
+    /// Index of a text in comparisons.
     int text(std::string_view text);
     const std::string& text(int index) const { return texts_[static_cast<size_t>(index)]; }
-    /// The texts that the quantity may be; null if it is none that define_text() made.
+    /// The possible texts of the quantity; null if it was not defined with define_text().
     const std::vector<std::string>* levels(int slot) const;
-    /// Whether one of these quantities may be the text.
+    /// Whether the text is a possible value of one of these quantities.
     bool has_level(std::string_view text) const;
-    /// Whether it is a name of this task: of a thing, of a region, or of one's own.
+    /// Whether the task uses this name: for a thing, a region or a defined quantity.
     bool knows(std::string_view name) const {
         return symbols_.find(name) != symbols_.end() || thing(name) || region(name);
     }
-    /// All names; those of bodies, fingers and hands; of regions; of fingers.
+    /// All names; then only those of bodies, fingers and hands, of regions, and of fingers.
     std::vector<std::string> names() const;
     std::vector<std::string> things() const;
     const std::vector<std::string>& regions() const { return names_.regions; }
     const std::vector<std::string>& fingers() const { return names_.fingers; }
 
-    /// A body, finger or hand; "" is all fingers, and so is "hand" unless something is called so.
+    /// A body, finger or hand; "" means all fingers, and so does "hand" unless a thing has this
+    /// name.
     std::optional<Thing> thing(std::string_view name) const;
     /// Slot of a region's centre: x, y, z, and then its radius; nullopt if there is no such region.
     std::optional<int> region(std::string_view name) const;
     int region(size_t index) const { return regions_ + 4 * static_cast<int>(index); }
-    /// Slot of where a body begins the trial: x, y, z.
+    /// Slot of a body's position at the beginning of the trial: x, y, z.
     int start(size_t body) const { return starts_ + 3 * static_cast<int>(body); }
-    /// Slot of the number of these fingers that press the body.
+    /// Slot of the count of these fingers that press the body.
     int pressing(int body, const scene::FingerSet& fingers);
     /// Slot of the normal force between two things, summed over their fingers [N].
     int contact_force(const Thing& a, const Thing& b);
@@ -111,12 +113,12 @@ class Quantities {
     void set(int slot, const Vec3& value) noexcept {
         for (int i = 0; i < 3; ++i) set(slot + i, value[i]);
     }
-    /// Refreshes what follows the tick.
+    /// Updates the values that change with the tick.
     void update(const frame::Frame& last, std::span<const frame::Handle> handles) noexcept;
     std::span<const double> values() const { return values_; }
 
   private:
-    /// How a value of the tick is read.
+    /// Instruction for reading a value of the tick.
     struct Source {
         enum class From { frame, finger, handle, turn, body, joint, middle, pressing, contact };
         enum class Format { f64, i32, i64, u32, norm };
@@ -124,11 +126,11 @@ class Quantities {
         Format format = Format::f64;
         int slot = -1;
         int index = 0;   ///< of the finger, body or joint
-        int offset = 0;  ///< in bytes, from the beginning of the item
+        int offset = 0;  ///< from the beginning of the item [bytes]
         double scale = 1;
-        Thing a{};  ///< middle, pressing, contact
+        Thing a{};  ///< for middle, pressing, contact
         Thing b{};
-        bool shown = false;  ///< middle
+        bool shown = false;  ///< for middle
     };
     struct Member;
     struct Lister;

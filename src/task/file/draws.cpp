@@ -18,7 +18,7 @@ namespace dihaptic::task {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-constexpr double kLeastShare = 0.01;  // of a normal distribution that a truncated one keeps
+constexpr double kLeastShare = 0.01;  // share of a normal distribution that truncation must leave
 
 double below(double z) {
     return std::erfc(-z / std::sqrt(2.0)) / 2;
@@ -37,7 +37,7 @@ double normal(const NormalDraw& d, Random& random) {
     }
 }
 
-/// Index of a value, by the values' weights.
+/// Index of a value, drawn with the values' weights.
 size_t chosen(size_t values, const std::vector<double>& weights, Random& random) {
     if (weights.empty()) {
         const auto i = static_cast<size_t>(random.uniform(0, static_cast<double>(values)));
@@ -46,7 +46,7 @@ size_t chosen(size_t values, const std::vector<double>& weights, Random& random)
     double left = random.uniform(0, std::accumulate(weights.begin(), weights.end(), 0.0));
     size_t i = 0;
     while (i + 1 < values && left >= weights[i]) left -= weights[i++];
-    // rounding must not lead to a value of no weight
+    // rounding must not select a value of weight 0
     while (i > 0 && weights[i] <= 0) --i;
     return i;
 }
@@ -89,7 +89,7 @@ class Checker {
         if (kinds != 1) {
             error("name",
                   fmt::format("'{}' {}", draw_.name,
-                              kinds == 0 ? "draws nothing" : "is drawn in more than one way"),
+                              kinds == 0 ? "draws nothing" : "is drawn in several ways"),
                   "Give it one of uniform, normal, exponential, choice, permutation and "
                   "participant.");
         }
@@ -106,7 +106,7 @@ class Checker {
     bool in_order(std::optional<double> from, std::optional<double> to) {
         if (!from || !to || *from < *to) return true;
         error("to", fmt::format("is {:g}, and from is {:g}", *to, *from),
-              "Let to be greater than from.");
+              "Make 'to' greater than 'from'.");
         return false;
     }
     void check_normal(const NormalDraw& d) {
@@ -114,16 +114,17 @@ class Checker {
         const double share = below((d.to.value_or(kInfinite) - d.mean) / d.sd) -
                              below((d.from.value_or(-kInfinite) - d.mean) / d.sd);
         if (share >= kLeastShare) return;
-        error("normal", fmt::format("has {:.2g} of its values between from and to", share),
-              "Move from and to nearer to the mean, or raise sd.");
+        error("normal",
+              fmt::format("has only a share of {:.2g} of its values between from and to", share),
+              "Move from and to closer to the mean, or increase sd.");
     }
     void check_weights() {
         if (draw_.weights.empty()) return;
         const double sum = std::accumulate(draw_.weights.begin(), draw_.weights.end(), 0.0);
         if (draw_.weights.size() != draw_.choice.size() || sum <= 0) {
             error("weights",
-                  fmt::format("there are {} for {} values, with the sum {:g}", draw_.weights.size(),
-                              draw_.choice.size(), sum),
+                  fmt::format("there are {} for {} values, with a sum of {:g}",
+                              draw_.weights.size(), draw_.choice.size(), sum),
                   "Give each value of choice a weight, not all of them 0.");
         }
     }

@@ -1,13 +1,13 @@
-// Random numbers of a task: each trial has its own, drawn from the seed and frozen in
-// trial-list.csv. Formulas name them (docs/files.md).
+// Random numbers of a task: they are drawn for each trial from the seed, frozen in trial-list.csv,
+// and available to formulas by name (docs/files.md).
 //
 //     uniform       from + u (to - from)                          u uniform in [0, 1)
 //     exponential   from - m ln(1 - u (1 - exp(-(to - from) / m)))
-//                   m is the mean above `from` without a `to`; the hazard is then flat, and with
-//                   one rises before it, as of every distribution that ends
+//                   m is the mean above `from` if there is no `to`; the hazard is then flat. With
+//                   `to` it rises before the end, like that of every bounded distribution
 //     normal        mean + sd z, drawn again until it lies between from and to
-//     permutation   the values in an order by chance, and then in another, anew in each block: in
-//                   n trials each of k values comes n / k times, or once more
+//     permutation   the values in random order, then in a new random order, restarted in each
+//                   block: in n trials each of k values occurs n / k times, or once more
 #pragma once
 
 #include <cstdint>
@@ -42,14 +42,14 @@ struct NormalDraw {
     template <class Visitor>
     void visit(Visitor& v) {
         v("mean", mean, kDrawn.required().says("Mean of the normal distribution."));
-        v("sd", sd, kDrawn.positive().at_most(1e9).required().says("Its standard deviation."));
-        v("from", from, kDrawn.says("Least value: below it, the number is drawn again."));
-        v("to", to, kDrawn.says("Greatest value: above it, the number is drawn again."));
+        v("sd", sd, kDrawn.positive().at_most(1e9).required().says("Standard deviation."));
+        v("from", from, kDrawn.says("Lower bound: a number below it is redrawn."));
+        v("to", to, kDrawn.says("Upper bound: a number above it is redrawn."));
     }
 };
 
 struct ExponentialDraw {
-    double mean = 1;  ///< above `from`, if there were no `to`
+    double mean = 1;  ///< mean above `from`, if there were no `to`
     double from = 0;
     std::optional<double> to;
 
@@ -57,22 +57,22 @@ struct ExponentialDraw {
     void visit(Visitor& v) {
         v("mean", mean,
           kDrawn.positive().at_most(1e9).required().says(
-              "Mean of what is above from, if there were no to."));
+              "Mean distance above 'from' if there were no 'to'."));
         v("from", from, kDrawn.says("Least value."));
-        v("to", to, kDrawn.says("Greatest value; left out, there is none."));
+        v("to", to, kDrawn.says("Greatest value; no limit if omitted."));
     }
 };
 
-/// A number or a text of each trial; in the unit that its name ends in.
+/// A number or a text for each trial, in the unit at the end of its name.
 struct DrawSpec {
     std::string name;
     std::optional<UniformDraw> uniform;
     std::optional<NormalDraw> normal;
     std::optional<ExponentialDraw> exponential;
     std::vector<std::string> choice;
-    std::vector<double> weights;  ///< of the choice's values; empty: all are as likely
+    std::vector<double> weights;  ///< of the values in `choice`; empty: all equally likely
     std::vector<std::string> permutation;
-    bool participant = false;  ///< the participant's number
+    bool participant = false;  ///< its value is the participant's number
     Place place;
 
     template <class Visitor>
@@ -80,18 +80,19 @@ struct DrawSpec {
         v("name", name,
           Field::text().required().says(
               "Name of the draw, which may end in the unit of its numbers."));
-        v("uniform", uniform, says("Each number between two is as likely."));
-        v("normal", normal, says("A normal distribution, which may be cut."));
+        v("uniform", uniform, says("Uniform distribution between two numbers."));
+        v("normal", normal, says("Normal distribution, which may be truncated."));
         v("exponential", exponential,
-          says("An exponential distribution, which may be cut: of a foreperiod, the "
-               "hazard is flat."));
+          says("Exponential distribution, which may be truncated; it gives a foreperiod a flat "
+               "hazard."));
         v("choice", choice, says("One of these numbers or texts."));
         v("weights", weights,
           Field::number().within(0, 1e9).says(
-              "Weight of each value of the choice; left out, all are as likely."));
+              "Weight of each value in 'choice'; all are equally likely if omitted."));
         v("permutation", permutation,
           says("These numbers or texts in random order, each equally often within a block."));
-        v("participant", participant, says("The number that ends the participant's identifier."));
+        v("participant", participant,
+          says("The number at the end of the participant's identifier."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 
@@ -99,14 +100,14 @@ struct DrawSpec {
     const std::vector<std::string>& values() const { return choice.empty() ? permutation : choice; }
 };
 
-/// Whether these values are texts: they are numbers if all of them are.
+/// Whether these values are texts: they count as numbers only if all of them are numbers.
 bool are_texts(const std::vector<std::string>& values);
 
 void check(const DrawSpec& draw, Diagnostics& diagnostics);
 
-/// A value for each trial, in the unit of the draw's name; of texts, their index. `blocks`: number
-/// of each trial's block. They have the digits that a table has, so that a session that goes on
-/// from its frozen list has the same.
+/// A value for each trial, in the unit of the draw's name; for texts, their index. `blocks`: number
+/// of each trial's block. Values have only the digits that a table stores, so that a session
+/// resumed from its frozen list uses the same values.
 std::vector<double> drawn(const DrawSpec& draw, std::span<const int> blocks, int participant,
                           uint64_t seed);
 

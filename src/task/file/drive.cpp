@@ -9,28 +9,29 @@
 namespace dihaptic::task {
 namespace {
 
-/// A path has one form.
+/// Checks that a path has exactly one form.
 void check_form(const DriveSpec& spec, Diagnostics& diagnostics) {
     const int forms =
         spec.to.has_value() + spec.by.has_value() + !spec.along.empty() + spec.path.has_value();
     const bool turns = spec.axis || spec.angle != 0;
     if (forms > 1 || (forms == 0 && !turns))
-        diagnostics.error(spec.place, "to", forms == 0 ? "leads nowhere" : "leads two ways at once",
-                          "Give it to_mm, by_mm, angle_deg, along or path.");
+        diagnostics.error(
+            spec.place, "to",
+            forms == 0 ? "gives no destination" : "gives several destinations at once",
+            "Give it to_mm, by_mm, angle_deg, along or path.");
     if (turns && (spec.path || !spec.along.empty()))
-        diagnostics.error(spec.place, "angle",
-                          "is no part of a way that expressions or a table say",
+        diagnostics.error(spec.place, "angle", "cannot be combined with along or path",
                           "Leave it out, or give to_mm or by_mm.");
 }
 
-/// What a form says of time, no other key says again.
+/// Checks that the form's timing is given, and only once.
 void check_times(const DriveSpec& spec, Diagnostics& diagnostics) {
     if (spec.path && spec.duration)
-        diagnostics.error(spec.place, "duration", "stands beside a path, whose times say it",
+        diagnostics.error(spec.place, "duration", "is already given by the times of the path",
                           "Leave it out.");
     if (!spec.along.empty() && (spec.duration || spec.delay != 0))
         diagnostics.error(spec.place, "duration", "belongs to to_mm, by_mm and angle_deg",
-                          "Let the expressions say when, e.g. with time_in_state.");
+                          "Put the timing into the expressions, e.g. with time_in_state.");
     if (!spec.path && spec.along.empty() && !spec.duration)
         diagnostics.error(spec.place, "duration", "is missing", "Add e.g. duration_s: 0.8.");
 }

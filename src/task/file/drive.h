@@ -1,5 +1,5 @@
-// Drives: paths on which a state moves a body, whatever presses on it, such as a platform that
-// rises, a plate that shakes, or an object that a partner hands over.
+// Drives: paths along which a state moves a body regardless of contact forces, such as a platform
+// that rises, a plate that shakes, or an object that a partner hands over.
 #pragma once
 
 #include <array>
@@ -18,19 +18,19 @@
 
 namespace dihaptic::task {
 
-/// A body's path while a state lasts: to a place, by a way, along expressions, or as a table has
-/// it. While it goes to a place or by a way it may turn, or it turns where it is.
+/// A body's path while a state lasts: to a position, by a displacement, or given by expressions or
+/// a table. During the first two motions the body may also rotate; it may also rotate in place.
 struct DriveSpec {
     Ref<scene::Body> body;
-    std::optional<FormulaVec3> to;    ///< where its origin ends [m]
-    std::optional<FormulaVec3> by;    ///< the way from where it begins [m]
-    std::optional<Vec3> axis;         ///< about which it turns, through its origin
-    Formula angle = 0;                ///< by which it turns, right-handed [rad]
-    std::optional<Formula> duration;  ///< of all of these [s]
+    std::optional<FormulaVec3> to;    ///< final position of its origin [m]
+    std::optional<FormulaVec3> by;    ///< displacement from its initial position [m]
+    std::optional<Vec3> axis;         ///< axis of rotation, through its origin
+    Formula angle = 0;                ///< angle of rotation, right-handed [rad]
+    std::optional<Formula> duration;  ///< of the motion [s]
     Formula delay = 0;                ///< [s]
     ProfileShape shape = ProfileShape::minimum_jerk;
-    std::vector<std::string> along;   ///< the way from where it begins, anew in each tick: x, y, z
-    std::optional<SampledPath> path;  ///< the way from where it begins, as a table has it
+    std::vector<std::string> along;   ///< displacement in each tick: x, y, z
+    std::optional<SampledPath> path;  ///< displacement from its initial position, from a table
     Place place;
 
     template <class Visitor>
@@ -38,22 +38,22 @@ struct DriveSpec {
         const Field way = Field::length().within(-100, 100);
         const Field time = Field::of(Quantity::time).within(0, 3600);
         v("body", body, Field::text().required().says("Body that moves."));
-        v("to", to, way.says("Where its origin ends."));
-        v("by", by, way.says("How far it goes from where it is as the state begins."));
+        v("to", to, way.says("Final position of its origin."));
+        v("by", by, way.says("Displacement from its position when the state begins."));
         v("axis", axis,
           Field::number().within(-1e6, 1e6).says(
-              "Axis through its origin about which it turns meanwhile, of any length."));
+              "Axis of rotation through its origin; a vector of any length."));
         v("angle", angle,
           Field::of(Quantity::angle)
               .within(-1000, 1000)
-              .says("By how much it turns from how it is as the state begins, right-handed."));
-        v("duration", duration, time.says("How long it takes to go and turn there."));
-        v("delay", delay, time.says("How long it waits from the beginning of the state."));
-        v("shape", shape, says("How it speeds up and slows down on its way."));
+              .says("Angle of rotation from its orientation when the state begins, right-handed."));
+        v("duration", duration, time.says("Duration of the motion."));
+        v("delay", delay, time.says("Delay from the beginning of the state."));
+        v("shape", shape, says("Shape of the motion's time course."));
         v("along", along,
-          says("Three expressions with units: how far it is along x, y and z from where it was as "
-               "the state began, evaluated in each tick."));
-        v("path", path, says("The way from where it was as the state began, as a table has it."));
+          says("Three expressions with units, evaluated in each tick: displacement along x, y and "
+               "z from its position when the state began."));
+        v("path", path, says("Table of displacements from its position when the state began."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -61,12 +61,12 @@ struct DriveSpec {
 /// A drive, ready to be evaluated.
 class Drive {
   public:
-    /// `body`: index in the scene; `quantities`: what expressions may name.
+    /// `body`: index in the scene; `quantities`: those that expressions may use.
     Drive(const DriveSpec& spec, int body, Quantities& quantities, Diagnostics& diagnostics);
 
     int body() const noexcept { return body_; }
-    /// Where the body is `t` after the beginning of the state [s], in which it began at `from`.
-    /// `of(Formula)` is a number in this trial, `values` are those of the quantities.
+    /// Pose of the body at `t` since the beginning of the state [s], where it was at `from`.
+    /// `of(Formula)` returns the formula's value in this trial; `values`: of the quantities.
     template <class Of>
     Pose at(double t, const Pose& from, const Of& of,
             std::span<const double> values) const noexcept {

@@ -1,4 +1,4 @@
-// What of a task has keys that depend on its kind (base/kinds.h).
+// The parts of a task whose keys depend on their kind (base/kinds.h).
 #pragma once
 
 #include "base/kinds.h"

@@ -15,7 +15,7 @@ bool is_limited(const MotorSpec& spec) {
     return spec.most_force || spec.most_torque;
 }
 
-/// The keys of a motor are of the kind of its joint.
+/// Checks that the keys of a motor fit the kind of its joint.
 void check_kind(const MotorSpec& spec, const scene::Joint& joint, Diagnostics& diagnostics) {
     const bool slides = joint.slides();
     const auto refuse = [&](bool given, const char* key, const char* what, const char* other) {
@@ -24,14 +24,14 @@ void check_kind(const MotorSpec& spec, const scene::Joint& joint, Diagnostics& d
                               fmt::format("Give {} in its place.", other));
     };
     const char* const has = "is not the coordinate of";
-    const char* const moves = "is not what moves";
+    const char* const moves = "does not act on";
     refuse(slides && spec.angle, "angle", has, "displacement_mm");
     refuse(!slides && spec.displacement, "displacement", has, "angle_deg");
     refuse(slides && spec.most_torque, "most_torque", moves, "most_force_N");
     refuse(!slides && spec.most_force, "most_force", moves, "most_torque_Nm");
 }
 
-/// A motor that takes its joint somewhere knows where to, when and how hard.
+/// Checks that a motor with a course has a destination, a duration and a limit of force.
 void check_form(const MotorSpec& spec, const scene::Joint& joint, Diagnostics& diagnostics) {
     const auto error = [&](const char* key, const std::string& problem, const std::string& remedy) {
         diagnostics.error(spec.place, key, problem, remedy);
@@ -39,17 +39,18 @@ void check_form(const MotorSpec& spec, const scene::Joint& joint, Diagnostics& d
     const char* const to = joint.slides() ? "displacement" : "angle";
     const bool goes = goes_somewhere(spec);
     const bool follows = !spec.follow.empty();
-    if (goes && follows) error(to, "leads two ways at once", "Keep this or follow.");
+    if (goes && follows)
+        error(to, "gives a second course, beside follow", "Keep either this key or follow.");
     if (!goes && !follows && spec.push.empty())
         error(to, "is missing, and so are follow and push",
-              "Say where the joint goes, or with what it is pushed.");
+              "Give the joint a destination, or a force or torque.");
     if (goes && !spec.duration) error("duration", "is missing", "Add e.g. duration_s: 0.8.");
     if (!goes && has_times(spec))
         error("duration", fmt::format("belongs to {}", to),
-              "Let the expressions say when, e.g. with time_in_state.");
+              "Put the timing into the expressions, e.g. with time_in_state.");
     if ((goes || follows) && !is_limited(spec))
         error(joint.slides() ? "most_force" : "most_torque", "is missing",
-              "Say how hard the motor may press: a hand that is in its way feels no more.");
+              "Limit the motor: a hand in its way then feels no more than this.");
 }
 
 }  // namespace
@@ -65,7 +66,7 @@ Motor::Motor(const MotorSpec& spec, const scene::Joint& joint, int index, Quanti
     const auto compiled = [&](const std::string& text, Quantity quantity, const char* key,
                               const std::string& what) {
         return Expression::compile_of(quantity, what.c_str(), text, quantities, spec.place, key,
-                                      "Write a " + what + " with its unit.", diagnostics);
+                                      "Write the " + what + " with its unit.", diagnostics);
     };
     if (joint.slides()) {
         follow_ = compiled(spec.follow, Quantity::length, "follow", "length");

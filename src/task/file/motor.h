@@ -1,6 +1,6 @@
-// Motors: what a state does to a joint while it lasts, such as a lever that is turned under the
-// hand, or a handle that pushes back. A motor takes the joint somewhere, no harder than it can, or
-// pushes with a force of its own.
+// Motors: they act on a joint while a state lasts, such as a lever that rotates under the hand, or
+// a handle that pushes back. A motor moves the joint along a course with a limited force, or
+// applies a given force, or both.
 #pragma once
 
 #include <cmath>
@@ -18,18 +18,18 @@
 
 namespace dihaptic::task {
 
-/// A joint's course while a state lasts, the force that pushes it, or both.
+/// A joint's course while a state lasts, the force applied to it, or both.
 struct MotorSpec {
     Ref<scene::Joint> joint;
-    std::optional<Formula> angle;         ///< where a hinge ends [rad]
-    std::optional<Formula> displacement;  ///< where a slider or a distance ends [m]
-    std::optional<Formula> duration;      ///< of the way there [s]
+    std::optional<Formula> angle;         ///< final angle of a hinge [rad]
+    std::optional<Formula> displacement;  ///< final displacement, if not a hinge [m]
+    std::optional<Formula> duration;      ///< of the motion [s]
     Formula delay = 0;                    ///< [s]
     ProfileShape shape = ProfileShape::minimum_jerk;
-    std::string follow;                  ///< where it is to be, anew in each tick
-    std::optional<Formula> most_force;   ///< with which it is taken there [N]
+    std::string follow;                  ///< target coordinate, evaluated in each tick
+    std::optional<Formula> most_force;   ///< limit of the force that moves it [N]
     std::optional<Formula> most_torque;  ///< [N*m]
-    std::string push;                    ///< force or torque besides, anew in each tick
+    std::string push;                    ///< additional force or torque, evaluated in each tick
     Place place;
 
     template <class Visitor>
@@ -38,24 +38,26 @@ struct MotorSpec {
         const Field time = Field::of(Quantity::time).within(0, 3600);
         v("joint", joint, Field::text().required().says("Joint that the motor moves."));
         v("angle", angle,
-          Field::of(Quantity::angle).within(-1000, 1000).says("Where a hinge ends."));
-        v("displacement", displacement, way.says("Where a slider or a distance ends."));
-        v("duration", duration, time.says("How long it takes to go there."));
-        v("delay", delay, time.says("How long it waits from the beginning of the state."));
-        v("shape", shape, says("How it speeds up and slows down on its way."));
+          Field::of(Quantity::angle).within(-1000, 1000).says("Final angle of a hinge."));
+        v("displacement", displacement,
+          way.says("Final displacement of a slider or a distance joint."));
+        v("duration", duration, time.says("Duration of the motion."));
+        v("delay", delay, time.says("Delay from the beginning of the state."));
+        v("shape", shape, says("Shape of the motion's time course."));
         v("follow", follow,
-          says("An expression with a unit: where the joint is to be, evaluated in each tick."));
+          says("Target coordinate of the joint: an expression with a unit, evaluated in each "
+               "tick."));
         v("most_force", most_force,
           Field::of(Quantity::force)
               .within(0, 1e4)
-              .says("The most with which a slider or a distance is moved there."));
+              .says("Largest force with which a slider or a distance joint is moved."));
         v("most_torque", most_torque,
           Field::of(Quantity::torque)
               .within(0, 1e4)
-              .says("The most with which a hinge is turned there."));
+              .says("Largest torque with which a hinge is rotated."));
         v("push", push,
-          says("An expression with a unit: a force, or of a hinge a torque, with which the joint "
-               "is pushed besides, evaluated in each tick."));
+          says("Additional force, or torque on a hinge: an expression with a unit, evaluated in "
+               "each tick."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -63,13 +65,14 @@ struct MotorSpec {
 /// A motor, ready to be evaluated.
 class Motor {
   public:
-    /// `index`: of the joint in the scene; `quantities`: what expressions may name.
+    /// `index`: of the joint in the scene; `quantities`: those that expressions may use.
     Motor(const MotorSpec& spec, const scene::Joint& joint, int index, Quantities& quantities,
           Diagnostics& diagnostics);
 
     int joint() const noexcept { return joint_; }
-    /// What it does `t` after the beginning of the state [s], in which the joint began at `from`.
-    /// `of(Formula)` is a number in this trial, `values` are those of the quantities.
+    /// Command of the motor at `t` since the beginning of the state [s], when the joint was at
+    /// `from`. `of(Formula)` returns the formula's value in this trial; `values`: of the
+    /// quantities.
     template <class Of>
     frame::MotorFrame at(double t, double from, const Of& of,
                          std::span<const double> values) const noexcept {
@@ -88,13 +91,13 @@ class Motor {
     }
 
   private:
-    /// An expression may divide by what is zero just now.
+    /// An expression may currently divide by zero.
     static double finite_or(double otherwise, double value) noexcept {
         return std::isfinite(value) ? value : otherwise;
     }
 
     int joint_;
-    bool goes_ = false;  ///< to a place; otherwise it follows an expression, if there is one
+    bool goes_ = false;  ///< it has a destination; otherwise it follows any expression
     Formula to_{};
     Course course_;
     Formula most_{};

@@ -11,18 +11,18 @@
 namespace dihaptic::task {
 namespace {
 
-/// A trial's answer is processed within a tick, which takes 0.3 ms for the largest grid.
+/// A trial's answer is processed within a tick; for the largest grid this takes 0.3 ms.
 constexpr size_t kLargestGrid = 200'000;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The range of levels that the file gives the procedure, infinite where it gives none.
+/// The range of levels in the file; infinite where it gives none.
 struct Range {
     double least = -kInfinity;
     double most = kInfinity;
 };
 
-/// Called in the tick: it allocates nothing.
+/// Called in the tick; it allocates nothing.
 Range given_range(const ProcedureSpec& spec) {
     const auto limits = [](const auto& s) {
         return Range{s.lowest.value_or(-kInfinity), s.highest.value_or(kInfinity)};
@@ -40,7 +40,7 @@ Range given_range(const ProcedureSpec& spec) {
     return {*least, *most};
 }
 
-/// The range of shares, or of their logarithms; infinite of a number of one's own.
+/// The range of shares, or of their logarithms; infinite for a named number.
 Range share_range(const ProcedureSpec& spec) {
     if (!spec.level.empty()) return {};
     return {spec.logarithmic ? -kInfinity : 0, spec.logarithmic ? 0.0 : 1.0};
@@ -54,17 +54,19 @@ size_t grid_cells(const ProcedureSpec& spec) {
            static_cast<size_t>(s.shapes.count) * static_cast<size_t>(s.lapses.count);
 }
 
-/// Reports levels outside the range of shares, or of their logarithms.
+/// Reports levels outside the range of shares or of their logarithms.
 void check_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     const Range share = share_range(spec);
     const auto within = [&](const char* key, double level) {
         if (level >= share.least && level <= share.most) return;
-        diagnostics.error(spec.place, fmt::format("{}.{}", spec.kind(), key),
-                          fmt::format("goes to {:g}, where levels of a share end at {:g}", level,
-                                      level > share.most ? share.most : share.least),
-                          spec.logarithmic
-                              ? "The share is 10^level, at most 1: raise the perturbation instead."
-                              : "The level is the perturbation's share: raise that instead.");
+        diagnostics.error(
+            spec.place, fmt::format("{}.{}", spec.kind(), key),
+            fmt::format("reaches {:g}, but the limit for levels of a share is {:g}", level,
+                        level > share.most ? share.most : share.least),
+            spec.logarithmic
+                ? "The share is 10^level, which is at most 1: make the perturbation stronger "
+                  "instead."
+                : "The level is the perturbation's share: make the perturbation stronger instead.");
     };
     if (spec.quest_plus) {
         within("levels", spec.quest_plus->levels.from);
@@ -84,15 +86,16 @@ void check_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     }
 }
 
-/// Reports what the spec of a number of its own lacks, or what belongs to one.
+/// Reports keys that a named number requires, or that only a named number can have.
 void check_number(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     if (spec.level.empty()) {
         if (spec.perturb.empty())
-            diagnostics.error(spec.place, "perturb", "what the procedure chooses is missing",
-                              "Name a perturbation, whose share it then chooses, or a number that "
-                              "formulas may name, e.g. level: mass_g.");
+            diagnostics.error(spec.place, "perturb", "is missing, and so is level",
+                              "Name a perturbation, whose share the procedure then chooses, or a "
+                              "number for use in formulas, e.g. level: mass_g.");
         if (spec.standard)
-            diagnostics.error(spec.place, "standard", "belongs to level, and this chooses a share",
+            diagnostics.error(spec.place, "standard",
+                              "is only for a procedure with level; this one chooses a share",
                               "Leave it out: without the procedure the share is 0.");
         return;
     }
@@ -100,24 +103,24 @@ void check_number(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     for (const auto& [key, given] : {std::pair{"lowest", range.least}, {"highest", range.most}}) {
         if (std::isfinite(given)) continue;
         diagnostics.error(spec.place, fmt::format("{}.{}", spec.kind(), key),
-                          fmt::format("how far {} may go is missing", spec.level),
-                          "Give lowest and highest, so that check can look at the trials there.");
+                          fmt::format("is missing as a limit of {}", spec.level),
+                          "Give lowest and highest, so that these trials can be checked.");
     }
 }
 
-/// Warns of levels with which the experiment runs but its answers cannot be fitted.
+/// Warns about levels at which the experiment can run but its answers cannot be fitted.
 void warn_of_levels(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     const double lowest = spec.least();
     if (model::takes(spec.fitted(), lowest)) return;
     diagnostics.warning(
         spec.place, fmt::format("{}.sigmoid", spec.name),
-        fmt::format("levels may go to {:g}, where a Weibull function has no value: answers there "
+        fmt::format("levels may reach {:g}, where a Weibull function is undefined: answers there "
                     "cannot be fitted",
                     lowest),
-        spec.logarithmic ? "Take sigmoid: weibull_log10, which is the same of logarithms."
-        : spec.staircase ? "Give the staircase a 'lowest' above 0, or take another sigmoid."
-        : spec.constant  ? "Leave out levels that are not above 0, or take another sigmoid."
-                         : "Let the levels begin above 0, or take another sigmoid.");
+        spec.logarithmic ? "Use sigmoid: weibull_log10, the same function of the logarithm."
+        : spec.staircase ? "Give the staircase a 'lowest' above 0, or use another sigmoid."
+        : spec.constant  ? "Leave out levels that are not above 0, or use another sigmoid."
+                         : "Start the levels above 0, or use another sigmoid.");
 }
 
 }  // namespace
@@ -178,27 +181,29 @@ void check(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     for (const auto& [key, outcome] : {std::pair{"yes", &spec.yes}, {"no", &spec.no}}) {
         if (outcome->empty())
             diagnostics.error(spec.place, key, "is missing",
-                              "Name the outcome, or give states an interval, 1 or 2, and exits "
-                              "what they choose.");
+                              "Name the outcome, or give states an interval (1 or 2) and exits the "
+                              "key 'chooses'.");
     }
     if (spec.yes == spec.no && !spec.yes.empty())
-        diagnostics.error(spec.place, "no", "is the same outcome as yes", "Name two outcomes.");
+        diagnostics.error(spec.place, "no", "is the same outcome as for yes",
+                          "Name two different outcomes.");
     if (const size_t cells = grid_cells(spec); cells > kLargestGrid) {
         diagnostics.error(
             spec.place, "quest_plus",
-            fmt::format("has a grid of {} values, where {} are the most", cells, kLargestGrid),
-            "Lower a count.");
+            fmt::format("has a grid of {} values, but at most {} are allowed", cells, kLargestGrid),
+            "Reduce a count.");
         return;
     }
     check_levels(spec, diagnostics);
     if (spec.quest && !spec.logarithmic)
-        diagnostics.error(spec.place, "logarithmic", "quest's levels are logarithms",
+        diagnostics.error(spec.place, "logarithmic",
+                          "must be set, since the levels of quest are logarithms",
                           "Add logarithmic: yes.");
     warn_of_levels(spec, diagnostics);
     if (spec.quest && !spec.known_shape())
         diagnostics.warning(spec.place, fmt::format("{}.sigmoid", spec.name),
-                            "quest's answers, near the threshold alone, cannot tell the shape of "
-                            "another function than its own: the interval would be too narrow",
+                            "answers to quest lie only near the threshold and cannot determine the "
+                            "shape of another function: the interval would be too narrow",
                             "Leave out sigmoid.");
     try {
         make_procedure(spec, 0);

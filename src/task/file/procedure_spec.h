@@ -1,6 +1,5 @@
-// Procedures (procedures/) as an experiment file describes them. In each trial the share of a
-// perturbation, from 0 to 1, or a number of its own that formulas name, follows from the answers so
-// far.
+// Procedures (procedures/) as described in an experiment file. In each trial, the answers so far
+// determine the share of a perturbation, from 0 to 1, or a named number for use in formulas.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +13,7 @@
 
 namespace dihaptic::task {
 
-/// A level beyond this, in whatever unit, is a slip.
+/// A level beyond this, in any unit, is taken for a typing error.
 constexpr double kFurthestLevel = 1e6;
 
 struct StaircaseSpec {
@@ -24,40 +23,40 @@ struct StaircaseSpec {
     double down_over_up = 1;
     std::optional<double> lowest;
     std::optional<double> highest;
-    int reversals = 0;  ///< number after which it is done; 0: done after the procedure's trials
+    int reversals = 0;  ///< number after which it ends; 0: it ends after the procedure's trials
     int skipped_reversals = 0;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("down_after", down_after,
           Field::number().within(1, 10).says(
-              "How many answers of yes in a row take the level down."));
+              "Number of consecutive answers 'yes' that lower the level."));
         v("start", start,
           Field::number()
               .within(-kFurthestLevel, kFurthestLevel)
               .required()
-              .says("Level that it begins with."));
+              .says("Level of the first trial."));
         v("steps_up", steps_up,
           Field::number()
               .within(1e-6, kFurthestLevel)
               .required()
-              .says("Steps up, each used until the next reversal; the last stays."));
+              .says("Steps up, each used until the next reversal; the last one remains in use."));
         v("down_over_up", down_over_up,
-          Field::number().within(0.01, 100).says("Size of a step down over that of a step up."));
+          Field::number().within(0.01, 100).says("Ratio of the step down to the step up."));
         v("lowest", lowest,
           Field::number()
               .within(-kFurthestLevel, kFurthestLevel)
-              .says("Lowest level; left out, that of the share."));
+              .says("Lowest level; the lowest share if omitted."));
         v("highest", highest,
           Field::number()
               .within(-kFurthestLevel, kFurthestLevel)
-              .says("Highest level; left out, that of the share."));
+              .says("Highest level; the highest share if omitted."));
         v("reversals", reversals,
           Field::number().within(0, 1000).says(
-              "Number of reversals after which it is done; 0 is after the procedure's trials."));
+              "Number of reversals after which it ends; 0: it ends after the procedure's trials."));
         v("skipped_reversals", skipped_reversals,
           Field::number().within(0, 1000).says(
-              "Number of first reversals that do not count for the threshold."));
+              "Number of initial reversals that are ignored in the threshold."));
     }
 };
 
@@ -83,20 +82,18 @@ struct QuestSpec {
           Field::number()
               .within(1e-6, kFurthestLevel)
               .required()
-              .says("Standard deviation of that distribution."));
+              .says("Standard deviation of the threshold's prior distribution."));
         v("target", target,
-          Field::number().within(0, 1).says("Probability of yes at the threshold."));
+          Field::number().within(0, 1).says("Probability of 'yes' at the threshold."));
         v("slope", slope,
           Field::number().within(1e-3, 1000).says("Slope of the Weibull function."));
         v("blind", blind, Field::number().within(0, 1).says("Share of answers that are lapses."));
-        v("grain", grain,
-          Field::number().within(1e-6, 10).says("Step of the levels that it computes with."));
-        v("cells", cells,
-          Field::number().within(2, 10000).says("Number of the levels that it computes with."));
+        v("grain", grain, Field::number().within(1e-6, 10).says("Step of the grid of levels."));
+        v("cells", cells, Field::number().within(2, 10000).says("Number of levels in the grid."));
         v("lowest", lowest,
-          Field::number().within(-kFurthestLevel, kFurthestLevel).says("No level lies below it."));
+          Field::number().within(-kFurthestLevel, kFurthestLevel).says("Lowest level."));
         v("highest", highest,
-          Field::number().within(-kFurthestLevel, kFurthestLevel).says("No level lies above it."));
+          Field::number().within(-kFurthestLevel, kFurthestLevel).says("Highest level."));
     }
 };
 
@@ -133,17 +130,16 @@ struct QuestPlusSpec {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("levels", levels, Field::number().required().says("Levels that may be shown."));
+        v("levels", levels, Field::number().required().says("Levels that may be presented."));
         v("thresholds", thresholds,
-          Field::number().required().says("Thresholds that are thought possible."));
+          Field::number().required().says("Grid of possible thresholds."));
         v("shapes", shapes,
-          Field::number().required().says("Slopes of the function that are thought possible."));
-        v("lapses", lapses,
-          says("Shares of lapses that are thought possible; left out, 0.02 alone."));
+          Field::number().required().says("Grid of possible slopes of the function."));
+        v("lapses", lapses, says("Grid of possible lapse rates; only 0.02 if omitted."));
     }
 };
 
-/// Levels that are shown whatever is answered: each once in every round, in an order by chance.
+/// Levels that do not depend on the answers: each occurs once in every round, in random order.
 struct ConstantSpec {
     std::vector<double> levels;
 
@@ -153,12 +149,12 @@ struct ConstantSpec {
           Field::number()
               .within(-kFurthestLevel, kFurthestLevel)
               .required()
-              .says("The levels, each of which is shown equally often."));
+              .says("Levels, each of which is presented equally often."));
     }
 };
 
-/// What is asked, from which the guess rate follows. yes_no: whether, or which way; it is then as
-/// likely as a lapse. 2afc: which of two.
+/// Kind of question, which determines the guess rate. yes_no: presence or direction; the guess rate
+/// then equals the lapse rate. 2afc: a choice between two intervals.
 enum class Design { yes_no, two_alternatives };
 constexpr auto enum_names(Design) {
     return std::array{"yes_no", "2afc"};
@@ -168,17 +164,17 @@ struct PerturbationSpec;
 
 struct ProcedureSpec {
     std::string name;
-    Refs<PerturbationSpec> perturb;  ///< whose share is the level; with `level`, that act
-    std::string level;  ///< name of a number, in whose unit the levels are; empty: a share
-    std::optional<double> standard;  ///< its value where no procedure chooses it, in the same unit
+    Refs<PerturbationSpec> perturb;  ///< their share is the level, unless `level` is given
+    std::string level;  ///< name of a number, which gives the unit of levels; empty: a share
+    std::optional<double> standard;  ///< value where no procedure chooses it, in the same unit
     bool logarithmic = false;        ///< the share, or the number, is 10^level
-    std::string yes;                 ///< the outcome that grows likelier with the level
+    std::string yes;                 ///< the outcome whose probability grows with the level
     std::string no;
-    int trials = 40;  ///< largest number
+    int trials = 40;  ///< largest number of them
     std::optional<model::Sigmoid> sigmoid;
     std::optional<Design> design;
     double guess = 0.5;           ///< probability of "yes" far below the threshold
-    bool guess_is_lapse = false;  ///< the guess rate is the lapse rate, instead
+    bool guess_is_lapse = false;  ///< the guess rate equals the lapse rate, instead
     std::optional<StaircaseSpec> staircase;
     std::optional<QuestSpec> quest;
     std::optional<QuestPlusSpec> quest_plus;
@@ -188,39 +184,40 @@ struct ProcedureSpec {
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name, Field::text().required().says("Name of the procedure."));
-        v("perturb", perturb, says("Perturbation whose share is the level; or else level."));
+        v("perturb", perturb,
+          says("Perturbation whose share is the level; or give 'level' instead."));
         v("level", level,
-          says("Name of the number that it chooses, which formulas may name, with its unit."));
+          says("Name, with unit, of the number that the procedure chooses for use in formulas."));
         v("standard", standard,
           Field::number()
               .within(-kFurthestLevel, kFurthestLevel)
-              .says("The level's value in the other interval, of two alternatives."));
+              .says("Value of the number in the other of two intervals."));
         v("logarithmic", logarithmic, says("Whether the level is log10 of the share."));
-        v("yes", yes, says("Outcome that becomes likelier with the level."));
+        v("yes", yes, says("Outcome whose probability grows with the level."));
         v("no", no, says("The other outcome."));
         v("trials", trials, Field::number().within(1, 1000).says("Largest number of trials."));
         v("sigmoid", sigmoid,
-          says("Psychometric function of the fit: normal, but for quest that of the "
-               "procedure, weibull_log10 with its slope."));
-        v("design", design, says("What is asked in a trial; guess follows from it."));
+          says("Psychometric function of the fit; if omitted, normal, but for quest the function "
+               "that the procedure assumes: weibull_log10 with its slope."));
+        v("design", design, says("Kind of question in a trial, which determines 'guess'."));
         visit_guess(v);
         v("staircase", staircase, says("A staircase chooses the level."));
-        v("quest", quest, says("QUEST chooses it."));
-        v("quest_plus", quest_plus, says("QUEST+ chooses it."));
-        v("constant", constant, says("Constant stimuli: each level equally often."));
+        v("quest", quest, says("QUEST chooses the level."));
+        v("quest_plus", quest_plus, says("QUEST+ chooses the level."));
+        v("constant", constant, says("Constant stimuli: each level is presented equally often."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 
-    /// Levels that it may propose lie from least to most: infinite where it does not say.
+    /// Range of levels that it may propose; infinite where none is given.
     double most() const;
     double least() const;
     /// The share, or the number in the unit of its name.
     double share(double at) const;
-    /// Function that is fitted to the answers.
+    /// The function fitted to the answers.
     model::Sigmoid fitted() const {
         return sigmoid.value_or(quest ? model::Sigmoid::weibull_log10 : model::Sigmoid::normal);
     }
-    /// Its shape, if the procedure takes it as known: its answers then do not tell.
+    /// Its shape, if the procedure assumes it: the answers then do not determine it.
     std::optional<double> known_shape() const {
         if (quest && fitted() == model::Sigmoid::weibull_log10) return quest->slope;
         return std::nullopt;
@@ -233,22 +230,22 @@ struct ProcedureSpec {
     void visit_guess(Visitor& v) {
         const Field rate = Field::number().within(0, 1);
         if (!design) {
-            v("guess", guess, rate.says("Probability of yes far below the threshold."));
+            v("guess", guess, rate.says("Probability of 'yes' far below the threshold."));
             v("guess_is_lapse", guess_is_lapse,
-              says("Whether that probability is the share of lapses."));
+              says("Whether the guess rate equals the lapse rate."));
             return;
         }
         guess = *design == Design::two_alternatives ? 0.5 : 0;
         guess_is_lapse = *design == Design::yes_no;
         if constexpr (requires { v.foreign("guess", rate, std::string()); }) {
             for (const char* key : {"guess", "guess_is_lapse"})
-                v.foreign(key, rate, "It follows from the design: leave out one of the two.");
+                v.foreign(key, rate, "The design determines it: leave out one of the two.");
         }
     }
 };
 
-/// The spec must have exactly one of staircase, quest, quest_plus and constant. `seed`: of the
-/// order of constant levels. Throws Error when one of its settings is out of range.
+/// The spec must have exactly one of staircase, quest, quest_plus and constant. `seed`: for the
+/// order of constant levels. Throws Error if a setting is out of range.
 Procedure make_procedure(const ProcedureSpec& spec, uint64_t seed);
 
 /// Problems with the spec go to `diagnostics`.

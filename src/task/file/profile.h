@@ -1,4 +1,4 @@
-// The course in time of a perturbation's share within a trial: it waits, rises, stays, and falls.
+// The time course of a perturbation's share within a trial: delay, rise, plateau and fall.
 #pragma once
 
 #include <algorithm>
@@ -12,15 +12,16 @@
 
 namespace dihaptic::task {
 
-/// How a share rises and falls.
+/// Shape of the rise and the fall of a share.
 enum class ProfileShape { linear, minimum_jerk };
 constexpr auto enum_names(ProfileShape) {
     return std::array{"linear", "minimum_jerk"};
 }
 
-/// Factors on a perturbation's share, by the time since it began. The default is 1 at all times.
+/// Factor on a perturbation's share as a function of the time since its onset. The default is 1 at
+/// all times.
 struct Profile {
-    double delay = 0;               ///< before it rises [s]
+    double delay = 0;               ///< before the rise [s]
     double rise = 0;                ///< [s]
     std::optional<double> plateau;  ///< unset: it never falls [s]
     double fall = 0;                ///< [s]
@@ -30,19 +31,18 @@ struct Profile {
     template <class Visitor>
     void visit(Visitor& v) {
         const Field time = Field::of(Quantity::time).within(0, 3600);
-        v("delay", delay,
-          time.says("How long it waits, from when the first of its states is entered."));
-        v("rise", rise, time.says("How long the share rises."));
+        v("delay", delay, time.says("Delay from entry into the first of its states."));
+        v("rise", rise, time.says("Duration of the rise."));
         v("plateau", plateau,
-          time.says("How long it stays; left out, as long as its states last."));
-        v("fall", fall, time.says("How long it falls after that."));
-        v("shape", shape, says("How it rises and falls."));
+          time.says("Duration of the plateau; as long as its states last if omitted."));
+        v("fall", fall, time.says("Duration of the fall after the plateau."));
+        v("shape", shape, says("Shape of the rise and the fall."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 
-    /// The factor at `t` since the beginning [s], from 0 to 1.
+    /// The factor at `t` since the onset [s], from 0 to 1.
     double share(double t) const noexcept {
-        constexpr double kRounding = 1e-9;  // times are sums of ticks, which round
+        constexpr double kRounding = 1e-9;  // times are sums of ticks, with rounding errors
         t += kRounding - delay;
         if (t < 0) return 0;
         if (t < rise) return risen(t / rise);
@@ -58,13 +58,14 @@ struct Profile {
     }
 };
 
-/// The way from a place to another, as a share of it, in numbers that may be a trial's own.
+/// Progress of a motion, as a share of its path; its numbers may differ between trials.
 struct Course {
     Formula delay{};     ///< [s]
     Formula duration{};  ///< [s]
     ProfileShape shape = ProfileShape::minimum_jerk;
 
-    /// The share at `t` since the beginning [s]; `of(Formula)` is a number in this trial.
+    /// The share at `t` since the beginning [s]; `of(Formula)` returns the formula's value in this
+    /// trial.
     template <class Of>
     double share(double t, const Of& of) const noexcept {
         Profile course;

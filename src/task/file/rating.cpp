@@ -19,50 +19,49 @@ constexpr size_t kMostLabels = 9;
 void check_likert(const AskSpec& spec, Diagnostics& diagnostics) {
     if (spec.from || spec.to)
         diagnostics.error(spec.place, spec.from ? "from" : "to",
-                          "has no use: a likert scale is numbered from 1",
-                          "Leave it out: there is a number for each label.");
+                          "cannot be set: a likert scale is numbered from 1",
+                          "Leave it out: each label gets a number.");
     if (spec.labels.size() < 2 || spec.labels.size() > kMostLabels)
-        diagnostics.error(
-            spec.place, "labels",
-            fmt::format("there are {}, and a likert scale has 2 to {}", spec.labels.size(),
-                        kMostLabels),
-            "Give each number its label, e.g. labels: [no, rather not, rather, yes].");
+        diagnostics.error(spec.place, "labels",
+                          fmt::format("there are {}, but a likert scale has 2 to {}",
+                                      spec.labels.size(), kMostLabels),
+                          "Give each number a label, e.g. labels: [no, rather not, rather, yes].");
 }
 
 void check_ends(const AskSpec& spec, Diagnostics& diagnostics) {
     if (!spec.labels.empty() && spec.labels.size() != 2)
         diagnostics.error(spec.place, "labels",
-                          fmt::format("there are {}, and a scale has two ends", spec.labels.size()),
+                          fmt::format("there are {}, but a scale has two ends", spec.labels.size()),
                           "Name the ends, e.g. labels: [light, heavy], or use scale: likert.");
     if (spec.scale == Scale::numbers && (!spec.from || !spec.to))
         diagnostics.error(spec.place, spec.from ? "to" : "from", "is missing",
                           "Add e.g. from: 1, to: 9.");
     if (spec.most() <= spec.least())
-        diagnostics.error(spec.place, "to",
-                          fmt::format("is {:g}, not above {:g}, where the scale begins",
-                                      spec.most(), spec.least()),
-                          "Let the scale go up.");
+        diagnostics.error(
+            spec.place, "to",
+            fmt::format("is {:g}, which is not above 'from', {:g}", spec.most(), spec.least()),
+            "Make 'to' greater than 'from'.");
     if (spec.scale == Scale::magnitude && spec.least() < 0)
-        diagnostics.error(spec.place, "from", "is negative, and a magnitude is not",
+        diagnostics.error(spec.place, "from", "is negative, but a magnitude cannot be",
                           "Leave it out: it is 0.");
 }
 
 void check_by(const AskSpec& spec, Diagnostics& diagnostics) {
     const bool cursor = spec.by == AnswerBy::cursor;
     if (spec.by != AnswerBy::key && spec.scale == Scale::magnitude)
-        diagnostics.error(spec.place, "by", "a magnitude has no end that a line could have",
+        diagnostics.error(spec.place, "by",
+                          "a line has two ends, but a magnitude has no upper limit",
                           "Use by: key, or scale: vas.");
     if (cursor && spec.between.size() != 2)
-        diagnostics.error(spec.place, "between",
-                          "which two regions the line leads between is missing",
+        diagnostics.error(spec.place, "between", "is missing: the line needs a region at each end",
                           "Add e.g. between: [low, high].");
     if (!cursor && !spec.between.empty())
         diagnostics.error(spec.place, "between",
-                          fmt::format("has no use for an answer by {}", enum_name(spec.by)),
+                          fmt::format("cannot be used with by: {}", enum_name(spec.by)),
                           "Leave it out, or write by: cursor.");
 }
 
-/// Whether the key can be the next of a number.
+/// Whether the key can be the next character of a number.
 bool is_of_number(char key, bool first, const Question& question) noexcept {
     if (std::isdigit(static_cast<unsigned char>(key)) != 0) return true;
     return key == '.' ? !question.whole : key == '-' && first && question.least < 0;
@@ -91,7 +90,7 @@ void check(const AskSpec& spec, Diagnostics& diagnostics) {
 std::string line_of(const AskSpec& spec) {
     std::vector<std::string> parts;
     const auto plain = [](const std::string& text) {
-        std::string out;  // a brace of a label is no place for a number
+        std::string out;  // a brace in a label does not mark a number
         for (const char c : text)
             out += c == '{' || c == '}' ? std::string(2, c) : std::string(1, c);
         return out;

@@ -1,4 +1,4 @@
-// References: names by which one part of a file means another.
+// References: names by which one part of a file refers to another.
 #pragma once
 
 #include <string>
@@ -8,20 +8,22 @@
 
 namespace dihaptic::task {
 
-/// A name of a T as a file has it, and once it has been looked up (plan/names.h), which T it is.
+/// The name of a T as written in a file, and the index of that T once it has been looked up
+/// (plan/names.h).
 template <class T>
 struct Ref : std::string {
-    int index = -1;  ///< -1: there is none, or it has not been looked up
+    int index = -1;  ///< -1: none, or not looked up yet
 
     using std::string::string;
     Ref(std::string name)  // NOLINT(google-explicit-constructor)
         : std::string(std::move(name)) {}
 };
 
-/// Names of several. `List`: Texts, where the file may have one name alone, or else a vector.
+/// Several names. `List`: Texts if a single name may stand without brackets in the file; otherwise
+/// a vector.
 template <class T, class List = Texts>
 struct Refs : List {
-    std::vector<int> indices;  ///< of those that there are
+    std::vector<int> indices;  ///< of those that exist
 
     using List::List;
 };

@@ -8,7 +8,7 @@
 
 namespace dihaptic::task {
 
-/// A named sphere where hands are wanted, and which can be shown.
+/// A named sphere that serves as a location for hands and can be shown.
 struct Region {
     std::string name;
     FormulaVec3 position;   ///< centre [m]

@@ -15,7 +15,7 @@
 namespace dihaptic::task {
 namespace {
 
-/// Of one axis in the piece from times[i] to times[i + 1], at the share s of it.
+/// Coordinate along one axis at the share s of the interval from times[i] to times[i + 1].
 double along(const std::vector<double>& times, const std::vector<double>& places, size_t i,
              double s) {
     if (places.empty()) return 0;
@@ -27,7 +27,7 @@ double along(const std::vector<double>& times, const std::vector<double>& places
     const double rise = places[i + 1] - places[i];
     const double begin = duration * slope(i);
     const double end = duration * slope(i + 1);
-    // Hermite's polynomial, from the first place of all
+    // Hermite polynomial, relative to the first position of the path
     return places[i] - places[0] +
            s * (begin + s * (3 * rise - 2 * begin - end + s * (begin + end - 2 * rise)));
 }
@@ -36,7 +36,7 @@ void check_columns(const CsvFile& table) {
     const bool timed = table.has("time_s");
     if (timed && (table.has("x_mm") || table.has("y_mm") || table.has("z_mm"))) return;
     throw Error(table.head(), timed ? "z_mm" : "time_s",
-                fmt::format("no column has this name, but {}",
+                fmt::format("no column has this name; the columns are {}",
                             shortened(fmt::format("{}", fmt::join(table.columns(), ", ")))),
                 "The first line names the columns: time_s, and some of x_mm, y_mm, z_mm.");
 }
@@ -46,8 +46,8 @@ void check_columns(const CsvFile& table) {
 void SampledPath::read_file(const std::string& folder, Diagnostics& diagnostics) {
     if (file.empty()) return;
     if (!times.empty() || !x.empty() || !y.empty() || !z.empty()) {
-        diagnostics.error(place, "file", "stands beside places that are written here",
-                          "Leave out one of the two.");
+        diagnostics.error(place, "file", "is given together with positions",
+                          "Leave out one or the other.");
         return;
     }
     const std::string path = named_in(folder, file);
@@ -76,22 +76,23 @@ void SampledPath::read_table(const CsvFile& table, Diagnostics& diagnostics) {
             if (!std::isfinite(value))
                 throw Error(
                     table.place(row), column.name,
-                    fmt::format("'{}' is no number", shortened(table.text(row, column.name))),
-                    "Fill the gap, or leave the row out.");
+                    fmt::format("'{}' is not a number", shortened(table.text(row, column.name))),
+                    "Fill in the number, or leave out the row.");
             if (column.to.data() == times.data() && row > 0 && value <= times.back())
                 throw Error(table.place(row), column.name,
                             fmt::format("time goes from {:.9g} to {:.9g} s", times.back(), value),
-                            "Sort the times, and leave out what comes twice.");
+                            "Sort the times, and leave out duplicates.");
             column.to.push_back(column.unit * value);
         }
     }
     if (times.size() < 2)
-        diagnostics.error(table.head(), "time_s", "there are fewer than two times below",
-                          "A path has a row for each place, and two at least.");
+        diagnostics.error(table.head(), "time_s",
+                          "there are fewer than two times below this heading",
+                          "Give a row for each position, at least two.");
 }
 
 bool SampledPath::check(Diagnostics& diagnostics) const {
-    if (!file.empty()) return false;  // its table has told
+    if (!file.empty()) return false;  // its errors have been reported with the file
     if (times.size() < 2) {
         diagnostics.error(place, "times", "has fewer than two times",
                           "Give times_s: [0, 0.5, 1] and e.g. z_mm: [0, 20, 0], or a file with the "
@@ -105,8 +106,8 @@ bool SampledPath::check(Diagnostics& diagnostics) const {
         good = good && so;
     };
     for (size_t i = 1; i < times.size() && good; ++i) {
-        expect(times[i] > times[i - 1], "times", fmt::format("does not ascend after number {}", i),
-               "Sort the times, and leave out what comes twice.");
+        expect(times[i] > times[i - 1], "times", fmt::format("does not ascend after item {}", i),
+               "Sort the times, and leave out duplicates.");
     }
     struct Axis {
         const char* name;
@@ -114,16 +115,16 @@ bool SampledPath::check(Diagnostics& diagnostics) const {
     };
     for (const Axis& axis : {Axis{"x", x}, Axis{"y", y}, Axis{"z", z}}) {
         expect(axis.places.empty() || axis.places.size() == times.size(), axis.name,
-               fmt::format("has {} places at {} times", axis.places.size(), times.size()),
-               "Give a place for each time.");
+               fmt::format("has {} positions for {} times", axis.places.size(), times.size()),
+               "Give one position for each time.");
         const auto bad = std::find_if(axis.places.begin(), axis.places.end(),
                                       [](double p) { return !std::isfinite(p); });
         expect(bad == axis.places.end(), axis.name,
-               fmt::format("has no number in its row {}", bad - axis.places.begin() + 1),
-               "Fill the gap, or leave the row out.");
+               fmt::format("has no number in row {}", bad - axis.places.begin() + 1),
+               "Fill in the number, or leave out the row.");
     }
-    expect(!x.empty() || !y.empty() || !z.empty(), "x", "is missing, and y and z too",
-           "Say where it goes along one axis at least.");
+    expect(!x.empty() || !y.empty() || !z.empty(), "x", "is missing, and so are y and z",
+           "Give the positions along at least one axis.");
     return good;
 }
 

@@ -1,5 +1,5 @@
-// A path that a body is driven along, as a table has it: places at times, from a file or written in
-// the experiment.
+// A tabulated path along which a body is driven: positions at given times, from a file or in the
+// experiment file itself.
 #pragma once
 
 #include <string>
@@ -15,12 +15,12 @@ class CsvFile;
 
 namespace dihaptic::task {
 
-/// Places at times. A way is counted from the first of them, so that a recording in the coordinates
-/// of its own tracker can be used. An axis that is left out stays where it is.
+/// Positions at given times. Displacements are relative to the first position, so that a recording
+/// in a tracker's own coordinates can be used. An omitted coordinate stays constant.
 struct SampledPath {
     std::string file;           ///< CSV with the columns below, relative to the experiment's file
     std::vector<double> times;  ///< ascending [s]
-    std::vector<double> x;      ///< at these, as many, or none [m]
+    std::vector<double> x;      ///< at these times, one each, or empty [m]
     std::vector<double> y;
     std::vector<double> z;
     Place place;
@@ -31,24 +31,23 @@ struct SampledPath {
     void visit(Visitor& v) {
         const Field way = Field::length().within(-100, 100);
         v("file", file,
-          says("CSV file with the columns time_s, and x_mm, y_mm, z_mm or some of these, relative "
-               "to "
-               "this file; a session keeps what is in it."));
+          says("CSV file, relative to this file, with the column time_s and any of the columns "
+               "x_mm, y_mm and z_mm; a session stores its contents."));
         v("times", times,
-          Field::of(Quantity::time).within(0, 3600).says("Times, ascending, without a file."));
-        v("x", x, way.says("Places along x at these times."));
-        v("y", y, way.says("Places along y at these times."));
-        v("z", z, way.says("Places along z at these times."));
+          Field::of(Quantity::time).within(0, 3600).says("Ascending times, if no file is given."));
+        v("x", x, way.says("Positions along x at these times."));
+        v("y", y, way.says("Positions along y at these times."));
+        v("z", z, way.says("Positions along z at these times."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 
-    /// Reads the file, if there is one, that lies in `folder` or elsewhere, and forgets its name.
+    /// Reads the file, if there is one, and then clears its name. Relative paths start at `folder`.
     void read_file(const std::string& folder, Diagnostics& diagnostics);
-    /// Whether it can be followed; what is wrong goes to `diagnostics`.
+    /// Whether the path is valid; problems go to `diagnostics`.
     bool check(Diagnostics& diagnostics) const;
-    /// The way from the first place at `t` since the first time [s]: a cubic curve through all
-    /// places, with the slope from neighbour to neighbour at each (Catmull and Rom 1974), at rest
-    /// at both ends. Needs a path that can be followed.
+    /// Displacement from the first position at `t` since the first time [s]: a cubic curve through
+    /// all positions, whose slope at each is that between its neighbours (Catmull and Rom 1974), at
+    /// rest at both ends. Requires a valid path.
     Vec3 way(double t) const noexcept;
 
   private:

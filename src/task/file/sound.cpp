@@ -16,13 +16,13 @@ void check(const SoundSpec& sound, Diagnostics& diagnostics) {
         int{sound.tone.has_value()} + int{sound.noise != Noise::no} + int{!sound.file.empty()};
     if (kinds != 1)
         diagnostics.error(sound.place, sound.name,
-                          kinds == 0 ? "has no sound" : "is several sounds at once",
+                          kinds == 0 ? "has no sound" : "gives several sounds at once",
                           "Give it one of tone_Hz, noise and file.");
     if (sound.file.empty() && !sound.goes_on() && 2 * sound.ramp > sound.duration)
         diagnostics.error(sound.place, "ramp",
-                          fmt::format("to swell and to fade takes longer than '{}' lasts, {:g} ms",
+                          fmt::format("two ramps take longer than the duration of '{}', {:g} ms",
                                       sound.name, 1e3 * sound.duration),
-                          "Make the ramp half of the duration at most.");
+                          "Make the ramp at most half of the duration.");
 }
 
 namespace {
@@ -47,7 +47,7 @@ void find_sounds(Task& task, const std::string& folder, Diagnostics& diagnostics
             note_checksum(sound, diagnostics);
         } else {
             diagnostics.error(sound.place, "file", fmt::format("there is no file {}", sound.file),
-                              "Give a sound file, relative to this file.");
+                              "Name a sound file, relative to this file.");
         }
     }
 }

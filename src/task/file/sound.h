@@ -1,4 +1,4 @@
-// Sounds of a task: tones, noise and sound files, which its states and exits name.
+// Sounds of a task: tones, noise and sound files, for use in states and exits.
 #pragma once
 
 #include <array>
@@ -11,20 +11,20 @@
 
 namespace dihaptic::task {
 
-/// white: as strong at each frequency; pink: as strong in each octave.
+/// white: equal power at each frequency; pink: equal power in each octave.
 enum class Noise { no, white, pink };
 constexpr auto enum_names(Noise) {
     return std::array{"no", "white", "pink"};
 }
 
-/// How long a sound goes on: to its end, or as long as states name it one after the other, or from
-/// the session's first tick to its last.
+/// Duration of a sound: to its end, or while consecutive states name it, or from the first tick of
+/// the session to the last.
 enum class Lasts { once, state, session };
 constexpr auto enum_names(Lasts) {
     return std::array{"once", "state", "session"};
 }
 
-/// One of a tone, noise or a file.
+/// Exactly one of a tone, noise or a file.
 struct SoundSpec {
     static constexpr double kHighest = 20e3;            ///< [Hz]
     static constexpr int64_t kLargest = 1'000'000'000;  ///< file [bytes]
@@ -33,10 +33,10 @@ struct SoundSpec {
     std::optional<double> tone;  ///< frequency of a sine [Hz]
     Noise noise = Noise::no;
     std::string file;       ///< relative to the experiment file
-    std::string checksum;   ///< of the file, once it was found (base/checksum.h)
+    std::string checksum;   ///< of the file, once it is found (base/checksum.h)
     double duration = 0.1;  ///< of a tone or noise that lasts once [s]
-    double ramp = 0.005;    ///< in which a tone or noise swells and fades, raised cosines [s]
-    double level = 0.5;     ///< amplitude over the largest that can be played
+    double ramp = 0.005;    ///< onset and offset ramp of a tone or noise, a raised cosine [s]
+    double level = 0.5;     ///< amplitude relative to the largest that can be played
     Lasts lasts = Lasts::once;
     Place place;
 
@@ -46,39 +46,37 @@ struct SoundSpec {
     void visit(Visitor& v) {
         v("name", name, Field::text().required().says("Name of the sound."));
         v("tone", tone,
-          Field::of(Quantity::frequency)
-              .within(20, kHighest)
-              .says("Frequency of a tone, which is a sine."));
-        v("noise", noise, says("Whether it is noise, and of which colour."));
+          Field::of(Quantity::frequency).within(20, kHighest).says("Frequency of a sine tone."));
+        v("noise", noise, says("Colour of the noise, if the sound is noise."));
         v("file", file,
-          says("Sound file (WAV, FLAC, Ogg...), relative to this file; of several channels the "
-               "mean is played."));
+          says("Sound file (WAV, FLAC, Ogg...), relative to this file; several channels are "
+               "averaged."));
         v("duration", duration,
           Field::of(Quantity::time)
               .within(1e-3, 60)
-              .says("How long a tone or noise lasts that is played once."));
+              .says("Duration of a tone or noise that is played once."));
         v("ramp", ramp,
           Field::of(Quantity::time)
               .within(0, 10)
-              .says("Time in which it swells at its beginning, and fades at its end."));
+              .says("Duration of the ramps at its beginning and its end."));
         v("level", level,
-          Field::number().within(0, 1).says("Amplitude of a tone, or of the loudest sample of "
-                                            "noise or a file's, over the largest "
-                                            "that can be played."));
+          Field::number().within(0, 1).says(
+              "Amplitude of a tone, or of the loudest sample of noise or a file, relative to the "
+              "largest that can be played."));
         v("lasts", lasts,
-          says("Whether it is played once, or over and over while states name it, or throughout "
-               "the session."));
+          says("Whether it is played once, repeatedly while states name it, or throughout the "
+               "session."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
 struct Task;
 
-/// Checks what each sound is by itself.
+/// Checks each sound on its own.
 void check(const SoundSpec& sound, Diagnostics& diagnostics);
 
-/// Makes the sounds' files relative to the program's folder instead of `folder`; a file that is
-/// missing goes to `diagnostics`.
+/// Converts the paths of the sound files from relative to `folder` to relative to the program's
+/// folder; missing files go to `diagnostics`.
 void find_sounds(Task& task, const std::string& folder, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::task

@@ -1,5 +1,5 @@
-// The task of an experiment file (docs/files.md): a small state machine that each trial runs
-// through, what perturbs it, and the trials' order.
+// The task of an experiment file (docs/files.md): a small state machine that runs in each trial,
+// its perturbations, and the order of trials.
 #pragma once
 
 #include <algorithm>
@@ -21,27 +21,28 @@
 
 namespace dihaptic::task {
 
-/// What ends a state.
+/// Condition that ends a state.
 enum class When {
     inside,      ///< a finger's handle, a hand or a body is in a region
-    outside,     ///< it is not
+    outside,     ///< a finger's handle, a hand or a body is outside a region
     touched,     ///< a finger presses a body
     released,    ///< no finger presses a body
     gripped,     ///< two fingers press a body
-    lifted,      ///< a body is above its place by a height
-    still,       ///< the finger, or all fingers, or a body, are slower than a speed
+    lifted,      ///< a body is a height above its initial position
+    still,       ///< the finger, all fingers or a body move slower than a speed
     key,         ///< the operator pressed a key
     button,      ///< a button of a finger's device is held
-    trigger,     ///< a code came in from outside, on one of the rig's outlets
-    answered,    ///< the number that the state asks for was typed
-    time,        ///< the state's time is over
-    expression,  ///< what the text says (expression.h)
+    trigger,     ///< a code arrived through one of the rig's outlets
+    answered,    ///< the number that the state asks for was entered
+    time,        ///< a time in the state has passed
+    expression,  ///< the expression in the text is true (expression.h)
 };
 
-/// What is known of a condition: a row for each When, in its order.
+/// Properties of conditions: a row for each When, in the same order.
 struct WhenRow {
-    /// Fields of an Exit. any_finger: a finger that, left out, is any, all or their middle, and not
-    /// the first. comes: no field; the condition comes whatever the hand does.
+    /// Fields of an Exit. any_finger: a finger whose default is any finger, all fingers or their
+    /// middle, not the first finger. comes: not a field; the condition does not depend on the
+    /// hand's motion.
     enum Has : unsigned {
         region = 1,
         body = 2,
@@ -58,7 +59,7 @@ struct WhenRow {
         after = 4096
     };
     const char* name;
-    unsigned has;  ///< besides the fields of all
+    unsigned has;  ///< fields in addition to those of all conditions
 };
 constexpr WhenRow kWhenTable[] = {
     {"inside", WhenRow::region | WhenRow::any_finger | WhenRow::what | WhenRow::count},
@@ -83,17 +84,18 @@ constexpr auto enum_names(When) {
     return out;
 }
 
-/// A remedy for a key that only these conditions have (WhenRow::Has), where `given` is another.
+/// A remedy for a key that only these conditions have (WhenRow::Has); `given`: the condition in the
+/// file.
 std::string conditions_with(const std::string& given, unsigned any);
 
 struct State;
 
-/// One way out of a state: to another, or out of the trial with an outcome.
+/// One exit of a state: to another state, or out of the trial with an outcome.
 struct Exit {
     When when = When::time;
     std::string condition;  ///< text of an expression
     Ref<Region> region;     ///< inside, outside
-    bool shown = false;     ///< inside, outside: judged by where the finger is displayed
+    bool shown = false;     ///< inside, outside: judged by the displayed position
     Ref<scene::Body> body;  ///< touched, released, gripped, lifted
     std::string what;       ///< inside, outside, still: a body, in place of a finger
     std::string finger;     ///< a finger or a hand; if empty, the first finger; touched, released:
@@ -101,23 +103,23 @@ struct Exit {
                             ///< the middle of all
     Formula height = 0.02;  ///< lifted [m]
     Formula speed = 0.02;   ///< still [m/s]
-    int count = 1;          ///< the exit is taken when the condition is met for this time
-    Formula hold = 0;       ///< time for which the condition must hold without a break to be met;
-                            ///< with When::time, the time in the state [s]
+    int count = 1;          ///< number of times that the condition has to be met
+    Formula hold = 0;       ///< time for which the condition must hold without interruption; with
+                            ///< When::time, the time in the state [s]
     std::string key;        ///< one letter or digit
     int button = 0;         ///< counted from 0
     int code = 0;           ///< trigger; 0: any
     Ref<State> to;
     std::string outcome;   ///< ends the trial with this outcome
-    int chooses = 0;       ///< ends the trial with the answer that this interval has more
-    bool redo = false;     ///< the trial is to be done again
+    int chooses = 0;       ///< ends the trial with the answer that chooses this interval
+    bool redo = false;     ///< the trial is to be repeated
     std::string feedback;  ///< shown for Task::feedback at least, then until the next message
-    Ref<SoundSpec> sound;  ///< begins when the exit is taken
+    Ref<SoundSpec> sound;  ///< starts when the exit is taken
     Place place;
 
-    /// Whether its condition has any of these (WhenRow::Has).
+    /// Whether its condition has any of these fields (WhenRow::Has).
     bool has(unsigned any) const { return (kWhenTable[static_cast<size_t>(when)].has & any) != 0; }
-    /// Its condition as the file has it: a word of the table, or an expression.
+    /// Its condition as written in the file: a word of the table, or an expression.
     std::string given() const {
         return when == When::expression ? condition : std::string(enum_name(when));
     }
@@ -134,7 +136,7 @@ struct Exit {
         std::string text = given();
         v("when", text,
           Field::text().required().says(
-              "What ends the state: one of the conditions' words, or an expression."));
+              "Condition that ends the state: one of the words, or an expression."));
         set_given(text);
         const auto of = [&](unsigned any, const char* name, auto& value, Field field = {}) {
             if (has(any)) {
@@ -143,55 +145,59 @@ struct Exit {
                 v.foreign(name, field, conditions_with(text, any));
             }
         };
-        of(WhenRow::region, "region", region, says("Region that the thing is to be in, or not."));
+        of(WhenRow::region, "region", region,
+           says("Region of the condition 'inside' or 'outside'."));
         of(WhenRow::region, "shown", shown,
-           says("Whether the hand counts where it is displayed, in place of where it is."));
-        of(WhenRow::body, "body", body, says("Body that is touched, released, gripped or lifted."));
+           says("Whether the hand's displayed position is used instead of its true position."));
+        of(WhenRow::body, "body", body,
+           says("Body of the condition 'touched', 'released', 'gripped' or 'lifted'."));
         of(WhenRow::what, "what", what,
-           says("Body, finger or hand that the condition is about, in place of a finger."));
+           says("Body, finger or hand whose position or speed is tested, in place of 'finger'."));
         of(WhenRow::finger | WhenRow::any_finger, "finger", finger,
-           says("Finger or hand that the condition is about; left out, it is any of "
-                "them, all or their middle, and of a button the scene's first."));
+           says("Finger or hand of the condition; if omitted, any finger, all fingers or their "
+                "middle, and for a button the scene's first finger."));
         of(WhenRow::height, "height", height,
            Field::length().within(1e-4, 10).says(
-               "How far the body has to be above where it begins the trial."));
+               "Height of the body above its position at the beginning of the trial."));
         of(WhenRow::speed, "speed", speed,
            Field::of(Quantity::speed)
                .positive()
                .at_most(100)
-               .says("Speed below which a thing is still."));
+               .says("Speed below which the condition 'still' is met."));
         of(WhenRow::count, "count", count,
            Field::number().within(1, 10000).says(
-               "How often the condition has to be met in the state."));
+               "Number of times that the condition has to be met in the state."));
         constexpr Field kTime = Field::of(Quantity::time).within(0, 3600);
-        of(WhenRow::after, "after", hold, kTime.formerly("hold").says("How long the state lasts."));
+        of(WhenRow::after, "after", hold, kTime.formerly("hold").says("Duration of the state."));
         if (!has(WhenRow::after))
-            v("hold", hold, kTime.says("How long the condition has to hold without a break."));
-        of(WhenRow::key, "key", key, says("Letter or digit that the operator presses."));
+            v("hold", hold,
+              kTime.says("Time for which the condition has to hold without interruption."));
+        of(WhenRow::key, "key", key, says("Letter or digit of the operator's key."));
         of(WhenRow::button, "button", button,
            Field::number().within(0, 31).says("Button of the finger's device, counted from 0."));
         of(WhenRow::code, "code", code,
            Field::number().within(0, 255).says(
-               "Code that comes in on one of the rig's outlets; 0 is any."));
-        v("to", to, says("State that follows."));
-        v("outcome", outcome, says("Ends the trial, with this outcome."));
+               "Code that arrives through one of the rig's outlets; 0: any code."));
+        v("to", to, says("Next state."));
+        v("outcome", outcome, says("Outcome with which the exit ends the trial."));
         v("chooses", chooses,
           Field::number().within(0, 2).says(
-              "Interval that the exit says the participant chose, of two alternatives."));
-        v("redo", redo, says("Whether the trial is to be done again."));
+              "Interval, of two, that the participant chooses by this exit."));
+        v("redo", redo, says("Whether the trial is to be repeated."));
         v("feedback", feedback,
-          says("Text that is shown then, for feedback_s at least; numbers stand in braces."));
-        v("sound", sound, says("Sound that is played then, once."));
+          says("Text that is shown on this exit, for at least feedback_s; names in braces are "
+               "replaced with numbers."));
+        v("sound", sound, says("Sound that is played once on this exit."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// A step of the simulated hand in a state: as in a script, or to a region.
+/// A step of the simulated hand in a state: like a step of a script, or a reach to a region.
 struct HandStep {
     double duration = 0;             ///< [s]
-    Ref<Region> reach;               ///< that the hand's centre goes to
+    Ref<Region> reach;               ///< destination of the hand's centre
     Vec3 move = Vec3::Zero();        ///< displacement of the hand's centre [m]
-    std::optional<double> aperture;  ///< aperture at the end [m]
+    std::optional<double> aperture;  ///< aperture at the end of the step [m]
     RefList<scene::Finger> fingers;  ///< only these move; empty: all
     Place place;
 
@@ -202,44 +208,45 @@ struct HandStep {
               .positive()
               .at_most(3600)
               .required()
-              .says("How long the step lasts."));
-        v("reach", reach, says("Region that the middle of the hand goes to."));
+              .says("Duration of the step."));
+        v("reach", reach, says("Region to which the middle of the hand moves."));
         v("move", move,
           Field::length()
               .within(-hand::kFarthest, hand::kFarthest)
-              .says("How far the middle of the hand goes, from that region if one is named."));
+              .says("Displacement of the middle of the hand, relative to the region if there is "
+                    "one."));
         v("aperture", aperture,
           Field::length()
               .within(0, hand::kFarthest)
-              .says("Distance between the fingers at the step's end."));
-        v("fingers", fingers, says("Fingers that move; left out: all."));
+              .says("Distance between the fingers at the end of the step."));
+        v("fingers", fingers, says("Fingers that move; all if omitted."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// Where a state puts a body as it begins.
+/// Placement of a body when a state begins.
 struct StatePlace {
     Ref<scene::Body> body;
-    std::optional<FormulaVec3> position;  ///< unset: where it is [m]
-    std::optional<FormulaVec3> velocity;  ///< unset: at rest, if it is put anywhere [m/s]
-    bool held = false;                    ///< it is held still there while the state lasts
-    bool removed = false;                 ///< it is out of reach and sight while the state lasts
+    std::optional<FormulaVec3> position;  ///< unset: its current position [m]
+    std::optional<FormulaVec3> velocity;  ///< unset: at rest, if it is placed [m/s]
+    bool held = false;                    ///< it is kept there while the state lasts
+    bool removed = false;  ///< it is out of reach and invisible while the state lasts
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("body", body,
-          Field::text().required().says("Body that is put somewhere as the state begins."));
+          Field::text().required().says("Body that is placed when the state begins."));
         v("position", position,
           Field::length().within(-100, 100).says(
-              "Where its origin is put; left out, it stays where it is."));
+              "New position of its origin; unchanged if omitted."));
         v("velocity", velocity,
           Field::of(Quantity::speed)
               .within(-100, 100)
-              .says("Velocity with which it is thrown from there; left out, it is at rest."));
+              .says("Velocity with which it is released there; at rest if omitted."));
         v("held", held, says("Whether the body is kept there while the state lasts."));
         v("removed", removed,
-          says("Whether the body is out of reach and sight while the state lasts."));
+          says("Whether the body is out of reach and invisible while the state lasts."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -249,102 +256,102 @@ struct State {
     Show show;
     std::vector<LookSpec> look;
     bool perturbed = true;  ///< the trial's perturbations act
-    int interval = 0;       ///< of two, 1 or 2, that it belongs to; 0: none
+    int interval = 0;       ///< interval to which it belongs, 1 or 2; 0: none
     std::string message;
-    std::vector<std::string> lines;  ///< texts below the message, while the state lasts
-    bool countdown = false;          ///< a line says for how many seconds the state may last still
-    std::optional<AskSpec> ask;      ///< a number that is asked for
-    int marker = 0;                  ///< event code on entering; 0: none
+    std::vector<std::string> lines;  ///< texts below the message while the state lasts
+    bool countdown = false;          ///< a line shows the seconds left until the exit by time
+    std::optional<AskSpec> ask;      ///< question for a number
+    int marker = 0;                  ///< event code on entry; 0: none
     bool patch = false;              ///< the rig's patch is white while the state lasts
-    Refs<SoundSpec> sounds;          ///< that begin with it, or go on while it lasts
+    Refs<SoundSpec> sounds;          ///< sounds that start with it, or continue while it lasts
     std::vector<StatePlace> places;
     std::vector<DriveSpec> drives;
     std::vector<MotorSpec> motors;
     std::vector<Exit> exits;     ///< the first whose condition holds is taken
-    std::vector<HandStep> hand;  ///< steps of the simulated hand from entering the state on
+    std::vector<HandStep> hand;  ///< steps of the simulated hand from entry into the state
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name,
-          Field::text().required().says("Name of the state, by which exits lead to it."));
+        v("name", name, Field::text().required().says("Name of the state, to which exits refer."));
         show.visit_in(v);
-        v("look", look, says("Colours and sizes while the state lasts."));
+        v("look", look, says("Colours and sizes of objects while the state lasts."));
         v("perturbed", perturbed, says("Whether the trial's perturbations may act."));
         v("interval", interval,
           Field::number().within(0, 2).says(
-              "Interval of a two-interval trial that the state belongs to; 0 is none."));
+              "Interval of a two-interval trial to which the state belongs; 0: none."));
         v("message", message,
-          says("Text that is shown from the state's beginning until the next "
-               "message; numbers stand in braces."));
-        v("lines", lines, says("Texts below the message while the state lasts, two at most."));
+          says("Text that is shown from the state's beginning until the next message; names in "
+               "braces are replaced with numbers."));
+        v("lines", lines, says("Texts below the message while the state lasts, at most two."));
         v("countdown", countdown,
-          says("Whether a line says how many seconds are left of the state's exit by time."));
-        v("ask", ask, says("A number that the participant is asked for while the state lasts."));
+          says("Whether a line shows the seconds left until the state's exit by time."));
+        v("ask", ask, says("Question for a number, put to the participant while the state lasts."));
         v("marker", marker,
           Field::number().within(0, 255).says(
-              "Event code that is sent as the state begins; 0 is none."));
+              "Event code that is sent when the state begins; 0: none."));
         v("patch", patch,
-          says("Whether the rig's patch for a photodiode is white while the state lasts; otherwise "
-               "it is black."));
+          says("Whether the rig's photodiode patch is white, not black, while the state lasts."));
         v("sounds", sounds,
-          says("Sounds that begin with the state; those that last as long as a state end with it, "
-               "unless the next one names them too."));
-        v("place", places, says("Bodies that are put somewhere as the state begins."));
+          says("Sounds that start with the state; those with lasts: state end with it, unless the "
+               "next state lists them too."));
+        v("place", places, says("Bodies that are placed when the state begins."));
         v("drive", drives, says("Bodies that move on paths while the state lasts."));
-        v("motors", motors, says("Joints that are moved or pushed while the state lasts."));
-        v("exits", exits, says("Ways out of the state; the first whose condition is met counts."));
+        v("motors", motors, says("Joints that motors move or push while the state lasts."));
+        v("exits", exits, says("Exits of the state; the first whose condition is met is taken."));
         v("simulated_hand", hand,
           Field{}.formerly("hand").says(
-              "Steps that the state asks of a simulated hand or person."));
+              "Steps that a simulated hand or person performs in the state."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// Where a body begins the trial, in place of its position in the scene: by its position, or by the
-/// coordinate of a joint whose second body it is. What hangs on that body comes along.
+/// Initial placement of a body in a trial, in place of its position in the scene: by position, or
+/// by the coordinate of a joint whose second body it is. Bodies attached to that body move with it.
 struct BodyPlace {
     Ref<scene::Body> body;
     std::optional<FormulaVec3> position;  ///< [m]
     Ref<scene::Joint> joint;
     std::optional<Formula> angle;         ///< [rad]
     std::optional<Formula> displacement;  ///< [m]
-    std::optional<FormulaVec3> velocity;  ///< of the body, with which it begins [m/s]
-    Formula rate = 0;                     ///< of the joint, a hinge [rad/s]
-    Formula speed = 0;                    ///< of the joint, a slider [m/s]
+    std::optional<FormulaVec3> velocity;  ///< initial velocity of the body [m/s]
+    Formula rate = 0;                     ///< initial rate of a hinge [rad/s]
+    Formula speed = 0;                    ///< initial speed of a slider [m/s]
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("body", body,
-          Field::text().says("Body that begins the trial elsewhere than the scene has it."));
-        v("position", position,
-          Field::length().within(-100, 100).says("Where its origin is then."));
-        v("joint", joint,
           Field::text().says(
-              "Joint, in place of a body, that begins the trial elsewhere than at 0, "
-              "with all that hangs on its second body."));
+              "Body whose position at the beginning of the trial differs from the scene."));
+        v("position", position,
+          Field::length().within(-100, 100).says("Initial position of its origin."));
+        v("joint", joint,
+          Field::text().says("Joint, in place of a body, whose initial coordinate is not 0; all "
+                             "bodies attached to its second body move with it."));
         v("angle", angle,
-          Field::of(Quantity::angle).within(-100, 100).says("Angle of that joint, a hinge, then."));
+          Field::of(Quantity::angle)
+              .within(-100, 100)
+              .says("Initial angle of the joint, a hinge."));
         v("displacement", displacement,
-          Field::length().within(-100, 100).says("Displacement of that joint, a slider, then."));
+          Field::length().within(-100, 100).says("Initial displacement of the joint, a slider."));
         v("velocity", velocity,
-          Field::of(Quantity::speed).within(-100, 100).says("Velocity that the body begins with."));
+          Field::of(Quantity::speed).within(-100, 100).says("Initial velocity of the body."));
         v("rate", rate,
           Field::of(Quantity::angular_speed)
               .within(-1000, 1000)
-              .says("Angular speed that the joint, a hinge, begins with."));
+              .says("Initial angular velocity of the joint, a hinge."));
         v("speed", speed,
           Field::of(Quantity::speed)
               .within(-100, 100)
-              .says("Speed that the joint, a slider, begins with."));
+              .says("Initial velocity of the joint, a slider."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
 /// A factor whose levels, crossed with those of the other factors, make the conditions.
 struct Factor {
-    std::string factor;               ///< name, in whose unit the levels are
+    std::string factor;               ///< name, which gives the unit of levels
     std::vector<std::string> levels;  ///< numbers, or texts
     Place place;
 
@@ -354,17 +361,17 @@ struct Factor {
           Field::text().required().says(
               "Name of the factor, which may end in the unit of its levels."));
         v("levels", levels,
-          Field::text().required().says("Its levels, all of them numbers or all of them texts."));
+          Field::text().required().says("Levels of the factor, either all numbers or all texts."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// How trials differ: regions and perturbations that replace those of the same name, where bodies
-/// begin, and how things look.
+/// A condition of trials: regions and perturbations that replace those of the same name, initial
+/// placements of bodies, and looks.
 struct Condition {
     std::string name;
-    Node factors;             ///< its level of each factor
-    Ref<scene::Body> object;  ///< whose lifts are measured; empty: the scene's object
+    Node factors;             ///< the level of each factor
+    Ref<scene::Body> object;  ///< body whose lifts are measured; empty: the scene's object
     std::vector<BodyPlace> places;
     std::vector<Region> regions;
     std::vector<PerturbationSpec> perturbations;
@@ -374,15 +381,16 @@ struct Condition {
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name,
-          Field::text().required().says(
-              "Name of the condition; with cross, of the one that this is added to."));
+          Field::text().required().says("Name of the condition; with 'cross', of the generated "
+                                        "condition that this one extends."));
         v("factors", factors,
-          says("A level of each factor, by the factor's name; cross gives them by itself."));
-        v("object", object, says("Body whose lifts are measured; left out, the scene's object."));
-        v("places", places, says("Bodies that begin the trial elsewhere."));
-        v("regions", regions, says("Regions in place of those of the same name."));
+          says(
+              "A level of each factor, by the factor's name; generated automatically by 'cross'."));
+        v("object", object, says("Body whose lifts are measured; the scene's object if omitted."));
+        v("places", places, says("Initial placements of bodies in place of those in the scene."));
+        v("regions", regions, says("Regions that replace those of the same name."));
         v("perturbations", perturbations,
-          says("Perturbations in place of those of the same name."));
+          says("Perturbations that replace those of the same name."));
         v("look", look, says("Colours and sizes in these trials."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
@@ -395,23 +403,23 @@ constexpr auto enum_names(Order) {
 
 using rows::TrialKind;
 
-/// Trials of another kind, inserted at random places of a block.
+/// Trials of another kind, inserted at random points of a block.
 struct Insert {
     TrialKind kind = TrialKind::catch_trial;
     int count = 1;
-    int gap = 1;  ///< least number of other trials between two of them
+    int gap = 1;  ///< smallest number of other trials between two of them
     Refs<PerturbationSpec> perturb;
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("kind", kind, says("What the trials are for the analysis."));
+        v("kind", kind, says("Kind of the inserted trials, for the analysis."));
         v("count", count,
-          Field::number().within(1, 10000).required().says("How many trials are inserted."));
+          Field::number().within(1, 10000).required().says("Number of inserted trials."));
         v("gap", gap,
           Field::number().within(1, 10000).says(
-              "Least number of other trials between two of them."));
-        v("perturb", perturb, says("Perturbations of these trials; left out, there are none."));
+              "Smallest number of other trials between two inserted ones."));
+        v("perturb", perturb, says("Perturbations of these trials; none if omitted."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -420,13 +428,13 @@ struct Block {
     std::string name;
     TrialKind kind = TrialKind::baseline;
     RefList<Condition> conditions;   ///< empty: all
-    int repeats = 1;                 ///< number of times that each condition is done
-    Order order = Order::shuffled;   ///< order of the conditions, made anew in each repeat
-    Refs<PerturbationSpec> perturb;  ///< which act together
-    int ramp = 0;  ///< trials over which their share rises from 0 to 1; 0: at once
-    RefList<ProcedureSpec> procedures;  ///< if given, the block consists of their trials, mixed
+    int repeats = 1;                 ///< number of times that each condition is run
+    Order order = Order::shuffled;   ///< order of the conditions, generated for each repeat
+    Refs<PerturbationSpec> perturb;  ///< they act together
+    int ramp = 0;  ///< number of trials in which their share rises from 0 to 1; 0: at once
+    RefList<ProcedureSpec> procedures;  ///< if given, their interleaved trials make up the block
     std::vector<Insert> insert;
-    std::string until;            ///< a condition on variables, which ends the block; empty: none
+    std::string until;            ///< condition on variables that ends the block; empty: none
     double rest = 0;              ///< break before the block, unless it is the first [s]
     std::vector<PageSpec> pages;  ///< shown before the block begins
     Place place;
@@ -434,46 +442,45 @@ struct Block {
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name, Field::text().required().says("Name of the block."));
-        v("kind", kind, says("What its trials are for the analysis."));
-        v("conditions", conditions, says("Conditions that the block has; left out, all."));
+        v("kind", kind, says("Kind of the block's trials, for the analysis."));
+        v("conditions", conditions, says("Conditions of the block; all if omitted."));
         v("repeats", repeats,
-          Field::number().within(1, 10000).says("How often each of the conditions is done."));
-        v("order", order, says("Order of the conditions, made anew in each repeat."));
+          Field::number().within(1, 10000).says("Number of times that each condition is run."));
+        v("order", order, says("Order of the conditions, generated for each repeat."));
         v("perturb", perturb,
-          says("Perturbations that act together in its trials, eight at most; left "
-               "out, there are none."));
+          says("Perturbations that act together in its trials, at most eight; none if omitted."));
         v("ramp", ramp,
           Field::number().within(0, 100000).says(
-              "Number of trials in which the perturbations' share rises to 1; 0 is at once."));
+              "Number of trials in which the perturbations' share rises to 1; 0: at once."));
         v("procedures", procedures,
-          says("Procedures whose trials, mixed, the block consists of, in place of "
-               "conditions and repeats."));
+          says("Procedures whose interleaved trials make up the block, in place of 'conditions' "
+               "and 'repeats'."));
         v("insert", insert,
-          says("Further trials of another kind, at random places but not first."));
+          says("Additional trials of other kinds, inserted at random but never first."));
         v("until", until,
-          says("Condition on variables after which the block's other trials are left out."));
+          says("Condition on variables that ends the block; its remaining trials are skipped."));
         v("rest", rest,
           Field::of(Quantity::time)
               .within(0, 3600)
               .says("Break before the block, unless it is the session's first."));
         v("pages", pages,
-          says("Pages in place of the scene before the block, one after the other."));
+          says("Pages shown one after another in place of the scene before the block."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// When a trial that failed is done again.
+/// Whether and when a failed trial is repeated.
 enum class Redo { never, next, end_of_block, random };
 constexpr auto enum_names(Redo) {
     return std::array{"never", "next", "end_of_block", "random"};
 }
 
-/// What is measured of a reach, once in each trial, in one of its states.
+/// Measure of a reach, taken once in each trial, in one of its states.
 ///
 /// angle    about `axis`, right-handed, from the direction of `to` to the direction of the handle
-///          when it is `distance` from `from`; both seen from `from`
-/// extent   how far the handle has gone along the line from `from` to `to` when its first stroke
-///          ends
+///          when it is `distance` from `from`; both directions start at `from`
+/// extent   displacement of the handle along the line from `from` to `to` at the end of its first
+///          stroke
 enum class Measure { angle, extent };
 constexpr auto enum_names(Measure) {
     return std::array{"angle", "extent"};
@@ -492,24 +499,25 @@ struct ReachMeasure {
     template <class Visitor>
     void visit(Visitor& v) {
         v("measure", measure,
-          says("Whether the reach's direction is measured or how far its first stroke goes."));
-        v("finger", finger, says("Finger that reaches; left out, the scene's first."));
-        v("from", from, Field::text().required().says("Region that the reach begins in."));
-        v("to", to, Field::text().required().says("Region that it goes to."));
-        v("during", during, Field::text().required().says("State in which it is measured."));
+          says("Quantity that is measured: the direction of the reach, or the extent of its first "
+               "stroke."));
+        v("finger", finger, says("Finger that reaches; the scene's first finger if omitted."));
+        v("from", from, Field::text().required().says("Region in which the reach starts."));
+        v("to", to, Field::text().required().says("Region of the reach's target."));
+        v("during", during, Field::text().required().says("State in which the reach is measured."));
         v("distance", distance,
           Field::length().within(1e-4, 10).says(
-              "Distance from the start at which the angle is taken."));
+              "Distance from the start at which the angle is measured."));
         v("axis", axis,
           Field::number()
               .within(-1000, 1000)
-              .says("Axis about which angles count, right-handed; left out, that of the first "
+              .says("Axis of the angles, right-handed; if omitted, the axis of the first "
                     "perturbation that has one, or z."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// Fingers that conditions judge together.
+/// Fingers that conditions treat as a group.
 struct Hand {
     std::string name;
     RefList<scene::Finger> fingers;
@@ -517,17 +525,16 @@ struct Hand {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name,
-          Field::text().required().says("Name by which conditions take these fingers together."));
-        v("fingers", fingers, Field::text().required().says("Fingers of the hand."));
+        v("name", name, Field::text().required().says("Name of the group, for use in conditions."));
+        v("fingers", fingers, Field::text().required().says("Fingers in the group."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// A number that the rules change between trials.
+/// A number that rules change between trials.
 struct Variable {
     std::string name;
-    double start = 0;  ///< at the session's start, in the unit that the name ends in
+    double start = 0;  ///< initial value, in the unit at the end of the name
     Place place;
 
     template <class Visitor>
@@ -535,13 +542,12 @@ struct Variable {
         v("name", name,
           Field::text().required().says("Name of the variable, which may end in its unit."));
         v("start", start,
-          Field::number().within(-1e9, 1e9).says(
-              "Its value at the session's start, in that unit."));
+          Field::number().within(-1e9, 1e9).says("Initial value in the session, in that unit."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// What becomes of a variable when a trial ends.
+/// Update of a variable at the end of a trial.
 struct Rule {
     std::string when;  ///< a condition; empty: always
     Ref<Variable> set;
@@ -550,9 +556,9 @@ struct Rule {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("when", when, says("Condition on the ended trial; left out, the rule always holds."));
+        v("when", when, says("Condition on the ended trial; if omitted, the rule always applies."));
         v("set", set, Field::text().required().says("Variable that is set."));
-        v("to", to, Field::text().required().says("Expression of its new value."));
+        v("to", to, Field::text().required().says("Expression for the new value."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -561,73 +567,74 @@ struct Task {
     std::vector<Hand> hands;
     std::vector<DrawSpec> draws;
     std::vector<Variable> variables;
-    std::vector<Rule> after_trial;  ///< in their order
-    std::vector<Factor> cross;      ///< makes the conditions
+    std::vector<Rule> after_trial;  ///< applied in this order
+    std::vector<Factor> cross;      ///< generates the conditions
     std::vector<Region> regions;
     std::vector<PerturbationSpec> perturbations;
     std::vector<SoundSpec> sounds;
-    std::vector<State> states;  ///< each trial begins in the first one
-    /// Empty: one condition without a name. With factors that are crossed, what is to be added to
-    /// the conditions that they make.
+    std::vector<State> states;  ///< each trial starts in the first state
+    /// Empty: one condition without a name. With crossed factors, additions to the generated
+    /// conditions.
     std::vector<Condition> conditions;
-    std::vector<Condition> rounds;  ///< the blocks are done once in each round; empty: once
+    std::vector<Condition> rounds;  ///< the blocks are run once in each round; empty: once
     Order round_order = Order::sequential;
     std::vector<ProcedureSpec> procedures;
     std::vector<Block> blocks;
     Redo redo = Redo::end_of_block;
     int most_attempts = 3;  ///< largest number of attempts at a trial
-    /// Time for which a feedback stays: no message replaces it, and no trial begins [s].
+    /// Time for which feedback stays: no message replaces it, and no trial starts [s].
     double feedback = 1;
-    bool feedback_beside = false;    ///< it is a line below the message, for this time
+    bool feedback_beside = false;    ///< it is a line below the message for this time
     std::vector<std::string> lines;  ///< texts below the message, throughout
     std::optional<ReachMeasure> reach;
-    std::vector<std::string> measures;  ///< names of kMeasureTable
+    std::vector<std::string> measures;  ///< names from kMeasureTable
     std::vector<OwnMeasure> own_measures;
-    std::optional<Movement> movement;  ///< that `measures` are taken of
+    std::optional<Movement> movement;  ///< analysed by `measures`
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("hands", hands, says("Groups of fingers that conditions can name."));
+        v("hands", hands, says("Groups of fingers for use in conditions."));
         v("draws", draws, says("Numbers and texts that are drawn for each trial."));
         v("variables", variables, says("Numbers that rules change between trials."));
         v("after_trial", after_trial,
-          says("Rules that set variables when a trial ends, in their order."));
-        v("cross", cross, says("Factors whose levels, crossed, make the conditions."));
+          says("Rules that set variables when a trial ends, applied in this order."));
+        v("cross", cross, says("Factors whose crossed levels make the conditions."));
         v("regions", regions,
-          says("Named spheres, 16 at most, where hands have to be and which can be shown."));
+          says("Named spheres, at most 16, which serve as locations for hands and can be shown."));
         v("perturbations", perturbations,
-          says("Named changes of what is shown, felt or pushed, which blocks and inserts choose."));
-        v("sounds", sounds, says("Sounds, 32 at most, which states and exits name."));
+          says("Named changes of visual feedback, properties and loads, for use in blocks and "
+               "inserts."));
+        v("sounds", sounds, says("Sounds, at most 32, for use in states and exits."));
         v("states", states,
-          Field::text().required().says("States that each trial runs through, from the first on."));
+          Field::text().required().says("States of each trial, which starts in the first one."));
         v("conditions", conditions,
-          says("How trials differ; left out, there is one condition without a name."));
-        v("rounds", rounds, says("Conditions as well: the blocks are done once for each."));
+          says("Conditions of trials; if omitted, there is one condition without a name."));
+        v("rounds", rounds, says("Conditions of rounds: the blocks are run once in each round."));
         v("round_order", round_order, says("Order of the rounds."));
         v("procedures", procedures,
-          says("Adaptive procedures, which choose the share of a perturbation by the "
-               "answers so far."));
-        v("blocks", blocks, Field::text().required().says("Blocks of trials, in their order."));
-        v("redo", redo, says("When a trial that is to be done again is done."));
+          says("Procedures that choose the share of a perturbation, or a number, from the answers "
+               "so far."));
+        v("blocks", blocks, Field::text().required().says("Blocks of trials, in order."));
+        v("redo", redo, says("Whether and when a failed trial is repeated."));
         v("most_attempts", most_attempts,
           Field::number().within(1, 100).says("Largest number of attempts at one trial."));
         v("feedback", feedback,
           Field::of(Quantity::time)
               .within(0, 60)
-              .says("How long feedback is shown before the next message or trial."));
+              .says("Time for which feedback is shown before the next message or trial."));
         v("feedback_beside", feedback_beside,
-          says("Whether feedback is a line below the message for that time, and "
-               "holds no message back."));
-        v("lines", lines, says("Texts below the message throughout the session, two at most."));
-        v("reach", reach, says("What is measured of a reach, once in each trial."));
+          says("Whether feedback is a line below the message for that time and does not delay "
+               "messages."));
+        v("lines", lines, says("Texts below the message throughout the session, at most two."));
+        v("reach", reach, says("Measure of a reach, taken once in each trial."));
         v("measures", measures,
           says("Names of the [measures of behaviour](measures-of-behaviour.md) that "
                "are reported for each attempt."));
         v("own_measures", own_measures,
-          says("Expressions of one's own, reported of each attempt."));
+          says("Custom measures, given as expressions and reported for each attempt."));
         v("movement", movement,
-          says("Movement that the measures are taken of; what it leaves out is taken from reach."));
+          says("Movement that the measures analyse; keys omitted here are copied from 'reach'."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

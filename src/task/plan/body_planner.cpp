@@ -7,7 +7,7 @@
 namespace dihaptic::task {
 namespace {
 
-/// Where bodies are that a state removes: beyond any plane, and far from each other [m].
+/// Position of bodies that a state removes: beyond any plane, and far from each other [m].
 constexpr double kAway = 1000;
 constexpr double kApart = 100;
 
@@ -16,13 +16,13 @@ constexpr double kApart = 100;
 void BodyPlanner::check_movable(const Ref<scene::Body>& ref, const Place& place, const char* key) {
     if (names.need(ref, place, key, diagnostics) >= 0 && !body(ref).moves_at_all())
         error(place, key, fmt::format("'{}' cannot move", std::string(ref)),
-              "Name a body that can.");
+              "Name a movable body.");
 }
 
 void BodyPlanner::check_placeable(const Ref<scene::Body>& ref, const Place& place) {
     if (ref.index >= 0 && body(ref).shape.kind == scene::ShapeKind::plane)
         error(place, "body",
-              fmt::format("'{}' is a plane, which has no other place", std::string(ref)),
+              fmt::format("'{}' is a plane, which cannot be placed", std::string(ref)),
               "Name another body, e.g. a box.");
 }
 
@@ -43,17 +43,18 @@ void BodyPlanner::plan_state(const State& state, TaskPlan::Stage& out) {
 void BodyPlanner::check_put(const StatePlace& place) {
     const scene::Body& body = this->body(place.body);
     if (!place.position && !place.velocity && !place.held && !place.removed)
-        error(place.place, "position", "what becomes of the body is missing",
+        error(place.place, "position", "is missing, and so is any other key for the body",
               "Add position_mm, velocity_mm_s, held: yes or removed: yes.");
     if (place.velocity && (place.held || place.removed || body.fixed || body.driven))
-        error(place.place, "velocity", "is of a body that is free to move",
-              "Leave it out, or held and removed, or let the body move in the scene.");
+        error(place.place, "velocity", "is only for a body that is free to move",
+              "Leave out velocity, or leave out held and removed, or make the body movable in the "
+              "scene.");
     if (place.removed && (place.position || place.held))
-        error(place.place, "removed", "a body that is removed is nowhere else",
+        error(place.place, "removed", "cannot be combined with position or held",
               "Leave out position_mm and held.");
     if (place.held && body.fixed)
-        error(place.place, "held", fmt::format("'{}' is fixed: it stays anyway", place.body),
-              "Leave it out.");
+        error(place.place, "held",
+              fmt::format("'{}' is fixed and stays in place anyway", place.body), "Leave it out.");
 }
 
 void BodyPlanner::add_put(const StatePlace& place, std::vector<TaskPlan::Put>& puts) {
@@ -63,7 +64,7 @@ void BodyPlanner::add_put(const StatePlace& place, std::vector<TaskPlan::Put>& p
     check_put(place);
     for (const TaskPlan::Put& put : puts) {
         if (put.home.body == index)
-            error(place.place, "body", fmt::format("'{}' is put twice", place.body),
+            error(place.place, "body", fmt::format("'{}' is placed twice", place.body),
                   "Keep one of the two.");
     }
     const Vec3 away(kApart * index, 0, kAway);
@@ -81,7 +82,7 @@ void BodyPlanner::add_drive(const DriveSpec& spec, TaskPlan::Stage& out) {
     const scene::Body& driven = body(spec.body);
     if (!driven.driven && !driven.moves_at_all())
         error(spec.place, "body", fmt::format("'{}' is fixed in the scene", spec.body),
-              "Write driven: yes there, in place of fixed: yes.");
+              "Write driven: yes there instead of fixed: yes.");
     const auto same = [&](const auto& other) {
         if constexpr (requires { other.home; })
             return other.home.body == index && other.stays;
@@ -101,18 +102,18 @@ void BodyPlanner::add_motor(const MotorSpec& spec, TaskPlan::Stage& out) {
     const scene::Joint& joint = scene.joints[static_cast<size_t>(index)];
     if (!joint.has_coordinate()) {
         error(spec.place, "joint",
-              fmt::format("'{}' has no axis that a motor could move: it is a {} joint", joint.name,
+              fmt::format("'{}' has no axis for a motor: it is a {} joint", joint.name,
                           enum_name(joint.kind)),
-              "Name a hinge, a slider or a distance.");
+              "Name a hinge, a slider or a distance joint.");
         return;
     }
     if (std::any_of(out.motors.begin(), out.motors.end(),
                     [&](const Motor& other) { return other.joint() == index; }))
         error(spec.place, "joint", fmt::format("'{}' has two motors", joint.name),
-              "Keep one of the two: it may both go somewhere and push.");
+              "Keep one of the two: a single motor can both follow a course and push.");
     if (out.motors.size() == frame::TaskFrame::kMostMotors)
         error(spec.place, "joint", fmt::format("there are more than {} motors", out.motors.size()),
-              "Leave out some.");
+              "Leave some out.");
     out.motors.emplace_back(spec, joint, index, plan.quantities, diagnostics);
 }
 
@@ -123,7 +124,7 @@ TaskPlan::Home BodyPlanner::home(int index, const FormulaVec3& position) const {
     return {index, X_WB, scene::bounds(body.shape), position};
 }
 
-/// Whether any trial puts the body elsewhere than the scene has it.
+/// Whether any trial changes the body's position from that in the scene.
 bool BodyPlanner::is_placed(int body) const {
     const auto among = [&](const auto& places) {
         return std::any_of(places.begin(), places.end(),
@@ -169,7 +170,7 @@ const scene::Joint* BodyPlanner::joint_of(const BodyPlace& place) const {
     return joint.has_coordinate() && !joint.is_distance() ? &joint : nullptr;
 }
 
-/// The body that a place by a joint is of; -1 if it is none.
+/// The body placed by a joint; -1 if the placement is not by a joint.
 int BodyPlanner::moved_by(const BodyPlace& place) const {
     const scene::Joint* const joint = joint_of(place);
     return joint == nullptr ? -1 : scene.find(joint->between.back());
@@ -182,7 +183,8 @@ void BodyPlanner::put_by_joint(const BodyPlace& place, TaskPlan::Home& home) con
     home.rate = joint.slides() ? place.speed : place.rate;
 }
 
-/// What hangs on a body that a joint places comes along; and each comes after what it hangs on.
+/// Bodies attached to a body that a joint places move with it; each comes after the body to which
+/// it is attached.
 void BodyPlanner::hang(std::vector<TaskPlan::Home>& homes) const {
     const auto home_of = [&](int body) {
         return std::find_if(homes.begin(), homes.end(),
@@ -203,7 +205,7 @@ void BodyPlanner::hang(std::vector<TaskPlan::Home>& homes) const {
             }
         }
     }
-    // by how many joints it is from what no joint places
+    // number of joints between it and a body that no joint places
     const auto depth = [&](const TaskPlan::Home& home) {
         size_t out = 0;
         for (auto at = home_of(home.body); at != homes.end() && at->joint && out < homes.size();

@@ -1,4 +1,4 @@
-// Plans where bodies begin trials, where states put them, and what moves bodies and joints in them.
+// Plans the initial placement of bodies in trials, and the placements, drives and motors of states.
 #pragma once
 
 #include "task/plan/names.h"
@@ -13,9 +13,9 @@ class BodyPlanner : Planning {
     void check_movable(const Ref<scene::Body>& body, const Place& place, const char* key);
     /// Checks the bodies that a condition places.
     void check(const Condition& condition);
-    /// Where bodies begin a trial; places of later conditions replace those of earlier ones.
+    /// Initial placement of bodies in a trial; placements of later conditions replace earlier ones.
     std::vector<TaskPlan::Home> homes(std::initializer_list<const Condition*> conditions) const;
-    /// What a state does with bodies and joints.
+    /// Plans the placements, drives and motors of a state.
     void plan_state(const State& state, TaskPlan::Stage& out);
 
   private:

@@ -8,7 +8,7 @@
 namespace dihaptic::task {
 namespace {
 
-/// The list, with each item replaced by the one of the same name in `others`, if there is one.
+/// The list, with each item replaced by the item of the same name in `others`, if there is one.
 template <class T>
 std::vector<T> replaced(std::vector<T> list, const std::vector<T>& others) {
     for (T& item : list) {
@@ -67,8 +67,8 @@ class CellPlanner : Planning {
             if (!state.perturbed)
                 found.error(
                     spec.place, "during",
-                    fmt::format("nothing acts in '{}', which says perturbed: no", state.name),
-                    "Leave out one of the two.");
+                    fmt::format("nothing acts in '{}', which has perturbed: no", state.name),
+                    "Leave out one or the other.");
         }
     }
 
@@ -85,7 +85,7 @@ void plan_cells(const Planning& given, const BodyPlanner& bodies, const SeenPlan
     const auto or_one = [&](const std::vector<Condition>& list) {
         return list.empty() ? std::vector<Condition>{nothing} : list;
     };
-    std::set<std::string> said;  // a mistake shows in every cell, and is reported once
+    std::set<std::string> said;  // a mistake occurs in every cell, but is reported once
     for (const Condition& round : or_one(plan.task.rounds)) {
         for (const Condition& condition : or_one(plan.task.conditions)) {
             Diagnostics found;

@@ -39,8 +39,9 @@ class BlockChecker {
             const int i = look_up(names_of(plan_.outcomes), *name, procedure.place, key,
                                   "no outcome", diagnostics_);
             if (i >= 0 && plan_.outcomes[static_cast<size_t>(i)].redo)
-                error(procedure.place, key, fmt::format("'{}' is done again", *name),
-                      "Leave out redo where an answer ends the trial.");
+                error(procedure.place, key,
+                      fmt::format("trials that end with '{}' are repeated", *name),
+                      "Leave out 'redo' where an answer ends the trial.");
         }
     }
 
@@ -52,7 +53,7 @@ class BlockChecker {
                                       ? std::max<size_t>(1, task_.conditions.size())
                                       : block.conditions.size();
         if (block.order == Order::counterbalanced && conditions > 8)
-            error(block.place, "order", "more than 8 conditions have too many orders",
+            error(block.place, "order", "more than 8 conditions have too many possible orders",
                   "Use latin_square.");
         const size_t trials =
             block.procedures.empty() ? conditions * static_cast<size_t>(block.repeats) : answers;
@@ -61,18 +62,18 @@ class BlockChecker {
             check_clamp(insert.kind, insert.perturb, insert.place);
             if (static_cast<size_t>(insert.count) > trials)
                 error(insert.place, "count",
-                      fmt::format("is {}, more than the block's {} trials", insert.count, trials),
-                      "Insert fewer, or raise the block's repeats.");
+                      fmt::format("is {}, but the block has only {} trials", insert.count, trials),
+                      "Insert fewer, or increase the block's repeats.");
             else if ((insert.count - 1.0) * insert.gap + 1 > static_cast<double>(trials))
                 error(insert.place, "gap",
-                      fmt::format("of {} between {} trials takes more than the block's {}",
+                      fmt::format("of {} between {} trials needs more than the block's {} trials",
                                   insert.gap, insert.count, trials),
-                      "Insert fewer, lower it, or raise the block's repeats.");
+                      "Insert fewer, reduce 'gap', or increase the block's repeats.");
         }
         trials_ += trials * std::max<size_t>(1, task_.rounds.size());
         if (trials_ > kMostTrials)
             error(block.place, "repeats",
-                  fmt::format("makes more than {} trials in all", kMostTrials), "Lower it.");
+                  fmt::format("makes more than {} trials in total", kMostTrials), "Reduce it.");
     }
 
     /// Checks the perturbations of a trial, each and together.
@@ -83,27 +84,28 @@ class BlockChecker {
                 error(place, "perturb",
                       fmt::format("'{}' is named twice",
                                   task_.perturbations[static_cast<size_t>(*i)].name),
-                      "Name it once, and make it stronger if it should be.");
+                      "Name it once, and make it stronger if needed.");
         }
         for (const PerturbationSpec& spec : task_.perturbations) {
             if (names.size() > 1 && spec.name.find(kBetweenNames) != std::string::npos)
                 error(spec.place, "name",
-                      fmt::format("'{}' cannot be told from several, which trial-list.csv joins by "
-                                  "'{}'",
+                      fmt::format("'{}' would be read as several perturbations, which "
+                                  "trial-list.csv joins with '{}'",
                                   spec.name, kBetweenNames),
-                      "Call it something else.");
+                      "Give the perturbation another name.");
         }
         if (names.size() > kMostPerturbations) {
             error(place, "perturb",
-                  fmt::format("names {} perturbations, where {} are the most", names.size(),
+                  fmt::format("names {} perturbations, but at most {} are allowed", names.size(),
                               kMostPerturbations),
-                  "Put several into one: each may have a visual map, a body and loads.");
+                  "Combine several into one: a perturbation can have a visual map, a body and "
+                  "loads.");
         }
         check_together(which, place);
     }
 
-    /// One visual map and a number of loads are the most that act in a tick. Reports the first
-    /// state that has more.
+    /// At most one visual map and a limited number of loads can act in a tick. Reports the first
+    /// state with more.
     void check_together(const std::vector<int>& which, const Place& place) {
         for (const TaskPlan::Cell& cell : plan_.cells) {
             for (size_t s = 0; s < std::min(task_.states.size(), TaskPlan::kMostStates); ++s) {
@@ -125,22 +127,23 @@ class BlockChecker {
             if (!perturbation.has_map()) continue;
             if (map != nullptr) {
                 error(place, "perturb",
-                      fmt::format("'{}' and '{}' both change what is shown in state '{}'", *map,
-                                  name, where),
-                      "Give them different states by during, or make them one perturbation.");
+                      fmt::format("'{}' and '{}' both change the display in state '{}'", *map, name,
+                                  where),
+                      "Give them different states with 'during', or combine them into one "
+                      "perturbation.");
                 return false;
             }
             map = &name;
         }
         if (loads <= frame::TaskFrame::kMostLoads) return true;
         error(place, "perturb",
-              fmt::format("makes {} loads act in state '{}', where {} are the most", loads, where,
-                          frame::TaskFrame::kMostLoads),
-              "Leave some out, or sum loads on one thing up in one of kind general.");
+              fmt::format("makes {} loads act in state '{}', but at most {} are allowed", loads,
+                          where, frame::TaskFrame::kMostLoads),
+              "Leave some out, or combine loads on one thing into a load of kind general.");
         return false;
     }
 
-    /// Largest number of trials that the block's procedures may ask for in all.
+    /// Largest total number of trials that the block's procedures can request.
     size_t most_answers(const Block& block) {
         size_t out = 0;
         for (const int i : block.procedures.indices)
@@ -148,20 +151,21 @@ class BlockChecker {
         return out;
     }
 
-    /// A block has either a perturbation, ramped or not, or procedures that choose one, or neither.
+    /// Checks that a block has either a perturbation, ramped or not, or procedures that choose one,
+    /// or neither.
     void check_ways_to_perturb(const Block& block) {
         if (!block.procedures.empty() && (!block.perturb.empty() || block.ramp > 0))
-            error(block.place, "procedures", "choose the perturbation and its share by themselves",
-                  "Leave out perturb and ramp.");
+            error(block.place, "procedures", "already choose the perturbation and its share",
+                  "Leave out 'perturb' and 'ramp'.");
         if (block.kind == TrialKind::perturbed && block.perturb.empty() && block.procedures.empty())
             error(block.place, "perturb", "is missing in a perturbed block",
                   "Name a perturbation, or make it a baseline block.");
         check_clamp(block.kind, block.perturb, block.place);
         if (block.ramp > 0 && block.perturb.empty())
-            error(block.place, "ramp", "there is nothing to ramp", "Add perturb.");
+            error(block.place, "ramp", "needs a perturbation", "Add perturb.");
     }
 
-    /// Trials are analysed by their kind, which must say what their perturbation does.
+    /// Checks that the kind of trials, which determines their analysis, matches their perturbation.
     void check_clamp(TrialKind kind, const std::vector<std::string>& perturb, const Place& place) {
         const bool channels = kind == TrialKind::force_channel;
         if (!channels && kind != TrialKind::visual_clamp) return;
@@ -183,7 +187,7 @@ class BlockChecker {
               channels ? remedy : "Write kind: force_channel.");
     }
 
-    /// A number that a procedure chooses must change something.
+    /// Checks that a number that a procedure chooses has an effect.
     void check_levels_named() {
         for (size_t i = 0; i < task_.procedures.size(); ++i) {
             if (plan_.level_of_procedure[i] < 0) continue;
@@ -192,8 +196,8 @@ class BlockChecker {
             if (is_named(slot)) continue;
             const ProcedureSpec& procedure = task_.procedures[i];
             error(procedure.place, "level",
-                  fmt::format("no formula names {}", split_unit(procedure.level).name),
-                  "Name it in what it is to change, e.g. friction_scale: friction / 0.5.");
+                  fmt::format("no formula uses {}", split_unit(procedure.level).name),
+                  "Use it in a formula, e.g. friction_scale: friction / 0.5.");
         }
     }
 

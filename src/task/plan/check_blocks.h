@@ -1,12 +1,12 @@
-// Checks a task's procedures and blocks: the trials that they make, and the perturbations that
-// these trials have, each and together.
+// Checks a task's procedures and blocks: their trials, and the perturbations of these trials,
+// individually and in combination.
 #pragma once
 
 #include "task/plan/task_plan.h"
 
 namespace dihaptic::task {
 
-/// Reports what is wrong with them. The plan must have its outcomes, formulas and cells.
+/// Reports their mistakes. The plan's outcomes, formulas and cells must be ready.
 void check_blocks(const TaskPlan& plan, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::task

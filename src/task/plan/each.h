@@ -1,4 +1,4 @@
-// Goes through the parts of a struct that are of some type, by its visit() (base/field.h).
+// Iterates over the parts of a struct that have a given type, through its visit() (base/field.h).
 #pragma once
 
 #include <concepts>
@@ -12,7 +12,7 @@
 
 namespace dihaptic::task {
 
-/// Functions of several types as one.
+/// An overload set of several functions.
 template <class... F>
 struct Overloaded : F... {
     using F::operator()...;
@@ -20,8 +20,8 @@ struct Overloaded : F... {
 template <class... F>
 Overloaded(F...) -> Overloaded<F...>;
 
-/// A visitor that calls f(value, key, place) with each value that f takes, in a struct and all
-/// structs in it. `place`: that of the struct which has it.
+/// A visitor that calls f(value, key, place) with each value that f accepts, in a struct and its
+/// nested structs. `place`: of the struct that contains the value.
 template <class F>
 class Each {
   public:

@@ -1,17 +1,17 @@
-// The factors that a task's conditions differ by. Crossed, they make the conditions: each has one
-// level of each factor, and their names joined as its name, e.g. "200 suede". Conditions that are
-// written by hand may have levels too.
+// The factors of a task's conditions. Crossed, they make the conditions: each has one level of each
+// factor, and a name joined from the levels, e.g. "200 suede". Conditions that are written by hand
+// can have levels too.
 #pragma once
 
 #include "task/file/task.h"
 
 namespace dihaptic::task {
 
-/// Makes the conditions of the task's `cross`, those that the task has already with what they add.
-/// Done twice, it changes nothing. Problems go to `diagnostics`.
+/// Generates the conditions of the task's `cross`, and merges the task's existing conditions into
+/// them. A second call changes nothing. Problems go to `diagnostics`.
 void cross_factors(Task& task, Diagnostics& diagnostics);
 
-/// The factors that conditions have levels of, each with the levels that occur, in their order.
+/// The factors of the conditions, each with the levels that occur, in order of occurrence.
 std::vector<Factor> factors_of(const Task& task);
 
 /// The condition's level of a factor; empty if it has none.

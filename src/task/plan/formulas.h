@@ -13,7 +13,7 @@ namespace dihaptic::task {
 struct CompiledFormula {
     Formula formula;  ///< its text, with its key, unit, bounds and place
     Expression expression;
-    double scale = 1;    ///< unit of the key if the text has no dimension
+    double scale = 1;    ///< unit of the key, if the text has no dimension
     double largest = 0;  ///< over the planned trials
 
     double value(std::span<const double> values) const noexcept {

@@ -19,9 +19,10 @@ bool has_state_of(const Task& task, int interval) {
 void check_order(const Task& task, Diagnostics& diagnostics) {
     for (const int interval : {1, 2}) {
         if (has_state_of(task, interval)) continue;
-        diagnostics.error(task.states.front().place, "interval",
-                          fmt::format("no state has interval {}, and others have one", interval),
-                          fmt::format("Add interval: {} to the states of it.", interval));
+        diagnostics.error(
+            task.states.front().place, "interval",
+            fmt::format("no state has interval {}, but other states have an interval", interval),
+            fmt::format("Add interval: {} to the states of that interval.", interval));
     }
     for (const DrawSpec& draw : task.draws) {
         if (draw.name != kComparisonInterval) continue;
@@ -29,7 +30,7 @@ void check_order(const Task& task, Diagnostics& diagnostics) {
         if (values == std::set<std::string>{"1", "2"}) continue;
         diagnostics.error(
             draw.place, "name", fmt::format("'{}' is the interval of the comparison", draw.name),
-            "Draw it by choice or permutation: [1, 2], or call yours something else.");
+            "Draw it by choice or permutation: [1, 2], or give the draw another name.");
     }
 }
 
@@ -43,7 +44,7 @@ bool chooses_always(const Task& task, const Block& block, const std::string& lev
            std::all_of(block.procedures.begin(), block.procedures.end(), chooses);
 }
 
-/// Reports standards that are missing, or differ for one number.
+/// Reports missing standards, and different standards for one number.
 void check_standards(const Task& task, Diagnostics& diagnostics) {
     std::set<std::string> seen;
     for (const ProcedureSpec& first : task.procedures) {
@@ -52,10 +53,11 @@ void check_standards(const Task& task, Diagnostics& diagnostics) {
         for (const ProcedureSpec& p : task.procedures) {
             if (p.level != first.level || !p.standard) continue;
             if (standard && *standard != *p.standard)
-                diagnostics.error(p.place, "standard",
-                                  fmt::format("is {:g}, and another procedure has {:g} for {}",
-                                              *p.standard, *standard, p.level),
-                                  "Give both the same, or two numbers of different names.");
+                diagnostics.error(
+                    p.place, "standard",
+                    fmt::format("is {:g}, but another procedure has {:g} for {}", *p.standard,
+                                *standard, p.level),
+                    "Give both the same standard, or use two numbers with different names.");
             standard = p.standard;
         }
         const bool always =
@@ -66,8 +68,8 @@ void check_standards(const Task& task, Diagnostics& diagnostics) {
         if (standard || always) continue;
         diagnostics.error(
             first.place, "standard",
-            fmt::format("is missing: what {} is where no procedure chooses it", first.level),
-            "Add e.g. standard: 0.4; it holds in the other interval, and in trials without the "
+            fmt::format("is missing: the value of {} where no procedure chooses it", first.level),
+            "Add e.g. standard: 0.4; it applies in the other interval, and in trials without the "
             "procedure.");
     }
 }

@@ -1,6 +1,6 @@
-// Numbers that procedures choose (task/file/procedure_spec.h), which formulas name, and the
+// Numbers that procedures choose for use in formulas (task/file/procedure_spec.h), and the
 // intervals of a trial: in one of the two, drawn for each trial, such a number has the level that
-// the procedure chose, and everywhere else its standard.
+// the procedure chose; elsewhere it has its standard.
 #pragma once
 
 #include <string>
@@ -10,27 +10,29 @@
 
 namespace dihaptic::task {
 
-/// The draw of the interval that has the comparison, 1 or 2.
+/// The draw of the interval with the comparison, 1 or 2.
 inline constexpr const char* kComparisonInterval = "comparison_interval";
-/// Outcomes of a trial that ends by an answer that chooses an interval: which it had.
+/// Outcomes of a trial that ends with the choice of an interval: whether it had the comparison or
+/// the standard.
 inline constexpr const char* kComparison = "comparison";
 inline constexpr const char* kStandard = "standard";
 
 bool has_intervals(const Task& task);
-/// Adds what follows from intervals: the draw of the comparison's, and outcomes that procedures do
-/// not name. Reports what does not fit together.
+/// Adds the draw of the comparison interval, and outcomes that procedures do not name. Reports
+/// inconsistencies.
 void complete_intervals(Task& task, Diagnostics& diagnostics);
 
 struct LevelName {
     std::string name;
-    double standard;             ///< in the unit of its name, as all that follows
-    std::vector<double> values;  ///< at which it is looked whether trials are possible
+    double standard;             ///< in the unit of its name, like `values`
+    std::vector<double> values;  ///< levels at which trials are checked
     Place place;
 };
-/// One for each name; several procedures may choose the same number.
+/// One for each name; several procedures can choose the same number.
 std::vector<LevelName> levels_of(const Task& task);
 
-/// The questions of states, one for each name of an answer: several states may ask for the same.
+/// The questions of states, one for each name of an answer: several states can ask the same
+/// question.
 std::vector<AskSpec> questions_of(const Task& task);
 
 }  // namespace dihaptic::task

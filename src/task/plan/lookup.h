@@ -1,4 +1,4 @@
-// Looks up the names that experiment files use, and words the error for a name that is unknown.
+// Looks up names in experiment files, and writes the error for an unknown name.
 #pragma once
 
 #include <fmt/format.h>
@@ -25,7 +25,7 @@ std::vector<std::string> names_of(const List& list) {
     return out;
 }
 
-/// Whether the text is nothing but letters, digits and _, and not empty.
+/// Whether the text is not empty and contains only letters, digits and _.
 inline bool is_word(std::string_view text) {
     const auto letter = [](char c) {
         return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
@@ -42,12 +42,12 @@ inline int look_up(const std::vector<std::string>& names, const std::string& nam
     const bool explained = diagnostics.problems().size() <= kMostExplained;
     diagnostics.error(
         place, key, name.empty() ? "is missing" : fmt::format("'{}' is {}", name, what),
-        names.empty() ? "There is none to name: add one first." : meant(name, names, diagnostics),
+        names.empty() ? "None is defined: add one first." : meant(name, names, diagnostics),
         explained ? choices_of(names) : std::vector<Choice>{});
     return -1;
 }
 
-/// Unit vector along what is given, or z with an error.
+/// Unit vector along the given vector, or z with an error.
 inline Vec3 axis_of(const std::optional<Vec3>& given, const Place& place, const char* key,
                     Diagnostics& diagnostics) {
     constexpr double kSmall = 1e-9;
@@ -64,7 +64,7 @@ void check_names(const std::vector<T>& list, const char* what, Diagnostics& diag
     for (const T& item : list) {
         if (item.name.empty() || names.insert(item.name).second) continue;
         diagnostics.error(item.place, "name", fmt::format("there are two {} '{}'", what, item.name),
-                          "Give each a name of its own.");
+                          "Give each a different name.");
     }
 }
 

@@ -36,13 +36,13 @@ bool pushes_by_velocity(const PerturbationSpec& spec) {
                        [](const LoadSpec& load) { return load.pushes_by_velocity(); });
 }
 
-/// Whether the load acts on what the measures are taken of.
+/// Whether the load acts on the finger, body or hand that is measured.
 bool acts_on(const LoadSpec& load, const Movement& movement) {
     return movement.of == kHand ||
            std::find(load.on.begin(), load.on.end(), movement.of) != load.on.end();
 }
 
-/// Whether a load of the perturbation does.
+/// Whether a load of the perturbation acts on it.
 bool acts_on(const PerturbationSpec& spec, const Movement& movement) {
     const std::vector<LoadSpec> loads = spec.all_loads();
     return movement.of == kHand ||
@@ -50,7 +50,7 @@ bool acts_on(const PerturbationSpec& spec, const Movement& movement) {
                        [&](const LoadSpec& load) { return acts_on(load, movement); });
 }
 
-/// The perturbation whose field is the ideal force; null if there is none.
+/// The perturbation whose field defines the ideal force; null if there is none.
 const PerturbationSpec* ideal_of(const Task& task, const Movement& movement) {
     for (const PerturbationSpec& spec : task.perturbations) {
         if (movement.ideal.empty() ? pushes_by_velocity(spec) : spec.name == movement.ideal)
@@ -72,7 +72,7 @@ class MeasureChecker {
         check_list();
         const unsigned needs = needs_of(task_);
         if (task_.movement && task_.measures.empty())
-            diagnostics_.warning(place_, "movement", "nothing is measured of it",
+            diagnostics_.warning(place_, "movement", "is not used by any measure",
                                  "Add e.g. measures: [reaction_time, peak_speed].");
         for (const auto& [key, name] : {std::pair{"go", &movement_.go}, {"step", &movement_.step}})
             if (!name->empty()) state(*name, key);
@@ -82,8 +82,8 @@ class MeasureChecker {
         if (needs & MeasureRow::grip) check_grip();
         if (!movement_.error.empty()) check_error();
         if ((needs & MeasureRow::step) && movement_.step.empty())
-            error("step", "is missing, and grip_latency counts from a load step",
-                  "Add movement: { step: the state that begins with it }.");
+            error("step", "is missing, but grip_latency starts at a load step",
+                  "Add movement: { step: name of the state that starts with it }.");
     }
 
   private:
@@ -91,7 +91,7 @@ class MeasureChecker {
         diagnostics_.error(place_, key, what, remedy);
     }
     void state(const std::string& name, const char* key) {
-        look_up(names_of(task_.states), name, place_, key, "no state", diagnostics_);
+        look_up(names_of(task_.states), name, place_, key, "not a state", diagnostics_);
     }
 
     void check_list() {
@@ -99,26 +99,26 @@ class MeasureChecker {
         for (const MeasureRow& row : kMeasureTable) names.emplace_back(row.name);
         for (size_t i = 0; i < task_.measures.size(); ++i) {
             const std::string& name = task_.measures[i];
-            look_up(names, name, task_.place, "measures", "no measure", diagnostics_);
+            look_up(names, name, task_.place, "measures", "not a measure", diagnostics_);
             const auto end = task_.measures.begin() + static_cast<std::ptrdiff_t>(i);
             if (std::find(task_.measures.begin(), end, name) != end)
                 diagnostics_.error(task_.place, "measures",
-                                   fmt::format("'{}' is there twice", name), "Leave one out.");
+                                   fmt::format("'{}' is listed twice", name), "Leave one out.");
         }
     }
 
     void check_movement() {
         if (!task_.movement && !task_.reach) {
-            error("movement", "is missing, and measures of movement are asked for",
-                  "Add e.g. movement: { from: start, to: target, during: [reach] }, with a region, "
-                  "a region and states.");
+            error("movement", "is missing, but measures of movement are listed",
+                  "Add e.g. movement: { from: start, to: target, during: [reach] }, with two "
+                  "regions and a list of states.");
             return;
         }
         const std::vector<std::string> regions = names_of(task_.regions);
         for (const auto& [key, name] : {std::pair{"from", &movement_.from}, {"to", &movement_.to}})
-            look_up(regions, *name, place_, key, "no region", diagnostics_);
+            look_up(regions, *name, place_, key, "not a region", diagnostics_);
         if (movement_.from == movement_.to && !movement_.to.empty())
-            error("to", "is where the movement begins", "Name two regions.");
+            error("to", "is the same region as from", "Name two different regions.");
         if (movement_.during.empty())
             error("during", "is missing", "Name the states of the movement, e.g. during: [reach].");
         for (const std::string& name : movement_.during) state(name, "during");
@@ -133,7 +133,8 @@ class MeasureChecker {
             if (body.moves_at_all()) things.push_back(body.name);
         }
         things.emplace_back(kHand);
-        look_up(things, movement_.of, place_, "of", "nothing that moves", diagnostics_);
+        look_up(things, movement_.of, place_, "of", "neither a finger, a movable body nor hand",
+                diagnostics_);
     }
 
     void check_channel() {
@@ -143,33 +144,33 @@ class MeasureChecker {
         if (!any)
             diagnostics_.error(
                 task_.place, "measures",
-                fmt::format("force in a channel is asked for, and no channel holds '{}'",
-                            movement_.of),
-                "Add a perturbation with field: { kind: channel, ... }, or name in movement's `of` "
-                "what it acts on.");
+                fmt::format("a channel force is listed, but no channel acts on '{}'", movement_.of),
+                "Add a perturbation with field: { kind: channel, ... }, or set 'of' in movement to "
+                "the finger or body in the channel.");
     }
 
     void check_ideal() {
         const PerturbationSpec* ideal = ideal_of(task_, movement_);
         if (ideal == nullptr && movement_.ideal.empty()) {
-            error("ideal", "adaptation_index needs a field that is learned, and there is none",
+            error("ideal", "is missing: adaptation_index needs a field that is learned",
                   "Add a perturbation whose field is curl or viscous.");
         } else if (ideal == nullptr) {
             look_up(names_of(task_.perturbations), movement_.ideal, place_, "ideal",
-                    "no perturbation", diagnostics_);
+                    "not a perturbation", diagnostics_);
         } else if (!pushes_by_velocity(*ideal) || !acts_on(*ideal, movement_)) {
             error("ideal",
-                  fmt::format("'{}' has no field on '{}' that follows its velocity", ideal->name,
+                  fmt::format("'{}' has no velocity-dependent field on '{}'", ideal->name,
                               movement_.of),
-                  "Name a perturbation whose field is curl or viscous, on what is measured.");
+                  "Name a perturbation with a curl or viscous field on the finger or body that is "
+                  "measured.");
         }
     }
 
     void check_grip() {
         if (scene_.object_index() >= 0 && scene_.fingers.size() > 1) return;
         diagnostics_.error(task_.place, "measures",
-                           "measures of grip need an object that can move and two fingers",
-                           "Leave them out, or take a scene that has both.");
+                           "measures of grip need a movable object and two fingers",
+                           "Leave them out, or use a scene with both.");
     }
 
     void check_error() {
@@ -181,7 +182,7 @@ class MeasureChecker {
                 if (column.name != nullptr) names.emplace_back(column.name);
             }
         }
-        look_up(names, movement_.error, place_, "error", "no figure of the measures listed",
+        look_up(names, movement_.error, place_, "error", "not a value of the listed measures",
                 diagnostics_);
     }
 
@@ -192,8 +193,8 @@ class MeasureChecker {
     Place place_;
 };
 
-/// Whether the load is a channel that keeps what moves from going to the side: not the plane that
-/// it moves in. `regions_W`: centres of the regions [m].
+/// Whether the load is a channel that prevents lateral motion, rather than a plane that contains
+/// the movement. `regions_W`: centres of the regions [m].
 bool holds_to_line(const Load& load, std::span<const Vec3> regions_W,
                    const MovementPlan& movement) {
     constexpr double kAside = 1e-3;  // [m]
@@ -207,8 +208,8 @@ bool holds_to_line(const Load& load, std::span<const Vec3> regions_W,
            load.stiffness() * kAside / 2;
 }
 
-/// How the trial's perturbations compare with the ideal field, and whether one is a channel.
-/// `cell`: the trial's, with its numbers resolved.
+/// Compares the trial's perturbations with the ideal field, and finds whether one is a channel.
+/// `cell`: of the trial, with its numbers resolved.
 void compare(MovementPlan& out, const Task& task, const TaskPlan::Cell& cell, const Trial& trial,
              const Movement& movement) {
     const PerturbationSpec* ideal = ideal_of(task, movement);
@@ -262,7 +263,7 @@ std::string error_column(const std::vector<std::string>& measures, const std::st
 }
 
 Table::Column not_measured_column() {
-    return {kNotMeasured, "what of these measures is missing, and why"};
+    return {kNotMeasured, "measures that are missing, and the reasons"};
 }
 
 std::vector<Table::Column> measure_columns() {

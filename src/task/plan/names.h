@@ -1,4 +1,4 @@
-// What the names in a task may mean.
+// The things to which names in a task can refer.
 #pragma once
 
 #include <tuple>
@@ -9,11 +9,11 @@
 
 namespace dihaptic::task {
 
-/// All things of a kind that have names.
+/// All named things of one kind.
 template <class T>
 struct Known {
     std::vector<std::string> names;
-    const char* unknown;  ///< what an error says of a name that is none of them
+    const char* unknown;  ///< predicate in the error for an unknown name
 };
 
 class Names {
@@ -31,8 +31,8 @@ class Names {
         return look_up(all<T>(), name, place, std::string(key), std::get<Known<T>>(known_).unknown,
                        diagnostics);
     }
-    /// Which T is meant; -1, with an error, if the name is missing. resolve() reports a name that
-    /// is unknown.
+    /// Index of the T in question; -1, with an error, if the name is missing. resolve() reports
+    /// unknown names.
     template <class T>
     int need(const Ref<T>& ref, const Place& place, std::string_view key,
              Diagnostics& diagnostics) const {
@@ -46,15 +46,15 @@ class Names {
         known_;
 };
 
-/// What every part of planning works with.
+/// The shared data of all parts of planning.
 struct Planning {
-    TaskPlan& plan;  ///< with the task, whose references are resolved, and all that is planned yet
+    TaskPlan& plan;  ///< with the task, its references resolved, and the parts planned so far
     const Names& names;
     const scene::Scene& scene;
     Diagnostics& diagnostics;
 };
 
-/// Looks up all references in a part of a task. A name that is unknown is an error.
+/// Looks up all references in a part of a task. Unknown names are errors.
 template <class Struct>
 void resolve(Struct& value, const Names& names, Diagnostics& diagnostics) {
     const auto one = [&]<class T>(Ref<T>& ref, std::string_view key, const Place& place) {

@@ -46,12 +46,12 @@ OnJoint on_joint(const scene::Scene& scene, const scene::Joint& joint) {
 
 namespace {
 
-/// Of a place that names no joint.
+/// Checks a placement without a joint.
 void check_body(const BodyPlace& place, Diagnostics& diagnostics) {
     const auto refuse_key = [&](const char* key, bool given) {
         if (given)
-            diagnostics.error(place.place, key, "belongs to a joint, and none is named",
-                              "Add joint: its name.");
+            diagnostics.error(place.place, key, "is only for a joint, but none is named",
+                              "Add the name of a joint, e.g. joint: hinge.");
     };
     refuse_key("angle", place.angle.has_value());
     refuse_key("displacement", place.displacement.has_value());
@@ -65,24 +65,25 @@ void check_body(const BodyPlace& place, Diagnostics& diagnostics) {
 
 void check_coordinate(const BodyPlace& place, const scene::Joint& joint, Diagnostics& diagnostics) {
     if (!joint.has_coordinate() || joint.is_distance()) {
-        diagnostics.error(place.place, "joint",
-                          fmt::format("'{}' has no axis: it is no hinge or slider", joint.name),
-                          "Name one that is, or place its bodies.");
+        diagnostics.error(
+            place.place, "joint",
+            fmt::format("'{}' has no axis: it is neither a hinge nor a slider", joint.name),
+            "Name a hinge or a slider, or place the bodies of the joint.");
         return;
     }
     if (joint.slides() ? place.rate != 0 : place.speed != 0)
         diagnostics.error(
             place.place, joint.slides() ? "rate" : "speed",
-            fmt::format("is not how a {} moves", enum_name(joint.kind)),
+            fmt::format("does not apply to a {}", enum_name(joint.kind)),
             fmt::format("Give {} in its place.", joint.slides() ? "speed_mm_s" : "rate_deg_s"));
     if (place.velocity)
-        diagnostics.error(place.place, "velocity", "belongs to a body, and a joint is named",
+        diagnostics.error(place.place, "velocity", "is only for a body, but a joint is named",
                           "Give the joint's rate_deg_s or speed_mm_s.");
     const auto& own = joint.slides() ? place.displacement : place.angle;
     const auto& other = joint.slides() ? place.angle : place.displacement;
     if (own && !other) return;
     diagnostics.error(place.place, joint.slides() ? "displacement" : "angle",
-                      fmt::format("is what a {} has", enum_name(joint.kind)),
+                      fmt::format("is the only coordinate of a {}", enum_name(joint.kind)),
                       joint.slides() ? "Give displacement_mm alone." : "Give angle_deg alone.");
 }
 
@@ -94,8 +95,9 @@ void check_joint(const BodyPlace& place, const scene::Scene& scene, Diagnostics&
         return;
     }
     if (!place.body.empty() || place.position)
-        diagnostics.error(place.place, "joint", "says where its second body is, as body does",
-                          "Keep one of the two.");
+        diagnostics.error(place.place, "joint",
+                          "already determines the position of its second body",
+                          "Keep either joint or body.");
     if (place.joint.index >= 0)
         check_coordinate(place, scene.joints[static_cast<size_t>(place.joint.index)], diagnostics);
 }

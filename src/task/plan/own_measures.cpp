@@ -20,7 +20,7 @@ void check_name(const OwnMeasure& measure, const TaskPlan& plan, Diagnostics& di
     const auto is_name = [&](const Table::Column& c) { return c.name == measure.name; };
     if (!is_word(measure.name)) {
         diagnostics.error(measure.place, "name",
-                          fmt::format("'{}' cannot be a column", measure.name),
+                          fmt::format("'{}' cannot be the name of a column", measure.name),
                           "Use letters, digits and _, with the unit at the end, e.g. squeeze_N.");
     } else if (std::any_of(columns.begin(), columns.end(), is_name)) {
         diagnostics.error(measure.place, "name",

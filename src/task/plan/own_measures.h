@@ -1,5 +1,5 @@
-// Measures of a task's own (docs/measures-of-behaviour.md): expressions over what is recorded,
-// taken of each attempt while its frames go by.
+// Custom measures of a task (docs/measures-of-behaviour.md): expressions over recorded quantities,
+// evaluated for each attempt as its frames pass.
 #pragma once
 
 #include <vector>
@@ -10,23 +10,23 @@
 
 namespace dihaptic::task {
 
-/// Compiles the task's own measures for its plan. The plan must have its other measures checked.
+/// Compiles the custom measures for the plan, whose other measures must have been checked.
 void plan_own_measures(TaskPlan& plan, Diagnostics& diagnostics);
 
-/// The columns of the task's own measures.
+/// The columns of the custom measures.
 std::vector<Table::Column> columns_of(const std::vector<OwnMeasure>& measures);
 
-/// Takes the own measures of one attempt after the other.
+/// Computes the custom measures of successive attempts.
 class OwnMeasures {
   public:
-    /// `plan`: with its trials; its own measures must have been compiled.
+    /// `plan`: with its trials; its custom measures must have been compiled.
     explicit OwnMeasures(TaskPlan plan);
     OwnMeasures(const OwnMeasures&) = delete;
 
-    /// `frame`: of an attempt at a trial.
+    /// `frame`: belongs to an attempt at a trial.
     void add(const frame::Frame& frame);
-    /// In the units of the columns; NaN where no tick of the attempt was in the measure's states.
-    /// What follows is another attempt.
+    /// Ends the attempt and returns its values in the units of the columns; NaN if no tick of the
+    /// attempt was in the measure's states.
     std::vector<double> end_attempt();
 
   private:
@@ -39,8 +39,8 @@ class OwnMeasures {
     std::vector<frame::Handle> handles_;
     std::vector<Taken> taken_;
     int phase_ = 0;
-    double entered_ = 0;  // the state [s]
-    double began_ = -1;   // the attempt [s]; -1: it has no frame yet
+    double entered_ = 0;  // time of entry into the state [s]
+    double began_ = -1;   // start of the attempt [s]; -1: no frame yet
 };
 
 }  // namespace dihaptic::task

@@ -20,7 +20,7 @@ bool is_identifier(std::string_view text) {
     return is_word(text) && std::isdigit(static_cast<unsigned char>(text.front())) == 0;
 }
 
-/// Defines what a task names itself, and reports names that cannot be used.
+/// Defines the quantities that a task names, and reports invalid names.
 class Definer {
   public:
     Definer(TaskPlan& plan, Diagnostics& diagnostics) : plan_(plan), diagnostics_(diagnostics) {}
@@ -36,15 +36,15 @@ class Definer {
             define(ask.name, kUnmeasured, Kind::variable, ask.place, "name");
         if (plan_.start.size() > frame::TaskFrame::kMostVariables) {
             diagnostics_.error(task.place, "variables",
-                               fmt::format("there are {} with levels of procedures and answers, "
-                                           "where {} are the most",
+                               fmt::format("there are {}, including levels of procedures and "
+                                           "answers, but at most {} are allowed",
                                            plan_.start.size(), frame::TaskFrame::kMostVariables),
                                "Leave some out.");
         }
     }
 
   private:
-    /// Whether the name can stand in a formula, and in a table beside the others.
+    /// Whether the name can be used in a formula, and as a column beside the others.
     bool check_name(const std::string& name, const Place& place, const char* key) {
         const std::string plain(split_unit(name).name);
         Diagnostics ignored;
@@ -55,11 +55,11 @@ class Definer {
         const auto& columns = kTrialListColumns;
         std::string what;
         if (!is_identifier(plain) || ignored.has_errors()) {
-            what = "cannot be named in a formula";
+            what = "cannot be used in a formula";
         } else if (plain == "outcome" || plan_.quantities.find(plain)) {
-            what = fmt::format("cannot be told from the quantity {}, which formulas know", plain);
+            what = fmt::format("is already the quantity {} in formulas", plain);
         } else if (std::any_of(columns.begin(), columns.end(), in_table)) {
-            what = "is another column of trial-list.csv";
+            what = "is already a column of trial-list.csv";
         } else {
             return true;
         }
@@ -122,7 +122,7 @@ class Definer {
         return true;
     }
 
-    /// A number that changes in the session; `start` is in the unit of its name.
+    /// Defines a number that changes during the session; `start` is in the unit of its name.
     void define(const std::string& name, double start, Kind kind, const Place& place,
                 const char* key) {
         const NameInUnit unit = split_unit(name);
@@ -159,7 +159,8 @@ class Definer {
     Diagnostics& diagnostics_;
 };
 
-/// Whether the text names an angle: the value is then in radians, and otherwise in the key's unit.
+/// Whether the text contains an angle: the value is then in radians, and otherwise in the unit of
+/// the key.
 bool names_angle(const TaskPlan& plan, std::string_view text) {
     const auto is_angle = [&](std::string_view name) {
         const auto named = [&](std::string_view key) {
@@ -194,15 +195,17 @@ void formula_error(const Formula& formula, const std::string& what, const std::s
 }
 
 void compile_all(TaskPlan& plan, Diagnostics& diagnostics) {
-    // a failure is reported once: what is left of the formula is a number
+    // a failure is reported once: the formula is then replaced with a number
     each_formula(plan.task, [&](Formula& formula) {
         if (!formula.computed() || finite_number(formula.text)) return;
         auto compiled = compile_formula(formula, plan, plan.quantities, diagnostics);
         if (compiled && compiled->expression.follows_tick()) {
-            formula_error(formula,
-                          "names what changes within a trial, and is set when a trial begins",
-                          "Name draws, factors, variables and regions; or use a condition: when.",
-                          diagnostics);
+            formula_error(
+                formula,
+                "depends on a quantity that changes within a trial, but is evaluated when a trial "
+                "begins",
+                "Use draws, factors, variables and regions; or use a condition under 'when'.",
+                diagnostics);
             return;
         }
         if (!compiled) return;
@@ -217,7 +220,7 @@ void compile_all(TaskPlan& plan, Diagnostics& diagnostics) {
     }
 }
 
-/// A condition between or after trials; empty if the text is none.
+/// A condition between or after trials; empty if the text is not a condition.
 std::optional<Expression> condition(const std::string& text, Quantities& quantities,
                                     const Place& place, const char* key, Diagnostics& diagnostics) {
     if (text.empty()) return {};
@@ -226,7 +229,7 @@ std::optional<Expression> condition(const std::string& text, Quantities& quantit
     diagnostics.add(found.problems());
     if (found.has_errors()) return {};
     if (out.type() != Expression::Type::truth) {
-        diagnostics.error(place, key, fmt::format("'{}' is no condition", text),
+        diagnostics.error(place, key, fmt::format("'{}' is not a condition", text),
                           "Compare something, e.g. score > 10.");
     }
     return out;
@@ -263,7 +266,7 @@ std::optional<CompiledFormula> compile_formula(const Formula& formula, const Tas
     const Dimension given = out.expression.dimension();
     if (out.expression.type() != Expression::Type::number) {
         formula_error(formula, "must be a number or a formula of one",
-                      "A condition becomes a number by if, e.g. 10 if side > 0 else 20.",
+                      "Convert a condition to a number with if, e.g. 10 if side > 0 else 20.",
                       diagnostics);
     } else if (given == Dimension{}) {
         const bool angle = wanted == Quantity::angle && names_angle(plan, formula.text);
@@ -273,8 +276,8 @@ std::optional<CompiledFormula> compile_formula(const Formula& formula, const Tas
         return out;
     } else {
         formula_error(formula,
-                      fmt::format("is in {}, and must be a {}", si_symbol(given), name(wanted)),
-                      "Divide by a unit, e.g. wait / 1 s, or name something else.", diagnostics);
+                      fmt::format("is in {}, but must be a {}", si_symbol(given), name(wanted)),
+                      "Divide by a unit, e.g. wait / 1 s, or use another quantity.", diagnostics);
     }
     return {};
 }
@@ -282,8 +285,8 @@ std::optional<CompiledFormula> compile_formula(const Formula& formula, const Tas
 void plan_formulas(TaskPlan& plan, Diagnostics& diagnostics) {
     for (const Condition& round : plan.task.rounds) {
         if (round.factors.kind != Node::Kind::null)
-            diagnostics.error(round.place, "factors", "belong to conditions, and this is a round",
-                              "Leave them out, or cross the factor with the others: cross.");
+            diagnostics.error(round.place, "factors", "are only for conditions, not for rounds",
+                              "Leave them out, or add the factor to 'cross'.");
     }
     Definer(plan, diagnostics).define();
     if (!diagnostics.has_errors()) compile_all(plan, diagnostics);

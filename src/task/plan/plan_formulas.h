@@ -1,4 +1,5 @@
-// What the formulas of a task may name, and their compiling, for its plan.
+// The quantities available to the formulas of a task, and the compilation of the formulas, for its
+// plan.
 #pragma once
 
 #include "task/plan/task_plan.h"
@@ -6,18 +7,19 @@
 namespace dihaptic::task {
 
 /// Defines the task's draws, factors and variables in plan.quantities, compiles the formulas of
-/// plan.task, and says in them which they are.
+/// plan.task, and stores their indices in them.
 void plan_formulas(TaskPlan& plan, Diagnostics& diagnostics);
 
-/// Compiles the rules after trials and the ends of blocks. The plan must have its outcomes.
+/// Compiles the rules after trials and the conditions that end blocks. The plan's outcomes must be
+/// ready.
 void plan_rules(TaskPlan& plan, Diagnostics& diagnostics);
 
-/// A text as the formula of a number that is named with its unit, e.g. squeeze_N.
+/// Makes a formula from a text, for a number whose name has its unit, e.g. squeeze_N.
 Formula formula_of(const std::string& text, const std::string& name, const char* key,
                    const Place& place);
 
-/// A formula that names what `quantities` knows; nullopt, with the problem in the diagnostics, if
-/// its text gives no number of its kind.
+/// Compiles a formula over `quantities`; nullopt, with a problem in the diagnostics, if its text
+/// does not give a number of the required kind.
 std::optional<CompiledFormula> compile_formula(const Formula& formula, const TaskPlan& plan,
                                                Quantities& quantities, Diagnostics& diagnostics);
 

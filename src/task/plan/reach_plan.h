@@ -1,5 +1,5 @@
-// How each trial's reach is measured (ReachMeasure): frozen in trial-list.csv, beside the trial, in
-// columns named reach_...
+// The measurement of each trial's reach (ReachMeasure): frozen in trial-list.csv, beside the trial,
+// in columns named reach_...
 #pragma once
 
 #include <string>
@@ -21,29 +21,29 @@ struct ReachPlan {
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
-        v("reach_finger", f.finger, "", "whose reach is measured");
-        v("reach_at", f.distance, "mm", "from its beginning");
-        rows::visit_vector(v, "reach_from", f.from_W, "mm", "where it begins");
-        rows::visit_vector(v, "reach_to", f.to_W, "mm", "where it leads");
-        rows::visit_vector(v, "reach_axis", f.axis_W, "1", "that angles are about");
-        v("reach_phase", f.phase, "1", "in which it is measured");
-        v("reach_measure", f.measure, "", "angle or extent");
+        v("reach_finger", f.finger, "", "finger whose reach is measured");
+        v("reach_at", f.distance, "mm", "distance from its start at which the angle is measured");
+        rows::visit_vector(v, "reach_from", f.from_W, "mm", "its start");
+        rows::visit_vector(v, "reach_to", f.to_W, "mm", "its target");
+        rows::visit_vector(v, "reach_axis", f.axis_W, "1", "axis of the angles");
+        v("reach_phase", f.phase, "1", "phase in which it is measured");
+        v("reach_measure", f.measure, "", "measured quantity: angle or extent");
     }
 };
 
-/// Adds the columns of the reaches to a list with a row for each of the plan's trials. The task
-/// must measure a reach.
+/// Adds the columns of the reaches to a list with one row per trial of the plan. The task must
+/// measure a reach.
 void add_reaches(Table& list, const TaskPlan& plan, const scene::Scene& scene);
 
-/// Name of the first of these columns: the list's own stand before it.
+/// Name of the first of these columns; the list's own columns precede it.
 inline constexpr const char* kFirstReachColumn = "reach_finger";
 
-/// The axis of the cell's first perturbation that has one: trials without the block's perturbation
-/// are measured as those with it are.
+/// The axis of the cell's first perturbation that has one: trials with and without the block's
+/// perturbation are measured alike.
 Vec3 usual_axis(const TaskPlan::Cell& cell);
 
-/// Reads the reaches from trial-list.csv, by trial; none if its task measures none. Of a line that
-/// is cut off, the finger is empty and numbers are NaN from there on.
+/// Reads the reaches from trial-list.csv, by trial; none if its task measures none. In a truncated
+/// line, missing fields are read as an empty finger and NaN.
 std::vector<ReachPlan> read_reaches(const std::string& file);
 
 }  // namespace dihaptic::task

@@ -11,8 +11,8 @@
 namespace dihaptic::task {
 namespace {
 
-constexpr size_t kMostLines = 2;                                    // of a state, and of the task
-constexpr size_t kMostInText = 4;                                   // numbers
+constexpr size_t kMostLines = 2;   // each in a state and in the task
+constexpr size_t kMostInText = 4;  // numbers
 static_assert(frame::TaskFrame::kMostLines == 2 * kMostLines + 2);  // countdown, feedback
 static_assert(frame::TaskFrame::kMostNumbers == kMostInText * (1 + frame::TaskFrame::kMostLines));
 
@@ -48,7 +48,7 @@ int SeenPlanner::text(const std::string& text, const Place& place, const char* k
     for (const frame::Placeholder& given : frame::placeholders(text)) {
         if (given.name.empty()) {
             diagnostics.error(place, key,
-                              fmt::format("'{}' is no place for a number",
+                              fmt::format("'{}' is not a valid number in a text",
                                           text.substr(given.begin, given.end - given.begin)),
                               "Write e.g. {trial_num} or {countdown:.1f}; for a brace, {{ or }}.");
             continue;
@@ -58,8 +58,8 @@ int SeenPlanner::text(const std::string& text, const Place& place, const char* k
     if (numbers.size() > kMostInText)
         diagnostics.error(
             place, key,
-            fmt::format("has {} numbers, where {} are the most", numbers.size(), kMostInText),
-            "Leave some out, or give them a line of their own.");
+            fmt::format("has {} numbers, but at most {} are allowed", numbers.size(), kMostInText),
+            "Leave some out, or move them to another line.");
     plan.numbers.push_back(std::move(numbers));
     return static_cast<int>(plan.messages.size()) - 1;
 }
@@ -77,13 +77,14 @@ std::optional<TextNumber> SeenPlanner::number(const std::string& name, const Pla
     std::vector<std::string> known = plan.quantities.names();
     known.insert(known.end(), figures.begin(), figures.end());
     const std::string guess = nearest(name, known);
-    diagnostics.error(place, key, fmt::format("'{}' is no number that a text may have", name),
-                      guess.empty() || guess == name
-                          ? fmt::format("Known: {}, and numbers that expressions may name, e.g. "
-                                        "a variable or grip_force.",
-                                        fmt::join(figures, ", "))
-                          : fmt::format("Did you mean {}?", guess),
-                      choices_of(known));
+    diagnostics.error(
+        place, key, fmt::format("'{}' is not a number that a text can show", name),
+        guess.empty() || guess == name
+            ? fmt::format(
+                  "Known: {}, and numbers that expressions can use, e.g. a variable or grip_force.",
+                  fmt::join(figures, ", "))
+            : fmt::format("Did you mean {}?", guess),
+        choices_of(known));
     return {};
 }
 
@@ -91,7 +92,7 @@ std::vector<int> SeenPlanner::lines(const std::vector<std::string>& texts, const
     if (texts.size() > kMostLines)
         diagnostics.error(
             place, "lines",
-            fmt::format("there are {}, where {} are the most", texts.size(), kMostLines),
+            fmt::format("there are {}, but at most {} are allowed", texts.size(), kMostLines),
             "Leave some out.");
     std::vector<int> out;
     for (const std::string& line : texts) {
@@ -107,7 +108,8 @@ void SeenPlanner::plan_state(const State& state, TaskPlan::Stage& out) {
         const bool ends = std::any_of(state.exits.begin(), state.exits.end(),
                                       [](const Exit& exit) { return exit.when == When::time; });
         if (!ends)
-            diagnostics.error(state.place, "countdown", "no exit by time ends this state",
+            diagnostics.error(state.place, "countdown",
+                              "needs an exit by time, which this state does not have",
                               "Add e.g. - { when: time, after_s: 5, outcome: too late }.");
         out.lines.push_back(text(kCountdown, state.place, "countdown"));
     }
@@ -126,7 +128,7 @@ void SeenPlanner::show(const Show& given, const Place& place, TaskPlan::Stage& o
         for (size_t i = 0; i < fingers_; ++i) look_of(out.looks, bodies_ + i).hidden = 1;
     }
     if (!given.object && plan.object < 0) {
-        diagnostics.error(place, "object", "the scene has no object that can move",
+        diagnostics.error(place, "object", "the scene has no movable object",
                           "Leave it out, or hide one of the bodies.");
     } else if (!given.object) {
         look_of(out.looks, static_cast<size_t>(plan.object)).hidden = 1;
@@ -142,7 +144,7 @@ void SeenPlanner::show_some(const Node& given, const char* key, size_t first, co
     if (given.kind != Node::Kind::mapping) {
         const std::vector<std::string>& all = names.all<T>();
         diagnostics.error(
-            place, key, "must have a key for each that is hidden",
+            place, key, "must have one key for each hidden item",
             fmt::format("Write e.g. {}: {{ {}: no }}.", key, all.empty() ? "name" : all.front()));
         return;
     }
@@ -168,7 +170,7 @@ void SeenPlanner::add_looks(const std::vector<LookSpec>& specs, TaskPlan::Looks&
                           static_cast<int>(!spec.target.empty());
         if (named != 1)
             found.error(spec.place, "look",
-                        named == 0 ? "does not say of what" : "is of one thing only",
+                        named == 0 ? "does not name an object" : "names more than one object",
                         "Give it one of body, finger and target.");
         if (spec.colour.empty() && spec.scale == 1)
             found.error(spec.place, "look", "changes nothing", "Give it colour, scale or both.");
@@ -198,11 +200,12 @@ void SeenPlanner::plan_task() {
         }
         for (const PageSpec& page : block.pages) {
             if (page.text.empty() && page.picture.empty())
-                diagnostics.error(page.place, "pages", "this page shows nothing",
-                                  "Give it text, picture or both.");
+                diagnostics.error(page.place, "pages", "a page has neither text nor a picture",
+                                  "Give the page text, picture or both.");
             if (!page.key.empty() && !is_key(page.key))
-                diagnostics.error(page.place, "key", fmt::format("'{}' is no key", page.key),
-                                  "Write one letter or digit, or leave it out: any will do.");
+                diagnostics.error(page.place, "key",
+                                  fmt::format("'{}' is not a valid key", page.key),
+                                  "Write one letter or digit, or leave it out to accept any key.");
             plan.pages.push_back({page, text(page.text, page.place, "text")});
         }
     }

@@ -1,5 +1,5 @@
-// Looks up what an experiment file says of what a person sees: texts with numbers, what states
-// hide, how things look, and the pages before blocks.
+// Plans the visual part of an experiment file: texts with numbers, objects that states hide, looks,
+// and the pages before blocks.
 #pragma once
 
 #include "task/plan/names.h"
@@ -10,11 +10,11 @@ class SeenPlanner : Planning {
   public:
     explicit SeenPlanner(const Planning& given);
 
-    /// Index of a text among the plan's messages, to which it is added when new; -1 if it is empty.
+    /// Index of a text among the plan's messages, to which a new text is added; -1 if it is empty.
     int text(const std::string& text, const Place& place, const char* key);
-    /// What the state shows, apart from its message.
+    /// Plans the display in the state, apart from its message.
     void plan_state(const State& state, TaskPlan::Stage& out);
-    /// Adds looks to those that are there. Problems go to `found`, once for each call.
+    /// Adds looks to the existing ones. Problems go to `found`, once per call.
     void add_looks(const std::vector<LookSpec>& specs, TaskPlan::Looks& out,
                    Diagnostics& found) const;
     /// The task's own lines, breaks and pages.
@@ -22,11 +22,12 @@ class SeenPlanner : Planning {
 
   private:
     void show(const Show& given, const Place& place, TaskPlan::Stage& out);
-    /// Reads "name: yes or no" of bodies or fingers; `first`: index of the first of them in frames.
+    /// Reads "name: yes or no" for bodies or fingers; `first`: index of the first of them in
+    /// frames.
     template <class T>
     void show_some(const Node& given, const char* key, size_t first, const Place& place,
                    TaskPlan::Looks& out);
-    /// Nullopt, with the problem in the diagnostics, if the name is no number's.
+    /// The number of this name; nullopt, with a problem in the diagnostics, if there is none.
     std::optional<TextNumber> number(const std::string& name, const Place& place, const char* key);
     std::vector<int> lines(const std::vector<std::string>& texts, const Place& place);
 
@@ -34,7 +35,7 @@ class SeenPlanner : Planning {
     size_t fingers_;
 };
 
-/// Whether the text is a key that a person may be asked to press: one letter or digit.
+/// Whether the text is a valid key: one letter or digit.
 bool is_key(const std::string& text);
 
 }  // namespace dihaptic::task

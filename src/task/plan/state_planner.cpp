@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kSkipped = "skipped";
 
-/// A name as an expression has it.
+/// A name in the notation of expressions.
 std::string quoted(const std::string& name) {
     std::string out = "\"";
     for (const char c : name) {
@@ -22,7 +22,7 @@ std::string quoted(const std::string& name) {
     return out + '"';
 }
 
-/// A number of a condition as an expression has it.
+/// A number of a condition in the notation of expressions.
 std::string as_expression(const Formula& number, const TaskPlan& plan, const char* unit) {
     if (number.index < 0) return fmt::format("{}", number.value);
     const CompiledFormula& compiled = plan.formulas[static_cast<size_t>(number.index)];
@@ -30,7 +30,7 @@ std::string as_expression(const Formula& number, const TaskPlan& plan, const cha
     return fmt::format("({}) * {} {}", number.text, number.to_si, unit);
 }
 
-/// What a condition of the table says, as an expression; "" for what no expression can say.
+/// The expression for a condition of the table; "" for a condition that has none.
 std::string as_expression(const Exit& exit, const TaskPlan& plan) {
     const std::string who = quoted(exit.what.empty() ? exit.finger : exit.what);
     const std::string body = quoted(exit.body);
@@ -87,25 +87,25 @@ class StatePlanner : Planning {
         diagnostics.error(place, key, what, remedy, std::move(choices));
     }
 
-    /// The sound, one bit, which `where` begins.
+    /// The sound, one bit, that `where` starts.
     uint32_t sound(int index, const Place& where, const char* key) {
         if (index < 0 || index >= TaskPlan::kMostSounds) return 0;
         if ((plan.throughout >> index & 1u) != 0)
             error(where, key,
                   fmt::format("'{}' lasts throughout the session",
                               plan.task.sounds[static_cast<size_t>(index)].name),
-                  "Leave it out here, or let it last once or as long as a state.");
+                  "Leave it out here, or write lasts: once or lasts: state.");
         return 1u << index;
     }
 
-    /// The sound that an exit begins.
+    /// The sound that an exit starts.
     uint32_t sound(const Exit& exit) {
         const uint32_t out = sound(exit.sound.index, exit.place, "sound");
         if ((out & plan.going_on) != 0)
-            error(
-                exit.place, "sound",
-                fmt::format("'{}' lasts as long as a state, and an exit has no length", exit.sound),
-                "Name it in the state that follows, or let it last once.");
+            error(exit.place, "sound",
+                  fmt::format("'{}' lasts as long as a state, but an exit has no duration",
+                              exit.sound),
+                  "Name it in the next state, or write lasts: once.");
         return out;
     }
 
@@ -134,11 +134,11 @@ class StatePlanner : Planning {
                 error(exit.place, "when", "the state asks for no number",
                       "Add e.g. ask: { name: heaviness, scale: numbers, from: 1, to: 9 }.");
             } else if (state.ask->by == AnswerBy::cursor) {
-                error(exit.place, "when", "a hand on a line has always an answer",
-                      "Say when it counts, e.g. when: still, hold_s: 1.");
+                error(exit.place, "when", "an answer by cursor is available at all times",
+                      "Use a condition that confirms the answer, e.g. when: still, hold_s: 1.");
             }
             if (exit.hold != 0)
-                error(exit.place, "hold", "an answer is given at once", "Leave it out.");
+                error(exit.place, "hold", "an answer has no duration", "Leave it out.");
         }
     }
 
@@ -150,9 +150,9 @@ class StatePlanner : Planning {
         out.condition = condition(exit);
         const int ways = !exit.to.empty() + !exit.outcome.empty() + (exit.chooses > 0);
         if (ways != 1) {
-            error(exit.place, "to", ways == 0 ? "leads nowhere" : "leads to more than one place",
-                  "Give it to: a state, or outcome: what became of the trial, or chooses: an "
-                  "interval.");
+            error(exit.place, "to", ways == 0 ? "leads nowhere" : "has more than one destination",
+                  "Give it exactly one of to (a state), outcome (the trial's result) and chooses "
+                  "(an interval).");
         }
         if (exit.chooses > 0) out.outcome = choice(exit);
         if (!exit.outcome.empty()) out.outcome = outcome(exit);
@@ -161,11 +161,11 @@ class StatePlanner : Planning {
         return out;
     }
 
-    /// Any of the two outcomes: which it is follows from the trial.
+    /// Either of the two outcomes; the trial determines which.
     int choice(const Exit& exit) {
         if (plan.comparison < 0)
-            error(exit.place, "chooses", "there are no intervals to choose from",
-                  "Add interval: 1 and interval: 2 to states, or give it an outcome.");
+            error(exit.place, "chooses", "no state has an interval that can be chosen",
+                  "Add interval: 1 and interval: 2 to states, or give the exit an outcome.");
         Exit chosen = exit;
         chosen.outcome = kStandard;
         plan.chose_standard = outcome(chosen);
@@ -184,12 +184,12 @@ class StatePlanner : Planning {
         Expression out =
             Expression::compile(text, plan.quantities, exit.place, "when", diagnostics);
         if (!out.empty() && out.type() != Expression::Type::truth)
-            error(exit.place, "when", fmt::format("'{}' is no condition", text),
+            error(exit.place, "when", fmt::format("'{}' is not a condition", text),
                   fmt::format("Compare it with something, e.g. {} > 2.", text));
         return out;
     }
 
-    /// A single word that is no quantity was meant as one of the table's.
+    /// Reports a single word that is not a quantity as a misspelt word of the table.
     void check_word(const Exit& exit) {
         const std::string& text = exit.condition;
         if (!is_word(text) || plan.quantities.find(text)) return;
@@ -200,7 +200,7 @@ class StatePlanner : Planning {
         std::vector<Choice> choices = choices_of(words);
         for (const Choice& quantity : choices_of(plan.quantities.names()))
             choices.push_back(quantity);
-        error(exit.place, "when", fmt::format("'{}' is not known", text),
+        error(exit.place, "when", fmt::format("'{}' is not a known condition", text),
               guess.empty() ? fmt::format("Use {}, or an expression.", fmt::join(words, ", "))
                             : fmt::format("Did you mean {}?", guess),
               std::move(choices));
@@ -214,52 +214,53 @@ class StatePlanner : Planning {
             names.need(exit.body, exit.place, "body", diagnostics);
         }
         if (exit.when == When::gripped && names.all<scene::Finger>().size() < 2)
-            error(exit.place, "when", "a grip takes two fingers, and the scene has one",
+            error(exit.place, "when", "a grip takes two fingers, but the scene has one",
                   "Use when: touched.");
         if (exit.has(WhenRow::any_finger)) check_who(exit);
         if (exit.has(WhenRow::key) && !is_key(exit.key)) {
-            error(exit.place, "key", fmt::format("'{}' is no key", exit.key),
+            error(exit.place, "key", fmt::format("'{}' is not a valid key", exit.key),
                   "Write one letter or digit, e.g. key: y.");
         }
         if (exit.when == When::time && !exit.hold.computed() && exit.hold.value <= 0)
-            error(exit.place, "after", "how long is missing", "Add e.g. after_s: 2.");
+            error(exit.place, "after", "the duration is missing", "Add e.g. after_s: 2.");
         if (exit.when == When::trigger && exit.hold != 0)
-            error(exit.place, "hold", "a trigger is over at once", "Leave it out.");
+            error(exit.place, "hold", "a trigger has no duration", "Leave it out.");
     }
 
-    /// Whose handle, or what, the condition judges.
+    /// Plans the finger, hand or body of the condition.
     void check_who(const Exit& exit) {
         if (!exit.what.empty()) {
             const int i = look_up(plan.quantities.things(), exit.what, exit.place, "what",
-                                  "no body, finger or hand", diagnostics);
+                                  "neither a body, a finger nor a hand", diagnostics);
             if (!exit.finger.empty())
-                error(exit.place, "finger", "is said by what already", "Leave it out.");
+                error(exit.place, "finger", "duplicates the key what", "Leave it out.");
             if (i >= 0 && exit.shown && plan.quantities.thing(exit.what)->body >= 0)
-                error(exit.place, "shown", "is said of fingers and hands, not of bodies",
+                error(exit.place, "shown", "applies to fingers and hands, not to bodies",
                       "Leave it out.");
         }
         if (exit.finger.empty()) return;
         std::vector<std::string> known = names.all<scene::Finger>();
         for (const Hand& hand : plan.task.hands) known.push_back(hand.name);
         const int i = look_up(known, exit.finger, exit.place, "finger",
-                              "none of the scene's fingers, and no hand of the task", diagnostics);
+                              "neither a finger of the scene nor a hand of the task", diagnostics);
         if (i < 0 || exit.when != When::gripped) return;
         if (plan.quantities.thing(exit.finger)->fingers.count() < 2)
             error(exit.place, "finger",
-                  fmt::format("a grip takes two fingers, and '{}' is one", exit.finger),
+                  fmt::format("a grip takes two fingers, but '{}' is one", exit.finger),
                   "Name a hand, or use when: touched.");
     }
 
     int outcome(const Exit& exit) {
         if (exit.outcome == kSkipped)
             error(exit.place, "outcome",
-                  fmt::format("'{}' is what a trial is that the operator skipped", kSkipped),
-                  "Call it something else.");
+                  fmt::format("'{}' is reserved for trials that the operator skips", kSkipped),
+                  "Give the outcome another name.");
         for (size_t i = 0; i < plan.outcomes.size(); ++i) {
             if (plan.outcomes[i].name != exit.outcome) continue;
             if (plan.outcomes[i].redo != exit.redo) {
                 error(exit.place, "redo",
-                      fmt::format("'{}' is done again after one exit, and not after another",
+                      fmt::format("trials that end with '{}' are repeated after one exit, but not "
+                                  "after another",
                                   exit.outcome),
                       "Give the two outcomes different names.");
             }
@@ -273,7 +274,7 @@ class StatePlanner : Planning {
     SeenPlanner& seen_;
 };
 
-/// Every state must be reachable from the first one, and must lead out of the trial.
+/// Checks that every state is reachable from the first one and leads out of the trial.
 void check_ways(const TaskPlan& plan, Diagnostics& diagnostics) {
     const size_t n = plan.stages.size();
     std::vector<char> reached(n, 0);
@@ -294,9 +295,10 @@ void check_ways(const TaskPlan& plan, Diagnostics& diagnostics) {
         const State& state = plan.task.states[i];
         if (!reached[i]) {
             diagnostics.warning(state.place, state.name, "no exit leads to this state",
-                                "Remove it, or lead an exit to it.");
+                                "Remove it, or make an exit lead to it.");
         } else if (!leaves[i] && !state.exits.empty()) {
-            diagnostics.error(state.place, state.name, "no way leads from here to an outcome",
+            diagnostics.error(state.place, state.name,
+                              "no sequence of exits leads from here to an outcome",
                               "Give one of its exits an outcome.");
         }
     }

@@ -1,4 +1,4 @@
-// Plans a task's states: what each asks and begins, and the ways out of it.
+// Plans a task's states: their displays, questions, sounds and exits.
 #pragma once
 
 #include "task/plan/body_planner.h"
@@ -6,10 +6,10 @@
 
 namespace dihaptic::task {
 
-/// Plans all states, and with them the outcomes of trials. The plan must have its formulas.
+/// Plans all states and the outcomes of trials. The plan's formulas must be compiled.
 void plan_states(const Planning& given, BodyPlanner& bodies, SeenPlanner& seen);
 
-/// The fingers that are named.
+/// The set of the named fingers.
 scene::FingerSet fingers_of(const RefList<scene::Finger>& names);
 
 }  // namespace dihaptic::task

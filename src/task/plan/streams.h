@@ -1,7 +1,7 @@
-// Names of the random streams (base/random.h) that a participant's trials are made from: each
-// participant has orders and draws of their own, or a carry-over from trial to trial would be the
-// same in all and look like an effect. The first participant, and whoever has no number, has those
-// of the seed itself.
+// Names of the random streams (base/random.h) that generate a participant's trials: each
+// participant has individual orders and draws, since otherwise a carry-over from trial to trial
+// would be the same in all and look like an effect. The first participant, and participants without
+// a number, use the streams of the seed itself.
 #pragma once
 
 #include <fmt/format.h>
@@ -10,7 +10,7 @@
 
 namespace dihaptic::task {
 
-/// `number`: the participant's, as of participant_number().
+/// `number`: of the participant, from participant_number().
 inline bool has_own_stream(int number) {
     return number > 1;
 }

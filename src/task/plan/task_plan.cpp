@@ -34,26 +34,26 @@ void check_lists(const Task& task, Diagnostics& diagnostics) {
     check_names(task.blocks, "blocks", diagnostics);
     if (task.regions.size() > frame::TaskFrame::kMostTargets) {
         diagnostics.error(task.place, "regions",
-                          fmt::format("there are {}, where {} are the most", task.regions.size(),
-                                      frame::TaskFrame::kMostTargets),
-                          "Let conditions move one region about.");
+                          fmt::format("there are {}, but at most {} are allowed",
+                                      task.regions.size(), frame::TaskFrame::kMostTargets),
+                          "Use one region that conditions move.");
     }
     if (task.sounds.size() > TaskPlan::kMostSounds)
         diagnostics.error(task.sounds.back().place, "sounds",
-                          fmt::format("there are {}, where {} are the most", task.sounds.size(),
-                                      TaskPlan::kMostSounds),
+                          fmt::format("there are {}, but at most {} are allowed",
+                                      task.sounds.size(), TaskPlan::kMostSounds),
                           "Leave out those that no state needs.");
     if (task.states.empty())
-        diagnostics.error(task.place, "states", "there are none", "Add one at least.");
+        diagnostics.error(task.place, "states", "there are none", "Add at least one.");
     if (task.states.size() > TaskPlan::kMostStates)
         diagnostics.error(task.place, "states",
                           fmt::format("there are more than {}", TaskPlan::kMostStates), "");
     if (task.blocks.empty())
         diagnostics.error(task.place, "blocks", "there are none",
-                          "Add one at least, with its trials.");
+                          "Add at least one, with its trials.");
 }
 
-/// Plans a task part by part: what each part names must have been planned before it.
+/// Plans a task part by part; each part may refer only to parts planned before it.
 class Planner : Planning {
   public:
     explicit Planner(const Planning& given) : Planning(given), seen_(given), bodies_(given) {}
@@ -65,7 +65,7 @@ class Planner : Planning {
         }
         if (has_intervals(plan.task))
             plan.comparison = look_up(names_of(plan.task.draws), kComparisonInterval,
-                                      plan.task.place, "draws", "no draw", diagnostics);
+                                      plan.task.place, "draws", "not a draw", diagnostics);
         plan_formulas(plan, diagnostics);
         plan.move_away = seen_.text(kMoveAway, plan.task.place, "message");
         plan_sounds();
@@ -88,7 +88,7 @@ class Planner : Planning {
                                       .joints = names.all<scene::Joint>(),
                                       .regions = names.all<Region>(),
                                       .hands = hands()});
-        // what no trial places stays there
+        // bodies that no trial places stay there
         for (size_t i = 0; i < scene.bodies.size(); ++i)
             plan.quantities.set(plan.quantities.start(i), scene.bodies[i].pose().p);
         plan.bodies = scene.bodies.size();
@@ -105,9 +105,9 @@ class Planner : Planning {
                 diagnostics.error(
                     hand.place, "name",
                     fmt::format("'{}' is a finger, a body or a joint of the scene", hand.name),
-                    "Call the hand something else.");
+                    "Give the hand another name.");
             if (hand.fingers.empty())
-                diagnostics.error(hand.place, "fingers", "there are none", "Name one at least.");
+                diagnostics.error(hand.place, "fingers", "there are none", "Name at least one.");
         }
         return out;
     }
@@ -115,11 +115,11 @@ class Planner : Planning {
     void check_condition(const Condition& condition) {
         bodies_.check(condition);
         for (const Region& region : condition.regions)
-            look_up(names.all<Region>(), region.name, region.place, "name", "no region of the task",
-                    diagnostics);
+            look_up(names.all<Region>(), region.name, region.place, "name",
+                    "not a region of the task", diagnostics);
         for (const PerturbationSpec& spec : condition.perturbations)
             look_up(names.all<PerturbationSpec>(), spec.name, spec.place, "name",
-                    "no perturbation of the task", diagnostics);
+                    "not a perturbation of the task", diagnostics);
     }
 
     void plan_sounds() {
@@ -141,16 +141,15 @@ class Planner : Planning {
                               "Write e.g. axis: [0, 0, 1].");
     }
 
-    /// How a reach is measured is frozen before the session.
+    /// Checks a region of a reach, whose measurement is frozen before the session.
     void check_fixed(int region, const Place& place, const char* key) {
         if (region < 0) return;
         for (const TaskPlan::Cell& cell : plan.cells) {
             for (const Formula& n : cell.regions[static_cast<size_t>(region)].position) {
                 if (n.index < 0 || plan.formulas[static_cast<size_t>(n.index)].expression.frozen())
                     continue;
-                diagnostics.error(
-                    place, key, "names a region that variables move",
-                    "Measure between regions that follow from draws and factors alone.");
+                diagnostics.error(place, key, "is a region that variables move",
+                                  "Measure between regions that depend only on draws and factors.");
                 return;
             }
         }

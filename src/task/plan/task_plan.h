@@ -1,5 +1,4 @@
-// A task with its names looked up in a scene: constant data that the tick and the simulated hand
-// read.
+// A task with its names looked up in a scene: constant data for the tick and the simulated hand.
 #pragma once
 
 #include "frame/task_frame.h"
@@ -12,18 +11,18 @@ namespace dihaptic::task {
 /// Phase number, in frames, of the time before a trial's first state.
 constexpr int kBetween = 0;
 
-/// A number about the trials that a text may have. `countdown`: seconds that the state or the break
-/// may last still, rounded up.
+/// A number about the trials for use in texts. `countdown`: seconds left in the state or the break,
+/// rounded up.
 enum class Figure {
     trial_num,
     trials,
-    trials_left,  ///< with the running one
+    trials_left,  ///< including the running one
     trial_num_in_block,
     block_num,
     blocks,
     attempt,
     countdown,
-    answer,  ///< typed so far, or pointed at
+    answer,  ///< as typed so far, or pointed at
 };
 constexpr auto enum_names(Figure) {
     return std::array{"trial_num", "trials", "trials_left", "trial_num_in_block",
@@ -38,13 +37,13 @@ struct TextNumber {
 };
 
 struct TaskPlan {
-    static constexpr size_t kMostStates = 64;  ///< sets of states are one bit each
-    static constexpr int kMostSounds = frame::TaskFrame::kMostSounds;  ///< and of sounds
+    static constexpr size_t kMostStates = 64;  ///< a set of states has one bit each
+    static constexpr int kMostSounds = frame::TaskFrame::kMostSounds;  ///< a set of sounds too
 
     Task task;
     std::vector<Trial> trials;
     std::vector<std::string> messages;
-    std::vector<std::vector<TextNumber>> numbers;  ///< by message: those in its text, in order
+    std::vector<std::vector<TextNumber>> numbers;  ///< by message: numbers in its text, in order
     struct Outcome {
         std::string name;
         bool redo;
@@ -54,35 +53,36 @@ struct TaskPlan {
 
     struct Way {
         Exit exit;
-        Expression condition;  ///< empty: of key, button, trigger, time
-        int finger = 0;        ///< whose button it is
-        int outcome = -1;      ///< outcome that it ends the trial with; see outcome_of()
+        Expression condition;  ///< empty for key, button, trigger and time
+        int finger = 0;        ///< finger with the button
+        int outcome = -1;      ///< outcome of the trial; see outcome_of()
         int feedback = -1;
-        uint32_t sounds = 0;  ///< that it begins, one bit each
+        uint32_t sounds = 0;  ///< sounds that it starts, one bit each
 
-        /// Whether it comes whatever the hand does.
+        /// Whether its condition does not depend on the hand's motion.
         bool comes() const {
             return condition.empty() ? exit.has(WhenRow::comes) : !condition.follows_tick();
         }
     };
     struct Step {
         HandStep step;
-        scene::FingerSet fingers = scene::FingerSet{}.set();  ///< that move
+        scene::FingerSet fingers = scene::FingerSet{}.set();  ///< fingers that move
         bool moves(size_t finger) const noexcept { return scene::contains(fingers, finger); }
     };
-    /// What conditions and formulas name; a director has a copy.
+    /// Quantities for conditions and formulas; a director has a copy.
     Quantities quantities;
 
-    /// A body that is put somewhere, and the box that must then be clear of fingers.
+    /// A body that is placed, and the box that must be clear of fingers.
     struct Home {
         int body;
         Pose X_WB;
         scene::Bounds box;
         FormulaVec3 position;
-        /// In place of that position: homes with it come after that of their joint's first body.
+        /// Used in place of that position; such homes come after the home of the joint's first
+        /// body.
         std::optional<OnJoint> joint = std::nullopt;
         Formula coordinate{};
-        /// The body's velocity then, or its joint's rate.
+        /// The body's initial velocity, or the rate of its joint.
         FormulaVec3 velocity{};
         Formula rate{};
         BodyMotion motion{};
@@ -98,13 +98,13 @@ struct TaskPlan {
             }
         }
     };
-    /// A body that a state puts somewhere.
+    /// A body that a state places.
     struct Put {
-        Home home;   // where, unless it stays where it is
-        bool moves;  // whether it is put elsewhere
+        Home home;   // placement, unless it keeps its position
+        bool moves;  // whether its position changes
         bool stays;  // whether it is kept there while the state lasts
     };
-    /// How bodies, proxies and targets look; of a target the radius is the factor on it.
+    /// Looks of bodies, proxies and targets; the radius of a target is a factor.
     struct Looks {
         std::vector<frame::LookFrame> things;
         std::vector<frame::TargetFrame> targets;
@@ -127,8 +127,8 @@ struct TaskPlan {
     };
     std::vector<Stage> stages;  ///< by state
 
-    /// Regions, perturbations and bodies' places of one condition in one round. Formulas get their
-    /// values for each trial (task/run/trial_numbers.h).
+    /// Regions, perturbations and placements of bodies for one condition in one round. Formulas get
+    /// their values for each trial (task/run/trial_numbers.h).
     struct Cell {
         std::vector<Region> regions;
         std::vector<Vec3> p_W;  ///< centres of the regions
@@ -143,16 +143,16 @@ struct TaskPlan {
         }
     };
     std::vector<Cell> cells;            ///< by round, then condition
-    size_t bodies = 0;                  ///< of the scene
+    size_t bodies = 0;                  ///< number in the scene
     std::vector<double> finger_radius;  ///< radius of the sphere around each finger's shape [m]
-    double longest_delay = 0;           ///< of the loads [s]
+    double longest_delay = 0;           ///< in the loads [s]
     int move_away = -1;                 ///< message while a finger is in the way
 
     struct Page {
         PageSpec spec;
         int message = -1;  ///< its text
 
-        /// A key that turns the page.
+        /// One key that turns the page.
         char any_key() const { return spec.key.empty() ? '1' : spec.key.front(); }
     };
     std::vector<Page> pages;
@@ -165,16 +165,16 @@ struct TaskPlan {
     int rest = -1;                  ///< message during a break
     int countdown = -1;             ///< line that counts down
     std::vector<int> lines;         ///< messages that are shown throughout
-    int object = -1;                ///< the scene's
+    int object = -1;                ///< body index of the scene's object
     uint32_t going_on = 0;          ///< sounds that last while states name them, one bit each
     uint32_t throughout = 0;        ///< sounds that last throughout the session
 
-    /// What formulas may name, and where its values go.
+    /// Quantities available to formulas, and the slots for their values.
     struct Symbols {
         struct Draw {
             int slot;
             double si;                  ///< unit of the draw's name
-            std::vector<double> codes;  ///< of texts
+            std::vector<double> codes;  ///< if its values are texts
             double value(double drawn) const noexcept {
                 return codes.empty() ? si * drawn : codes[static_cast<size_t>(drawn)];
             }
@@ -193,37 +193,37 @@ struct TaskPlan {
         int outcome = 0;
         std::vector<double> outcomes;  ///< code of each outcome's name
     };
-    /// A measure of the task's own.
+    /// A custom measure of the task.
     struct Measured {
         CompiledFormula value;  ///< with the slots of `measured`
         Take take = Take::max;
         uint64_t states = 0;  ///< one bit each
     };
-    Quantities measured;  ///< `quantities`, and what measures name besides
+    Quantities measured;  ///< `quantities`, and further ones for measures
     std::vector<Measured> own_measures;
-    /// What happens to a variable after a trial.
+    /// Update of a variable after a trial.
     struct Change {
         std::optional<Expression> when;
         size_t variable = 0;
         CompiledFormula to;
     };
-    Quantities between;  ///< what ends a block: variables alone
+    Quantities between;  ///< quantities for the end of a block: only variables
     Symbols symbols;
     std::vector<CompiledFormula> formulas;
     std::vector<int> in_states;  ///< formulas
-    /// A number that procedures choose. In frames it follows the variables.
+    /// A number that procedures choose. In frames, levels come after the variables.
     struct Level {
         size_t variable = 0;
         double standard = 0;         ///< [SI]
         double si = 1;               ///< unit of its name
-        std::vector<double> values;  ///< at which trials are looked at before the session [SI]
+        std::vector<double> values;  ///< at which trials are checked before the session [SI]
     };
     std::vector<Level> levels;
     std::vector<int> level_of_procedure;  ///< index among the levels; -1: it chooses a share
-    int comparison = -1;                  ///< draw of the interval of the comparison
+    int comparison = -1;                  ///< draw of the comparison interval
     int chose_comparison = -1;            ///< outcome
     int chose_standard = -1;              ///< outcome
-    /// What variables, then levels, and then answers are at the session's start.
+    /// Values of variables, levels and answers, in this order, at the session's start.
     std::vector<frame::VariableFrame> start;
     std::vector<Change> changes;
     std::vector<std::optional<Expression>> until;  ///< by block
@@ -233,8 +233,8 @@ struct TaskPlan {
         return static_cast<size_t>(trial.round) * conditions + static_cast<size_t>(trial.condition);
     }
     const Cell& cell(const Trial& trial) const { return cells[cell_index(trial)]; }
-    /// Whether levels, and shares that procedures choose, are at their standard in the state; -1:
-    /// in none.
+    /// Whether levels, and shares that procedures choose, have their standard in the state; -1: no
+    /// state.
     bool shows_standard(const Trial& trial, int state) const noexcept {
         return comparison >= 0 && state >= 0 &&
                stages[static_cast<size_t>(state)].interval != interval_of(trial);
@@ -243,7 +243,7 @@ struct TaskPlan {
     int interval_of(const Trial& trial) const noexcept {
         return static_cast<int>(trial.draws[static_cast<size_t>(comparison)]);
     }
-    /// Outcome of a trial that ends this way.
+    /// Outcome of a trial that ends with this exit.
     int outcome_of(const Way& way, const Trial& trial) const noexcept {
         if (way.exit.chooses == 0) return way.outcome;
         return way.exit.chooses == interval_of(trial) ? chose_comparison : chose_standard;
@@ -256,20 +256,20 @@ struct TaskPlan {
     }
     /// The formulas that the trial uses.
     std::vector<int> used_in(const Trial& trial) const;
-    /// The largest value of a number that may be a formula, over all trials and levels; where
-    /// variables change it, the largest that it may have [SI].
+    /// The largest value of a number that may be a formula, over all trials and levels; if
+    /// variables change it, its upper bound [SI].
     double largest(const Formula& number) const;
     /// Names of the phases: "between trials", then the states.
     std::vector<std::string> phases() const;
 };
 
-/// Problems with the task go to `diagnostics`. If there is no error, trials may be made.
+/// Problems with the task go to `diagnostics`. Without errors, trials can be generated.
 TaskPlan plan_task(const Task& task, const scene::Scene& scene, Diagnostics& diagnostics);
 
-/// trial-list.csv, with what is needed to measure each trial (task/plan/reach_plan.h).
+/// trial-list.csv, with the data for measuring each trial (task/plan/reach_plan.h).
 Table frozen_list(const TaskPlan& plan, const scene::Scene& scene);
 
-/// procedures.csv: what is needed of each procedure to fit its answers.
+/// procedures.csv: the data of each procedure for fitting its answers.
 Table procedure_table(const TaskPlan& plan);
 
 }  // namespace dihaptic::task

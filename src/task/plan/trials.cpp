@@ -21,7 +21,7 @@
 namespace dihaptic::task {
 namespace {
 
-/// Shuffles by the method of Fisher and Yates.
+/// Fisher-Yates shuffle.
 void shuffle(std::vector<int>& list, Random& random) {
     for (size_t i = list.size(); i > 1; --i) {
         const auto j = static_cast<size_t>(random.uniform(0, static_cast<double>(i)));
@@ -63,7 +63,7 @@ int index_of(const std::vector<std::string>& names, const std::string& name) {
     return found == names.end() ? -1 : static_cast<int>(found - names.begin());
 }
 
-/// Finds things by their names, for lists of trials that name thousands.
+/// Finds things by name, for lists with thousands of trials.
 class Index {
   public:
     template <class Thing>
@@ -80,7 +80,7 @@ class Index {
     std::unordered_map<std::string, int> by_name_;
 };
 
-/// The names in a cell of the column `perturbation`.
+/// Names in a cell of the column `perturbation`.
 std::vector<std::string> names_in(const std::string& cell) {
     std::vector<std::string> out;
     if (cell.empty()) return out;
@@ -94,8 +94,8 @@ std::vector<std::string> names_in(const std::string& cell) {
     return out;
 }
 
-/// The largest number of trials of each procedure, mixed, so that the turn tells a participant
-/// nothing.
+/// The largest number of trials of each procedure, interleaved so that participants cannot tell
+/// which procedure comes next.
 std::vector<Trial> procedure_trials(const Task& task, const Block& block, Trial trial,
                                     Random& random) {
     std::vector<int> turns;
@@ -114,8 +114,8 @@ std::vector<Trial> procedure_trials(const Task& task, const Block& block, Trial 
     return out;
 }
 
-/// The block's conditions, as indices among the task's; all if the block names none, and the one
-/// without a name if the task has none.
+/// The block's conditions, as indices into the task's conditions; all if the block lists none, and
+/// the unnamed one if the task has none.
 std::vector<int> conditions_of(const Task& task, const Block& block) {
     std::vector<int> out = block.conditions.indices;
     if (out.empty()) {
@@ -125,7 +125,7 @@ std::vector<int> conditions_of(const Task& task, const Block& block) {
     return out;
 }
 
-/// Gives trials their conditions in the block's order, which is repeated until all have one.
+/// Assigns conditions to trials in the block's order, which is repeated as needed.
 void deal_conditions(const std::vector<int>& conditions, Order order, int number, Random& random,
                      std::vector<Trial>& trials) {
     const int n = static_cast<int>(conditions.size());
@@ -143,7 +143,7 @@ std::vector<Trial> repeated_trials(const std::vector<int>& conditions, const Blo
     const int n = static_cast<int>(conditions.size());
     std::vector<Trial> out;
     for (int repeat = 0; repeat < block.repeats; ++repeat) {
-        // a Latin square goes on from repeat to repeat
+        // a Latin square continues from repeat to repeat
         const int row = block.order == Order::latin_square ? number + repeat : number;
         for (const int i : ordered(n, block.order, row, random)) {
             trial.condition = conditions[static_cast<size_t>(i)];
@@ -153,8 +153,8 @@ std::vector<Trial> repeated_trials(const std::vector<int>& conditions, const Blo
     return out;
 }
 
-/// Inserts trials at random places, each after another trial, so that none comes first. Places with
-/// a gap between them are drawn without it, and then moved apart.
+/// Inserts trials at random positions, each after another trial, so that none comes first.
+/// Positions with a gap between them are drawn without the gap and then moved apart.
 void insert_trials(const Insert& insert, Random& random, std::vector<Trial>& trials) {
     const int gaps = (insert.count - 1) * (insert.gap - 1);
     const auto places = ordered(static_cast<int>(trials.size()) - gaps, Order::shuffled, 0, random);
@@ -174,9 +174,9 @@ void insert_trials(const Insert& insert, Random& random, std::vector<Trial>& tri
     }
 }
 
-/// The block's trials, in their order. Conditions are shuffled by `own`, the participant's stream;
-/// without one, and for all places of inserted trials, by the seed's: a curve over trials then has
-/// the same kinds of trials in all participants.
+/// The block's trials, in order. Conditions are shuffled with `own`, the participant's stream, if
+/// there is one, otherwise with the seed's stream. Positions of inserted trials always use the
+/// seed's stream: a learning curve then has the same kinds of trials in all participants.
 std::vector<Trial> trials_of(const Task& task, const Block& block, int round, int number,
                              Random& random, std::optional<Random> own) {
     Trial trial;
@@ -191,7 +191,7 @@ std::vector<Trial> trials_of(const Task& task, const Block& block, int round, in
         deal_conditions(conditions, block.order, number, from, dealt);
         return dealt;
     };
-    std::vector<Trial> out = deal(random);  // with `own` too: inserted trials are drawn after it
+    std::vector<Trial> out = deal(random);  // with `own` too, since inserted trials are drawn later
     if (own) out = deal(*own);
     for (size_t i = 0; i < out.size() && block.ramp > 0; ++i)
         out[i].share = std::min(1.0, static_cast<double>(i + 1) / block.ramp);
@@ -200,15 +200,14 @@ std::vector<Trial> trials_of(const Task& task, const Block& block, int round, in
     return out;
 }
 
-/// A cell of the column `perturbation`.
+/// Content of a cell in the column `perturbation`.
 std::string perturbations_cell(const Task& task, const std::vector<int>& perturb) {
     std::vector<std::string> names;
     for (const int i : perturb) names.push_back(task.perturbations[static_cast<size_t>(i)].name);
     return fmt::format("{}", fmt::join(names, kBetweenNames));
 }
 
-/// The perturbations that such a cell names; -1 for a name that is unknown. A name may have an
-/// " + " of its own.
+/// The perturbations in such a cell; -1 for an unknown name. A name can itself contain " + ".
 std::vector<int> read_perturbations(const Index& perturbations, const std::string& cell) {
     if (const int one = perturbations(cell); one >= 0) return {one};
     std::vector<int> out;
@@ -252,7 +251,8 @@ void add_own_cells(const Task& task, const std::vector<Factor>& factors, const T
     }
 }
 
-/// The values of the draws in a row of a list. Throws bad(column) where one is none of the draw's.
+/// The values of the draws in a row of a list. Throws bad(column) if the draw cannot have the
+/// value.
 template <class Bad>
 std::vector<double> read_draws(const Task& task, const std::vector<std::string>& header,
                                const std::vector<std::string>& row, const Bad& bad) {
@@ -312,7 +312,7 @@ bool needs_number(const Task& task) {
 }
 
 std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed) {
-    // the first participant gets the first row: participants are counted from 1
+    // participants are counted from 1: the first one gets the first row
     const int row = std::max(0, number - 1);
     Random rounds_random(seed, stream_of("rounds", number));
     const int rounds = std::max(1, static_cast<int>(task.rounds.size()));
@@ -320,7 +320,7 @@ std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed) {
     int block_number = 0;
     for (const int round : ordered(rounds, task.round_order, row, rounds_random)) {
         for (size_t b = 0; b < task.blocks.size(); ++b) {
-            // each block has its own random stream: a change to one leaves the others as they were
+            // each block has its own random stream: a change to one does not affect the others
             const std::string stream = fmt::format("trials of block {} in round {}", b, round);
             Random random(seed, stream);
             std::optional<Random> own;
@@ -340,7 +340,7 @@ std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed) {
 std::vector<Table::Column> own_columns(const Task& task) {
     std::vector<Table::Column> out;
     for (const Factor& factor : factors_of(task))
-        out.push_back({factor.factor, "a factor's level"});
+        out.push_back({factor.factor, "level of a factor"});
     for (const DrawSpec& draw : task.draws) out.push_back({draw.name, "drawn for the trial"});
     return out;
 }
@@ -368,7 +368,7 @@ Table trial_list(const Task& task, const std::vector<Trial>& trials) {
     return table;
 }
 
-/// The numbers of a row of a frozen list.
+/// The numbers in a row of a frozen list.
 template <class Bad>
 void read_numbers(Trial& trial, const std::vector<std::string>& row, const Bad& bad) {
     const auto number = whole_number<int>(row[1]);
@@ -387,15 +387,15 @@ std::vector<Trial> read_trial_list(const Task& task, const std::string& file) {
     std::vector<Trial> out;
     if (rows.size() < 2) {
         throw Error({file, 0}, "", "has no trial",
-                    "Put back the list that the session was recorded with.");
+                    "Restore the list with which the session was recorded.");
     }
     const Index blocks(task.blocks), rounds(task.rounds), conditions(task.conditions),
         procedures(task.procedures), perturbations(task.perturbations);
     for (size_t i = 1; i < rows.size(); ++i) {
         const auto& row = rows[i];
         const auto bad = [&](const char* column) {
-            return Error({file, static_cast<int>(i) + 1}, column, "is none of this task's",
-                         "Put back the list that the session was recorded with.");
+            return Error({file, static_cast<int>(i) + 1}, column, "does not belong to this task",
+                         "Restore the list with which the session was recorded.");
         };
         if (row.size() < 10) throw bad("trial_num");
         Trial t;

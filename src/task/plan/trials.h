@@ -1,5 +1,5 @@
-// The trials of a session: their order, made once from the task, the participant's number and the
-// seed, and the queue that puts trials to be done again back in.
+// The trials of a session: their order, generated once from the task, the participant's number and
+// the seed, and the queue to which trials that must be repeated return.
 #pragma once
 
 #include <string_view>
@@ -12,24 +12,24 @@
 namespace dihaptic::task {
 
 struct Trial {
-    int block = 0;     ///< index among the task's blocks
+    int block = 0;     ///< index of the block in the task
     int number = 1;    ///< number of the block in the session, from 1
     int in_block = 1;  ///< number of the trial in the block, from 1
     int round = 0;
     int condition = 0;
     TrialKind kind = TrialKind::baseline;
-    std::vector<int> perturb;  ///< indices among the task's perturbations
-    int procedure = -1;        ///< index of the task's procedure that chooses the share; -1: none
-    double share = 1;          ///< share of the perturbations; NaN where a procedure chooses it
+    std::vector<int> perturb;     ///< indices of perturbations in the task
+    int procedure = -1;           ///< index of the procedure that chooses the share; -1: none
+    double share = 1;             ///< share of the perturbations; NaN if a procedure chooses it
     std::vector<double> draws{};  ///< values of the task's draws (task/file/draws.h)
 };
 
-/// Between the names in the column `perturbation`.
+/// Separator of names in the column `perturbation`.
 inline constexpr std::string_view kBetweenNames = " + ";
-/// Whether a cell of that column names the perturbation, by itself or with others.
+/// Whether a cell of that column contains the perturbation, alone or with others.
 bool names_perturbation(const std::string& cell, const std::string& name);
 
-/// Returns 0 to n - 1 in the order for a participant. Shuffled: by `random`. Latin square: row
+/// Returns 0 to n - 1 in a participant's order. Shuffled: with `random`. Latin square: row
 /// `number` of Williams's design, in which each item follows each other item equally often (two
 /// squares for odd n; Williams 1949). Counterbalanced: permutation `number` of all n! in
 /// lexicographic order.
@@ -40,51 +40,51 @@ int participant_number(const std::string& id);
 /// Whether the order of the task's trials, or a draw, depends on the participant's number.
 bool needs_number(const Task& task);
 
-/// Makes all trials, in their order. The task must have passed plan_task() without errors.
+/// Generates all trials, in order. The task must have passed plan_task() without errors.
 std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed);
 
-/// Columns of trial-list.csv, which trials.csv repeats for each trial. Columns of the task's
-/// factors and draws follow them; in trial-list.csv, then columns on how a reach is measured.
+/// Columns of trial-list.csv, which trials.csv repeats for each trial. They are followed by columns
+/// for the task's factors and draws and, in trial-list.csv, for the measurement of a reach.
 inline const std::vector<Table::Column> kTrialListColumns = list_figures(rows::AskedRow{}).columns;
 /// Column of trials.csv with a variable's value after the trial, in the unit of its name.
 inline std::string next_column(const std::string& variable) {
     return "next_" + variable;
 }
-/// Columns of the task's factors and draws.
+/// Columns for the task's factors and draws.
 std::vector<Table::Column> own_columns(const Task& task);
 /// trial-list.csv: one row per trial.
 Table trial_list(const Task& task, const std::vector<Trial>& trials);
-/// Reads trial-list.csv. Throws Error when it is no list of this task's trials.
+/// Reads trial-list.csv. Throws Error if it is not a list of this task's trials.
 std::vector<Trial> read_trial_list(const Task& task, const std::string& file);
 
 /// An attempt at a trial, from a row of trials.csv.
 struct Attempt {
-    int trial = 0;     ///< index among the session's trials
+    int trial = 0;     ///< index in the session's trials
     int attempt = 1;   ///< number of the attempt at this trial, from 1
-    int outcome = -1;  ///< index among the task's outcomes; -1: interrupted, or its end is lost
-    std::vector<double> variables{};  ///< values after it [SI]
+    int outcome = -1;  ///< index of the outcome in the task; -1: interrupted, or end not recorded
+    std::vector<double> variables{};  ///< values after the attempt [SI]
 };
 
-/// The trials still to be done. It allocates nothing once it is constructed.
+/// The trials still to be done. Once constructed, it allocates nothing.
 class TrialQueue {
   public:
     TrialQueue(const std::vector<Trial>& trials, Redo redo, int most_attempts, uint64_t seed);
 
     bool empty() const { return at_ == queue_.size(); }
-    /// Index of the trial that is next, or running. The queue must not be empty.
+    /// Index of the next trial, or of the running one. The queue must not be empty.
     int trial() const { return queue_[at_]; }
     /// Number of the attempt at that trial, from 1.
     int attempt() const { return attempts_[static_cast<size_t>(trial())]; }
-    /// Ends the trial. With `redo` it is done again as the policy says, unless it has had
+    /// Ends the trial. With `redo` it is repeated according to the policy, unless it has reached
     /// most_attempts.
     void finish(bool redo) noexcept;
 
-    /// Replays an earlier part of the session, in which this attempt was made next. Trials that
-    /// were due before it stay to be done, since how they ended is not known. Returns false when
-    /// the trial is no longer in the queue.
+    /// Replays an earlier part of the session, in which this attempt came next. Trials that were
+    /// due before it remain in the queue, since their outcomes are unknown. Returns false if the
+    /// trial is no longer in the queue.
     bool go_to(int trial, int attempt) noexcept;
 
-    /// Begins the trial anew, after an interruption that had nothing to do with it.
+    /// Restarts the trial after an unrelated interruption.
     void again() noexcept { ++attempts_[static_cast<size_t>(trial())]; }
 
     int done() const { return static_cast<int>(at_); }
@@ -95,7 +95,7 @@ class TrialQueue {
     Redo redo_;
     int most_attempts_;
     Random random_;
-    std::vector<int> queue_;     // trials before at_ are done
+    std::vector<int> queue_;     // trials before index at_ are done
     std::vector<int> attempts_;  // by trial
     size_t at_ = 0;
 };

@@ -13,9 +13,9 @@ Constant::Constant(const std::vector<double>& levels, int trials, Random& random
     const bool numbers =
         std::all_of(round.begin(), round.end(), [](double level) { return std::isfinite(level); });
     if (round.empty() || !numbers || std::adjacent_find(round.begin(), round.end()) != round.end())
-        throw Error({}, "levels", "are no list of different numbers",
+        throw Error({}, "levels", "are not a list of different numbers",
                     "list each level once, e.g. [0.2, 0.4, 0.6]");
-    if (trials < 1) throw Error({}, "trials", "is below 1", "say after how many trials it is done");
+    if (trials < 1) throw Error({}, "trials", "is below 1", "give the number of trials");
     while (levels_.size() < static_cast<size_t>(trials)) {
         for (size_t i = round.size(); i > 1; --i) {
             const auto j = static_cast<size_t>(random.uniform(0, static_cast<double>(i)));

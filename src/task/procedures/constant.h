@@ -1,5 +1,5 @@
-// The method of constant stimuli: each level is shown equally often, whatever is answered. A round
-// has each level once, in an order by chance.
+// The method of constant stimuli: each level is presented equally often, regardless of the answers.
+// Each round contains every level once, in random order.
 #pragma once
 
 #include <algorithm>
@@ -12,18 +12,18 @@ namespace dihaptic::task {
 
 class Constant {
   public:
-    /// `trials`: number after which it is done; the last round may be cut short. Throws Error when
-    /// there is no level, or one is no number or comes twice.
+    /// `trials`: number after which it ends; the last round may be incomplete. Throws Error if
+    /// there is no level, or if one is not a number or is repeated.
     Constant(const std::vector<double>& levels, int trials, Random& random);
 
     double level() const { return levels_[std::min(answered_, levels_.size() - 1)]; }
     void answer(double /*level*/, bool /*yes*/) { ++answered_; }
     bool done() const { return answered_ >= levels_.size(); }
-    /// None: it takes a fit of the answers.
+    /// None: an estimate requires a fit to the answers.
     Estimate estimate() const { return {}; }
 
   private:
-    std::vector<double> levels_;  // of all trials
+    std::vector<double> levels_;  // by trial
     size_t answered_ = 0;
 };
 

@@ -5,7 +5,7 @@
 
 namespace dihaptic::task {
 
-/// Values in the unit of the level; NaN where not known.
+/// Values in the unit of the level; NaN if unknown.
 struct Estimate {
     double threshold = std::numeric_limits<double>::quiet_NaN();
     /// Ends of the 95 % interval.

@@ -1,6 +1,6 @@
-// A procedure chooses the level of each trial, as a rule by the answers so far. Procedure wraps any
+// A procedure chooses the level of each trial, usually from the answers so far. Procedure wraps any
 // of the procedures as a value: copies are independent, and the same answers always lead to the
-// same state, so a session is resumed by giving the answers again.
+// same state, so a session is resumed by replaying its answers.
 #pragma once
 
 #include <variant>
@@ -18,10 +18,10 @@ class Procedure {
 
     Procedure(Kind kind) : kind_(std::move(kind)) {}
 
-    /// Level that the next trial should have.
+    /// Level proposed for the next trial.
     double level() const;
-    /// Takes the answer of a trial at this level (as a rule the one proposed). `yes`: the answer
-    /// was "yes", or correct: the one that grows likelier with the level. Throws Error when the
+    /// Processes the answer in a trial at this level (usually the proposed one). `yes`: the answer
+    /// was "yes" or correct, the one whose probability grows with the level. Throws Error if the
     /// level is not finite or the procedure is done.
     void answer(double level, bool yes);
     bool done() const;

@@ -10,14 +10,14 @@
 namespace dihaptic::task {
 namespace {
 
-/// The function of levels relative to the Weibull function's own threshold.
+/// The psychometric function of levels relative to the Weibull function's own threshold.
 model::Psychometric weibull(const QuestSettings& s) {
     return {model::Sigmoid::weibull_log10, 0, s.slope, s.guess, s.blind * (1 - s.guess)};
 }
 
-/// The function of levels relative to where it has the probability `target`. That point is
-/// interpolated linearly between grains, as in the original, so that runs agree with other programs
-/// to the last printed digit.
+/// The psychometric function of levels relative to the level with probability `target`. That level
+/// is interpolated linearly between grains, as in the original, so that runs agree with other
+/// programs to the last printed digit.
 model::Psychometric about_target(const QuestSettings& s) {
     model::Psychometric f = weibull(s);
     double x = -s.cells * s.grain, p = f.probability(x);
@@ -50,18 +50,18 @@ void check(const QuestSettings& s) {
     require(s.target > s.guess && s.target < 1 - s.blind * (1 - s.guess), "target",
             "is not between the guess and lapse rates", "0.82 is usual for two choices");
     require(s.cells >= 2 && s.cells % 2 == 0, "cells", "is not an even number", "500 is usual");
-    require(s.trials >= 1, "trials", "is below 1", "say after how many trials it is done");
+    require(s.trials >= 1, "trials", "is below 1", "give the number of trials");
     problems.throw_if_errors();
     const model::Psychometric f = weibull(s);
     const double reach = s.grain * s.cells;
     if (f.probability(-reach) >= s.target || f.probability(reach) <= s.target)
-        throw Error({}, "cells", "times grain is so short that the function does not pass target",
+        throw Error({}, "cells", "times grain is so small that the function does not reach target",
                     "give more cells, or a coarser grain");
 }
 
-/// The quantile of the posterior that is the most informative place for a trial, given the lower
-/// and upper ends of the psychometric function (Pelli 1987): where the two-outcome channel of these
-/// ends reaches its capacity.
+/// The quantile of the posterior at which a trial is most informative, given the lower and upper
+/// ends of the psychometric function (Pelli 1987): there, the two-outcome channel of these ends
+/// reaches its capacity.
 double most_informative_quantile(double low, double high) {
     const auto entropy = [](double p) {
         const auto part = [](double q) { return q > 0 ? -q * std::log(q) : 0.0; };

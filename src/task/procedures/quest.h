@@ -1,5 +1,6 @@
-// QUEST (Watson and Pelli 1983) estimates a threshold by its posterior on a grid; everything else
-// about the psychometric function is taken as known. For the logarithm x of the stimulus (base 10),
+// QUEST (Watson and Pelli 1983) estimates a threshold by its posterior on a grid; all other
+// parameters of the psychometric function are assumed to be known. For the logarithm x of the
+// stimulus (base 10),
 //
 //     p(x) = delta gamma + (1 - delta) (1 - (1 - gamma) exp(-10^(beta (x - T + e))))
 //
@@ -15,7 +16,7 @@
 namespace dihaptic::task {
 
 struct QuestSettings {
-    double prior_mean = 0;  ///< mean of the prior of the threshold, log10
+    double prior_mean = 0;  ///< mean of the threshold's prior, log10
     double prior_sd = 1;    ///< standard deviation of the prior, log10; be generous
     double target = 0.82;   ///< probability of "yes" at threshold
     double slope = 3.5;     ///< beta
@@ -23,16 +24,16 @@ struct QuestSettings {
     double blind = 0.01;    ///< delta: share of trials answered blindly
     double grain = 0.01;    ///< step of the grid, log10
     int cells = 500;        ///< even: the grid reaches cells / 2 grains either way from prior_mean
-    int trials = 40;        ///< number after which it is done
+    int trials = 40;        ///< number after which it ends
 };
 
 class Quest {
   public:
-    /// Throws Error when a setting is out of range.
+    /// Throws Error if a setting is out of range.
     explicit Quest(const QuestSettings& settings);
 
     double level() const;
-    /// The level counts as the nearest of the grid.
+    /// The level is rounded to the nearest point of the grid.
     void answer(double level, bool yes);
     bool done() const { return trials_ >= settings_.trials; }
     /// Mean of the posterior, and its quantiles.
@@ -47,11 +48,11 @@ class Quest {
 
   private:
     QuestSettings settings_;
-    double best_quantile_ = 0.5;  // at which a trial is most informative
+    double best_quantile_ = 0.5;  // quantile at which a trial is most informative
     int trials_ = 0;
     std::vector<double> thresholds_;
     std::vector<double> posterior_;
-    std::vector<double> yes_;  // probability by level minus threshold, from -cells to cells grains
+    std::vector<double> yes_;  // by level minus threshold, from -cells to cells grains
 };
 
 }  // namespace dihaptic::task

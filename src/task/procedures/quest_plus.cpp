@@ -29,7 +29,7 @@ void check(const QuestPlusSettings& s) {
         const bool ascending = std::adjacent_find(values.begin(), values.end(),
                                                   std::greater_equal<>()) == values.end();
         if (values.empty() || !inside || !ascending)
-            problems.error({}, key, "is no ascending list of values", range);
+            problems.error({}, key, "is not an ascending list of values", range);
     };
     const double most = std::numeric_limits<double>::max();
     const double least = std::numeric_limits<double>::min();
@@ -43,10 +43,9 @@ void check(const QuestPlusSettings& s) {
         problems.error({}, "guess", "is not in [0, 1)",
                        "give the probability of guessing right, e.g. 0.5 for two choices");
     else if (!s.guess_is_lapse && !s.lapses.empty() && s.guess + s.lapses.back() >= 1)
-        problems.error({}, "lapses", "and guess leave nothing between them",
+        problems.error({}, "lapses", "and guess leave no range between them",
                        "guess + lapse must be below 1");
-    if (s.trials < 1)
-        problems.error({}, "trials", "is below 1", "say after how many trials it is done");
+    if (s.trials < 1) problems.error({}, "trials", "is below 1", "give the number of trials");
     problems.throw_if_errors();
 }
 

@@ -18,20 +18,20 @@ namespace dihaptic::task {
 
 struct QuestPlusSettings {
     model::Sigmoid sigmoid = model::Sigmoid::weibull_log10;
-    std::vector<double> levels;      ///< levels that may be shown
-    std::vector<double> thresholds;  ///< ascending, as all grids are
+    std::vector<double> levels;      ///< levels that may be presented
+    std::vector<double> thresholds;  ///< ascending, like all grids
     std::vector<double> shapes;      ///< e.g. {2, 3, 4, 5}; a single value for a known shape
     std::vector<double> lapses = {0.02};
     double guess = 0.5;
-    /// Takes the lapse rate as the guess rate, instead: for "more or less?" or "left or right?",
-    /// where the function goes from 0 to 1 but for lapses.
+    /// Uses the lapse rate as the guess rate instead: for "more or less?" or "left or right?",
+    /// where the function goes from 0 to 1 apart from lapses.
     bool guess_is_lapse = false;
-    int trials = 40;  ///< number after which it is done
+    int trials = 40;  ///< number after which it ends
 };
 
 class QuestPlus {
   public:
-    /// The prior is uniform on the grid. Throws Error when a setting is out of range.
+    /// The prior is uniform on the grid. Throws Error if a setting is out of range.
     explicit QuestPlus(QuestPlusSettings settings);
 
     double level() const { return level_; }
@@ -40,14 +40,14 @@ class QuestPlus {
     /// Mean of the threshold's posterior, and its quantiles.
     Estimate estimate() const;
 
-    /// The most probable point of the grid, and the mean of each parameter.
+    /// Most probable point of the grid, and mean of each parameter.
     model::Psychometric mode() const;
     model::Psychometric mean() const;
     /// Expected entropy of the posterior after a trial at levels[i] [nat].
     double expected_entropy(size_t i) const;
 
     const QuestPlusSettings& settings() const { return settings_; }
-    /// Posterior by threshold, then shape, then lapse; the last index runs fastest.
+    /// Posterior by threshold, then shape, then lapse; the last index changes fastest.
     const std::vector<double>& posterior() const { return posterior_; }
 
   private:

@@ -17,21 +17,22 @@ void check(const StaircaseSettings& s) {
     const auto require = [&](bool right, const char* key, const char* what, const char* remedy) {
         if (!right) problems.error({}, key, what, remedy);
     };
-    require(s.down_after >= 1, "down_after", "is below 1", "give the answers in a row, 1 or more");
+    require(s.down_after >= 1, "down_after", "is below 1",
+            "give the number of consecutive answers, at least 1");
     require(!s.steps_up.empty() && std::all_of(s.steps_up.begin(), s.steps_up.end(), positive),
-            "steps_up", "has a step that is not above 0, or none",
-            "give one step or more, above 0");
+            "steps_up", "has no step, or a step that is not above 0",
+            "give at least one step, all above 0");
     require(positive(s.down_over_up), "down_over_up", "is not above 0",
-            "give the step down over the step up, e.g. 0.5488 for 2-down");
+            "give the ratio of the step down to the step up, e.g. 0.5488 for 2-down");
     require(s.lowest < s.highest, "lowest", "is not below highest", "give lowest < highest");
     require(std::isfinite(s.start) && s.start >= s.lowest && s.start <= s.highest, "start",
-            "is not between lowest and highest", "start at a level that may be shown");
+            "is not between lowest and highest", "start at a level in that range");
     require(s.reversals >= 0 && s.trials >= 0 && s.reversals + s.trials > 0, "reversals",
-            "and trials do not say when to stop", "give at least one of them, above 0");
+            "and trials set no end", "give at least one of them, above 0");
     require(
         s.skipped_reversals >= 0 && (s.reversals == 0 || s.skipped_reversals + 2 <= s.reversals),
-        "skipped_reversals", "leaves less than two reversals",
-        "skip fewer, or go on for more reversals");
+        "skipped_reversals", "leaves fewer than two reversals",
+        "skip fewer, or use more reversals");
     problems.throw_if_errors();
 }
 
@@ -48,7 +49,7 @@ double down_over_up_for(int down_after, double probability) {
 Staircase::Staircase(StaircaseSettings settings)
     : settings_(std::move(settings)), level_(settings_.start) {
     check(settings_);
-    // answers are processed in the tick, which must not allocate
+    // answers are processed in the tick, where allocation is forbidden
     reversals_.reserve(static_cast<size_t>(std::max(settings_.trials, settings_.reversals)));
 }
 
@@ -68,7 +69,7 @@ void Staircase::move(double level, int direction) {
     const size_t step = std::min(reversals_.size(), settings_.steps_up.size() - 1);
     const double up = settings_.steps_up[step];
     level_ += direction > 0 ? up : -up * settings_.down_over_up;
-    // rounded so that a level reached again is the same number: 0.8 - 4 x 0.2 is not quite 0
+    // rounded so that a level that recurs is the same number: 0.8 - 4 x 0.2 is not exactly 0
     level_ = std::round(level_ * 1e9) / 1e9;
     level_ = std::clamp(level_, settings_.lowest, settings_.highest);
 }

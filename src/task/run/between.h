@@ -1,7 +1,8 @@
-// Between links a task's director with what decides between its trials outside of the tick: a
-// script that chooses the next trial's variables, or which trial is next. In real time neither side
-// waits for the other; what comes too late is left out, and the trials go on as the file has them.
-// On the virtual clock the director waits, so that a rehearsal decides as a session does.
+// Between links a task's director to a program that makes decisions between trials, outside the
+// tick: a script that chooses the variables of the next trial, or the next trial itself. In real
+// time neither side waits for the other; late decisions are discarded, and the trials continue as
+// in the file. On the virtual clock the director waits, so that a rehearsal makes the same
+// decisions as a session.
 #pragma once
 
 #include <array>
@@ -19,22 +20,22 @@ namespace dihaptic::task {
 
 using VariableValues = std::array<double, frame::TaskFrame::kMostVariables>;
 
-/// How an attempt ended; what is asked for is decided before the next one begins.
+/// A question: the result of an attempt, on which a decision is requested before the next attempt
+/// starts.
 struct Ended {
     int64_t number = 0;          ///< of the question, from 1
-    int32_t trial = 0;           ///< from 1; 0: the session begins
+    int32_t trial = 0;           ///< from 1; 0: at the session's start
     int32_t attempt = 0;         ///< from 1
-    int32_t outcome = -1;        ///< index in the plan's list
-    VariableValues variables{};  ///< as the file's rules leave them [SI]
+    int32_t outcome = -1;        ///< index in the plan
+    VariableValues variables{};  ///< after the file's rules [SI]
 };
 
-/// What is to be done next.
+/// The decision about the next attempt.
 struct Decision {
     int64_t number = 0;    ///< of the question
-    int32_t next = 0;      ///< number of the trial to do next, if it is still to be done in the
-                           ///< block; 0: the file's order
-    int32_t message = -1;  ///< index in the plan's list, shown as feedback; -1: none
-    VariableValues variables = unchanged();  ///< NaN: stays [SI]
+    int32_t next = 0;      ///< number of a trial pending in the block; 0: file order
+    int32_t message = -1;  ///< index in the plan, shown as feedback; -1: none
+    VariableValues variables = unchanged();  ///< NaN: unchanged [SI]
 
     static VariableValues unchanged() noexcept {
         VariableValues out;
@@ -45,7 +46,7 @@ struct Decision {
 
 class Between {
   public:
-    /// `patience`: time after an attempt's end in which its answer counts, in real time [s].
+    /// `patience`: time limit for the answer after an attempt's end, in real time [s].
     /// `waits`: the clock is virtual.
     Between(double patience, bool waits) : patience_(patience), waits_(waits) {}
 
@@ -56,7 +57,7 @@ class Between {
         ended.number = ++asked_;
         questions_.publish(ended);
     }
-    /// The answer to the newest question; null: there is none yet.
+    /// The answer to the newest question; null: none yet.
     const Decision* answer() noexcept {
         const auto end = std::chrono::steady_clock::now() + kLongest;
         while (waits_ && !gone_ && decisions_.read().number != asked_) {
@@ -66,26 +67,27 @@ class Between {
         const Decision& newest = decisions_.read();
         return newest.number == asked_ ? &newest : nullptr;
     }
-    /// Whether answers come at all.
+    /// Whether answers can be expected.
     bool gone() const noexcept { return gone_; }
     void note_late() noexcept { late_.fetch_add(1, std::memory_order_relaxed); }
     void note_refused() noexcept { refused_.fetch_add(1, std::memory_order_relaxed); }
 
     // The other side
-    /// The newest question that was not yet taken.
+    /// The newest question that was not yet fetched.
     std::optional<Ended> question() noexcept {
         if (!questions_.is_new()) return std::nullopt;
         return questions_.read();
     }
     void decide(const Decision& decision) noexcept { decisions_.publish(decision); }
-    /// No answer will come any more.
+    /// Announces that no more answers will come.
     void leave() noexcept { gone_ = true; }
-    /// Number of attempts whose answer came too late.
+    /// Number of attempts with a late answer.
     int late() const noexcept { return late_.load(std::memory_order_relaxed); }
-    /// Number of decisions for a trial that was not to be done in the block.
+    /// Number of decisions for a trial that was not pending in the block.
     int refused() const noexcept { return refused_.load(std::memory_order_relaxed); }
 
-    /// In virtual time a session waits no longer than this for an answer, and then for none.
+    /// Longest wait for an answer in virtual time; after a timeout, the session stops waiting for
+    /// answers.
     static constexpr std::chrono::seconds kLongest{60};
 
   private:

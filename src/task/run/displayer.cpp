@@ -8,9 +8,9 @@
 namespace dihaptic::task {
 namespace {
 
-constexpr double kShake = 1.0 / 60;  // the noise is drawn anew this often: a screen's picture [s]
+constexpr double kShake = 1.0 / 60;  // interval between draws of the noise: one screen frame [s]
 
-/// Rows of the ring: what the longest delay asks for.
+/// Number of rows in the ring buffer, from the longest delay.
 size_t rows_of(const TaskPlan& plan, double tick) {
     double longest = 0;
     for (const TaskPlan::Cell& cell : plan.cells) {
@@ -20,7 +20,7 @@ size_t rows_of(const TaskPlan& plan, double tick) {
     return static_cast<size_t>(std::max(1L, std::lround(longest / tick)));
 }
 
-/// Adds looks to those that are there: what they say replaces what was said.
+/// Merges looks into the existing ones, which they override.
 void put_on(const std::vector<frame::LookFrame>& looks, frame::TaskFrame& out) noexcept {
     for (const frame::LookFrame& look : looks) {
         const auto there =
@@ -72,7 +72,7 @@ void Displayer::enter(const TaskPlan::Stage& stage, const TaskPlan::Cell& cell,
                       bool new_trial) noexcept {
     stage_ = &stage;
     cell_ = &cell;
-    // held from one state to the next, a cursor stays where it is
+    // a cursor that is held in two consecutive states keeps its position
     if (stage.holds_cursor && (new_trial || !holds_)) {
         for (size_t i = 0; i < fingers_; ++i) held_[i] = past(i, 1);
     }
@@ -111,7 +111,8 @@ void Displayer::order(double now, frame::TaskFrame& out) noexcept {
         add(out.displaced, {static_cast<int32_t>(bodies_ + i), held_[i]});
 }
 
-/// What is shaken but not late is shown a tick late: where it is in this tick is not known yet.
+/// Objects with noise but no delay are shown one tick late: their poses in this tick are not known
+/// yet.
 void Displayer::displace(const frame::VisualMap& map, frame::TaskFrame& out) const noexcept {
     const long ticks = std::lround(map.delay / tick_);
     const auto show = [&](size_t thing, size_t body) {

@@ -1,6 +1,6 @@
-// Orders, tick by tick, how a task's things are shown: hidden, coloured, sized, late, shaken or
-// held where they were. What it orders is recorded (frame/task_frame.h), so that a replay and a
-// picture show what the person saw. Once constructed it neither allocates, locks nor throws.
+// Orders the display of a task's things in each tick: hidden, coloured, scaled, delayed, with
+// noise, or held in place. The orders are recorded (frame/task_frame.h), so that a replay and a
+// picture match the person's view. Once constructed, it neither allocates, locks nor throws.
 #pragma once
 
 #include "base/random.h"
@@ -10,20 +10,20 @@ namespace dihaptic::task {
 
 class Displayer {
   public:
-    /// `plan` must outlive the object. `seed`: of the noise.
+    /// `plan` must outlive the object. `seed`: for the noise.
     Displayer(const TaskPlan& plan, uint64_t seed, double tick);
 
-    /// Call in each tick before the other functions, with the last Frame: its poses are what is
-    /// shown later.
+    /// Call in each tick before the other functions, with the last Frame, whose poses are stored
+    /// for delayed display.
     void see(const frame::Frame& last) noexcept;
-    /// A state begins, in a new trial or in the one that runs. How it shows things holds until the
-    /// next begins, between trials too.
+    /// Starts a state, in a new trial or in the running one. Its display applies until the next
+    /// state starts, also between trials.
     void enter(const TaskPlan::Stage& stage, const TaskPlan::Cell& cell, bool new_trial) noexcept;
-    /// Call after the task's own orders, which name the targets and the visual map.
+    /// Call after the task's own orders, which contain the targets and the visual map.
     void order(double now, frame::TaskFrame& out) noexcept;
 
   private:
-    /// The pose by the visual map `ticks` ago.
+    /// The pose from the visual map `ticks` ago.
     const Pose& past(size_t thing, long ticks) const noexcept;
     void displace(const frame::VisualMap& map, frame::TaskFrame& out) const noexcept;
 
@@ -31,14 +31,14 @@ class Displayer {
     int object_;  // -1: none
     double tick_;
     Random random_;
-    Vec3 shake_ = Vec3::Zero();  // of unit standard deviation
-    double shaken_ = -1;         // when it was drawn [s]
-    size_t things_;              // the fingers, then the object
-    size_t bodies_ = 0;          // of the scene
+    Vec3 shake_ = Vec3::Zero();  // with unit standard deviation
+    double shaken_ = -1;         // time of the last draw [s]
+    size_t things_;              // number of things: the fingers, then the object
+    size_t bodies_ = 0;          // number in the scene
     size_t rows_;
-    std::vector<Pose> past_;  // a ring of rows with a pose of each thing
+    std::vector<Pose> past_;  // a ring buffer of rows with one pose per thing
     size_t newest_ = 0;       // row
-    size_t seen_ = 0;         // number of rows that are filled
+    size_t seen_ = 0;         // number of filled rows
     const TaskPlan::Stage* stage_ = nullptr;
     const TaskPlan::Cell* cell_ = nullptr;
     bool holds_ = false;

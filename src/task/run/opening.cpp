@@ -12,15 +12,16 @@
 namespace dihaptic::task {
 namespace {
 
-constexpr double kTolerance = 1e-6;  // times are sums of ticks, which round [s]
+constexpr double kTolerance = 1e-6;  // times are sums of ticks, with rounding errors [s]
 
 constexpr int64_t kMostPicture = 200'000'000;  // [bytes]
 
-/// Notes the checksum of a page's picture. Throws Error when it cannot be read, or is no PNG file.
+/// Stores the checksum of a page's picture. Throws Error if the file cannot be read or is not a PNG
+/// file.
 void note_checksum(PageSpec& page) {
     const std::string bytes = read_bytes(page.picture, kMostPicture);
     if (!bytes.starts_with("\x89PNG\r\n\x1a\n"))
-        throw Error("is no PNG file", "Convert it, e.g. with an image editor.");
+        throw Error("is not a PNG file", "Convert it, e.g. with an image editor.");
     page.checksum = checksum_of(bytes);
 }
 
@@ -66,7 +67,7 @@ bool Opening::over(const Trial& next, bool rests, char key, double now) noexcept
         block_ = next.block;
         at_ = rests && of_block().rest > 0 ? -1 : 0;
         since_ = now;
-        key = 0;  // pressed before there was anything to read
+        key = 0;  // pressed before the page was shown
     }
     if (at_ < 0) {
         if (rest_left(now) > kTolerance) return false;

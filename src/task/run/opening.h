@@ -1,4 +1,4 @@
-// What comes before a block: a break, then pages of text and pictures. In the tick it neither
+// The opening of a block: a break, then pages of text and pictures. In the tick it neither
 // allocates, locks nor throws.
 #pragma once
 
@@ -6,11 +6,11 @@
 
 namespace dihaptic::task {
 
-/// Makes the pictures of the task's pages relative to the program's folder instead of `folder`; a
-/// picture that is missing or no PNG file goes to `diagnostics`.
+/// Converts the paths of the pages' pictures from relative to `folder` to relative to the program's
+/// folder. Pictures that are missing or are not PNG files go to `diagnostics`.
 void find_pictures(Task& task, const std::string& folder, Diagnostics& diagnostics);
 
-/// Longest time that the breaks and timed pages before a block last [s].
+/// Longest duration of the break and timed pages before a block [s].
 double longest_opening(const TaskPlan& plan) noexcept;
 
 class Opening {
@@ -18,14 +18,14 @@ class Opening {
     /// `plan` must outlive the object.
     explicit Opening(const TaskPlan& plan) : plan_(plan) {}
 
-    /// Whether the trial may begin, as far as its block's opening goes. Call in each tick before
-    /// the trial. `rests`: the block's break counts; `key`: pressed since the last tick, or 0.
+    /// Whether the block's opening is over, so that the trial can start. Call in each tick before
+    /// the trial. `rests`: the block's break takes place; `key`: pressed since the last tick, or 0.
     bool over(const Trial& next, bool rests, char key, double now) noexcept;
-    /// Whether an opening is on: its trial is the next one.
+    /// Whether an opening is in progress; its trial is the next one.
     bool on() const noexcept { return on_ != 0; }
-    /// Index of the page that is shown; -1: none.
+    /// Index of the current page; -1: none.
     int page() const noexcept;
-    /// Time that is left of the break; negative if there is none [s].
+    /// Time left in the break; negative if there is none [s].
     double rest_left(double now) const noexcept;
 
   private:
@@ -35,9 +35,9 @@ class Opening {
 
     const TaskPlan& plan_;
     int opened_ = 0;  // number of the last block that was opened, from 1
-    int on_ = 0;      // number of the block that is being opened; 0: none
-    int block_ = 0;   // index of its kind among the task's blocks
-    int at_ = -1;     // page among the block's; -1: the break
+    int on_ = 0;      // number of the block whose opening is in progress; 0: none
+    int block_ = 0;   // index of that block in the task
+    int at_ = -1;     // index of the block's current page; -1: the break
     double since_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// The values that expressions have of what was recorded, frame by frame.
+// Values of expressions over recorded data, frame by frame.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 
 namespace dihaptic::task {
 
-/// The handles as a frame has them.
+/// The handles in a frame.
 void handles_of(const frame::Frame& frame, std::vector<frame::Handle>& out);
 
-/// An expression of a recording, by itself: what a task defines (regions, variables, times in a
-/// state) has no name in it.
+/// An expression over a recording without its task: names that a task defines (regions, variables,
+/// times in a state) are unknown.
 class RecordedValue {
   public:
-    /// A mistake goes to `diagnostics`; the value is then 0.
+    /// Mistakes go to `diagnostics`; the value is then 0.
     RecordedValue(const std::string& text, const scene::Scene& scene, Diagnostics& diagnostics);
 
     double operator()(const frame::Frame& frame);
-    /// Of the value; lengths are in mm.
+    /// Unit of the value; lengths are in mm.
     const std::string& unit() const { return unit_; }
 
   private:

@@ -1,5 +1,5 @@
-// Interface of a simulated hand that acts on what it sees: it is shown each Frame before its next
-// movement.
+// Interface of a simulated hand that acts on its visual input: it receives each Frame before its
+// next movement.
 #pragma once
 
 #include "frame/frame.h"
@@ -9,12 +9,12 @@ namespace dihaptic::task {
 
 class SeeingDriver : public hand::Driver {
   public:
-    /// Shows the hand a tick's Frame. Runs in the tick: neither allocates nor throws. What can be
-    /// seen of the Frame is what frame/displayed.h gives.
+    /// Shows the hand the Frame of a tick. Runs in the tick: neither allocates nor throws. The
+    /// visible part of the Frame is given by frame/displayed.h.
     void see(const frame::Frame& frame) noexcept { do_see(frame); }
-    /// In the tick: the key that the hand has pressed since the last call; 0 if none.
+    /// The key that the hand has pressed since the last call; 0: none. Runs in the tick.
     char take_key() noexcept { return do_take_key(); }
-    /// Goes back to the start, for a new run.
+    /// Returns to the start, for a new run.
     virtual void restart() = 0;
 
   private:

@@ -9,7 +9,7 @@
 namespace dihaptic::task {
 namespace {
 
-constexpr double kAtHome = 1e-6;  // tolerance for a body to be in its place [m], [rad], [m/s]
+constexpr double kAtHome = 1e-6;  // tolerance for a body at its home [m], [rad], [m/s]
 constexpr double kNever = -1;
 
 bool same_pose(const Pose& a, const Pose& b) noexcept {
@@ -26,12 +26,12 @@ bool pressed(const frame::Frame& last, int body) noexcept {
         });
 }
 
-/// A time to the nanosecond: sums of ticks are off by their rounding.
+/// Rounds a time to nanoseconds, since sums of ticks have rounding errors.
 double exact(double time) noexcept {
     return std::round(time * 1e9) / 1e9;
 }
 
-/// Where the body is, or is put in this tick.
+/// Pose of the body, or its placement in this tick.
 Pose pose_of(int body, const frame::Frame& last, const frame::Commands& commands) noexcept {
     for (const frame::PlacementFrame& placed : commands.task.placements) {
         if (placed.body == body) return placed.X_WB;
@@ -39,7 +39,7 @@ Pose pose_of(int body, const frame::Frame& last, const frame::Commands& commands
     return last.bodies[static_cast<size_t>(body)].X_WB;
 }
 
-/// Where the joint's coordinate is.
+/// The joint's coordinate.
 double coordinate_of(int joint, const frame::Frame& last) noexcept {
     const frame::JointFrame& frame = last.joints[static_cast<size_t>(joint)];
     return std::isnan(frame.angle) ? frame.displacement : frame.angle;
@@ -93,7 +93,7 @@ void TaskDirector::operator()(const frame::Frame& last, std::span<const frame::H
     const double now = last.sequence < 0 ? 0 : seconds(last.time) + tick_;
     motions_.add(last, handles);
     displayer_.see(last);
-    // texts name quantities between trials too
+    // texts contain quantities between trials too
     numbers_.quantities().update(last, handles);
     direct(last, handles, now, commands);
     displayer_.order(now, commands.task);
@@ -105,7 +105,7 @@ void TaskDirector::operator()(const frame::Frame& last, std::span<const frame::H
 void TaskDirector::direct(const frame::Frame& last, std::span<const frame::Handle> handles,
                           double now, frame::Commands& commands) noexcept {
     if (now >= feedback_until_ && next_message_ >= 0) message_ = std::exchange(next_message_, -1);
-    // taken in every tick, so that input between trials counts for no trial
+    // read in every tick, so that input between trials does not affect a trial
     const Input input{key_.exchange(0, std::memory_order_relaxed),
                       trigger_.exchange(0, std::memory_order_relaxed),
                       clicked_.exchange(Rating::kNowhere, std::memory_order_relaxed)};
@@ -141,7 +141,7 @@ void TaskDirector::direct(const frame::Frame& last, std::span<const frame::Handl
 void TaskDirector::begin(const frame::Frame& last, char key, double now,
                          frame::Commands& commands) noexcept {
     if (!decided(now)) return;
-    if (now < feedback_until_) return;  // the feedback is still being read
+    if (now < feedback_until_) return;  // the feedback is still shown
     if (!opening_.over(trial(), last_trial_ > 0, key, now)) return;
     if (!begun_) resolve();
     if (!clear(last)) {
@@ -196,7 +196,7 @@ void TaskDirector::follow(const Decision& decision, double now) noexcept {
         if (std::isfinite(decision.variables[i])) variables_[i].value = decision.variables[i];
     }
     if (const int next = decision.next - 1; next >= 0) {
-        // pages and pauses come before a block, so that a trial of another one cannot be next
+        // pages and breaks precede a block, so that a trial of another block cannot be next
         const bool here = plan_.trials[static_cast<size_t>(next)].number == trial().number;
         if (!here || !queue_.go_to(next, 1)) between_->note_refused();
     }
@@ -214,8 +214,8 @@ bool TaskDirector::clear(const frame::Frame& last) const noexcept {
                        [&](const TaskPlan::Home& home) { return clear(last, home, home.X_WB); });
 }
 
-/// Whether a body can be put there. A body put where a finger is would push the finger out; a body
-/// taken from between fingers that press it would let them clap together.
+/// Whether a body can be placed there. A body placed onto a finger would push the finger out; if a
+/// body between pressing fingers were removed, the fingers would collide.
 bool TaskDirector::clear(const frame::Frame& last, const TaskPlan::Home& home,
                          const Pose& X_WB) const noexcept {
     if (last.sequence < 0) return true;
@@ -227,7 +227,7 @@ bool TaskDirector::clear(const frame::Frame& last, const TaskPlan::Home& home,
     return true;
 }
 
-/// Orders that the body be put there in this tick, whatever was ordered of it before.
+/// Orders the placement of the body in this tick, and overrides earlier orders for it.
 void TaskDirector::put(int body, const Pose& X_WB, const BodyMotion& motion,
                        frame::Commands& commands) noexcept {
     std::vector<frame::PlacementFrame>& list = commands.task.placements;
@@ -252,7 +252,7 @@ void TaskDirector::enter(int state, double now, frame::Commands& commands) noexc
     sounder_.enter(plan_.stages[static_cast<size_t>(state)]);
     state_ = state;
     entered_ = now;
-    numbers_.quantities().set(Quantities::kTimeInState, 0);  // drives ask for it in this tick
+    numbers_.quantities().set(Quantities::kTimeInState, 0);  // drives use it in this tick
     rating_.begin();
     std::fill(judged_.begin(), judged_.end(), Judged{});
     std::fill(is_put_.begin(), is_put_.end(), 0);
@@ -271,7 +271,7 @@ const TaskPlan::Way* TaskDirector::way_out(const frame::Frame& last, const Input
     quantities.set(Quantities::kTimeInTrial, exact(now - trial_began_));
     for (size_t i = 0; i < ways.size(); ++i) {
         const TaskPlan::Way& way = ways[i];
-        // half a tick of tolerance, because times are sums of ticks, which round
+        // half a tick of tolerance, because sums of ticks have rounding errors
         if (way.exit.when == When::time) {
             if (now - entered_ >= numbers_.of(way.exit.hold) - tick_ / 2) return &way;
             continue;
@@ -330,8 +330,8 @@ void TaskDirector::finish(int outcome, bool redo, double now, frame::Commands& c
     commands.stop = queue_.empty() && now >= feedback_until_;
 }
 
-/// After the last trial, the session lasts until its feedback has been read. A session that was
-/// over when it was resumed ends at once.
+/// After the last trial, the session continues until the feedback has been shown. A session that
+/// was already complete when resumed ends immediately.
 void TaskDirector::order_end(double now, frame::Commands& commands) const noexcept {
     commands.stop = now >= feedback_until_;
     commands.trial = last_trial_;
@@ -376,7 +376,7 @@ void TaskDirector::say(int message, double now, frame::TaskFrame& out) const noe
 }
 
 double TaskDirector::value_of(Figure figure, double now) const noexcept {
-    // between trials a text is about the one that ended, a page about the one that comes
+    // between trials, texts refer to the last trial, and pages to the next one
     const bool ended = state_ < 0 && !opening_.on() && last_trial_ > 0;
     if (queue_.empty() && !ended) return kUnmeasured;
     const int number = ended ? last_trial_ : queue_.trial() + 1;
@@ -403,7 +403,7 @@ double TaskDirector::value_of(Figure figure, double now) const noexcept {
     }
 }
 
-/// Half a tick of tolerance, because times are sums of ticks, which round.
+/// Uses half a tick of tolerance, because sums of ticks have rounding errors.
 double TaskDirector::countdown(double now) const noexcept {
     const double rest = opening_.rest_left(now);
     if (rest >= 0) return std::ceil(rest - tick_ / 2);
@@ -427,7 +427,7 @@ bool TaskDirector::is_done() noexcept {
 }
 
 void TaskDirector::follow_rules(int outcome) noexcept {
-    // a trial that is skipped before it began has its numbers all the same
+    // a trial that is skipped before its start also has numbers
     if (!begun_) resolve();
     Quantities& quantities = numbers_.quantities();
     quantities.set(plan_.symbols.outcome, plan_.symbols.outcomes[static_cast<size_t>(outcome)]);
@@ -474,7 +474,7 @@ void TaskDirector::resolve() noexcept {
     numbers_.begin(queue_.trial(), queue_.attempt(), variables_, 0);
 }
 
-/// The level that the trial's procedure chose, within its range.
+/// The level that the trial's procedure chose, limited to its range.
 double TaskDirector::level() const noexcept {
     const auto i = static_cast<size_t>(trial().procedure);
     const ProcedureSpec& spec = plan_.task.procedures[i];
@@ -487,8 +487,8 @@ double TaskDirector::share_of_trial() const noexcept {
     return plan_.task.procedures[static_cast<size_t>(trial().procedure)].share(level());
 }
 
-/// Gives the outcome of the ending trial to its procedure. An outcome that is neither its yes nor
-/// its no is no answer.
+/// Passes the outcome of the ending trial to its procedure. An outcome that is neither 'yes' nor
+/// 'no' of the procedure is not an answer.
 void TaskDirector::take_answer(int outcome) noexcept {
     if (trial().procedure < 0) return;
     const auto i = static_cast<size_t>(trial().procedure);
@@ -497,8 +497,8 @@ void TaskDirector::take_answer(int outcome) noexcept {
     if (yes || name == plan_.task.procedures[i].no) procedures_[i].answer(level(), yes);
 }
 
-/// Puts the state's bodies, each as soon as no finger presses it or is in its way, and keeps in
-/// place those that stay.
+/// Places the state's bodies, each as soon as no finger presses or obstructs it, and keeps held
+/// bodies in place.
 void TaskDirector::put_bodies(const frame::Frame& last, frame::Commands& commands) noexcept {
     if (state_ < 0) return;
     const auto& puts = plan_.stages[static_cast<size_t>(state_)].puts;
@@ -508,7 +508,7 @@ void TaskDirector::put_bodies(const frame::Frame& last, frame::Commands& command
         if (is_put_[i] && !wanted.stays) continue;
         if (!is_put_[i]) {
             const Pose X_WB{wanted.home.X_WB.R, numbers_.of(wanted.home.position)};
-            // before the first Frame nobody knows where fingers are
+            // before the first Frame, the positions of fingers are unknown
             if (wanted.moves && (last.sequence < 0 || !clear(last, wanted.home, X_WB))) continue;
             is_put_[i] = 1;
             put_at_[i] = wanted.moves ? X_WB : pose_of(body, last, commands);
@@ -517,8 +517,8 @@ void TaskDirector::put_bodies(const frame::Frame& last, frame::Commands& command
     }
 }
 
-/// Orders where the state's drives and motors get by the end of the tick, each from where its body
-/// or joint is as the state begins.
+/// Orders the targets of the state's drives and motors for the end of the tick, each relative to
+/// its body or joint at the beginning of the state.
 void TaskDirector::drive_bodies(const frame::Frame& last, double now,
                                 frame::Commands& commands) noexcept {
     if (state_ < 0 || last.sequence < 0) return;
@@ -559,8 +559,8 @@ void TaskDirector::order(double now, frame::Commands& commands) const noexcept {
         const auto i = static_cast<size_t>(p);
         if (!cell.acts(p, state_)) continue;
         const double part = cell.perturbations[i].share_at(now - began_[i]);
-        if (part == 0) continue;  // its profile has not begun, or is over
-        // the trial's share: what the profile makes of it shows in what is ordered
+        if (part == 0) continue;  // its profile has not started or is over
+        // the trial's share, without the profile, whose effect is visible in the orders
         const double share = share_of_trial();
         if (share == 0 && plan_.shows_standard(trial(), state_)) continue;
         out.share = share;

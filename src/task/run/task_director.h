@@ -1,6 +1,6 @@
-// Runs a session's trials inside the tick: keeps the current state, commands what it shows and
-// perturbs, judges its exits, and chooses the next trial. Once constructed it neither allocates,
-// locks nor throws.
+// Runs a session's trials inside the tick: tracks the current state, orders its display and
+// perturbations, evaluates its exits, and chooses the next trial. Once constructed, it neither
+// allocates, locks nor throws.
 #pragma once
 
 #include <atomic>
@@ -16,35 +16,37 @@ namespace dihaptic::task {
 
 class TaskDirector {
   public:
-    /// `plan` must outlive the director. `done`: attempts made by an earlier part of the session,
-    /// in order.
+    /// `plan` must outlive the director. `done`: attempts in an earlier part of the session, in
+    /// order.
     TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
                  const std::vector<Attempt>& done = {});
 
     void operator()(const frame::Frame& last, std::span<const frame::Handle> handles,
                     frame::Commands& commands) noexcept;
 
-    /// The operator pressed a key; from any thread.
+    /// Passes on a key that the operator pressed; from any thread.
     void press(char key) noexcept { key_.store(key, std::memory_order_relaxed); }
-    /// A question's line was clicked at a share of its length; from any thread.
+    /// Passes on a click at a share of the length of a question's line; from any thread.
     void click(double share) noexcept { clicked_.store(share, std::memory_order_relaxed); }
-    /// A trigger came from outside; from any thread. `code`: 1 to 255, or kAnyTrigger.
+    /// Passes on an external trigger; from any thread. `code`: 1 to 255, or kAnyTrigger.
     void trigger(int code) noexcept { trigger_.store(code, std::memory_order_relaxed); }
-    static constexpr int kAnyTrigger = -1;  ///< counts as any code that is waited for
-    /// Ends the trial in the next tick, as skipped and not to be done again; from any thread.
+    static constexpr int kAnyTrigger = -1;  ///< matches every expected code
+    /// Ends the trial in the next tick as skipped, without repetition; from any thread.
     void skip() noexcept { skip_.store(true, std::memory_order_relaxed); }
-    /// Before the first tick: asks `between`, which must outlive the director, before each attempt.
+    /// Makes the director ask `between`, which must outlive it, before each attempt. Call before
+    /// the first tick.
     void decide_by(Between& between) noexcept;
-    /// Call between two ticks: a running trial begins anew.
+    /// Restarts a running trial. Call between two ticks.
     void interrupt() noexcept {
         if (!queue_.empty() && state_ >= 0) queue_.again();
         state_ = -1;
         begun_ = false;
         motions_.forget();
     }
-    /// The numbers of the trials so far: whether formulas of theirs had to be kept within bounds.
+    /// The numbers of the trials so far, with a record of formulas that had to be kept within
+    /// bounds.
     const TrialNumbers& numbers() const noexcept { return numbers_; }
-    /// Share of the trials that are done, from any thread.
+    /// Share of completed trials, from any thread.
     double share() const noexcept { return share_.load(std::memory_order_relaxed); }
 
   private:
@@ -54,16 +56,16 @@ class TaskDirector {
                const Pose& X_WB) const noexcept;
     void put(int body, const Pose& X_WB, const BodyMotion& motion,
              frame::Commands& commands) noexcept;
-    /// Begins the next trial once the last feedback and its block's pages have been read and bodies
-    /// can be put back.
+    /// Starts the next trial once the last feedback and the block's pages are over and bodies can
+    /// be placed at their homes.
     void begin(const frame::Frame& last, char key, double now, frame::Commands& commands) noexcept;
-    /// Asks what decides between trials, if anything does.
+    /// Asks the program that decides between trials, if there is one.
     void ask(int attempt, int outcome, double now) noexcept;
-    /// Whether what decides between trials has answered, or is too late.
+    /// Whether the program that decides between trials has answered or is too late.
     bool decided(double now) noexcept;
     void follow(const Decision& decision, double now) noexcept;
     void enter(int state, double now, frame::Commands& commands) noexcept;
-    /// What came in from outside since the last tick.
+    /// External input since the last tick.
     struct Input {
         char key;     // 0: none
         int trigger;  // 0: none
@@ -77,26 +79,25 @@ class TaskDirector {
     void order(double now, frame::Commands& commands) const noexcept;
     void put_bodies(const frame::Frame& last, frame::Commands& commands) noexcept;
     void drive_bodies(const frame::Frame& last, double now, frame::Commands& commands) noexcept;
-    /// Takes what was typed, or where the hands are, as the answer that the state asks for.
+    /// Uses the typed keys or the position of the hands as the answer to the state's question.
     void take_answers(std::span<const frame::Handle> handles, const Input& input) noexcept;
 
-    /// As operator(), but for how things look and sound, and what texts say.
+    /// Like operator(), but without looks, sounds and texts.
     void direct(const frame::Frame& last, std::span<const frame::Handle> handles, double now,
                 frame::Commands& commands) noexcept;
-    /// Orders the texts, once the message is ordered, or the page in their place.
+    /// Orders the texts after the message, or the page in their place.
     void say(double now, frame::TaskFrame& out) const noexcept;
     void say(int message, double now, frame::TaskFrame& out) const noexcept;
-    /// Number in a text; NaN if there is none now.
+    /// Current value of a number in a text; NaN if there is none.
     double value_of(Figure figure, double now) const noexcept;
     double countdown(double now) const noexcept;
 
-    /// Skips trials whose procedure is done, or whose block: they may need fewer trials than the
-    /// list has.
+    /// Skips trials whose procedure or block is done: either may need fewer trials than are listed.
     void skip_done() noexcept;
     bool is_done() noexcept;
-    /// Changes the variables by the rules for the trial that ends.
+    /// Applies the rules to the variables at the end of a trial.
     void follow_rules(int outcome) noexcept;
-    /// Chooses the numbers of the trial that begins, and resolves its formulas.
+    /// Chooses the numbers of the starting trial, and resolves its formulas.
     void resolve() noexcept;
     double level() const noexcept;
     double share_of_trial() const noexcept;
@@ -113,32 +114,32 @@ class TaskDirector {
     double trial_began_ = 0;  // when the trial entered its first state [s]
     double entered_ = 0;      // [s]
     int message_ = -1;
-    int next_message_ = -1;       // shown once the feedback has been read
+    int next_message_ = -1;       // shown after the feedback
     int feedback_ = -1;           // line below the message
     double feedback_until_ = -1;  // [s]
     int last_trial_ = 0;          // last trial that ended, from 1; 0: none yet
     int last_attempt_ = 0;
-    /// Of a way: its condition.
+    /// State of an exit's condition.
     struct Judged {
-        double since = -1;  // when it began to hold; -1: it does not hold [s]
+        double since = -1;  // time from which it has held; -1: it does not hold [s]
         bool met = false;   // it has held long enough since then
-        int count = 0;      // how often it was met in the state
+        int count = 0;      // number of times that it was met in the state
     };
     std::vector<Judged> judged_;
-    std::vector<char> is_put_;        // by the state's puts: whether it could be done yet
+    std::vector<char> is_put_;        // by placement in the state: whether it has been done
     std::vector<Pose> put_at_;        // and where
-    std::vector<Pose> drive_from_;    // by drive of the state: where its body was as it began
-    std::vector<double> motor_from_;  // by motor of the state: where its joint was then
-    bool driving_ = false;            // drive_from_ and motor_from_ are of this state
+    std::vector<Pose> drive_from_;    // by drive: pose of its body at the state's start
+    std::vector<double> motor_from_;  // by motor: coordinate of its joint at the state's start
+    bool driving_ = false;            // drive_from_ and motor_from_ are valid for this state
     Motions motions_;
-    // by perturbation: when a state in which it acts was entered from one in which it does not [s]
+    // by perturbation: time of entry into its states from other states [s]
     std::vector<double> began_;
     Rating rating_;
     Displayer displayer_;
     Sounder sounder_;
     Opening opening_;
     Between* between_ = nullptr;
-    bool asked_ = false;    // and not yet decided
+    bool asked_ = false;    // asked, but no decision yet
     double ask_until_ = 0;  // [s]
     std::atomic<char> key_{0};
     std::atomic<double> clicked_{Rating::kNowhere};

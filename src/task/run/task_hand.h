@@ -1,5 +1,5 @@
-// The simulated hands that an experiment file describes for its task: on entering a state they
-// begin that state's steps from where they are, by minimum jerk as in a script.
+// The simulated hands that an experiment file describes for its task: on entry into a state they
+// start that state's steps from their current position, by minimum jerk as in a script.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@ namespace dihaptic::task {
 
 class TaskHand final : public SeeingDriver {
   public:
-    /// Throws Error when the spec names other fingers than `fingers`.
+    /// Throws Error if the fingers in the spec differ from `fingers`.
     TaskHand(std::shared_ptr<const TaskPlan> plan, const hand::HandSpec& spec,
              const std::vector<std::string>& fingers);
 
@@ -24,7 +24,7 @@ class TaskHand final : public SeeingDriver {
     void do_see(const frame::Frame& frame) noexcept override;
     void begin_step(double now) noexcept;
 
-    /// Where a finger's hand is in its step.
+    /// Posture of a finger's hand within its step.
     struct Posture {
         Vec3 centre = Vec3::Zero();
         double aperture = 0;
@@ -34,12 +34,12 @@ class TaskHand final : public SeeingDriver {
     std::shared_ptr<const TaskPlan> plan_;
     TrialNumbers numbers_;
     std::vector<hand::FingerPlace> places_;
-    std::vector<Posture> start_;  // by finger, as those below
+    std::vector<Posture> start_;  // by finger, like the next ones
     std::vector<Phase> phases_;
     int trial_ = 0;
     int attempt_ = 0;
     int phase_ = -1;
-    size_t step_ = 0;      // index among the state's steps
+    size_t step_ = 0;      // index of the state's current step
     double begun_ = 0;     // [s]
     double duration_ = 1;  // [s]
     std::vector<Posture> from_;

@@ -15,7 +15,7 @@ double within(const Field& field, double value) noexcept {
     return std::isnan(value) ? least : std::clamp(value, least, field.max);
 }
 
-/// Notes what the formula gives in the trial, and reports a value that its bounds do not allow.
+/// Stores the value of the formula in the trial, and reports a value outside its bounds.
 void look_at(int index, size_t trial, const TrialNumbers& numbers, TaskPlan& plan,
              std::vector<char>& told, Diagnostics& diagnostics) {
     const auto i = static_cast<size_t>(index);
@@ -27,19 +27,20 @@ void look_at(int index, size_t trial, const TrialNumbers& numbers, TaskPlan& pla
     told[i] = 1;
     if (std::isnan(given)) {
         diagnostics.error(f.place, f.key,
-                          fmt::format("'{}' gives no number in trial {}", f.text, trial + 1),
-                          "Let it name what is known by then: a region may name those that "
+                          fmt::format("'{}' has no value in trial {}", f.text, trial + 1),
+                          "Use quantities that are known by then: a region can use regions that "
                           "are listed before it.");
         return;
     }
     const auto say =
-        fmt::format("'{}' gives {:.6g} in trial {}, and must be from {:.6g} to {:.6g}", f.text,
+        fmt::format("'{}' gives {:.6g} in trial {}, but must be from {:.6g} to {:.6g}", f.text,
                     given / f.to_si, trial + 1, f.field.min / f.to_si, f.field.max / f.to_si);
     if (compiled.expression.foreseen()) {
-        diagnostics.error(f.place, f.key, say, "Correct the formula, or what it names.");
+        diagnostics.error(f.place, f.key, say, "Correct the formula or the quantities in it.");
     } else {
-        diagnostics.warning(f.place, f.key, say,
-                            "It is kept within these bounds; clamp() says so in the file.");
+        diagnostics.warning(
+            f.place, f.key, say,
+            "It is kept within these bounds; clamp() would make this explicit in the file.");
     }
 }
 
@@ -102,7 +103,7 @@ void TrialNumbers::begin(int trial, int attempt, std::span<const frame::Variable
     }
     cell_ = plan_.cell_index(now);
     TaskPlan::Cell& cell = cells_[cell_];
-    // what is not known yet shows, when all trials are resolved before the session
+    // a value that is not known yet is detected when all trials are resolved before the session
     for (size_t i = 0; i < cell.p_W.size(); ++i)
         quantities_.set(quantities_.region(i), Vec3::Constant(kUnmeasured));
     for (const TaskPlan::Home& home : cell.homes)

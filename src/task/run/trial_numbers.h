@@ -1,6 +1,6 @@
-// The numbers of a trial that the file has as formulas (docs/files.md): resolved once, at the
-// trial's start, from its draws, its condition's factors and the variables. Whoever takes part in
-// the trials has its own: the director, and the hand that sees the Frames.
+// The numbers of a trial that are formulas in the file (docs/files.md): resolved once, at the
+// trial's start, from its draws, its condition's factors and the variables. Each participant in the
+// trials has a separate object: the director, and the hand that sees the Frames.
 #pragma once
 
 #include "frame/frame.h"
@@ -8,44 +8,45 @@
 
 namespace dihaptic::task {
 
-/// Allocates nothing once it is constructed.
+/// Once constructed, it allocates nothing.
 class TrialNumbers {
   public:
     /// `plan` must outlive it.
     explicit TrialNumbers(const TaskPlan& plan);
 
-    /// `trial`: index among the plan's. `variables`: their values [SI]. `state`: levels of
-    /// procedures may be at their standard in it; -1: they are as in the variables.
+    /// `trial`: index in the plan. `variables`: their values [SI]. `state`: current state, in which
+    /// levels of procedures may have their standard; -1: they have their values in the variables.
     void begin(int trial, int attempt, std::span<const frame::VariableFrame> variables,
                int state = -1) noexcept;
-    /// Begins the attempt if it is another one, and one of a trial, or if the state is of another
+    /// Starts the attempt if it is a new attempt at a trial, or if the state belongs to another
     /// interval. `trial`: from 1, as in frames.
     void follow(int trial, int attempt, std::span<const frame::VariableFrame> variables,
                 int state) noexcept;
-    /// Forgets which attempt was begun.
+    /// Forgets the last attempt.
     void restart() noexcept { trial_ = 0; }
 
     const TaskPlan::Cell& cell() const noexcept { return cells_[cell_]; }
-    /// A number of a state. Those of the cell have their values.
+    /// A number of a state. The numbers of the cell have been set directly.
     double of(const Formula& f) const noexcept {
         return f.index < 0 ? f.value : resolved_[static_cast<size_t>(f.index)];
     }
     Vec3 of(const FormulaVec3& v) const noexcept { return {of(v[0]), of(v[1]), of(v[2])}; }
-    /// What a formula gave before its bounds.
+    /// Value of a formula before it is limited to its bounds.
     double unbounded(size_t index) const noexcept { return given_[index]; }
-    /// Whether the trial's block ends before it. `trial`: index among the plan's.
+    /// Whether the trial's block ends before the trial. `trial`: index in the plan.
     bool ends_before(int trial) noexcept;
     Quantities& quantities() noexcept { return quantities_; }
     std::span<const double> values() const noexcept { return quantities_.values(); }
-    /// Sets the variables for the expressions that name them.
+    /// Sets the variables for the expressions that use them.
     void set(std::span<const frame::VariableFrame> variables) noexcept;
-    /// How often a formula gave what its bounds do not allow, and which was the last; -1: none.
+    /// Number of values outside the bounds of a formula, and index of the last such formula; -1:
+    /// none.
     int bounded() const noexcept { return bounded_; }
     int last_bounded() const noexcept { return last_bounded_; }
 
   private:
     double resolve(int index) noexcept;
-    /// Gives the formulas of a struct their values.
+    /// Sets the formulas of a struct to their values.
     template <class Struct>
     void resolve_in(Struct& value) noexcept {
         each_formula(value, [&](Formula& f) {
@@ -64,13 +65,13 @@ class TrialNumbers {
     size_t cell_ = 0;
     int trial_ = 0;  // from 1; 0: none yet
     int attempt_ = 0;
-    bool standard_ = false;  // levels are at their standard
+    bool standard_ = false;  // levels have their standard
     int bounded_ = 0;
     int last_bounded_ = -1;
 };
 
-/// Calls f(trial's index, its numbers) for each trial with the variables as they start, and with
-/// each level of its procedure at which trials are looked at before the session.
+/// Calls f(index of the trial, its numbers) for each trial with the initial variables, and with
+/// each level of its procedure at which trials are checked before the session.
 template <class F>
 void each_trial(const TaskPlan& plan, F f) {
     TrialNumbers numbers(plan);
@@ -85,10 +86,10 @@ void each_trial(const TaskPlan& plan, F f) {
     }
 }
 
-/// Resolves the formulas of all trials with the variables as they start, and with levels of
-/// procedures at the ends of their range: notes their largest values in the plan, and reports
-/// values that their bounds do not allow: as errors, or as warnings where variables may change
-/// them. Variables' values are then kept within the bounds.
+/// Resolves the formulas of all trials with the initial variables, and with levels of procedures at
+/// the ends of their range. Stores their largest values in the plan, and reports values outside
+/// their bounds as errors, or as warnings if variables can change them; such values are then kept
+/// within the bounds.
 void resolve_all(TaskPlan& plan, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::task

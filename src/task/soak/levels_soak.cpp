@@ -1,5 +1,5 @@
-// Measures how often the report's interval holds the threshold of observers whose psychometric
-// function is known, in a discrimination of two intervals, for each kind of procedure.
+// Measures how often the report's interval contains the threshold of observers with known
+// psychometric functions, in a two-interval discrimination, for each kind of procedure.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -13,12 +13,12 @@ struct Case {
     const char* name;
     const char* procedure;
     model::Psychometric observer;
-    /// Whether the observer is as the procedure takes it: if not, intervals may be too wide.
+    /// Whether the observer matches the procedure's assumptions: if not, intervals may be too wide.
     bool as_taken = true;
 };
 
 constexpr model::Psychometric kNormal{model::Sigmoid::normal, 0.35, 0.12, 0.5, 0};
-/// QUEST's own, of the logarithm; 10^threshold is the same.
+/// The function that QUEST assumes, for the logarithm; 10^threshold is the same.
 constexpr model::Psychometric kWeibull{model::Sigmoid::weibull, 0.35, 3.5, 0.5, 0};
 constexpr model::Psychometric kFlat{model::Sigmoid::weibull, 0.35, 2.5, 0.5, 0};
 constexpr model::Psychometric kSteep{model::Sigmoid::weibull, 0.35, 5, 0.5, 0};

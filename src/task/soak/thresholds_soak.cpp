@@ -1,6 +1,6 @@
-// Measures the precision of the thresholds of experiments/visual-scaling.yaml: its own staircases
-// are run on two hundred observers who judge a ratio of lengths with noise, and fitted as in the
-// report. analysis/fits/README.md has the figures.
+// Measures the precision of the thresholds in experiments/visual-scaling.yaml: its staircases are
+// run on two hundred observers who judge a ratio of lengths with noise, and are fitted as in the
+// report. analysis/fits/README.md gives the results.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -14,18 +14,18 @@
 namespace dihaptic::task {
 namespace {
 
-/// An observer who answers "more" when the logarithm of the ratio, with noise, is above 0, and
+/// An observer who answers "more" if the logarithm of the ratio plus noise is above 0, and
 /// sometimes lapses.
 struct Observer {
     double sd;
     static constexpr double kLapse = 0.015;
 
-    /// Probability that the answer is right when `scale` is shown with that share.
+    /// Probability of a correct answer when `scale` is shown with that share.
     double right(double scale, double share) const {
         const double ratio = std::abs(std::log(1 + share * (scale - 1)));
         return kLapse + (1 - 2 * kLapse) * 0.5 * std::erfc(-ratio / sd / std::sqrt(2.0));
     }
-    /// Share at which three of four answers would be right without lapses.
+    /// Share at which three of four answers would be correct without lapses.
     double threshold(double scale) const {
         return std::abs(std::exp((scale > 1 ? 1 : -1) * 0.6744897501960817 * sd) - 1) /
                std::abs(scale - 1);
@@ -67,7 +67,7 @@ TEST(Thresholds, OfTwentyFiveAnswersAreRough) {
     const double coverage = static_cast<double>(held) / kObservers;
     fmt::print("bias {:.2f} and rms error {:.2f} of the threshold; intervals hold it in {:.2f}\n",
                bias, std::sqrt(square), coverage);
-    // the thresholds are rough, as the README says; if they get better, the README must change
+    // the README calls the thresholds rough; if they improve, it must change
     EXPECT_GT(std::sqrt(square), 0.5);
     EXPECT_LT(std::sqrt(square), 5);
     EXPECT_GT(coverage, 0.7);

@@ -213,32 +213,34 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Wrong{"", 1, "ends where a value"}, Wrong{"1 +", 4, "ends where a value"},
         Wrong{"(1 + 2", 7, "')' is missing"}, Wrong{"1 2", 3, "'2' is not expected"},
-        Wrong{"grip_force >> 2", 13, "'>' stands where"}, Wrong{"1 = 2", 3, "Write =="},
+        Wrong{"grip_force >> 2", 13, "'>' is given where"}, Wrong{"1 = 2", 3, "Write =="},
         Wrong{"1 < 2 && 2 < 3", 7, "Write and"}, Wrong{"!touched(block)", 1, "Write not"},
         Wrong{"2 ** 3", 3, "Write ^"}, Wrong{"1 ? 2 : 3", 3, "a if c else b"},
-        Wrong{"block#z", 6, "'#' means nothing"}, Wrong{"'open", 1, "Close the quotes"},
+        Wrong{"block#z", 6, "'#' has no meaning here"}, Wrong{"'open", 1, "Close the quotes"},
         Wrong{"1e999", 1, "too large"}, Wrong{"1 if 2 > 1", 11, "'else' is missing"},
         Wrong{"grip_forc > 2", 1, "Did you mean grip_force?"},
         Wrong{"1 + blok.z", 5, "Did you mean block.z?"},
-        Wrong{"block.handle_position.x > 0", 1, "is no quantity"},
-        Wrong{"block.orientation > 0", 1, "is no quantity"}, Wrong{"m > 1", 1, "Write it behind"},
+        Wrong{"block.handle_position.x > 0", 1, "is not a quantity"},
+        Wrong{"block.orientation > 0", 1, "is not a quantity"},
+        Wrong{"m > 1", 1, "Write it after a number"},
         Wrong{"touchd(block)", 1, "Did you mean touched?"}, Wrong{"sqrt()", 1, "has 0 arguments"},
-        Wrong{"grip_force > block.z", 12, "one side is in N, the other in m"},
-        Wrong{"grip_force > 10 * step", 12, "the other a pure number"},
-        Wrong{"min(wait, 1, block.z) > 0", 14, "the other in m"},
-        Wrong{"block.z < 1 < wait", 13, "the other in s"},
-        Wrong{"wait + 5 mm", 6, "one side is in s, the other in m"},
+        Wrong{"grip_force > block.z", 12, "one side is in N, but the other is in m"},
+        Wrong{"grip_force > 10 * step", 12, "but the other is a pure number"},
+        Wrong{"min(wait, 1, block.z) > 0", 14, "but the other is in m"},
+        Wrong{"block.z < 1 < wait", 13, "but the other is in s"},
+        Wrong{"wait + 5 mm", 6, "one side is in s, but the other is in m"},
         Wrong{"sin(wait)", 5, "x / (1 s)"},
         Wrong{"wait ^ step", 8, "Write a number as the exponent"},
-        Wrong{"sqrt(wait)", 6, "no unit"}, Wrong{"2 ^ wait", 5, "where a pure number is wanted"},
+        Wrong{"sqrt(wait)", 6, "no valid unit"}, Wrong{"2 ^ wait", 5, "but must be a pure number"},
         Wrong{"block > 1", 7, "one side is a vector"}, Wrong{"block.position", 1, "is a vector"},
-        Wrong{"norm(wait)", 6, "where a vector is wanted"},
-        Wrong{"block + 1", 1, "where a number is wanted"}, Wrong{"1 and 2 > 1", 1, "Compare it"},
+        Wrong{"norm(wait)", 6, "but must be a vector"},
+        Wrong{"block + 1", 1, "but must be a number"}, Wrong{"1 and 2 > 1", 1, "Compare it"},
         Wrong{"not grip_force", 5, "Compare it"}, Wrong{"(1 < 2) + 1", 2, "1 if ... else 0"},
-        Wrong{"(1 < 2) < (2 < 3)", 9, "Only == and !="},
-        Wrong{"surface == silk", 12, "Texts stand in quotes: \"silk\"."},
+        Wrong{"(1 < 2) < (2 < 3)", 9, "Use only == and !="},
+        Wrong{"surface == silk", 12, "Put texts in quotes: \"silk\"."},
         Wrong{"surface == 'sued'", 12, "Did you mean \"suede\"?"},
-        Wrong{"surface == 1", 9, "quoted texts"}, Wrong{"surface < 'silk'", 9, "Only == and !="},
+        Wrong{"surface == 1", 9, "quoted texts"},
+        Wrong{"surface < 'silk'", 9, "Use only == and !="},
         Wrong{"inside(blok, goal)", 8, "Did you mean block?"},
         Wrong{"inside(block)", 13, "',' is missing"},
         Wrong{"inside(block, gaol)", 15, "is not a region"},
@@ -257,8 +259,8 @@ TEST(Expression, NumbersWithoutAUnitThatAreHardlyMeantInSiAreRemarkedOn) {
     };
     const auto fast = remarks("norm(block.velocity) > 40");
     ASSERT_EQ(fast.size(), 1u);
-    EXPECT_EQ(fast[0].what, "column 24: 40 has no unit and counts in m/s");
-    EXPECT_EQ(fast[0].remedy, "Write its unit behind it, as in 40 mm/s.");
+    EXPECT_EQ(fast[0].what, "column 24: 40 has no unit and is read in m/s");
+    EXPECT_EQ(fast[0].remedy, "Write its unit after it, as in 40 mm/s.");
     EXPECT_EQ(remarks("block.z > -50 and 700 > wait").size(), 2u);
     for (const char* meant : {"norm(block.velocity) > 0.04", "norm(block.velocity) > 40 m/s",
                               "wait < 3", "grip_force > 40", "score > 1000", "block.z > 2"})
@@ -271,8 +273,9 @@ TEST(Expression, NestingAndLengthHaveLimits) {
         grasp.compile(text);
         return grasp.diagnostics.problems().empty() ? "" : grasp.diagnostics.problems()[0].text();
     };
-    EXPECT_NE(said(std::string(900, '(') + "1" + std::string(900, ')')).find("too many brackets"),
-              std::string::npos);
+    EXPECT_NE(
+        said(std::string(900, '(') + "1" + std::string(900, ')')).find("too many nested brackets"),
+        std::string::npos);
     EXPECT_NE(said(std::string(1500, '-') + "1").find("too many signs"), std::string::npos);
     EXPECT_NE(said("1" + std::string(3000, ' ')).find("is too long"), std::string::npos);
     std::string deep = "score";

@@ -304,39 +304,40 @@ TEST_P(BrokenLevel, IsRefusedWithFileLineAndRemedy) {
 INSTANTIATE_TEST_SUITE_P(
     Mistakes, BrokenLevel,
     ::testing::Values(
-        Mistake{"lowest: 0, ", "", "how far more may go is missing"},
-        Mistake{"highest: 1, ", "", "how far more may go is missing"},
+        Mistake{"lowest: 0, ", "", "is missing as a limit of more"},
+        Mistake{"highest: 1, ", "", "is missing as a limit of more"},
         Mistake{"standard: 0\n", "sigmoid: logistic\n",
-                "what more is where no procedure chooses it"},
+                "the value of more where no procedure chooses it"},
         Mistake{"standard: 0\n", "standard: none\n", "standard"},
-        Mistake{"level: more\n      perturb: felt\n", "perturb: felt\n", "belongs to level"},
+        Mistake{"level: more\n      perturb: felt\n", "perturb: felt\n",
+                "is only for a procedure with level"},
         Mistake{"level: more\n      perturb: felt\n      standard: 0\n", "sigmoid: normal\n",
-                "what the procedure chooses is missing"},
-        Mistake{"level: more", "level: block", "cannot be told from the quantity block"},
-        Mistake{"level: more", "level: 3 more", "cannot be named in a formula"},
+                "perturb: is missing, and so is level"},
+        Mistake{"level: more", "level: block", "is already the quantity block"},
+        Mistake{"level: more", "level: 3 more", "cannot be used in a formula"},
         Mistake{"1 + more", "1 + mor", "Did you mean more?"},
-        Mistake{"1 + more", "1.5", "no formula names more"},
+        Mistake{"1 + more", "1.5", "no formula uses more"},
         Mistake{"1 + more", "1 + 30 * more", "gives 31"},
-        Mistake{"  states:", "  after_trial: [{ set: more, to: 2 }]\n  states:", "no variable"},
+        Mistake{"  states:", "  after_trial: [{ set: more, to: 2 }]\n  states:", "not a variable"},
         Mistake{"design: 2afc", "design: 3afc", "design"},
-        Mistake{"design: 2afc", "design: 2afc\n      guess: 0.3", "follows from the design"},
+        Mistake{"design: 2afc", "design: 2afc\n      guess: 0.3", "The design determines it"},
         Mistake{"design: 2afc", "design: yes_no\n      guess_is_lapse: yes",
-                "follows from the design"},
+                "The design determines it"},
         Mistake{"interval: 2,", "", "no state has interval 2"},
         Mistake{"interval: 2,", "interval: 3,", "interval"},
         Mistake{"chooses: 2", "chooses: 3", "chooses"},
-        Mistake{"chooses: 2", "chooses: 2, outcome: late", "leads to more than one place"},
+        Mistake{"chooses: 2", "chooses: 2, outcome: late", "has more than one destination"},
         Mistake{", chooses: 2", "", "leads nowhere"},
         Mistake{"perturb: felt", "perturb: flet", "Did you mean felt?"},
         Mistake{"  states:", "  draws: [{ name: comparison_interval, choice: [1, 3] }]\n  states:",
                 "is the interval of the comparison"},
-        Mistake{"trials: 60", "trials: 60\n      yes: better", "no outcome"},
+        Mistake{"trials: 60", "trials: 60\n      yes: better", "not an outcome"},
         Mistake{"trials: 60", "trials: 60\n      constant: { levels: [1, 1] }",
                 "more than one way"}));
 
 TEST(BrokenConstant, IsRefusedWithFileLineAndRemedy) {
     for (const Mistake& mistake :
-         {Mistake{"[0.1, 0.2, 0.3,", "[0.1, 0.1, 0.3,", "no list of different numbers"},
+         {Mistake{"[0.1, 0.2, 0.3,", "[0.1, 0.1, 0.3,", "not a list of different numbers"},
           Mistake{"levels: [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]", "levels: []", "levels"},
           Mistake{"levels: [0.1, 0.2, 0.3, 0.4, 0.5, 0.6]", "levels: [few]", "levels"},
           Mistake{"0.5, 0.6]", "0.5, 0.6], repeats: 3", "repeats"}}) {
@@ -345,7 +346,8 @@ TEST(BrokenConstant, IsRefusedWithFileLineAndRemedy) {
     }
     Intervals none(kConstant);
     none.replace("interval: 1, ", "");
-    session::expect_refused(none, {"interval: 2, ", "", "no intervals to choose from"});
+    session::expect_refused(none,
+                            {"interval: 2, ", "", "no state has an interval that can be chosen"});
 }
 
 }  // namespace

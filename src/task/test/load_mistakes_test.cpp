@@ -28,7 +28,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kField, "loads: [{ on: index, damping_Ns_m: 1 }]", "kind"},
         Mistake{kField, "loads: [{ kind: elastic, on: index }]", "'elastic' is not known"},
         Mistake{kField, "loads: [{ kind: viscous, damping_Ns_m: 1 }]", "on: is missing"},
-        Mistake{kField, "loads: [{ kind: viscous, on: [], damping_Ns_m: 1 }]", "names nothing"},
+        Mistake{kField, "loads: [{ kind: viscous, on: [], damping_Ns_m: 1 }]", "has no items"},
         Mistake{kField, "loads: [{ kind: viscous, on: [index, blok], damping_Ns_m: 1 }]",
                 "Did you mean block?"},
         Mistake{kField, "loads: [{ kind: viscous, on: [index, index], damping_Ns_m: 1 }]",
@@ -70,11 +70,11 @@ INSTANTIATE_TEST_SUITE_P(
                 "safe_within_mm: 50"},
         Mistake{kField,
                 "loads: [{ kind: spring, on: index, about: start, to: target, stiffness_N_m: 9 }]",
-                "to: has no use here"},
+                "to: cannot be used here"},
         Mistake{kField,
                 "loads: [{ kind: spring, on: index, from: start, to: target, stiffness_N_m: 9, "
                 "normal: [0, 0, 1] }]",
-                "normal: has no use here"},
+                "normal: cannot be used here"},
         Mistake{kField,
                 "loads: [{ kind: spring, on: index, about: start, axis: [1, 0, 0], "
                 "normal: [0, 0, 1], stiffness_N_m: 9 }]",
@@ -82,13 +82,13 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kField,
                 "loads: [{ kind: spring, on: index, about: start, stiffness_N_m: 9, one_sided: yes "
                 "}]",
-                "only a plane with a normal"},
+                "needs a plane with a normal"},
         Mistake{kField,
                 "loads: [{ kind: spring, on: index, about: start, normal: [0, 0, 1], one_sided: "
                 "yes, stiffness_N_m: -9, safe_within_mm: 9 }]",
                 "a wall cannot have"},
         Mistake{kField, "loads: [{ kind: channel, on: index, about: start, stiffness_N_m: 9 }]",
-                "about a line or plane"},
+                "needs a line or plane"},
         Mistake{kField,
                 "loads: [{ kind: channel, on: index, from: start, to: target, stiffness_N_m: -9 }]",
                 "stiffness_N_m: must be at least 0"},
@@ -103,24 +103,23 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"    - name: clamp\n", "    - name: clamp\n      during: [rech]\n",
                 "Did you mean reach?"},
         Mistake{"    - name: clamp\n", "    - name: clamp\n      during: home\n",
-                "says perturbed: no"},
+                "has perturbed: no"},
         Mistake{"    - name: clamp\n", "    - name: clamp\n      profile: { fall_ms: 20 }\n",
-                "when it falls is missing"},
+                "has no effect without plateau"},
         Mistake{"    - name: clamp\n", "    - name: clamp\n      profile: { rise: 20 }\n",
                 "needs its unit"},
         Mistake{"    - name: clamp\n", "    - name: clamp\n      profile: { shape: round }\n",
                 "Use linear or minimum_jerk"},
         Mistake{"    - name: clamp\n", "    - name: clamp\n      profile: { rise_ms: -20 }\n",
                 "rise_ms: must be at least 0"},
-        Mistake{kPerturb, "perturb: [rotation, clamp]",
-                "both change what is shown in state 'reach'"},
+        Mistake{kPerturb, "perturb: [rotation, clamp]", "both change the display in state 'reach'"},
         Mistake{kPerturb, "perturb: [rotation, rotation]", "named twice"},
         Mistake{kPerturb, "perturb: [rotation, chanel]", "Did you mean channel?"},
         Mistake{kPerturb, "perturb: { rotation: 1 }", "must be a text or a list of texts"},
-        Mistake{kPerturb, "perturb: [a, b, c, d, e, f, g, h, i]", "where 8 are the most"},
+        Mistake{kPerturb, "perturb: [a, b, c, d, e, f, g, h, i]", "at most 8 are allowed"},
         Mistake{"insert: [{ kind: catch, count: 1 }]",
                 "insert: [{ kind: catch, count: 1, perturb: [clamp, rotation] }]",
-                "both change what is shown"}));
+                "both change the display"}));
 
 TEST(Loads, MoreThanATickHoldsAreRefused) {
     session::Files files;
@@ -138,8 +137,8 @@ TEST(Loads, ANameWithTheSignThatJoinsSeveralStandsOnlyByItself) {
     Diagnostics diagnostics;
     session::check_file(files.request().file, diagnostics);
     EXPECT_FALSE(diagnostics.has_errors());
-    session::expect_refused(files,
-                            {"perturb: a + b", "perturb: [a + b, channel]", "cannot be told from"});
+    session::expect_refused(
+        files, {"perturb: a + b", "perturb: [a + b, channel]", "would be read as several"});
 }
 
 }  // namespace

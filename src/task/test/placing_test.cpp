@@ -187,16 +187,17 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Mistake{kMarker, "      place: [{ position_mm: [0, 0, 90] }]\n", "body: is missing"},
         Mistake{kMarker, "      place: [{ body: blok, held: yes }]\n", "Did you mean block?"},
-        Mistake{kMarker, "      place: [{ body: table, held: yes }]\n", "it stays anyway"},
+        Mistake{kMarker, "      place: [{ body: table, held: yes }]\n", "stays in place anyway"},
         Mistake{kMarker, "      place: [{ body: block, position_mm: [1, 0, index.x] }]\n",
-                "names what changes within a trial"},
-        Mistake{kMarker, "      place: [{ body: block }]\n", "what becomes of the body"},
+                "depends on a quantity that changes within a trial"},
+        Mistake{kMarker, "      place: [{ body: block }]\n",
+                "position: is missing, and so is any other key"},
         Mistake{kMarker, "      place: [{ body: block, position: [0, 0, 9] }]\n", "needs its unit"},
         Mistake{kMarker, "      place: [{ body: block, removed: yes, held: yes }]\n",
-                "nowhere else"},
+                "cannot be combined with position or held"},
         Mistake{kMarker,
                 "      place: [{ body: block, held: yes }, { body: block, removed: yes }]\n",
-                "is put twice"},
+                "is placed twice"},
         Mistake{kMarker, "      place: { body: block, held: yes }\n", "must be a list"}));
 
 }  // namespace

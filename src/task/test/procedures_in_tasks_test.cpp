@@ -160,14 +160,14 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"yes: turned\n      no: straight\n      guess: 0\n      trials: 60",
                 "yes: turnd\n      no: straight\n      guess: 0\n      trials: 60",
                 "Did you mean turned?"},
-        Mistake{"no: straight", "no: turned", "same outcome as yes"},
-        Mistake{"no: straight", "no: late", "is done again"},
-        Mistake{"perturb: right", "perturb: wrong", "no perturbation"},
+        Mistake{"no: straight", "no: turned", "same outcome as for yes"},
+        Mistake{"no: straight", "no: late", "'late' are repeated"},
+        Mistake{"perturb: right", "perturb: wrong", "not a perturbation"},
         Mistake{"steps_up: [0.2, 0.1, 0.05, 0.02]", "steps_up: []", "list of numbers"},
         Mistake{"steps_up: [0.2, 0.1, 0.05, 0.02]", "steps_up: [0.2, -0.1]", "positive"},
-        Mistake{"start: 0.8", "start: 1.8", "levels of a share end at 1"},
+        Mistake{"start: 0.8", "start: 1.8", "the limit for levels of a share is 1"},
         Mistake{"levels: { from: 0, to: 1,", "levels: { from: 0, to: 2,",
-                "levels of a share end at 1"},
+                "the limit for levels of a share is 1"},
         Mistake{"shapes: { from: 0.05,", "shapes: { from: -1,", "quest_plus.shapes"},
         Mistake{"levels: { from: 0, to: 1, count: 41 }",
                 "levels: { from: 0, to: 1, count: 900 }\n        lapse: 3", "lapse"},
@@ -178,7 +178,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "      quest: { prior_mean: -0.5, prior_sd: 0.5 }\n      staircase:",
                 "more than one way"},
         Mistake{"kind: perturbed, procedures: [left, right]",
-                "kind: perturbed, procedures: [left, right], perturb: left", "by themselves"}));
+                "kind: perturbed, procedures: [left, right], perturb: left",
+                "already choose the perturbation"}));
 
 }  // namespace
 }  // namespace dihaptic::task::procedures_in_tasks_test

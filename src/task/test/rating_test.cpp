@@ -216,9 +216,9 @@ INSTANTIATE_TEST_SUITE_P(
     Mistakes, BrokenRating,
     ::testing::Values(
         Mistake{"name: heaviness, ", "", "name: is missing"},
-        Mistake{"name: heaviness", "name: high", "cannot be told from the quantity high"},
-        Mistake{"name: heaviness", "name: how heavy", "cannot be named in a formula"},
-        Mistake{"name: heaviness", "name: outcome", "cannot be told from the quantity outcome"},
+        Mistake{"name: heaviness", "name: high", "is already the quantity high"},
+        Mistake{"name: heaviness", "name: how heavy", "cannot be used in a formula"},
+        Mistake{"name: heaviness", "name: outcome", "is already the quantity outcome"},
         Mistake{"scale: numbers, ", "", "scale: is missing"},
         Mistake{"scale: numbers", "scale: number", "is not known"},
         Mistake{"from: 1, ", "", "from: is missing"}, Mistake{"to: 9", "to: 1", "not above 1"},
@@ -227,22 +227,24 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"scale: numbers,", "scale: likert,", "numbered from 1"},
         Mistake{"scale: numbers, from: 1, to: 9, labels: [light, heavy]",
                 "scale: likert, labels: [one]", "2 to 9"},
-        Mistake{"scale: numbers, from: 1", "scale: magnitude, from: -1", "a magnitude is not"},
-        Mistake{"labels: [light", "by: cursor, labels: [light", "which two regions"},
+        Mistake{"scale: numbers, from: 1", "scale: magnitude, from: -1", "a magnitude cannot be"},
+        Mistake{"labels: [light", "by: cursor, labels: [light",
+                "the line needs a region at each end"},
         Mistake{"labels: [light", "by: eye, labels: [light", "by"},
         Mistake{"labels: [light", "by: cursor, between: [low, hihg], labels: [light",
                 "Did you mean high?"},
         Mistake{"labels: [light", "by: cursor, between: [low, high], labels: [light",
-                "has always an answer"},
-        Mistake{"labels: [light", "between: [low, high], labels: [light", "no use"},
+                "is available at all times"},
+        Mistake{"labels: [light", "between: [low, high], labels: [light",
+                "cannot be used with by: key"},
         Mistake{"scale: numbers, from: 1, to: 9, labels: [light, heavy]",
-                "scale: magnitude, by: cursor, between: [low, high]", "no end"},
+                "scale: magnitude, by: cursor, between: [low, high]", "no upper limit"},
         Mistake{"      ask: { name: heaviness, scale: numbers, from: 1, to: 9, labels: [light, "
                 "heavy] }\n",
                 "", "asks for no number"},
-        Mistake{"when: answered,", "when: answered, hold_s: 1,", "given at once"},
+        Mistake{"when: answered,", "when: answered, hold_s: 1,", "an answer has no duration"},
         Mistake{"when: answered,", "when: answered, count: 2,", "count"},
-        Mistake{"      ask:", "      lines: [a, b]\n      ask:", "2 are the most"}));
+        Mistake{"      ask:", "      lines: [a, b]\n      ask:", "at most 2 are allowed"}));
 
 }  // namespace
 }  // namespace dihaptic::task::rating_test

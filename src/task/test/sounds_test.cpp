@@ -82,7 +82,7 @@ const char* const kEnd = "sound: good";
 INSTANTIATE_TEST_SUITE_P(
     Sounds, BrokenSound,
     ::testing::Values(Mistake{kTone, "duration_ms: 50", "go: has no sound"},
-                      Mistake{kTone, "tone_Hz: 1000, noise: pink", "is several sounds at once"},
+                      Mistake{kTone, "tone_Hz: 1000, noise: pink", "gives several sounds at once"},
                       Mistake{kTone, "tone_Hz: 5", "must be"},
                       Mistake{kTone, "tone_ms: 5", "tone_ms"},
                       Mistake{kTone, "tone_Hz: 1000, duration_ms: 50, ramp_ms: 30",
@@ -96,14 +96,14 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{"sounds: hum", "sounds: ham", "Did you mean hum?"},
                       Mistake{"sounds: hum", "sounds: [wind]", "lasts throughout the session"},
                       Mistake{kEnd, "sound: goodd", "Did you mean good?"},
-                      Mistake{kEnd, "sound: hum", "an exit has no length"},
+                      Mistake{kEnd, "sound: hum", "an exit has no duration"},
                       Mistake{kEnd, "sound: wind", "lasts throughout the session"}));
 
 TEST(Sounds, AreAtMostAsManyAsATickCanBegin) {
     WithSounds files;
     std::string many = "  sounds:\n";
     for (int i = 0; i < 30; ++i) many += "    - { name: s" + number_text(i) + ", tone_Hz: 440 }\n";
-    session::expect_refused(files, Mistake{"  sounds:\n", many.c_str(), "where 32 are the most"});
+    session::expect_refused(files, Mistake{"  sounds:\n", many.c_str(), "at most 32 are allowed"});
 }
 
 }  // namespace

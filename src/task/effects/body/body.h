@@ -1,7 +1,7 @@
 // Factors on a body's properties in the scene:
 //
-//     m_i (1 + s (scale_i - 1))      of its inertia along each axis, and likewise of its weight,
-//                                    moments of inertia, friction and surface
+//     m_i (1 + s (scale_i - 1))      its inertia along each axis; likewise its weight, moments of
+//                                    inertia, friction and surface
 //
 // where s is the share. Factors of several perturbations on one body multiply.
 #pragma once
@@ -21,9 +21,9 @@ struct BodySpec {
     using Effect = BodyEffect;
 
     Ref<scene::Body> body;
-    FormulaVec3 mass_scale{1, 1, 1};  ///< on inertia along the world's axes; the weight stays
-    Formula weight_scale = 1;         ///< the inertia stays
-    Formula density_scale = 1;        ///< on both, and on the moments of inertia
+    FormulaVec3 mass_scale{1, 1, 1};  ///< on inertia along the world axes; same weight
+    Formula weight_scale = 1;         ///< same inertia
+    Formula density_scale = 1;        ///< on both and on the moments of inertia
     Formula friction_scale = 1;
     Formula stiffness_scale = 1;    ///< of its surface, with its damping
     Formula restitution_scale = 1;  ///< of its surface
@@ -34,12 +34,13 @@ struct BodySpec {
         v("body", body, Field::text().required().says("Body whose properties are changed."));
         v("mass_scale", mass_scale,
           Field::number().within(0.05, 20).says(
-              "Factors on its inertia along the world's axes; its weight stays."));
+              "Factors on its inertia along the world axes; its weight stays the same."));
         v("weight_scale", weight_scale,
-          Field::number().within(-20, 20).says("Factor on its weight; its inertia stays."));
+          Field::number().within(-20, 20).says(
+              "Factor on its weight; its inertia stays the same."));
         v("density_scale", density_scale,
           Field::number().within(0.05, 20).says(
-              "Factor on weight, inertia and moments of inertia together."));
+              "Factor on its weight, inertia and moments of inertia together."));
         v("friction_scale", friction_scale,
           Field::number().within(0, 20).says("Factor on its coefficients of friction."));
         v("stiffness_scale", stiffness_scale,
@@ -47,17 +48,17 @@ struct BodySpec {
               "Factor on the stiffness and damping of its surface."));
         v("restitution_scale", restitution_scale,
           Field::number().within(0, 100).says(
-              "Factor on the restitution of its surface, which stays at most 1."));
+              "Factor on the restitution of its surface, which is limited to 1."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// Adds what is changed, and by how much, as a report states it.
+/// Adds the changes and their size, as worded in a report.
 void say(const BodySpec& spec, std::vector<std::string>& out);
 
 class BodyEffect {
   public:
-    /// Problems with the spec go to `diagnostics`.
+    /// Problems in the spec go to `diagnostics`.
     BodyEffect(const BodySpec& spec, const Names& names, const scene::Scene& scene,
                Diagnostics& diagnostics);
 

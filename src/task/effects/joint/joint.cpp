@@ -11,9 +11,9 @@ JointEffect::JointEffect(const JointSpec& spec, const Names&, const scene::Scene
     const scene::Joint& joint = scene.joints[static_cast<size_t>(spec.joint.index)];
     const auto needs = [&](const Formula& factor, const char* key, bool there, const char* what) {
         if (factor == 1 || there) return;
-        diagnostics.error(
-            spec.place, key, "'" + spec.joint + "' has no " + what + " to change",
-            std::string("Give the joint a ") + what + " in the scene, which this multiplies.");
+        diagnostics.error(spec.place, key, "'" + spec.joint + "' has no " + what + " to change",
+                          std::string("Give the joint a ") + what +
+                              " in the scene, to which this factor applies.");
     };
     needs(spec.stiffness_scale, "stiffness_scale", joint.has_spring(), "stiffness");
     needs(spec.damping_scale, "damping_scale", joint.has_damper(), "damping");

@@ -1,5 +1,5 @@
-// Factors on a joint's properties in the scene. Those of several perturbations on one joint
-// multiply.
+// Factors on a joint's properties in the scene. If several perturbations change the same joint,
+// their factors multiply.
 #pragma once
 
 #include "frame/task_frame.h"
@@ -34,12 +34,12 @@ struct JointSpec {
     }
 };
 
-/// Adds what is changed, and by how much, as a report states it.
+/// Adds the changes and their size, as worded in a report.
 void say(const JointSpec& spec, std::vector<std::string>& out);
 
 class JointEffect {
   public:
-    /// Problems with the spec go to `diagnostics`.
+    /// Problems in the spec go to `diagnostics`.
     JointEffect(const JointSpec& spec, const Names& names, const scene::Scene& scene,
                 Diagnostics& diagnostics);
 

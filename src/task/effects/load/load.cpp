@@ -11,9 +11,9 @@
 namespace dihaptic::task {
 namespace {
 
-constexpr double kRoundingShare = 1e-9;  // of a matrix, for its eigenvalues
+constexpr double kRoundingShare = 1e-9;  // relative rounding error of eigenvalues
 
-/// Largest eigenvalue of the symmetric part, which alone gives or takes energy.
+/// Largest eigenvalue of the symmetric part, the only part that supplies or absorbs energy.
 double most_driving(const Mat3& matrix) {
     const Mat3 symmetric = (matrix + matrix.transpose()) / 2;
     const Eigen::SelfAdjointEigenSolver<Mat3> solver(symmetric, Eigen::EigenvaluesOnly);
@@ -63,7 +63,7 @@ Load::Load(const LoadSpec& spec, const Names& names, const scene::Scene& scene,
 void Load::check_things(const Names& names, const scene::Scene& scene,
                         Diagnostics& diagnostics) const {
     if (spec_.on.empty()) {
-        diagnostics.error(spec_.place, "on", "names nothing",
+        diagnostics.error(spec_.place, "on", "has no items",
                           "Name fingers and bodies, e.g. on: [thumb, index].");
     }
     const std::vector<int>& on = spec_.on.indices;
@@ -72,18 +72,18 @@ void Load::check_things(const Names& names, const scene::Scene& scene,
         const std::string& name = names.all<Thing>()[thing];
         if (thing < scene.bodies.size() && !scene.bodies[thing].moves_at_all()) {
             diagnostics.error(spec_.place, "on", "'" + name + "' cannot move",
-                              "Name a body that can, or a finger.");
+                              "Name a movable body, or a finger.");
         }
         if (std::find(on.begin(), i, *i) != i) {
             diagnostics.error(spec_.place, "on", "'" + name + "' is named twice",
-                              "Name it once, and make the load stronger if it should be.");
+                              "Name it once, and make the load stronger if needed.");
         }
     }
 }
 
 void Load::look_up_place(const Names& names, Diagnostics& diagnostics) {
     const auto useless = [&](const char* key, bool given, const char* remedy) {
-        if (given) diagnostics.error(spec_.place, key, "has no use here", remedy);
+        if (given) diagnostics.error(spec_.place, key, "cannot be used here", remedy);
     };
     const bool channel = spec_.kind == LoadKind::channel;
     if (spec_.about.empty()) {
@@ -92,19 +92,19 @@ void Load::look_up_place(const Names& names, Diagnostics& diagnostics) {
         names.need(spec_.to, spec_.place, "to", diagnostics);
         shape_ = spec_.free ? Shape::plane : Shape::line;
         if (spec_.free) direction_ = axis_of(spec_.free, spec_.place, "free", diagnostics);
-        const char* const remedy = "Leave it out, or give about in place of from and to.";
+        const char* const remedy = "Leave it out, or give 'about' instead of 'from' and 'to'.";
         useless("normal", spec_.normal.has_value(), remedy);
         useless("axis", spec_.axis.has_value() && !channel, remedy);
         return;
     }
     origin_ = spec_.about.index;
-    const char* const remedy = "Leave it out: about is the region that the place goes through.";
+    const char* const remedy = "Leave it out: 'about' is the region for the line or plane.";
     useless("from", !spec_.from.empty(), remedy);
     useless("to", !spec_.to.empty(), remedy);
     useless("free", spec_.free.has_value(), remedy);
     if (spec_.normal && spec_.axis) {
-        diagnostics.error(spec_.place, "normal", "is a plane's, and axis a line's",
-                          "Keep one of the two.");
+        diagnostics.error(spec_.place, "normal", "defines a plane, but axis defines a line",
+                          "Keep one or the other.");
     } else if (spec_.normal) {
         shape_ = Shape::plane;
         direction_ = axis_of(spec_.normal, spec_.place, "normal", diagnostics);
@@ -112,8 +112,9 @@ void Load::look_up_place(const Names& names, Diagnostics& diagnostics) {
         shape_ = Shape::line;
         direction_ = axis_of(spec_.axis, spec_.place, "axis", diagnostics);
     } else if (channel) {
-        diagnostics.error(spec_.place, "normal", "is missing: a channel is about a line or plane",
-                          "Add e.g. normal: [0, 0, 1], or name from and to instead of about.");
+        diagnostics.error(
+            spec_.place, "normal", "is missing: a channel needs a line or plane",
+            "Add e.g. normal: [0, 0, 1], or name 'from' and 'to' instead of 'about'.");
     }
 }
 
@@ -126,13 +127,14 @@ void Load::check_spring(Diagnostics& diagnostics) const {
     }
     if (spec_.stiffness.value < 0 && !spec_.zone) {
         diagnostics.error(spec_.place, "stiffness",
-                          "is negative: the load would grow without end as it drives away",
-                          "Add e.g. safe_within_mm: 50, beyond which it fades to zero.");
+                          "is negative: the load would grow without limit as it pushes away",
+                          "Add e.g. safe_within_mm: 50, beyond which the load fades to zero.");
     }
     if (!spec_.one_sided) return;
     if (shape_ != Shape::plane || between_) {
-        diagnostics.error(spec_.place, "one_sided", "only a plane with a normal has two sides",
-                          "Add e.g. normal: [0, 0, 1], to which side it pushes, or leave it out.");
+        diagnostics.error(
+            spec_.place, "one_sided", "needs a plane with a normal",
+            "Add e.g. normal: [0, 0, 1], the direction of the push, or leave it out.");
     }
     if (spec_.stiffness.value < 0) {
         diagnostics.error(spec_.place, "one_sided", "a wall cannot have a negative stiffness",
@@ -146,15 +148,17 @@ void Load::check_general(Diagnostics& diagnostics) {
                           "Add e.g. B_Ns_m: [[0, -13, 0], [13, 0, 0], [0, 0, 0]].");
     }
     if (spec_.about.empty() && (!spec_.A.isZero(0) || spec_.zone)) {
-        diagnostics.error(spec_.place, "about", "is missing: positions are from a region's centre",
+        diagnostics.error(spec_.place, "about",
+                          "is missing: positions are relative to a region's centre",
                           "Name a region, e.g. about: start.");
     }
     if (const double driving = most_driving(spec_.A); driving > 0 && !spec_.zone) {
         diagnostics.error(
             spec_.place, "A",
-            fmt::format("drives away, like a spring of {:.3g} N/m: the load would grow without end",
-                        -driving),
-            "Add e.g. safe_within_mm: 50, beyond which it fades to zero.");
+            fmt::format(
+                "pushes away, like a spring of {:.3g} N/m: the load would grow without limit",
+                -driving),
+            "Add e.g. safe_within_mm: 50, beyond which the load fades to zero.");
     }
 }
 
@@ -179,7 +183,7 @@ Load::Demand Load::demand() const {
     Demand out;
     out.force = value(spec_.force).norm();
     out.torque = value(spec_.torque).norm();
-    // what keeps a hand where it is may be as hard as the device can
+    // a load that holds a hand in place may be as stiff as the device allows
     out.holds = spec_.kind == LoadKind::channel || spec_.one_sided;
     out.springs = out.holds || spec_.kind == LoadKind::spring;
     if (spec_.kind == LoadKind::general) {
@@ -197,7 +201,8 @@ Load::Demand Load::demand() const {
         return out;
     }
     out.force += out.stiffness * *spec_.zone;
-    // where a load that draws back fades, it drives away, and the other way round
+    // while it fades, an attracting load acts with negative stiffness, and a repelling one with
+    // positive stiffness
     out.stiffness = std::max(out.stiffness, out.force / spec_.fade);
     return out;
 }
@@ -244,7 +249,7 @@ Mat3 Load::velocity_gain() const {
     return gain;
 }
 
-/// Force of a spring or channel.
+/// The force of a spring or channel.
 Vec3 Load::pull(double share, std::span<const Vec3> regions_W,
                 const Motion& motion) const noexcept {
     const Vec3& centre = regions_W[static_cast<size_t>(origin_)];
@@ -268,11 +273,11 @@ Vec3 Load::pull(double share, std::span<const Vec3> regions_W,
     }
     if (spec_.one_sided && off.dot(direction) >= 0) return Vec3::Zero();
     const Vec3 force = -share * (spec_.stiffness.value * off + spec_.damping.value * across);
-    if (spec_.one_sided && force.dot(direction) < 0) return Vec3::Zero();  // a wall does not hold
+    if (spec_.one_sided && force.dot(direction) < 0) return Vec3::Zero();  // a wall does not pull
     return spec_.zone ? Vec3(left_at(off.norm()) * force) : force;
 }
 
-/// Share of the load that is left at a distance from its place.
+/// Share of the load that remains at a distance from its point, line or plane.
 double Load::left_at(double distance) const noexcept {
     if (!spec_.zone) return 1;
     return std::clamp(1 - (distance - *spec_.zone) / spec_.fade, 0.0, 1.0);

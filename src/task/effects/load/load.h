@@ -1,4 +1,4 @@
-// Loads: forces and torques on handles and bodies that depend on where these are and how they move.
+// Loads: forces and torques on handles and bodies that depend on their position and velocity.
 //
 //     constant   f = f0,  t = t0
 //     viscous    f = -b v
@@ -7,9 +7,10 @@
 //     spring     f = -k d - b v_d
 //     channel    the same, with k > 0
 //
-// p and v belong to the handle, or to the body; d leads to p from the nearest place of a point,
-// line or plane, and v_d is the part of v that changes it. Beyond a zone around p0, or around the
-// point, line or plane, a load fades to zero: its factor falls linearly with the distance.
+// p and v are the position and velocity of the handle or body; d is the vector to p from a point,
+// or from the nearest point of a line or plane, and v_d is the component of v that changes d.
+// Beyond a zone around p0, or around the point, line or plane, a load fades to zero: its factor
+// falls linearly with the distance.
 #pragma once
 
 #include <array>
@@ -28,14 +29,14 @@ namespace dihaptic::task {
 
 class Load;
 class Names;
-struct Thing;  ///< what a load acts on: a body, or the handle of a finger
+struct Thing;  ///< the object of a load: a body, or the handle of a finger
 
 enum class LoadKind { constant, viscous, curl, general, spring, channel };
 constexpr auto enum_names(LoadKind) {
     return std::array{"constant", "viscous", "curl", "general", "spring", "channel"};
 }
 
-/// A load as an experiment file describes it. A key that its kind has no use for is unknown.
+/// A load as described in an experiment file. Keys that its kind does not use are unknown.
 struct LoadSpec {
     using Effect = Load;
 
@@ -44,33 +45,33 @@ struct LoadSpec {
     FormulaVec3 force;           ///< f0 [N]
     FormulaVec3 torque;          ///< t0 [N*m]
     Formula damping = 0;         ///< b [N*s/m]
-    Formula stiffness = 0;       ///< k; a negative one drives away [N/m]
+    Formula stiffness = 0;       ///< k; it pushes away if negative [N/m]
     Mat3 A = Mat3::Zero();       ///< [N/m]
     Mat3 B = Mat3::Zero();       ///< [N*s/m]
     Ref<Region> about;           ///< p0, or a point of the line or plane
-    std::optional<Vec3> axis;    ///< e of a curl; direction of a spring's line
+    std::optional<Vec3> axis;    ///< e of a curl field; direction of a spring's line
     std::optional<Vec3> normal;  ///< of a plane
     Ref<Region> from;            ///< on the line
     Ref<Region> to;              ///< on the line
-    std::optional<Vec3> free;    ///< direction that, with the line, spans a plane
-    bool one_sided = false;      ///< a plane acts only behind it, where its normal points from
-    std::optional<double> zone;  ///< distance at which the load begins to fade [m]
-    double fade = 0.01;          ///< distance within which it fades [m]
-    Formula delay = 0;           ///< age of the p and v that feed the load [s]
+    std::optional<Vec3> free;    ///< direction that spans a plane with the line
+    bool one_sided = false;      ///< a plane acts only opposite to its normal
+    std::optional<double> zone;  ///< distance at which fading starts [m]
+    double fade = 0.01;          ///< distance over which it fades [m]
+    Formula delay = 0;           ///< age of p and v in the law [s]
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("kind", kind, Field::text().required().says("Law of the load."));
         v("on", on,
-          Field::text().required().says("Fingers, whose handles it acts on, and bodies."));
+          Field::text().required().says("Bodies, and fingers on whose handles the load acts."));
         switch (kind) {
             case LoadKind::constant:
                 visit_force(v);
                 v("torque", torque,
                   Field::of(Quantity::torque)
                       .within(-10, 10)
-                      .says("Torque, on bodies and on handles of devices that render torque."));
+                      .says("Torque on bodies, and on handles of devices that render torque."));
                 break;
             case LoadKind::viscous:
                 visit_damping(v);
@@ -83,12 +84,12 @@ struct LoadSpec {
                 v("A", A,
                   Field::of(Quantity::stiffness)
                       .within(-1e5, 1e5)
-                      .says("Matrix by which the force follows the position relative to the "
-                            "region's centre."));
+                      .says(
+                          "Matrix that multiplies the position relative to the region's centre."));
                 v("B", B,
                   Field::of(Quantity::damping)
                       .within(-1000, 1000)
-                      .says("Matrix by which the force follows the velocity."));
+                      .says("Matrix that multiplies the velocity."));
                 visit_force(v);
                 v("about", about, says("Region whose centre is p0."));
                 visit_zone(v, "safe_within");
@@ -97,11 +98,11 @@ struct LoadSpec {
                 v("stiffness", stiffness,
                   Field::of(Quantity::stiffness)
                       .within(-1e5, 1e5)
-                      .says("Stiffness; a negative one drives away."));
+                      .says("Stiffness; the load pushes away if it is negative."));
                 visit_place(v);
                 v("axis", axis, direction().says("Direction of a line through the region."));
                 v("one_sided", one_sided,
-                  says("Whether a plane acts only behind it, where its normal points from."));
+                  says("Whether a plane acts only on the side opposite to its normal."));
                 visit_zone(v, "safe_within");
                 break;
             case LoadKind::channel:
@@ -115,11 +116,11 @@ struct LoadSpec {
             v("delay", delay,
               Field::of(Quantity::time)
                   .within(0, 2)
-                  .says("Age of the position and velocity that feed the load."));
+                  .says("Age of the position and velocity from which the load is computed."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 
-    /// Whether it is a field whose force follows the velocity alone, or among others.
+    /// Whether it is a field whose force depends on the velocity, alone or with other terms.
     bool pushes_by_velocity() const;
 
   private:
@@ -129,41 +130,42 @@ struct LoadSpec {
         v("force", force,
           Field::of(Quantity::force)
               .within(-1000, 1000)
-              .says("Force that does not depend on position and velocity."));
+              .says("Force independent of position and velocity."));
     }
     template <class Visitor>
     void visit_damping(Visitor& v) {
         v("damping", damping,
           Field::of(Quantity::damping)
               .within(-1000, 1000)
-              .says("Damping; a negative one drives on."));
+              .says("Damping; the load drives motion on if it is negative."));
     }
     template <class Visitor>
     void visit_place(Visitor& v) {
         visit_damping(v);
-        v("about", about, says("Region whose centre is the point, or lies on the line or plane."));
+        v("about", about,
+          says("Region whose centre is the point, or a point of the line or plane."));
         v("normal", normal, direction().says("Normal of a plane through the region."));
-        v("from", from, says("Region that a line leads from."));
-        v("to", to, says("Region that it leads to."));
-        v("free", free, direction().says("Direction that, with the line, spans a plane."));
+        v("from", from, says("Region from which the line leads."));
+        v("to", to, says("Region to which the line leads."));
+        v("free", free, direction().says("Direction that spans a plane with the line."));
     }
     template <class Visitor>
     void visit_zone(Visitor& v, const char* name) {
         v(name, zone,
           Field::length().positive().at_most(10).says(
-              "Distance beyond which the load fades; left out, it does not."));
+              "Distance beyond which the load fades; it does not fade if omitted."));
         v("fade", fade,
-          Field::length().within(1e-4, 10).says("Distance within which it fades to zero."));
+          Field::length().within(1e-4, 10).says("Distance over which the load fades to zero."));
     }
 };
 
-/// Adds the load's kind and size, as a report states it.
+/// Adds the load's kind and size, as worded in a report.
 void say(const LoadSpec& spec, std::vector<std::string>& out);
 
 /// A load with its names looked up. In the tick it neither allocates nor throws.
 class Load {
   public:
-    /// Problems with the spec go to `diagnostics`.
+    /// Problems in the spec go to `diagnostics`.
     Load(const LoadSpec& spec, const Names& names, const scene::Scene& scene,
          Diagnostics& diagnostics);
 
@@ -172,9 +174,9 @@ class Load {
     bool is_computed() const;
     double stiffness() const { return spec_.stiffness.value; }
     double delay() const { return spec_.delay.value; }
-    /// The most that its delay may be [s].
+    /// Upper bound of its delay [s].
     double longest_delay() const;
-    /// What it acts on: indices of bodies; fingers come after the scene's bodies.
+    /// Its objects: indices of bodies; fingers come after the scene's bodies.
     std::span<const int> on() const { return spec_.on.indices; }
     void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
                frame::TaskFrame& out) const noexcept;
@@ -182,23 +184,23 @@ class Load {
     void visit(Visitor& v) {
         spec_.visit(v);
     }
-    /// What it does to a thing with this motion. `regions_W`: centres of the regions [m].
+    /// Its force and torque on a thing with this motion. `regions_W`: centres of the regions [m].
     Wrench act(double share, std::span<const Vec3> regions_W, const Motion& motion) const noexcept;
-    /// Its force over velocity, at share 1 [N*s/m]; of channels and springs zero.
+    /// Matrix from velocity to its force at share 1 [N*s/m]; zero for channels and springs.
     Mat3 velocity_gain() const;
     /// Axis of a curl field; otherwise unset.
     std::optional<Vec3> axis() const;
 
-    /// The most that it may ask of a loop: norms of the matrices by which its force follows
-    /// position and velocity, and the force and torque that it reaches.
+    /// Its largest demand on a loop: norms of the matrices from position and velocity to its force,
+    /// and its largest force and torque.
     struct Demand {
-        double stiffness = 0;  ///< including that of its fading [N/m]
+        double stiffness = 0;  ///< including the contribution of its fading [N/m]
         double damping = 0;    ///< [N*s/m]
         double driving = 0;    ///< largest damping with which it drives motion on [N*s/m]
-        double force = 0;      ///< at rest; infinite where it grows with the distance [N]
+        double force = 0;      ///< at rest; infinite if it grows with the distance [N]
         double torque = 0;     ///< [N*m]
-        bool holds = false;    ///< it keeps a hand where it is, and may be as hard as it can
-        bool springs = false;  ///< its force is as large as the way, not the speed
+        bool holds = false;    ///< it holds a hand in place, and may be as stiff as possible
+        bool springs = false;  ///< its force is proportional to displacement, not speed
     };
     Demand demand() const;
 
@@ -214,9 +216,9 @@ class Load {
 
     LoadSpec spec_;
     Shape shape_ = Shape::point;
-    Vec3 direction_ = Vec3::UnitZ();  // of e, of a line about a region, or a plane's normal
-    bool between_ = false;            // the line leads from one region to another
-    int origin_ = -1;                 // region of p0, or where the line begins
+    Vec3 direction_ = Vec3::UnitZ();  // e, direction of a line, or normal of a plane
+    bool between_ = false;            // its line leads from one region to another
+    int origin_ = -1;                 // region of p0, or of the line's start
 };
 
 }  // namespace dihaptic::task

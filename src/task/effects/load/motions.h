@@ -1,4 +1,4 @@
-// Keeps how bodies and handles moved in the last ticks, for loads that are fed with a delay.
+// Stores the motion of bodies and handles in the last ticks, for loads with a delay.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,8 @@ struct Motion {
     Vec3 v_W = Vec3::Zero();  ///< its velocity [m/s]
 };
 
-/// Things are indexed as bodies are in the Frame: the scene's, and after them the fingers' handles.
-/// Once constructed it allocates nothing.
+/// Things have the same indices as bodies in the Frame: the scene's bodies, then the fingers'
+/// handles. Once constructed, it allocates nothing.
 class Motions {
   public:
     /// `longest`: the longest delay [s].
@@ -27,7 +27,7 @@ class Motions {
           rows_(static_cast<size_t>(ticks(longest)) + 1, std::vector<Motion>(bodies + fingers)),
           known_(bodies + fingers, 0) {}
 
-    /// Begins a tick: handles are those of this tick, bodies those at the end of the last.
+    /// Starts a tick: handles are from this tick, bodies from the end of the last one.
     void add(const frame::Frame& last, std::span<const frame::Handle> handles) noexcept {
         now_ = (now_ + 1) % rows_.size();
         for (size_t i = 0; i < bodies_ && last.sequence >= 0; ++i)
@@ -35,15 +35,14 @@ class Motions {
         for (size_t i = 0; i < handles.size(); ++i)
             set(bodies_ + i, {handles[i].p_WH, handles[i].v_WH});
     }
-    /// The body is put at rest at p_W in this tick: where it was before does not count any more.
+    /// The body is placed at rest at p_W in this tick: its earlier motion is discarded.
     void put(int body, const Vec3& p_W) noexcept {
         known_[static_cast<size_t>(body)] = 0;
         set(static_cast<size_t>(body), {p_W, Vec3::Zero()});
     }
     void forget() noexcept { std::fill(known_.begin(), known_.end(), 0); }
 
-    /// How the thing moved `delay` ago [s], or the first that is known of it; null where nothing
-    /// is.
+    /// Motion of the thing `delay` ago [s], or its oldest known motion; null if there is none.
     const Motion* of(int thing, double delay) const noexcept {
         const auto i = static_cast<size_t>(thing);
         if (known_[i] == 0) return nullptr;
@@ -61,8 +60,8 @@ class Motions {
     size_t bodies_;
     double tick_;
     std::vector<std::vector<Motion>> rows_;  // a ring
-    std::vector<size_t> known_;              // by thing: rows that count
-    size_t now_ = 0;                         // row of this tick
+    std::vector<size_t> known_;              // by thing: number of valid rows
+    size_t now_ = 0;                         // row for this tick
 };
 
 }  // namespace dihaptic::task

@@ -14,7 +14,8 @@ uint32_t moves_of(const VisualSpec& visual, Diagnostics& diagnostics) {
     const std::vector<std::string> names{"proxies", "object", "target"};
     uint32_t moves = 0;
     for (const std::string& name : visual.moves) {
-        const int i = look_up(names, name, visual.place, "moves", "nothing to move", diagnostics);
+        const int i = look_up(names, name, visual.place, "moves", "not an object that can be moved",
+                              diagnostics);
         if (i >= 0) moves |= 1u << i;
     }
     return moves;
@@ -24,7 +25,7 @@ bool displaces(const VisualSpec& visual) {
     return visual.delay != 0 || !visual.noise.isZero(0);
 }
 
-/// A map that only delays or shakes what is shown needs no centre.
+/// A map that only adds a delay or noise needs no centre.
 bool has_centre(const VisualSpec& visual) {
     return !displaces(visual) || !visual.about.empty() || !visual.toward.empty() ||
            visual.angle != 0 || visual.scale != kNoFactors || visual.size != 1;
@@ -46,14 +47,14 @@ void VisualEffect::check(Diagnostics& diagnostics) const {
     };
     const bool moves_object = (moves_ & frame::kMovesObject) != 0;
     if (displaces(spec_) && !moves_object && (moves_ & frame::kMovesProxies) == 0)
-        error(spec_.delay != 0 ? "delay" : "noise",
-              "is of proxies or the object, which are not moved", "Add proxies to moves.");
+        error(spec_.delay != 0 ? "delay" : "noise", "needs proxies or the object among moves",
+              "Add proxies to moves.");
     if (moves_object && object_ < 0)
-        error("moves", "the scene has no object that can move", "Leave out object.");
+        error("moves", "the scene has no movable object", "Leave out object.");
     if (spec_.size != 1 && !moves_object)
-        error("size", "is the object's, which is not moved", "Add object to moves.");
+        error("size", "needs the object among moves", "Add object to moves.");
     if (spec_.toward.index >= 0 && (spec_.angle != 0 || spec_.scale != kNoFactors))
-        error("toward", "what is shown on a line can be neither rotated nor scaled",
+        error("toward", "motion shown on a line can be neither rotated nor scaled",
               "Leave out angle_deg and scale, or toward.");
 }
 

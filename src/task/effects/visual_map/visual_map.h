@@ -19,34 +19,34 @@ namespace dihaptic::task {
 class Names;
 class VisualEffect;
 
-/// A change of displayed motion: it is scaled and rotated about a region's centre, or led along the
-/// straight line to another region.
+/// A change of displayed motion: scaling and rotation about a region's centre, or projection onto
+/// the straight line to another region.
 struct VisualSpec {
     using Effect = VisualEffect;
 
     std::vector<std::string> moves;  ///< proxies, object, target
     Ref<Region> about;
-    FormulaVec3 scale{1, 1, 1};  ///< along the world's axes
+    FormulaVec3 scale{1, 1, 1};  ///< along the world axes
     std::optional<Vec3> axis;    ///< axis of the rotation
     Formula angle = 0;           ///< angle of the rotation, right-handed [rad]
     Ref<Region> toward;          ///< motion is shown on the line from `about` to it, at
                                  ///< its true distance from `about`
-    Formula size = 1;            ///< the object's displayed size over its true size
-    Formula delay = 0;           ///< proxies and object are shown this much later [s]
-    Vec3 noise = Vec3::Zero();   ///< SD of noise on where they are shown, in W [m]
+    Formula size = 1;            ///< ratio of the object's displayed size to its true size
+    Formula delay = 0;           ///< display delay of proxies and object [s]
+    Vec3 noise = Vec3::Zero();   ///< SD of noise on their displayed positions, in W [m]
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("moves", moves,
           Field::text().required().says(
-              "What is shown elsewhere than it is: any of proxies, object and target."));
+              "Displayed objects that the map moves: any of proxies, object and target."));
         v("about", about,
-          says("Region about whose centre motion is scaled and rotated, or from "
-               "which the line begins."));
+          says("Region about whose centre motion is scaled and rotated, or at which the line "
+               "starts."));
         v("scale", scale,
           Field::number().within(-10, 10).says(
-              "Factors on displayed motion along the world's axes."));
+              "Factors on displayed motion along the world axes."));
         v("axis", axis,
           Field::number().within(-1000, 1000).says("Axis of the rotation, through the centre."));
         v("angle", angle,
@@ -54,33 +54,34 @@ struct VisualSpec {
               .within(-6.3, 6.3)
               .says("Angle of the rotation, right-handed."));
         v("toward", toward,
-          says("Region that the line leads to on which motion is shown, at its true "
-               "distance from the beginning."));
+          says("Region at the end of the line on which motion is shown, at its true distance from "
+               "the start."));
         v("size", size,
-          Field::number().within(0.1, 10).says("Displayed over true size of the object."));
+          Field::number().within(0.1, 10).says(
+              "Ratio of the object's displayed size to its true size."));
         v("delay", delay,
           Field::of(Quantity::time)
               .within(0, 5)
-              .says("How much later proxies and object are shown."));
+              .says("Delay with which proxies and object are shown."));
         v("noise", noise,
           Field::length().within(0, 1).says(
-              "Standard deviation of noise on where they are shown, along the world's axes."));
+              "Standard deviation of noise on their displayed positions, along the world axes."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// Adds what is changed, and by how much, as a report states it.
+/// Adds the changes and their size, as worded in a report.
 void say(const VisualSpec& spec, std::vector<std::string>& out);
 
 class VisualEffect {
   public:
-    /// Problems with the spec go to `diagnostics`.
+    /// Problems in the spec go to `diagnostics`.
     VisualEffect(const VisualSpec& spec, const Names& names, const scene::Scene& scene,
                  Diagnostics& diagnostics);
 
-    /// The axis of its rotation; unset if it does not rotate.
+    /// The axis of its rotation; unset if there is no rotation.
     std::optional<Vec3> axis() const;
-    /// The most that its delay may be [s].
+    /// Upper bound of its delay [s].
     double longest_delay() const;
     void order(double share, std::span<const Vec3> regions_W, const Motions& motions,
                frame::TaskFrame& out) const noexcept;
@@ -93,7 +94,7 @@ class VisualEffect {
     void check(Diagnostics& diagnostics) const;
 
     VisualSpec spec_;
-    uint32_t moves_ = 0;  // a sum of frame::Moves
+    uint32_t moves_ = 0;  // bitwise sum of frame::Moves
     int object_ = -1;
     Vec3 axis_ = Vec3::UnitZ();
 };
