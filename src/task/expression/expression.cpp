@@ -271,7 +271,7 @@ class Compiler : Parts {
             case Token::Kind::end:
                 --at_;
                 throw Fault{first.column, "the expression ends where a value is expected",
-                            "Write what is missing."};
+                            "Complete the expression."};
         }
         throw Fault{first.column,
                     fmt::format("'{}' is given where a value is expected", first.text),

@@ -12,7 +12,7 @@
 //     abs min max sqrt exp log sin cos tan atan2 hypot floor ceil round sign clamp
 //     norm(v) distance(a, b) dot(a, b)
 //     inside(thing, region) outside(thing, region)    thing: a body, a finger, a hand; hand: all
-//     touched(body, thing) released(body, thing) gripped(body, hand)       thing: hand if left out
+//     touched(body, thing) released(body, thing) gripped(body, hand)       thing: hand if omitted
 //     lifted(body, height) still(thing, speed)                             20 mm, 20 mm/s
 //     contact_force(thing, thing)                                          normal force [N]
 //
@@ -63,7 +63,7 @@ class Expression {
   private:
     friend class Compiler;
     friend class Parts;
-    static constexpr size_t kDeepest = 32;  // values on the stack
+    static constexpr size_t kDeepest = 32;  // largest number of values on the stack
     using Function = double (*)(const double* arguments) noexcept;
     /// Pushes a value onto the stack, or replaces a function's arguments with its value.
     struct Step {

@@ -171,7 +171,7 @@ class Parts {
     std::vector<Fault> remarks_;  // on valid but probably unintended text
 
   private:
-    static constexpr size_t kLongestProgram = 1000;  // steps
+    static constexpr size_t kLongestProgram = 1000;  // largest number of steps
 
     /// A value beyond the range of hands, for a quantity that is often given in a smaller unit.
     struct Scale {

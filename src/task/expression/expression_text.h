@@ -27,7 +27,7 @@ struct Token {
     }
 };
 
-/// The text's tokens, with one at its end. Throws Fault.
+/// The text's tokens, with an end token. Throws Fault.
 std::vector<Token> tokens_of(std::string_view text);
 
 }  // namespace dihaptic::task

@@ -9,7 +9,7 @@
 namespace dihaptic::task {
 namespace {
 
-constexpr int kComponent = sizeof(double);  // from one component of a vector to the next, in bytes
+constexpr int kComponent = sizeof(double);  // distance between components of a vector [bytes]
 
 /// The part of `name` after the thing's name and a dot, "" if there is none; nullopt if `name`
 /// belongs to something else.

@@ -105,7 +105,7 @@ class Checker {
     }
     bool in_order(std::optional<double> from, std::optional<double> to) {
         if (!from || !to || *from < *to) return true;
-        error("to", fmt::format("is {:g}, and from is {:g}", *to, *from),
+        error("to", fmt::format("is {:g}, but from is {:g}", *to, *from),
               "Make 'to' greater than 'from'.");
         return false;
     }

@@ -85,7 +85,7 @@ struct DrawSpec {
         v("exponential", exponential,
           says("Exponential distribution, which may be truncated; it gives a foreperiod a flat "
                "hazard."));
-        v("choice", choice, says("One of these numbers or texts."));
+        v("choice", choice, says("Random choice of one of these numbers or texts."));
         v("weights", weights,
           Field::number().within(0, 1e9).says(
               "Weight of each value in 'choice'; all are equally likely if omitted."));

@@ -30,7 +30,7 @@ void check_times(const DriveSpec& spec, Diagnostics& diagnostics) {
         diagnostics.error(spec.place, "duration", "is already given by the times of the path",
                           "Leave it out.");
     if (!spec.along.empty() && (spec.duration || spec.delay != 0))
-        diagnostics.error(spec.place, "duration", "belongs to to_mm, by_mm and angle_deg",
+        diagnostics.error(spec.place, "duration", "is only for to_mm, by_mm and angle_deg",
                           "Put the timing into the expressions, e.g. with time_in_state.");
     if (!spec.path && spec.along.empty() && !spec.duration)
         diagnostics.error(spec.place, "duration", "is missing", "Add e.g. duration_s: 0.8.");

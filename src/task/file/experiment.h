@@ -73,11 +73,11 @@ struct Experiment {
         v("rig", rig,
           says("Rig file; the search order is the same as for 'scene'. If omitted, ideal devices "
                "are simulated."));
-        v("hand", hand, says("The simulated hand, in place of the scene's."));
+        v("hand", hand, says("Simulated hand, in place of the hand in the scene."));
         v("movement", movement,
           says("Recorded movement that pulls the simulated fingers, in place of the "
                "hand's script."));
-        v("task", task, says("Trials, in place of one script."));
+        v("task", task, says("Trials, in place of the hand's script."));
         v("study", study, says("Information about the study that archives require."));
         v("settings", settings, says("Settings, which override those of the scene and the rig."));
         if constexpr (requires { v.place(); }) place = v.place();

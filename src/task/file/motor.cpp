@@ -21,7 +21,7 @@ void check_kind(const MotorSpec& spec, const scene::Joint& joint, Diagnostics& d
     const auto refuse = [&](bool given, const char* key, const char* what, const char* other) {
         if (given)
             diagnostics.error(spec.place, key, fmt::format("{} a {}", what, enum_name(joint.kind)),
-                              fmt::format("Give {} in its place.", other));
+                              fmt::format("Give {} instead.", other));
     };
     const char* const has = "is not the coordinate of";
     const char* const moves = "does not act on";
@@ -46,7 +46,7 @@ void check_form(const MotorSpec& spec, const scene::Joint& joint, Diagnostics& d
               "Give the joint a destination, or a force or torque.");
     if (goes && !spec.duration) error("duration", "is missing", "Add e.g. duration_s: 0.8.");
     if (!goes && has_times(spec))
-        error("duration", fmt::format("belongs to {}", to),
+        error("duration", fmt::format("is only for a motor with {}", to),
               "Put the timing into the expressions, e.g. with time_in_state.");
     if ((goes || follows) && !is_limited(spec))
         error(joint.slides() ? "most_force" : "most_torque", "is missing",

@@ -87,7 +87,8 @@ struct QuestSpec {
           Field::number().within(0, 1).says("Probability of 'yes' at the threshold."));
         v("slope", slope,
           Field::number().within(1e-3, 1000).says("Slope of the Weibull function."));
-        v("blind", blind, Field::number().within(0, 1).says("Share of answers that are lapses."));
+        v("blind", blind,
+          Field::number().within(0, 1).says("Share of trials that are answered blindly."));
         v("grain", grain, Field::number().within(1e-6, 10).says("Step of the grid of levels."));
         v("cells", cells, Field::number().within(2, 10000).says("Number of levels in the grid."));
         v("lowest", lowest,
@@ -167,7 +168,7 @@ struct ProcedureSpec {
     Refs<PerturbationSpec> perturb;  ///< their share is the level, unless `level` is given
     std::string level;  ///< name of a number, which gives the unit of levels; empty: a share
     std::optional<double> standard;  ///< value where no procedure chooses it, in the same unit
-    bool logarithmic = false;        ///< the share, or the number, is 10^level
+    bool logarithmic = false;        ///< the share or the number is 10^level
     std::string yes;                 ///< the outcome whose probability grows with the level
     std::string no;
     int trials = 40;  ///< largest number of them
@@ -192,7 +193,8 @@ struct ProcedureSpec {
           Field::number()
               .within(-kFurthestLevel, kFurthestLevel)
               .says("Value of the number in the other of two intervals."));
-        v("logarithmic", logarithmic, says("Whether the level is log10 of the share."));
+        v("logarithmic", logarithmic,
+          says("Whether the level is log10 of the share or the number."));
         v("yes", yes, says("Outcome whose probability grows with the level."));
         v("no", no, says("The other outcome."));
         v("trials", trials, Field::number().within(1, 1000).says("Largest number of trials."));
@@ -248,7 +250,7 @@ struct ProcedureSpec {
 /// order of constant levels. Throws Error if a setting is out of range.
 Procedure make_procedure(const ProcedureSpec& spec, uint64_t seed);
 
-/// Problems with the spec go to `diagnostics`.
+/// Problems in the spec go to `diagnostics`.
 void check(const ProcedureSpec& spec, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::task

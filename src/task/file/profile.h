@@ -23,7 +23,7 @@ constexpr auto enum_names(ProfileShape) {
 struct Profile {
     double delay = 0;               ///< before the rise [s]
     double rise = 0;                ///< [s]
-    std::optional<double> plateau;  ///< unset: it never falls [s]
+    std::optional<double> plateau;  ///< unset: no fall [s]
     double fall = 0;                ///< [s]
     ProfileShape shape = ProfileShape::linear;
     Place place;

@@ -18,8 +18,9 @@ struct Region {
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name, Field::text().required().says("Name of the region."));
-        v("position", position, Field::length().within(-100, 100).required().says("Its centre."));
-        v("radius", radius, Field::length().within(1e-4, 10).says("Its radius."));
+        v("position", position,
+          Field::length().within(-100, 100).required().says("Centre of the region."));
+        v("radius", radius, Field::length().within(1e-4, 10).says("Radius of the region."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

@@ -81,7 +81,7 @@ struct PageSpec {
     std::string picture;   ///< PNG file, relative to the experiment file
     std::string checksum;  ///< of the picture, once it is found (base/checksum.h)
     std::string key;       ///< one letter or digit; empty: any
-    double lasts = 0;      ///< longest time for which it is shown; 0: until the key [s]
+    double lasts = 0;      ///< longest time for which it is shown; 0: until the key press [s]
     Place place;
 
     template <class Visitor>

@@ -26,8 +26,8 @@ constexpr auto enum_names(Lasts) {
 
 /// Exactly one of a tone, noise or a file.
 struct SoundSpec {
-    static constexpr double kHighest = 20e3;            ///< [Hz]
-    static constexpr int64_t kLargest = 1'000'000'000;  ///< file [bytes]
+    static constexpr double kHighest = 20e3;            ///< frequency [Hz]
+    static constexpr int64_t kLargest = 1'000'000'000;  ///< size of a file [bytes]
 
     std::string name;
     std::optional<double> tone;  ///< frequency of a sine [Hz]

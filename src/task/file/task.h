@@ -198,7 +198,7 @@ struct HandStep {
     Ref<Region> reach;               ///< destination of the hand's centre
     Vec3 move = Vec3::Zero();        ///< displacement of the hand's centre [m]
     std::optional<double> aperture;  ///< aperture at the end of the step [m]
-    RefList<scene::Finger> fingers;  ///< only these move; empty: all
+    RefList<scene::Finger> fingers;  ///< fingers that move; empty: all
     Place place;
 
     template <class Visitor>
@@ -255,7 +255,7 @@ struct State {
     std::string name;
     Show show;
     std::vector<LookSpec> look;
-    bool perturbed = true;  ///< the trial's perturbations act
+    bool perturbed = true;  ///< the trial's perturbations act in it
     int interval = 0;       ///< interval to which it belongs, 1 or 2; 0: none
     std::string message;
     std::vector<std::string> lines;  ///< texts below the message while the state lasts
@@ -267,7 +267,7 @@ struct State {
     std::vector<StatePlace> places;
     std::vector<DriveSpec> drives;
     std::vector<MotorSpec> motors;
-    std::vector<Exit> exits;     ///< the first whose condition holds is taken
+    std::vector<Exit> exits;     ///< the first whose condition is met is taken
     std::vector<HandStep> hand;  ///< steps of the simulated hand from entry into the state
     Place place;
 
@@ -276,7 +276,7 @@ struct State {
         v("name", name, Field::text().required().says("Name of the state, to which exits refer."));
         show.visit_in(v);
         v("look", look, says("Colours and sizes of objects while the state lasts."));
-        v("perturbed", perturbed, says("Whether the trial's perturbations may act."));
+        v("perturbed", perturbed, says("Whether the trial's perturbations can act in the state."));
         v("interval", interval,
           Field::number().within(0, 2).says(
               "Interval of a two-interval trial to which the state belongs; 0: none."));
@@ -349,7 +349,7 @@ struct BodyPlace {
     }
 };
 
-/// A factor whose levels, crossed with those of the other factors, make the conditions.
+/// A factor whose levels are crossed with the levels of other factors to make conditions.
 struct Factor {
     std::string factor;               ///< name, which gives the unit of levels
     std::vector<std::string> levels;  ///< numbers, or texts
@@ -585,7 +585,7 @@ struct Task {
     /// Time for which feedback stays: no message replaces it, and no trial starts [s].
     double feedback = 1;
     bool feedback_beside = false;    ///< it is a line below the message for this time
-    std::vector<std::string> lines;  ///< texts below the message, throughout
+    std::vector<std::string> lines;  ///< texts below the message throughout the session
     std::optional<ReachMeasure> reach;
     std::vector<std::string> measures;  ///< names from kMeasureTable
     std::vector<OwnMeasure> own_measures;

@@ -110,7 +110,7 @@ void BodyPlanner::add_motor(const MotorSpec& spec, TaskPlan::Stage& out) {
     if (std::any_of(out.motors.begin(), out.motors.end(),
                     [&](const Motor& other) { return other.joint() == index; }))
         error(spec.place, "joint", fmt::format("'{}' has two motors", joint.name),
-              "Keep one of the two: a single motor can both follow a course and push.");
+              "Keep one motor: a single motor can both follow a course and push.");
     if (out.motors.size() == frame::TaskFrame::kMostMotors)
         error(spec.place, "joint", fmt::format("there are more than {} motors", out.motors.size()),
               "Leave some out.");

@@ -12,7 +12,7 @@ namespace dihaptic::task {
 namespace {
 
 constexpr size_t kMostTrials = 100000;
-constexpr size_t kMostPerturbations = 8;  // of a trial
+constexpr size_t kMostPerturbations = 8;  // in a trial
 
 class BlockChecker {
   public:
@@ -37,7 +37,7 @@ class BlockChecker {
         for (const auto& [key, name] : {std::pair{"yes", &procedure.yes}, {"no", &procedure.no}}) {
             if (name->empty()) continue;
             const int i = look_up(names_of(plan_.outcomes), *name, procedure.place, key,
-                                  "no outcome", diagnostics_);
+                                  "not an outcome", diagnostics_);
             if (i >= 0 && plan_.outcomes[static_cast<size_t>(i)].redo)
                 error(procedure.place, key,
                       fmt::format("trials that end with '{}' are repeated", *name),
@@ -76,7 +76,7 @@ class BlockChecker {
                   fmt::format("makes more than {} trials in total", kMostTrials), "Reduce it.");
     }
 
-    /// Checks the perturbations of a trial, each and together.
+    /// Checks the perturbations of a trial, individually and in combination.
     void check_perturbations(const Refs<PerturbationSpec>& names, const Place& place) {
         const std::vector<int>& which = names.indices;
         for (auto i = which.begin(); i != which.end(); ++i) {
@@ -159,7 +159,7 @@ class BlockChecker {
                   "Leave out 'perturb' and 'ramp'.");
         if (block.kind == TrialKind::perturbed && block.perturb.empty() && block.procedures.empty())
             error(block.place, "perturb", "is missing in a perturbed block",
-                  "Name a perturbation, or make it a baseline block.");
+                  "Name a perturbation, or write kind: baseline.");
         check_clamp(block.kind, block.perturb, block.place);
         if (block.ramp > 0 && block.perturb.empty())
             error(block.place, "ramp", "needs a perturbation", "Add perturb.");
@@ -182,7 +182,7 @@ class BlockChecker {
         });
         if (has_channel == channels) return;
         error(place, "kind",
-              fmt::format("is {}, and '{}' {} a force channel", enum_name(kind),
+              fmt::format("is {}, but '{}' {} a force channel", enum_name(kind),
                           fmt::join(perturb, kBetweenNames), channels ? "is not" : "is"),
               channels ? remedy : "Write kind: force_channel.");
     }

@@ -29,7 +29,8 @@ void check_order(const Task& task, Diagnostics& diagnostics) {
         const std::set<std::string> values(draw.values().begin(), draw.values().end());
         if (values == std::set<std::string>{"1", "2"}) continue;
         diagnostics.error(
-            draw.place, "name", fmt::format("'{}' is the interval of the comparison", draw.name),
+            draw.place, "name",
+            fmt::format("'{}' is reserved for the comparison interval", draw.name),
             "Draw it by choice or permutation: [1, 2], or give the draw another name.");
     }
 }

@@ -57,7 +57,7 @@ inline Vec3 axis_of(const std::optional<Vec3>& given, const Place& place, const 
     return Vec3::UnitZ();
 }
 
-/// Reports an error for each name that is given twice.
+/// Reports an error for each duplicate name.
 template <class T>
 void check_names(const std::vector<T>& list, const char* what, Diagnostics& diagnostics) {
     std::set<std::string_view> names;

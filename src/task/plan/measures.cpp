@@ -153,7 +153,7 @@ class MeasureChecker {
         const PerturbationSpec* ideal = ideal_of(task_, movement_);
         if (ideal == nullptr && movement_.ideal.empty()) {
             error("ideal", "is missing: adaptation_index needs a field that is learned",
-                  "Add a perturbation whose field is curl or viscous.");
+                  "Add a perturbation with a curl or viscous field.");
         } else if (ideal == nullptr) {
             look_up(names_of(task_.perturbations), movement_.ideal, place_, "ideal",
                     "not a perturbation", diagnostics_);

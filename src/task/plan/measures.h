@@ -166,7 +166,7 @@ struct OwnMeasure {
         v("name", name,
           Field::text().required().says(
               "Name of its column in trials.csv, with the unit, e.g. squeeze_N."));
-        v("of", of, Field::text().required().says("An expression, evaluated in each tick."));
+        v("of", of, Field::text().required().says("Expression that is evaluated in each tick."));
         v("take", take, Field::text().required().says("Statistic of its values that is reported."));
         v("during", during, says("States in which it is evaluated; all if omitted."));
         if constexpr (requires { v.place(); }) place = v.place();

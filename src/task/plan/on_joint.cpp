@@ -75,7 +75,7 @@ void check_coordinate(const BodyPlace& place, const scene::Joint& joint, Diagnos
         diagnostics.error(
             place.place, joint.slides() ? "rate" : "speed",
             fmt::format("does not apply to a {}", enum_name(joint.kind)),
-            fmt::format("Give {} in its place.", joint.slides() ? "speed_mm_s" : "rate_deg_s"));
+            fmt::format("Give {} instead.", joint.slides() ? "speed_mm_s" : "rate_deg_s"));
     if (place.velocity)
         diagnostics.error(place.place, "velocity", "is only for a body, but a joint is named",
                           "Give the joint's rate_deg_s or speed_mm_s.");

@@ -230,7 +230,7 @@ std::optional<Expression> condition(const std::string& text, Quantities& quantit
     if (found.has_errors()) return {};
     if (out.type() != Expression::Type::truth) {
         diagnostics.error(place, key, fmt::format("'{}' is not a condition", text),
-                          "Compare something, e.g. score > 10.");
+                          "Write a comparison, e.g. score > 10.");
     }
     return out;
 }
@@ -265,7 +265,7 @@ std::optional<CompiledFormula> compile_formula(const Formula& formula, const Tas
     const Quantity wanted = formula.field.quantity;
     const Dimension given = out.expression.dimension();
     if (out.expression.type() != Expression::Type::number) {
-        formula_error(formula, "must be a number or a formula of one",
+        formula_error(formula, "must be a number, or a formula with a number as its result",
                       "Convert a condition to a number with if, e.g. 10 if side > 0 else 20.",
                       diagnostics);
     } else if (given == Dimension{}) {

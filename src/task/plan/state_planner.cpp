@@ -131,7 +131,7 @@ class StatePlanner : Planning {
         for (const Exit& exit : state.exits) {
             if (exit.when != When::answered) continue;
             if (!state.ask) {
-                error(exit.place, "when", "the state asks for no number",
+                error(exit.place, "when", "the state does not ask for a number",
                       "Add e.g. ask: { name: heaviness, scale: numbers, from: 1, to: 9 }.");
             } else if (state.ask->by == AnswerBy::cursor) {
                 error(exit.place, "when", "an answer by cursor is available at all times",
@@ -185,7 +185,7 @@ class StatePlanner : Planning {
             Expression::compile(text, plan.quantities, exit.place, "when", diagnostics);
         if (!out.empty() && out.type() != Expression::Type::truth)
             error(exit.place, "when", fmt::format("'{}' is not a condition", text),
-                  fmt::format("Compare it with something, e.g. {} > 2.", text));
+                  fmt::format("Compare it with a value, e.g. {} > 2.", text));
         return out;
     }
 

@@ -146,7 +146,7 @@ struct TaskPlan {
     size_t bodies = 0;                  ///< number in the scene
     std::vector<double> finger_radius;  ///< radius of the sphere around each finger's shape [m]
     double longest_delay = 0;           ///< in the loads [s]
-    int move_away = -1;                 ///< message while a finger is in the way
+    int move_away = -1;                 ///< message while a finger obstructs a body
 
     struct Page {
         PageSpec spec;
@@ -163,7 +163,7 @@ struct TaskPlan {
     };
     std::vector<Opening> openings;  ///< by block of the task
     int rest = -1;                  ///< message during a break
-    int countdown = -1;             ///< line that counts down
+    int countdown = -1;             ///< line with the countdown
     std::vector<int> lines;         ///< messages that are shown throughout
     int object = -1;                ///< body index of the scene's object
     uint32_t going_on = 0;          ///< sounds that last while states name them, one bit each

@@ -137,7 +137,7 @@ void deal_conditions(const std::vector<int>& conditions, Order order, int number
     }
 }
 
-/// Every condition once in each repeat.
+/// Deals every condition once in each repeat.
 std::vector<Trial> repeated_trials(const std::vector<int>& conditions, const Block& block,
                                    Trial trial, int number, Random& random) {
     const int n = static_cast<int>(conditions.size());

@@ -12,10 +12,10 @@ double Procedure::level() const {
 
 void Procedure::answer(double level, bool yes) {
     if (!std::isfinite(level))
-        throw Error("a trial's level is not a number", "give the level that was shown");
+        throw Error("a trial's level is not a number", "give the level that was presented");
     if (done())
-        throw Error("an answer came after the procedure was done",
-                    "end its trials when it is done");
+        throw Error("an answer arrived after the procedure had ended",
+                    "run no trials of a procedure after its end");
     std::visit([&](auto& kind) { kind.answer(level, yes); }, kind_);
 }
 

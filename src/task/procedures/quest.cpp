@@ -45,7 +45,7 @@ void check(const QuestSettings& s) {
     require(positive(s.slope), "slope", "is not above 0", "3.5 is usual");
     require(positive(s.grain), "grain", "is not above 0", "0.01 is usual");
     require(s.guess >= 0 && s.guess < 1, "guess", "is not in [0, 1)",
-            "give the probability of guessing right, e.g. 0.5 for two choices");
+            "give the probability of a correct guess, e.g. 0.5 for two choices");
     require(s.blind >= 0 && s.blind < 1, "blind", "is not in [0, 1)", "0.01 is usual");
     require(s.target > s.guess && s.target < 1 - s.blind * (1 - s.guess), "target",
             "is not between the guess and lapse rates", "0.82 is usual for two choices");

@@ -34,14 +34,14 @@ void check(const QuestPlusSettings& s) {
     const double most = std::numeric_limits<double>::max();
     const double least = std::numeric_limits<double>::min();
     const bool linear_weibull = s.sigmoid == model::Sigmoid::weibull;
-    grid("levels", s.levels, -most, most, "list the levels that may be shown");
+    grid("levels", s.levels, -most, most, "list the levels that may be presented");
     grid("thresholds", s.thresholds, linear_weibull ? least : -most, most,
          linear_weibull ? "list possible thresholds, above 0" : "list possible thresholds");
     grid("shapes", s.shapes, least, most, "list possible shapes, above 0");
     grid("lapses", s.lapses, 0, 0.49, "list possible lapse rates, from 0 to 0.49");
     if (!(s.guess >= 0 && s.guess < 1))
         problems.error({}, "guess", "is not in [0, 1)",
-                       "give the probability of guessing right, e.g. 0.5 for two choices");
+                       "give the probability of a correct guess, e.g. 0.5 for two choices");
     else if (!s.guess_is_lapse && !s.lapses.empty() && s.guess + s.lapses.back() >= 1)
         problems.error({}, "lapses", "and guess leave no range between them",
                        "guess + lapse must be below 1");

@@ -3,7 +3,7 @@
 //
 //     p = (1 + D/U)^(-1/k)
 //
-// For k = 1 this is the weighted method of Kaernbach (1991), whatever the size of the steps. For k
+// For k = 1 this is the weighted method of Kaernbach (1991), for all step sizes. For k
 // > 1 it holds well only at the ratios of Garcia-Perez (1998), kGarciaPerez. Steps are additive:
 // for multiplicative steps, use logarithms of the levels.
 #pragma once

@@ -34,7 +34,7 @@ class Opening {
     }
 
     const TaskPlan& plan_;
-    int opened_ = 0;  // number of the last block that was opened, from 1
+    int opened_ = 0;  // number of the last block with a completed opening, from 1
     int on_ = 0;      // number of the block whose opening is in progress; 0: none
     int block_ = 0;   // index of that block in the task
     int at_ = -1;     // index of the block's current page; -1: the break

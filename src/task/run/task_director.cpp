@@ -207,7 +207,7 @@ void TaskDirector::follow(const Decision& decision, double now) noexcept {
     feedback_until_ = now + plan_.task.feedback - tick_ / 2;
 }
 
-/// Whether all bodies can be put back.
+/// Whether all bodies can be returned to their homes.
 bool TaskDirector::clear(const frame::Frame& last) const noexcept {
     const auto& homes = numbers_.cell().homes;
     return std::all_of(homes.begin(), homes.end(),
@@ -313,7 +313,7 @@ void TaskDirector::finish(int outcome, bool redo, double now, frame::Commands& c
     last_trial_ = queue_.trial() + 1;
     last_attempt_ = queue_.attempt();
     commands.trial = last_trial_;
-    // a trial skipped before it began has its only frame in its first state
+    // a trial that is skipped before its start has a single frame, in its first state
     commands.phase = std::max(state_, 0) + 1;
     commands.task.attempt = last_attempt_;
     commands.task.outcome = outcome;

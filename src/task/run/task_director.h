@@ -111,12 +111,12 @@ class TaskDirector {
     std::vector<frame::VariableFrame> variables_;
     bool begun_ = false;      // the trial's numbers are resolved
     int state_ = -1;          // -1: between trials
-    double trial_began_ = 0;  // when the trial entered its first state [s]
-    double entered_ = 0;      // [s]
+    double trial_began_ = 0;  // time of entry into the trial's first state [s]
+    double entered_ = 0;      // time of entry into the state [s]
     int message_ = -1;
     int next_message_ = -1;       // shown after the feedback
     int feedback_ = -1;           // line below the message
-    double feedback_until_ = -1;  // [s]
+    double feedback_until_ = -1;  // end of the feedback [s]
     int last_trial_ = 0;          // last trial that ended, from 1; 0: none yet
     int last_attempt_ = 0;
     /// State of an exit's condition.
@@ -127,7 +127,7 @@ class TaskDirector {
     };
     std::vector<Judged> judged_;
     std::vector<char> is_put_;        // by placement in the state: whether it has been done
-    std::vector<Pose> put_at_;        // and where
+    std::vector<Pose> put_at_;        // by placement: pose of its body
     std::vector<Pose> drive_from_;    // by drive: pose of its body at the state's start
     std::vector<double> motor_from_;  // by motor: coordinate of its joint at the state's start
     bool driving_ = false;            // drive_from_ and motor_from_ are valid for this state
@@ -140,7 +140,7 @@ class TaskDirector {
     Opening opening_;
     Between* between_ = nullptr;
     bool asked_ = false;    // asked, but no decision yet
-    double ask_until_ = 0;  // [s]
+    double ask_until_ = 0;  // time limit for the decision [s]
     std::atomic<char> key_{0};
     std::atomic<double> clicked_{Rating::kNowhere};
     std::atomic<int> trigger_{0};

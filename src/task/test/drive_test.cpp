@@ -174,7 +174,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kMarker, "      drive: [{ body: block, along: [0, 0, 2 N] }]\n",
                 "does not have the dimension of length"},
         Mistake{kMarker, "      drive: [{ body: block, along: [0, 0, 3 mm], duration_s: 2 }]\n",
-                "belongs to to_mm, by_mm and angle_deg"},
+                "is only for to_mm, by_mm and angle_deg"},
         Mistake{kMarker, "      drive: [{ body: block, angle_deg: 9, duration_s: 2 }]\n",
                 "axis: is missing"},
         Mistake{kMarker, "      drive: [{ body: block, along: [0, 0, 3 mm], axis: [0, 0, 1] }]\n",

@@ -314,7 +314,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kSide, "{ name: side, choice: [-1, 1], participant: yes }", "more than one way"},
         Mistake{"mean: 0.1, ", "", "mean"}, Mistake{"mean: 0.1", "mean: -0.1", "mean"},
         Mistake{"mean: 0.1", "mean: wait", "must be a number"},
-        Mistake{"to: 0.3", "to: 0.03", "is 0.03, and from is 0.1"},
+        Mistake{"to: 0.3", "to: 0.03", "is 0.03, but from is 0.1"},
         Mistake{kSide, "{ name: side, normal: { mean: 0, sd: 1, from: 9, to: 10 } }",
                 "of its values between"},
         Mistake{kSide, "{ name: side, normal: { mean: 0 } }", "sd"},

@@ -264,7 +264,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"joint: drawer,", "joint: weld,", "Name a hinge, a slider or a distance."},
         Mistake{"joint: drawer,", "joint: shoulder,", "Keep one of the two"},
         Mistake{"displacement_mm: 40", "angle_deg: 40", "Give displacement_mm in its place."},
-        Mistake{"displacement_mm: 40, ", "", "belongs to displacement"},
+        Mistake{"displacement_mm: 40, ", "", "is only for a motor with displacement"},
         Mistake{"displacement_mm: 40, duration_s: 0.5, most_force_N: 2", "most_force_N: 2",
                 "is missing, and so are follow and push"},
         Mistake{"duration_s: 0.5, ", "", "Add e.g. duration_s: 0.8."},

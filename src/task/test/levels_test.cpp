@@ -330,7 +330,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{", chooses: 2", "", "leads nowhere"},
         Mistake{"perturb: felt", "perturb: flet", "Did you mean felt?"},
         Mistake{"  states:", "  draws: [{ name: comparison_interval, choice: [1, 3] }]\n  states:",
-                "is the interval of the comparison"},
+                "is reserved for the comparison interval"},
         Mistake{"trials: 60", "trials: 60\n      yes: better", "not an outcome"},
         Mistake{"trials: 60", "trials: 60\n      constant: { levels: [1, 1] }",
                 "more than one way"}));

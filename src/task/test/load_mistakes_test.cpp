@@ -62,7 +62,8 @@ INSTANTIATE_TEST_SUITE_P(
                 "loads: [{ kind: general, on: index, about: start, "
                 "A_N_m: [[9, 0, 0], [0, -1, 0], [0, 0, -1]] }]",
                 "like a spring of -9 N/m"},
-        Mistake{kField, "loads: [{ kind: spring, on: index, about: start }]", "a spring needs one"},
+        Mistake{kField, "loads: [{ kind: spring, on: index, about: start }]",
+                "a spring needs a stiffness"},
         Mistake{kField, "loads: [{ kind: spring, on: index, stiffness_N_m: 9 }]", "from"},
         Mistake{kField, "loads: [{ kind: spring, on: index, about: strat, stiffness_N_m: 9 }]",
                 "Did you mean start?"},

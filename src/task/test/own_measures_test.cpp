@@ -96,7 +96,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kBlocks, "{ name: a_N, of: index.speed, take: max }", "but must be a"},
         Mistake{kBlocks, "{ name: a, of: index.speed, take: max }", "but must be a"},
         Mistake{kBlocks, "{ name: a_m_s, of: index.speed > 1 m_s, take: max }",
-                "must be a number or a formula of one"},
+                "must be a number, or a formula with a number"},
         Mistake{kBlocks, "{ name: a_m_s, of: index.speed, take: most }", "'most' is not known"},
         Mistake{kBlocks, "{ name: a_m_s, of: index.speed }", "take: is missing"},
         Mistake{kBlocks, "{ name: a_m_s, take: max }", "of: is missing"},

@@ -241,7 +241,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "scale: magnitude, by: cursor, between: [low, high]", "no upper limit"},
         Mistake{"      ask: { name: heaviness, scale: numbers, from: 1, to: 9, labels: [light, "
                 "heavy] }\n",
-                "", "asks for no number"},
+                "", "does not ask for a number"},
         Mistake{"when: answered,", "when: answered, hold_s: 1,", "an answer has no duration"},
         Mistake{"when: answered,", "when: answered, count: 2,", "count"},
         Mistake{"      ask:", "      lines: [a, b]\n      ask:", "at most 2 are allowed"}));

@@ -18,7 +18,7 @@ BodyEffect::BodyEffect(const BodySpec& spec, const Names&, const scene::Scene& s
     const auto needs = [&](const Formula& factor, const char* key, bool there, const char* what) {
         if (factor == 1 || there) return;
         diagnostics.error(spec.place, key, "'" + spec.body + "' has no " + what + " to change",
-                          std::string("Give it one in the scene: surface: { ") + what + ": ... }.");
+                          std::string("Add it in the scene: surface: { ") + what + ": ... }.");
     };
     needs(spec.stiffness_scale, "stiffness_scale", body.surface.stiffness.has_value(),
           "stiffness_N_m");

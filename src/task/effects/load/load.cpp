@@ -122,7 +122,9 @@ void Load::check_spring(Diagnostics& diagnostics) const {
     const bool channel = spec_.kind == LoadKind::channel;
     if (spec_.stiffness == 0 || (channel && spec_.stiffness.value < 0)) {
         diagnostics.error(
-            spec_.place, "stiffness", channel ? "a channel needs one" : "a spring needs one",
+            spec_.place, "stiffness",
+            channel ? "is missing: a channel needs a stiffness"
+                    : "is missing: a spring needs a stiffness",
             channel ? "Add e.g. stiffness_N_m: 1000." : "Add e.g. stiffness_N_m: 50.");
     }
     if (spec_.stiffness.value < 0 && !spec_.zone) {
