@@ -74,7 +74,7 @@ inline bool is_channel(const PerturbationSpec& spec) {
                        [](const LoadSpec& load) { return load.kind == LoadKind::channel; });
 }
 
-/// A perturbation with its names looked up. In the tick it neither allocates nor throws.
+/// A perturbation whose names have been looked up. In the tick it neither allocates nor throws.
 class Perturbation {
   public:
     Perturbation() = default;

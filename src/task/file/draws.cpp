@@ -115,7 +115,7 @@ class Checker {
                              below((d.from.value_or(-kInfinite) - d.mean) / d.sd);
         if (share >= kLeastShare) return;
         error("normal",
-              fmt::format("has only a share of {:.2g} of its values between from and to", share),
+              fmt::format("has only {:.2g} of its probability between from and to", share),
               "Move from and to closer to the mean, or increase sd.");
     }
     void check_weights() {

@@ -16,7 +16,7 @@ constexpr size_t kLargestGrid = 200'000;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The range of levels in the file; infinite where it gives none.
+/// The range of levels in the file; infinite if the file gives none.
 struct Range {
     double least = -kInfinity;
     double most = kInfinity;
@@ -191,7 +191,7 @@ void check(const ProcedureSpec& spec, Diagnostics& diagnostics) {
         diagnostics.error(
             spec.place, "quest_plus",
             fmt::format("has a grid of {} values, but at most {} are allowed", cells, kLargestGrid),
-            "Reduce a count.");
+            "Reduce one of the counts.");
         return;
     }
     check_levels(spec, diagnostics);

@@ -68,7 +68,7 @@ void check(const AskSpec& spec, Diagnostics& diagnostics);
 /// The scale in words, with a placeholder for the answer that is typed or pointed at.
 std::string line_of(const AskSpec& spec);
 
-/// A question with its names looked up.
+/// A question whose names have been looked up.
 struct Question {
     double least = 0;  ///< in the unit of the answer's name, like `most`
     double most = 1;

@@ -260,7 +260,7 @@ struct State {
     std::string message;
     std::vector<std::string> lines;  ///< texts below the message while the state lasts
     bool countdown = false;          ///< a line shows the seconds left until the exit by time
-    std::optional<AskSpec> ask;      ///< question for a number
+    std::optional<AskSpec> ask;      ///< rating that is asked for
     int marker = 0;                  ///< event code on entry; 0: none
     bool patch = false;              ///< the rig's patch is white while the state lasts
     Refs<SoundSpec> sounds;          ///< sounds that start with it, or continue while it lasts
@@ -286,7 +286,7 @@ struct State {
         v("lines", lines, says("Texts below the message while the state lasts, at most two."));
         v("countdown", countdown,
           says("Whether a line shows the seconds left until the state's exit by time."));
-        v("ask", ask, says("Question for a number, put to the participant while the state lasts."));
+        v("ask", ask, says("Rating that the participant is asked for while the state lasts."));
         v("marker", marker,
           Field::number().within(0, 255).says(
               "Event code that is sent when the state begins; 0: none."));
@@ -323,7 +323,7 @@ struct BodyPlace {
     void visit(Visitor& v) {
         v("body", body,
           Field::text().says(
-              "Body whose position at the beginning of the trial differs from the scene."));
+              "Body whose position at the beginning of the trial differs from that in the scene."));
         v("position", position,
           Field::length().within(-100, 100).says("Initial position of its origin."));
         v("joint", joint,
@@ -503,7 +503,7 @@ struct ReachMeasure {
                "stroke."));
         v("finger", finger, says("Finger that reaches; the scene's first finger if omitted."));
         v("from", from, Field::text().required().says("Region in which the reach starts."));
-        v("to", to, Field::text().required().says("Region of the reach's target."));
+        v("to", to, Field::text().required().says("Region in which the target of the reach lies."));
         v("during", during, Field::text().required().says("State in which the reach is measured."));
         v("distance", distance,
           Field::length().within(1e-4, 10).says(
@@ -526,7 +526,7 @@ struct Hand {
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name, Field::text().required().says("Name of the group, for use in conditions."));
-        v("fingers", fingers, Field::text().required().says("Fingers in the group."));
+        v("fingers", fingers, Field::text().required().says("Fingers of the group."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -542,7 +542,8 @@ struct Variable {
         v("name", name,
           Field::text().required().says("Name of the variable, which may end in its unit."));
         v("start", start,
-          Field::number().within(-1e9, 1e9).says("Initial value in the session, in that unit."));
+          Field::number().within(-1e9, 1e9).says(
+              "Value at the session's start, in the unit of its name."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

@@ -73,7 +73,8 @@ class BlockChecker {
         trials_ += trials * std::max<size_t>(1, task_.rounds.size());
         if (trials_ > kMostTrials)
             error(block.place, "repeats",
-                  fmt::format("makes more than {} trials in total", kMostTrials), "Reduce it.");
+                  fmt::format("makes more than {} trials in total", kMostTrials),
+                  "Reduce 'repeats'.");
     }
 
     /// Checks the perturbations of a trial, individually and in combination.

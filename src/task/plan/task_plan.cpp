@@ -36,7 +36,7 @@ void check_lists(const Task& task, Diagnostics& diagnostics) {
         diagnostics.error(task.place, "regions",
                           fmt::format("there are {}, but at most {} are allowed",
                                       task.regions.size(), frame::TaskFrame::kMostTargets),
-                          "Use one region that conditions move.");
+                          "Use a single region whose position depends on the condition.");
     }
     if (task.sounds.size() > TaskPlan::kMostSounds)
         diagnostics.error(task.sounds.back().place, "sounds",

@@ -1,4 +1,5 @@
-// A task with its names looked up in a scene: constant data for the tick and the simulated hand.
+// A task whose names have been looked up in a scene: constant data for the tick and the simulated
+// hand.
 #pragma once
 
 #include "frame/task_frame.h"
@@ -219,7 +220,7 @@ struct TaskPlan {
         std::vector<double> values;  ///< at which trials are checked before the session [SI]
     };
     std::vector<Level> levels;
-    std::vector<int> level_of_procedure;  ///< index among the levels; -1: it chooses a share
+    std::vector<int> level_of_procedure;  ///< index of the level; -1: it chooses a share
     int comparison = -1;                  ///< draw of the comparison interval
     int chose_comparison = -1;            ///< outcome
     int chose_standard = -1;              ///< outcome

@@ -316,7 +316,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"mean: 0.1", "mean: wait", "must be a number"},
         Mistake{"to: 0.3", "to: 0.03", "is 0.03, but from is 0.1"},
         Mistake{kSide, "{ name: side, normal: { mean: 0, sd: 1, from: 9, to: 10 } }",
-                "of its values between"},
+                "of its probability between"},
         Mistake{kSide, "{ name: side, normal: { mean: 0 } }", "sd"},
         Mistake{kSide, "{ name: side, uniform: { from: 1 } }", "to"},
         Mistake{kSide, "{ name: side, choice: [-1, 1], weights: [1] }", "there are 1 for 2"},

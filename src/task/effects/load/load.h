@@ -162,7 +162,7 @@ struct LoadSpec {
 /// Adds the load's kind and size, as worded in a report.
 void say(const LoadSpec& spec, std::vector<std::string>& out);
 
-/// A load with its names looked up. In the tick it neither allocates nor throws.
+/// A load whose names have been looked up. In the tick it neither allocates nor throws.
 class Load {
   public:
     /// Problems in the spec go to `diagnostics`.
