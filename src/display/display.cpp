@@ -13,16 +13,17 @@ namespace {
 
 constexpr double kSmallest = 0.02, kLargest = 20;  // edges [m]
 constexpr double kNearest = 0.02;                  // from an eye to the screen's plane [m]
-constexpr double kSkewed = 3 * kDegree;            // off a right angle
+constexpr double kSkewed = 3 * kDegree;            // deviation from a right angle
 
 bool has_edges(const Display& display, Diagnostics& diagnostics) {
     for (const auto& [edge, key] :
          {std::pair{display.right(), "lower_right"}, std::pair{display.up(), "upper_left"}}) {
         if (edge.norm() >= kSmallest && edge.norm() <= kLargest) continue;
-        diagnostics.error(display.place, key,
-                          fmt::format("is {:.3g} mm from lower_left, and screens are {:g} to {:g}",
-                                      1e3 * edge.norm(), 1e3 * kSmallest, 1e3 * kLargest),
-                          "Measure the corners of what the person sees.");
+        diagnostics.error(
+            display.place, key,
+            fmt::format("is {:.3g} mm from lower_left, but screens measure {:g} to {:g}",
+                        1e3 * edge.norm(), 1e3 * kSmallest, 1e3 * kLargest),
+            "Measure the corners of the picture that the person sees.");
         return false;
     }
     return true;
@@ -50,7 +51,7 @@ void Display::set(const Registration& found) {
 }
 
 void check(const Display& display, Diagnostics& diagnostics) {
-    // it becomes part of a file's name
+    // the name becomes part of a file name
     if (display.name.starts_with('.') || display.name.find_first_of("/\\\n\t") != std::string::npos)
         diagnostics.error(display.place, "name", fmt::format("'{}' cannot be a name", display.name),
                           "Use letters, digits, blanks, '-' and '_'.");
@@ -59,7 +60,7 @@ void check(const Display& display, Diagnostics& diagnostics) {
     const double skew = std::asin(std::clamp(right.dot(up), -1.0, 1.0));
     if (std::abs(skew) > kSkewed) {
         diagnostics.error(display.place, "upper_left",
-                          fmt::format("makes an angle of {:.1f} degrees at lower_left, and screens "
+                          fmt::format("makes an angle of {:.1f} degrees at lower_left, but screens "
                                       "have right angles",
                                       90 - skew / kDegree),
                           "Measure the corners anew, or register the display.");
@@ -77,9 +78,9 @@ void check(const Display& display, Diagnostics& diagnostics) {
             display.eyes.place, "position",
             before < 0 ? "is behind the screen"
                        : fmt::format("is {:.3g} mm before the screen's plane", 1e3 * before),
-            before < 0 ? "Exchange the left corners and the right ones; what a mirror turns round "
-                         "is said by mirrored."
-                       : "Measure where the eyes are.");
+            before < 0 ? "Exchange the left and the right corners; the key 'mirrored' describes "
+                         "the reversal by a mirror."
+                       : "Measure the position of the eyes.");
         return;
     }
 }

@@ -1,5 +1,5 @@
-// Describes where the person sees a screen, directly or in a mirror, and with which eyes, so that
-// things are drawn where the hand feels them.
+// Describes a screen's position as seen directly or in a mirror, and the person's eyes, so that
+// objects are drawn where the hand feels them.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace dihaptic::display {
 
-/// How a mirror flips the screen's picture, which is drawn flipped to make up for it.
+/// How a mirror flips the screen's picture, which is drawn flipped to compensate.
 enum class Mirrored { no, left_right, up_down };
 constexpr auto enum_names(Mirrored) {
     return std::array{"no", "left_right", "up_down"};
@@ -30,26 +30,27 @@ constexpr auto enum_names(Corner) {
     return std::array{"lower_left", "lower_right", "upper_left", "upper_right"};
 }
 
-/// A square for a photodiode in a corner of what the person sees: white while a state of the task
-/// asks for it, otherwise black.
+/// A square for a photodiode in a corner of the picture: white while a state of the task
+/// requests it, otherwise black.
 struct Patch {
     Corner corner = Corner::lower_right;  ///< of the monitor's picture
-    double size = 0.08;                   ///< share of the picture's height
+    double size = 0.08;                   ///< fraction of the picture's height
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("corner", corner, says("Corner of the monitor's picture that it is in."));
+        v("corner", corner, says("Corner of the monitor's picture in which the square is drawn."));
         v("size", size,
-          Field::number().within(0.01, 0.5).says("Its edge, as a share of the picture's height."));
+          Field::number().within(0.01, 0.5).says(
+              "Edge of the square, as a fraction of the picture's height."));
     }
 };
 
-/// Eyes of a head that rests, or that is tracked.
+/// Eyes of a resting or a tracked head.
 struct Eyes {
-    Vec3 position = Vec3::Zero();  ///< of the middle between them [m]
-    Vec3 along = Vec3::UnitX();    ///< from the left one to the right one, of any length
-    double distance = 0.063;       ///< of their pupils [m]
-    bool tracked = false;          ///< they move with Rig::head
+    Vec3 position = Vec3::Zero();  ///< midpoint between the eyes [m]
+    Vec3 along = Vec3::UnitX();    ///< from the left eye to the right eye, of any length
+    double distance = 0.063;       ///< between the pupils [m]
+    bool tracked = false;          ///< whether they move with Rig::head
     Place place{};
 
     Vec3 left() const { return position - distance / 2 * along.normalized(); }
@@ -59,21 +60,24 @@ struct Eyes {
     template <class Visitor>
     void visit(Visitor& v) {
         v("position", position,
-          Field::length().within(-100, 100).required().says("Of the middle between both eyes."));
+          Field::length().within(-100, 100).required().says(
+              "Position of the midpoint between the eyes."));
         v("along", along,
           Field::number().within(-1e6, 1e6).says(
-              "Direction from the left eye to the right one, of any length."));
+              "Direction from the left to the right eye, of any length."));
         v("distance", distance,
-          Field::length().within(0.03, 0.1).says("Between the pupils; adults have 50 to 75 mm."));
+          Field::length().within(0.03, 0.1).says(
+              "Distance between the pupils; 50 to 75 mm in adults."));
         v("tracked", tracked,
-          says("Whether they move with the rig's head; position and along then count until the "
-               "tracker sees it."));
+          says("Whether the eyes move with the tracked head; 'position' and 'along' then apply "
+               "until "
+               "the tracker sees the head."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// A screen as it is seen: in a mirror, at the place of its image. Its corners are named as the
-/// person sees them, so the lower left one is at the person's lower left.
+/// A screen as seen by the person; in a mirror, its image. Corners are named as the
+/// person sees them: lower_left is at the person's lower left.
 struct Display {
     std::string name;
     Vec3 lower_left = Vec3::Zero();  ///< [m]
@@ -83,22 +87,22 @@ struct Display {
     Eyes eyes;
     Stereo stereo = Stereo::none;
     std::string registration;  ///< path of its file, from the rig file's folder; empty: none
-    std::optional<Registration> registered;  ///< what it holds, in the world
-    std::string monitor;  ///< its name in the system; empty: one that the operator does not look at
+    std::optional<Registration> registered;  ///< its content, in world coordinates
+    std::string monitor;  ///< its system name; empty: a monitor without the operator's window
     Place place{};
 
     Vec3 right() const { return lower_right - lower_left; }
     Vec3 up() const { return upper_left - lower_left; }
-    /// Where the person sees a cross on it [m].
+    /// Position at which the person sees a cross on the screen [m].
     Vec3 at(const Cross& cross) const {
         return lower_left + cross.right * right() + cross.up * up();
     }
     /// Distance of an eye from the screen's plane [m]; negative behind it.
     double before(const Vec3& eye) const;
-    /// Whether these eyes see it from the front, and from far enough to be drawn.
+    /// Whether these eyes are in front of the screen and far enough away for drawing.
     bool faces(const Eyes& seen_by) const;
     void move(const Vec3& by);
-    /// Takes the corners of a registration.
+    /// Adopts the corners from a registration.
     void set(const Registration& found);
 
     template <class Visitor>
@@ -106,24 +110,24 @@ struct Display {
         const Field corner = Field::length().within(-100, 100).required();
         v("name", name, Field::text().required().says("Name of the display."));
         v("lower_left", lower_left,
-          corner.says("Where the person sees the picture's lower left corner."));
-        v("lower_right", lower_right, corner.says("Its lower right corner."));
-        v("upper_left", upper_left, corner.says("Its upper left corner."));
-        v("mirrored", mirrored, says("How a mirror turns the picture round."));
-        v("eyes", eyes, Field::text().required().says("Where the person's eyes are."));
-        v("stereo", stereo, says("How the pictures for both eyes share the screen."));
+          corner.says("Lower left corner of the picture, as the person sees it."));
+        v("lower_right", lower_right, corner.says("Lower right corner of the picture."));
+        v("upper_left", upper_left, corner.says("Upper left corner of the picture."));
+        v("mirrored", mirrored, says("How a mirror reverses the picture."));
+        v("eyes", eyes, Field::text().required().says("The person's eyes."));
+        v("stereo", stereo, says("How the pictures for the two eyes share the screen."));
         v("registration", registration,
           Field::text().says(
-              "File of its registration, relative to this file: where a finger found "
-              "the screen, which counts in place of the corners."));
+              "Registration file, relative to this file: the screen's position as found by a "
+              "finger, which replaces the corners."));
         v("monitor", monitor,
-          Field::text().says("Name of the monitor, as the window's log lists them; left out, "
-                             "one that the operator's window is not on."));
+          Field::text().says("Name of the monitor, as listed in the window's log; if left out, "
+                             "a monitor without the operator's window."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// Checks that it is a rectangle that its eyes see from the front.
+/// Checks that the display is a rectangle with the eyes in front of it.
 void check(const Display& display, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::display

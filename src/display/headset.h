@@ -1,4 +1,4 @@
-// Describes where the tracking space of a headset is in the world, so that things are seen where
+// Describes the pose of a headset's tracking space in the world, so that objects are seen where
 // the hand feels them.
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace dihaptic::display {
 
-/// OpenXR's reference spaces that are of use to a seated person.
+/// OpenXR's reference spaces that suit a seated person.
 enum class HeadsetSpace { stage, local };
 constexpr auto enum_names(HeadsetSpace) {
     return std::array{"stage", "local"};
@@ -31,14 +31,14 @@ struct Headset {
     template <class Visitor>
     void visit(Visitor& v) {
         v("space", space,
-          says("Space that the headset says where it is in: its stage, whose origin is on the "
-               "floor and stays; or a local one, whose origin is where the head was at first."));
-        v("position", position, Field::length().within(-100, 100).says("Where its origin is."));
+          says("Reference space of the headset's poses: 'stage', whose origin is fixed on the "
+               "floor, or 'local', whose origin is the head's initial position."));
+        v("position", position, Field::length().within(-100, 100).says("Origin of this space."));
         v("rotation", rotation,
           Field::of(Quantity::angle)
               .within(-100, 100)
-              .says("Its rotation about the world's axes x, then y, then z; with none, its "
-                    "forward is the world's +y."));
+              .says("Rotation of this space about the world's axes x, then y, then z; if zero, its "
+                    "forward direction is the world's +y."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

@@ -13,9 +13,10 @@ namespace dihaptic::display {
 namespace {
 
 constexpr int kColumns = 5, kRows = 4;
-constexpr double kCrossMargin = 0.08;  // of crosses from the screen's edges, in shares of these
-constexpr double kMostRms = 3e-3;      // of touches that one screen can have [m]
-constexpr double kMostStretch = 0.03;  // of a size that was measured by a ruler
+constexpr double kCrossMargin =
+    0.08;  // distance of crosses from the screen's edges, as a fraction of these
+constexpr double kMostRms = 3e-3;      // residual of touches on a single screen [m]
+constexpr double kMostStretch = 0.03;  // of a size measured with a ruler
 
 }  // namespace
 
@@ -37,7 +38,7 @@ RegistrationResult register_screen(const Display& display, std::span<const Vec3>
         told.col(static_cast<Eigen::Index>(i)) = display.at(all[i]);
         touched.col(static_cast<Eigen::Index>(i)) = touches[i];
     }
-    // Umeyama 1991: the least squares of a rigid movement
+    // Umeyama 1991: least-squares fit of a rigid movement
     const Eigen::Matrix4d X = Eigen::umeyama(told, touched, false);
     const Eigen::Matrix4d scaled = Eigen::umeyama(told, touched, true);
     const Mat3 R = X.topLeftCorner<3, 3>();
@@ -51,13 +52,13 @@ RegistrationResult register_screen(const Display& display, std::span<const Vec3>
     if (std::abs(out.stretch) > kMostStretch)
         throw Error(
             display.place, "lower_right",
-            fmt::format("makes a screen of {:.0f} x {:.0f} mm, and what was touched is "
+            fmt::format("gives a screen of {:.0f} x {:.0f} mm, but the touched area is "
                         "{:.3g} times as large",
                         1e3 * display.right().norm(), 1e3 * display.up().norm(), 1 + out.stretch),
-            "Measure the picture's edges: the corners have to be as far apart as these.");
+            "Measure the picture's edges, and give the corners these distances.");
     if (out.registration.rms > kMostRms)
         throw Error(display.place, "name",
-                    fmt::format("the touches are off a screen by {:.1f} mm, and most at cross {}, "
+                    fmt::format("the touches deviate from a screen by {:.1f} mm, most at cross {}, "
                                 "by {:.1f} mm",
                                 1e3 * out.registration.rms, worst + 1, 1e3 * off[worst]),
                     "Touch the crosses again, in the order of their numbers.");
@@ -73,9 +74,9 @@ RegistrationResult register_screen(const Display& display, std::span<const Vec3>
 
 std::string describe(const RegistrationResult& result) {
     return fmt::format(
-        "the screen is {:.2f} mm from where the rig file has it, and turned by {:.2f} degrees\n"
+        "the screen is {:.2f} mm from its position in the rig file and turned by {:.2f} degrees\n"
         "its size agrees with the file's to {:.1f} %\n"
-        "touches are off their crosses by {:.2f} mm rms, {:.2f} mm at worst\n",
+        "touches deviate from their crosses by {:.2f} mm rms, {:.2f} mm at worst\n",
         1e3 * result.moved, result.turned / kDegree, 100 * std::abs(result.stretch),
         1e3 * result.registration.rms, 1e3 * result.registration.worst);
 }

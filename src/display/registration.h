@@ -1,4 +1,4 @@
-// Registration of a display finds out where the person sees its screen, by a finger that touches
+// Registration of a display finds the screen's position as seen by the person: a finger touches
 // crosses on it. README.md describes the method and its accuracy.
 #pragma once
 
@@ -18,10 +18,10 @@ struct Display;
 /// converts them all to the world's.
 struct Registration {
     std::string date;                ///< ISO 8601: 2026-11-21
-    Vec3 lower_left = Vec3::Zero();  ///< corners of what the person sees [m]
+    Vec3 lower_left = Vec3::Zero();  ///< corners of the picture that the person sees [m]
     Vec3 lower_right = Vec3::Zero();
     Vec3 upper_left = Vec3::Zero();
-    double rms = 0;    ///< of the touches from the crosses [m]
+    double rms = 0;    ///< deviation of the touches from the crosses [m]
     double worst = 0;  ///< [m]
     Place place{};
 
@@ -42,29 +42,29 @@ struct Registration {
     }
 };
 
-/// A cross on the screen, in shares of its edges from what the person sees as its lower left.
+/// A cross on the screen, in fractions of its edges from the lower left corner as seen.
 struct Cross {
     double right = 0;
     double up = 0;
 };
-/// Four rows of five, from the upper left on.
+/// Four rows of five, starting at the upper left.
 std::vector<Cross> crosses();
 
 struct RegistrationResult {
     Registration registration;  ///< without a date
-    double moved = 0;           ///< the screen's middle, from where the rig file has it [m]
-    double turned = 0;          ///< the screen, from how the rig file has it [rad]
-    double stretch = 0;         ///< what was touched over the size that the file says, less 1
+    double moved = 0;           ///< displacement of the screen's centre from the rig file [m]
+    double turned = 0;          ///< rotation of the screen from the rig file [rad]
+    double stretch = 0;         ///< touched size over the file's size, minus 1
 };
 
-/// The place of a screen whose crosses were touched at `touches` [m], one for each of crosses():
+/// The position of a screen whose crosses were touched at `touches` [m], one for each of crosses():
 /// the rig file's screen, moved and turned as a whole. Throws Error when touches contradict each
 /// other or the screen's size.
 RegistrationResult register_screen(const Display& display, std::span<const Vec3> touches);
 /// The result in words, for a person; several lines.
 std::string describe(const RegistrationResult& result);
 
-/// A picture of the crosses with their numbers (SVG), to be shown on the whole screen. It is
+/// A picture of the crosses with their numbers (SVG), for the whole screen. It is
 /// flipped for the mirror, and the same for both eyes.
 std::string cross_picture(const Display& display);
 

@@ -1,4 +1,4 @@
-// Where the sounds of a task are played.
+// The output for the sounds of a task.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ constexpr auto enum_names(SoundTo) {
 
 struct SoundOutput {
     SoundTo to = SoundTo::speakers;
-    std::string device;           ///< part of its name; empty: the system's default
+    std::string device;           ///< part of the device's name; empty: the system's default
     double rate = 48000;          ///< [Hz]
     std::optional<double> delay;  ///< from a tick to the first sample of its sounds [s]
     Place place{};
@@ -25,17 +25,17 @@ struct SoundOutput {
     template <class Visitor>
     void visit(Visitor& v) {
         v("to", to,
-          says("Where sounds go: to speakers or headphones, in real time; or to the session's file "
-               "sound.wav, where time 0 is the session's."));
+          says("Output of sounds: speakers or headphones, in real time; or the session's file "
+               "sound.wav, whose time 0 is the session's."));
         v("device", device,
-          says("Part of the name of the sound device; left out, the system's default."));
+          says("Part of the sound device's name; if left out, the system's default."));
         v("rate", rate,
-          Field::of(Quantity::frequency).within(8000, 192000).says("Samples in a second."));
+          Field::of(Quantity::frequency).within(8000, 192000).says("Samples per second."));
         v("delay", delay,
           Field::of(Quantity::time)
               .within(0, 1)
-              .says("Time from a tick to its sounds, the same each time; left out, what the sound "
-                    "device needs, and of a file none."));
+              .says("Constant time from a tick to its sounds; if left out, the sound device's "
+                    "own delay, or 0 for a file."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

@@ -3,7 +3,7 @@
 namespace dihaptic::model {
 namespace {
 
-/// The state that the process would approach if its error stayed 1.
+/// The limit of the process's state under a constant error of 1.
 double gain(const SingleRate& rate) {
     return rate.learning / (1 - rate.retention);
 }

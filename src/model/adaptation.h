@@ -15,12 +15,12 @@
 
 namespace dihaptic::model {
 
-/// A trial as the model sees it. In washout and catch trials the perturbation is 0, and the person
-/// learns from the error that this makes. A trial without feedback counts as an error clamp: it
+/// A trial for the model. In washout and catch trials the perturbation is 0, and the person
+/// learns from the resulting error. A trial without feedback counts as an error clamp, which
 /// teaches nothing.
 struct AdaptationTrial {
     double perturbation = 0;  ///< f
-    bool clamp = false;       ///< no error is seen, whatever the person does
+    bool clamp = false;       ///< the person sees no error in any case
 };
 
 struct SingleRate {
@@ -42,12 +42,12 @@ struct TwoRateState {
 /// Estimates of Smith et al. 2006, as quoted in PMC2585408.
 inline constexpr TwoRate kSmith2006{.fast = {0.59, 0.21}, .slow = {0.992, 0.02}};
 
-/// The error that a person who compensates for x sees in a trial.
+/// The error in a trial for a person with the compensation x.
 constexpr double adaptation_error(const AdaptationTrial& trial, double x) {
     return trial.clamp ? 0 : trial.perturbation - x;
 }
 
-/// The state after a trial in which this error was seen.
+/// The state after a trial with this error.
 constexpr double next(const SingleRate& rate, double x, double error) {
     return rate.retention * x + rate.learning * error;
 }
@@ -59,7 +59,7 @@ constexpr TwoRateState next(const TwoRate& rates, const TwoRateState& state, dou
 std::vector<double> compensation(const SingleRate& rate, std::span<const AdaptationTrial> trials);
 std::vector<double> compensation(const TwoRate& rates, std::span<const AdaptationTrial> trials);
 
-/// Share of a lasting perturbation that is compensated for in the end: G / (1 + G), where G is the
+/// Fraction of a lasting perturbation that is finally compensated for: G / (1 + G), where G is the
 /// sum of B / (1 - A) over the processes. 1 if a process that learns has a retention of 1.
 double asymptote(const SingleRate& rate);
 double asymptote(const TwoRate& rates);

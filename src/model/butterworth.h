@@ -1,6 +1,6 @@
 // Second-order Butterworth filters, run forward and backward: there is no phase shift, and the
-// magnitude is squared, so that the cut-off frequency is attenuated by 6 dB. The filters come from
-// the bilinear transform with the cut-off pre-warped.
+// magnitude is squared, so that the cut-off frequency is attenuated by 6 dB. The filters are
+// designed by the bilinear transform with the cut-off pre-warped.
 #pragma once
 
 #include <vector>

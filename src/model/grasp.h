@@ -9,18 +9,18 @@
 namespace dihaptic::model {
 
 /// Force of two springs in series stretched together by `x` [m]: the hand's k_hand and the
-/// coupling's k [N/m]. A finger whose target lies x beyond a surface presses it with this force
+/// coupling's k [N/m]. A finger with a target x beyond a surface presses on it with this force
 /// [N].
 constexpr double series_spring_force(double x, double k_hand, double k) {
     return x * k_hand * k / (k_hand + k);
 }
 
-/// Stretch of the hand's spring and the coupling's in series under a force [m].
+/// Stretch of the hand's and the coupling's springs in series under a force [m].
 constexpr double series_spring_stretch(double force, double k_hand, double k) {
     return force * (k_hand + k) / (k_hand * k);
 }
 
-/// Mean position of all of two or more fingers but the first. `p_WP(i)`: position of finger i.
+/// Mean position of two or more fingers without the first. `p_WP(i)`: position of finger i.
 template <class Positions>
 Vec3 opposing_point(size_t fingers, const Positions& p_WP) {
     Vec3 others = Vec3::Zero();
@@ -28,7 +28,7 @@ Vec3 opposing_point(size_t fingers, const Positions& p_WP) {
     return others / static_cast<double>(fingers - 1);
 }
 
-/// Unit vector of the pinch of two or more fingers, from the first to the opposing point.
+/// Unit vector of the pinch between two or more fingers, from the first to the opposing point.
 template <class Positions>
 Vec3 grasp_axis(size_t fingers, const Positions& p_WP) {
     return (opposing_point(fingers, p_WP) - p_WP(0)).normalized();
@@ -39,8 +39,8 @@ constexpr double minimum_grip(double load, double friction) {
     return load / (2 * friction);
 }
 
-/// Force on each of two digits that hold a load with the minimum grip: the magnitude of its normal
-/// part and its share of the load together [N].
+/// Force on each of two digits that hold a load with the minimum grip: the magnitude of the normal
+/// force and half the load combined [N].
 inline double smallest_hold(double load, double friction) {
     return std::hypot(minimum_grip(load, friction), load / 2);
 }
@@ -50,8 +50,8 @@ constexpr double slip_ratio(double friction) {
     return minimum_grip(1, friction);
 }
 
-/// Share of a grip force that exceeds what the load needs: (grip - minimum) / grip. If it is
-/// negative, the load slips.
+/// Fraction of a grip force that exceeds the minimum for the load: (grip - minimum) / grip. If this
+/// is negative, the load slips.
 constexpr double safety_margin(double grip, double load, double friction) {
     return (grip - minimum_grip(load, friction)) / grip;
 }
@@ -62,7 +62,7 @@ constexpr double grip_with_margin(double load, double friction, double margin) {
     return minimum_grip(load, friction) / (1 - margin);
 }
 
-/// Highest stiffness that a spring sampled and held at intervals h can render passively on a handle
+/// Highest stiffness of a sampled spring, held over intervals h, that is passive on a handle
 /// with damping b: 2 b / h (Colgate and Schenkel 1997, no virtual damping) [N/m].
 constexpr double passive_stiffness(double b, double h) {
     return 2 * b / h;

@@ -1,4 +1,4 @@
-// The gravitational acceleration that models of people and devices use.
+// The gravitational acceleration in models of people and devices.
 #pragma once
 
 namespace dihaptic::model {

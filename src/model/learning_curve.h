@@ -3,8 +3,8 @@
 //     y(n) = y_end + (y_0 - y_end) exp(-n / tau)
 //
 // n counts trials from 0. A single-rate process (model/adaptation.h) under a lasting perturbation f
-// follows it exactly, with y_0 = 0, y_end = f B / (1 - A + B) and tau = -1 / ln(A - B), as long as
-// 0 < A - B < 1.
+// follows the curve exactly, with y_0 = 0, y_end = f B / (1 - A + B) and tau = -1 / ln(A - B), as
+// long as 0 < A - B < 1.
 #pragma once
 
 #include <cmath>

@@ -2,7 +2,7 @@
 //
 //     x(s) = x0 + (x1 - x0) (10 s^3 - 15 s^4 + 6 s^5),   s = t / T in [0, 1]
 //
-// Peak speed is 15/8 of the mean speed, at s = 1/2. Between two points that are passed at the
+// Peak speed is 15/8 of the mean speed, at s = 1/2. Between two points passed at the
 // speeds v0 and v1, without acceleration, the smoothest path is the quintic
 //
 //     x(s) = x0 + (x1 - x0) (10 s^3 - 15 s^4 + 6 s^5)
@@ -13,8 +13,8 @@
 
 namespace dihaptic::model {
 
-/// Share of the way covered at s, and its first derivative with respect to s. The share is constant
-/// outside [0, 1], where the rate is 0.
+/// Fraction of the path covered at s, and its first derivative with respect to s. The fraction is
+/// constant outside [0, 1], where the rate is 0.
 struct MinimumJerk {
     double share;
     double rate;
@@ -25,14 +25,14 @@ constexpr MinimumJerk minimum_jerk(double s) {
     return {s * s * s * (10 + s * (6 * s - 15)), 30 * s * s * (1 - s) * (1 - s)};
 }
 
-/// Second derivative of the share with respect to s; 0 outside [0, 1].
+/// Second derivative of the fraction with respect to s; 0 outside [0, 1].
 constexpr double minimum_jerk_acceleration(double s) {
     if (s < 0 || s > 1) return 0;
     return 60 * s * (1 - s) * (1 - 2 * s);
 }
 
-/// Contributions to the share of a unit speed at the start and at the end: the factors of T v0 and
-/// T v1 above, each with its derivative.
+/// Contributions to the fraction from a unit speed at the start and at the end: the factors of T v0
+/// and T v1 above, each with its derivative.
 constexpr MinimumJerk start_speed_part(double s) {
     s = std::clamp(s, 0.0, 1.0);
     return {s * (1 + s * s * (-6 + s * (8 - 3 * s))), 1 + s * s * (-18 + s * (32 - 15 * s))};

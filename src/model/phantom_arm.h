@@ -12,12 +12,12 @@
 
 namespace dihaptic::model {
 
-/// Limits of the joint angles [rad]. Those of the thigh's angle less the shin's are known for a
-/// Premium 1.5; the others are guesses that are consistent with its pictures.
+/// Limits of the joint angles [rad]. The limits of the thigh's angle minus the shin's are known for
+/// a Premium 1.5; the others are guesses that are consistent with its pictures.
 struct PhantomLimits {
     Vec3 low;
     Vec3 high;
-    double bend_low;  ///< of the thigh's angle less the shin's
+    double bend_low;  ///< for the thigh's angle minus the shin's
     double bend_high;
 };
 const PhantomLimits& phantom_limits();
@@ -32,7 +32,7 @@ Vec3 phantom_steady_acceleration(const PhantomLinks& links, const Vec3& q,
 /// |det J| = l1 l2 rho cos(q2 - q3) [m^3], where rho is the endpoint's distance from the turret's
 /// axis. Where it vanishes, the arm cannot exert forces in all directions.
 double phantom_determinant(const PhantomLinks& links, const Vec3& q) noexcept;
-/// Joint angles that put the endpoint at p_DH or, where the links cannot reach it, at the nearest
+/// Joint angles with the endpoint at p_DH or, where the links cannot reach it, at the nearest
 /// point on the line from the shoulder to p_DH.
 Vec3 phantom_joints(const PhantomLinks& links, const Vec3& p_DH) noexcept;
 /// Whether the joint angles are within the limits.
@@ -57,8 +57,8 @@ struct PhantomDynamics {
 
     /// The Premium 1.5 without its rotors, from published values.
     static PhantomDynamics premium_1_5();
-    /// The Premium 1.5 scaled to other links: masses scale with the lengths, inertias with their
-    /// cubes. The values of a Premium 1.0's parts are not published.
+    /// The Premium 1.5 scaled to other link lengths: masses scale with the lengths, inertias with
+    /// their cubes. The values of a Premium 1.0's parts are not published.
     static PhantomDynamics scaled(const PhantomLinks& links);
 };
 

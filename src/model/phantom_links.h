@@ -12,7 +12,7 @@ struct PhantomLinks {
     template <class Visitor>
     void visit(Visitor& v) {
         v("thigh", thigh, Field::length().within(0.05, 1).says("Length of the arm's first link."));
-        v("shin", shin, Field::length().within(0.05, 1).says("Length of its second link."));
+        v("shin", shin, Field::length().within(0.05, 1).says("Length of the arm's second link."));
     }
     bool operator==(const PhantomLinks&) const = default;
 };

@@ -23,7 +23,7 @@ double sigmoid_at(const Psychometric& f, double x) {
     return kUnmeasured;
 }
 
-/// The level at which the sigmoid has the value F in (0, 1).
+/// The level at which the sigmoid equals F, in (0, 1).
 double sigmoid_inverse(const Psychometric& f, double F) {
     switch (f.sigmoid) {
         case Sigmoid::normal:

@@ -10,9 +10,10 @@
 //     weibull        1 - exp(-(x / t)^s),  x > 0      F(t) = 1 - 1/e   s: slope, beta
 //     weibull_log10  1 - exp(-10^(s (x - t)))      F(t) = 1 - 1/e   s: slope, beta
 //
-// x and t have the unit of the level; for weibull_log10, which is the Weibull function over the
-// logarithm, they are its log10. In the first two s has the unit of the level, in the last two it
-// is a slope without a unit. Sources: Wichmann and Hill 2001; Watson and Pelli 1983 for the last.
+// x and t have the unit of the level; for weibull_log10, which is the Weibull function of the
+// logarithm, they are the level's log10. In the first two s has the unit of the level, in the last
+// two s is a slope without a unit. Sources: Wichmann and Hill 2001; Watson and Pelli 1983 for the
+// last.
 #pragma once
 
 #include <array>
