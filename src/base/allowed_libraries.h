@@ -1,5 +1,5 @@
-// The libraries that a user allows this program to load, whichever file names them: files that come
-// from others may name libraries too, and loading one runs its code.
+// The libraries that a user allows this program to load. Files that come
+// from other people may name libraries too, and loading a library runs its code.
 //
 // The list is a YAML file that belongs to the user, $XDG_CONFIG_HOME/dihaptic/libraries.yaml or
 // ~/.config/dihaptic/libraries.yaml:
@@ -14,7 +14,7 @@ namespace dihaptic {
 /// Path of the list; "" if the user has no home.
 std::string allowed_libraries_file();
 
-/// Whether the loader finds a library of this name by itself, in the system's folders: the name has
+/// Whether the loader itself looks for a library of this name in the system's folders: the name has
 /// no folder.
 bool is_system_library(const std::string& name);
 

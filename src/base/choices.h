@@ -1,7 +1,8 @@
-// Names that may stand somewhere in a file, for a problem that lists them (Problem::choices).
+// The names that are allowed at some place in a file, for a problem that lists them
+// (Problem::choices).
 //
-// A file may hold thousands of names, and as many mistakes. A problem therefore shows only some
-// names, and suggestions are worked out for the first hundred problems only.
+// A file may contain thousands of names and thousands of mistakes. A problem therefore shows only
+// some names, and suggestions are worked out for the first hundred problems only.
 #pragma once
 
 #include <fmt/format.h>
@@ -36,7 +37,7 @@ inline std::string listed(const std::vector<std::string>& names) {
     return out;
 }
 
-/// What to do about a name that is none of these: "Did you mean x?", or "Known: x, y.".
+/// The remedy for a name that is not among these: "Did you mean x?", or "Known: x, y.".
 inline std::string meant(const std::string& name, const std::vector<std::string>& names,
                          const Diagnostics& so_far, const char* these = "Known:") {
     if (so_far.problems().size() > kMostExplained) return "";

@@ -106,8 +106,8 @@ bool limit(pid_t process, const CompanionLimits& limits) {
 
 std::atomic<CompanionWait> told_of_waits{nullptr};
 
-/// Waits until a process has ended, and leaves it to be reaped; false if that takes longer than the
-/// task may.
+/// Waits until a process has ended, without reaping it; false if that takes longer than the
+/// task's time limit.
 bool wait_for(pid_t process, const CompanionTask& task) {
     using Clock = std::chrono::steady_clock;
     const auto begin = Clock::now();
@@ -162,16 +162,16 @@ Ended run(const CompanionTask& task, const std::string& path, int in, int out) {
     return ended;
 }
 
-/// What ended the companion early; "" if nothing did.
+/// Why the companion ended early; "" if it did not.
 std::string failure(const CompanionTask& task, const Ended& ended) {
     const int status = ended.status;
     const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
     if (ended.late) return fmt::format("took more than {} s", task.limits.time);
     if (signal == SIGXCPU)
-        return fmt::format("took more than {} s of computing", task.limits.processor_time);
+        return fmt::format("took more than {} s of computing time", task.limits.processor_time);
     if (signal == SIGXFSZ)
-        return fmt::format("gave more than {} MB", task.limits.output / 1'000'000);
-    // the kernel kills the process that takes the last of the machine's memory
+        return fmt::format("wrote more than {} MB", task.limits.output / 1'000'000);
+    // the kernel kills a process that uses up the machine's memory
     if (signal == SIGKILL || (WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemory))
         return fmt::format("took more than {} MB of memory", task.limits.memory / 1'000'000);
     if (signal != 0) return fmt::format("failed: {} crashed ({})", task.program, strsignal(signal));

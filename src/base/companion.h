@@ -12,36 +12,36 @@
 
 namespace dihaptic {
 
-/// Path of the companion `name` (base/installed.h says where it is looked for); "" if there is
-/// none.
+/// Path of the companion `name` (base/installed.h says where the program looks for it); "" if there
+/// is none.
 std::string companion(const std::string& name);
 
 /// The remedy for a missing companion.
 constexpr const char* kCompanionMissing = "Build all of Dihaptic, or install it again.";
 
-/// What a companion may use before it is killed.
+/// Limits beyond which a companion is killed.
 struct CompanionLimits {
-    int processor_time = 10;    ///< [s]
-    int time = 60;              ///< wall-clock time, so the load of other programs counts [s]
+    int processor_time = 10;  ///< [s]
+    int time = 60;            ///< wall-clock time, which grows with the load of other programs [s]
     uint64_t memory = 1 << 30;  ///< address space [bytes]
-    uint64_t output = 1 << 30;  ///< output that it may write [bytes]
+    uint64_t output = 1 << 30;  ///< amount of output [bytes]
 };
 
-/// A piece of work for a companion, and the words in which its failure is reported.
+/// A piece of work for a companion, and the words for a report of its failure.
 struct CompanionTask {
     std::string program;  ///< the companion's name
     std::vector<std::string> arguments;
     CompanionLimits limits;
-    std::string what;    ///< e.g. "reading the mesh a.obj", for "... took more than 2 s"
-    std::string remedy;  ///< what to do about input that makes it crash or exceed its limits
-    Place place;         ///< where the input was named
+    std::string what;  ///< description, e.g. "reading the mesh a.obj", for "... took more than 2 s"
+    std::string remedy;  ///< the remedy for input that makes it crash or exceed its limits
+    Place place;         ///< where the input's name was written
     std::string key;
     std::stop_token stop = {};  ///< ends the companion
 };
 
-/// Called by a thread that waits for a companion, after a second and again whenever that time has
-/// doubled. `what` is CompanionTask::what; `most`: when the companion is killed [s]. Null, the
-/// default: nothing is called.
+/// Called by a thread that waits for a companion, after one second and again each time the waiting
+/// time has doubled. `what` is CompanionTask::what; `most`: the time after which the companion is
+/// killed [s]. Null, the default: no call.
 using CompanionWait = void (*)(const std::string& what, int seconds, int most);
 void tell_companion_waits(CompanionWait tell) noexcept;
 

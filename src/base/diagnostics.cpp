@@ -30,13 +30,13 @@ std::string Problem::text() const {
     end_sentence(out);
     if (!remedy.empty()) out += " " + remedy;
     end_sentence(out);
-    // names come from files, and may hold characters that would move a terminal's cursor
+    // names come from files and may contain characters that would move a terminal's cursor
     return mended(out, Lines::one);
 }
 
 namespace {
 
-/// Where the key stands, with or without its unit, if the place is that of a mapping with it.
+/// The line of the key, with or without its unit, if `place` is that of a mapping that has the key.
 Place place_of(const Place& place, const std::string& key) {
     Place out{place.file, place.line};
     if (!place.keys || key.empty()) return out;
@@ -77,10 +77,10 @@ Error::Error(const Place& place, std::string key, std::string what, std::string 
 
 namespace {
 
-/// Nobody corrects more than this at a time, and a file may have a hundred thousand mistakes.
+/// Nobody corrects more problems than this at a time, and a file may have a hundred thousand.
 constexpr size_t kMostErrors = 200;
 constexpr size_t kMostWarnings = 1000;
-constexpr const char* kMore = "more is wrong than what is told above";
+constexpr const char* kMore = "there are more problems than those above";
 
 /// Whether further problems are left out.
 bool is_full(const std::vector<Problem>& problems) {
@@ -93,15 +93,15 @@ size_t errors(const std::vector<Problem>& problems) {
                       [](const Problem& p) { return p.severity == Severity::error; }));
 }
 
-/// Adds the problem, unless there are already more than anyone would read. The first error is
+/// Adds the problem, unless the list is already full. The first error is
 /// always kept, however many warnings there are.
 void tell(std::vector<Problem>& problems, Problem next) {
     if (is_full(problems)) return;
     if (next.severity == Severity::warning && problems.size() >= kMostWarnings) return;
     problems.push_back(std::move(next));
     if (problems.size() < kMostErrors || errors(problems) < kMostErrors) return;
-    problems.push_back(
-        {Severity::error, problems.back().place, "", kMore, "Mend these first, and check again."});
+    problems.push_back({Severity::error, problems.back().place, "", kMore,
+                        "Correct these first, and check again."});
 }
 
 }  // namespace

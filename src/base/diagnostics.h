@@ -1,5 +1,5 @@
-// Problems of an input are reported so that its author can mend them: file, line, key, what is
-// wrong, and the remedy. Readers collect every problem of a file before they give up.
+// Problems in an input are reported so that its author can correct them: file, line, key, the
+// mistake, and the remedy. Readers collect every problem of a file before they give up.
 #pragma once
 
 #include <map>
@@ -20,7 +20,7 @@ struct Place {
     std::shared_ptr<const std::map<std::string, int>> keys = nullptr;
 };
 
-/// A word that is allowed at some place of a file.
+/// A word that is allowed at some place in a file.
 struct Choice {
     std::string word;
     std::string what;  ///< a sentence about it; may be empty
@@ -30,9 +30,9 @@ struct Problem {
     Severity severity = Severity::error;
     Place place;
     std::string key;     ///< the key or column that the problem is about; may be empty
-    std::string what;    ///< what is wrong
-    std::string remedy;  ///< what would be right
-    /// For an unknown key or word: those that are known at this place and not yet given.
+    std::string what;    ///< the mistake
+    std::string remedy;  ///< how to correct it
+    /// For an unknown key or word: the known ones that have not been given yet.
     std::vector<Choice> choices = {};
 
     /// "file:line: error: key: what. remedy", without the parts that are empty.
@@ -54,7 +54,7 @@ class Error : public std::runtime_error {
 };
 
 /// In files that people write, an unknown key is a mistake. In files that another version of this
-/// program wrote, it is a key of that version which this one lacks.
+/// program wrote, it may be a key that this version lacks.
 enum class UnknownKeys { are_errors, are_left_out };
 
 /// Collects problems while an input is read.
@@ -80,7 +80,7 @@ class Diagnostics {
     std::vector<Problem> problems_;
 };
 
-/// The candidate nearest to `word` by edit distance, or "" when none is near enough to suggest.
+/// The candidate nearest to `word` by edit distance, or "" if none is near enough to be suggested.
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
 
 }  // namespace dihaptic

@@ -21,7 +21,7 @@ void sync_to_disk(int descriptor, const std::string& name) {
 
 void sync_to_disk(const std::string& name) {
     const int descriptor = ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0) return;  // a file that may not be read is not ours
+    if (descriptor < 0) return;  // a file that we cannot read is not ours
     try {
         sync_to_disk(descriptor, name);
     } catch (const Error&) {
@@ -36,8 +36,9 @@ std::string make_room(int error) {
         case EDQUOT:
             return "free some of your quota";
         case EFBIG:
-            return "no file may get so large there (4 GB on a stick with FAT, or what 'ulimit -f' "
-                   "says), so copy the folder to another disk";
+            return "files cannot become so large there (4 GB on a FAT stick, or the limit of "
+                   "'ulimit -f'"
+                   "), so copy the folder to another disk";
         case EIO:
         case EROFS:
             return "the disk fails, so copy the folder to another one";

@@ -10,10 +10,10 @@ namespace dihaptic {
 /// Returns once the file is on the disk; for a folder, once the names in it are. Throws Error when
 /// the disk fails. Does nothing on a file system that cannot synchronise.
 void sync_to_disk(const std::string& name);
-/// As sync_to_disk(name), for an open file, which messages call `name`.
+/// Like sync_to_disk(name), for an open file that messages call `name`.
 void sync_to_disk(int descriptor, const std::string& name);
 
-/// What to do about a write that failed with this errno, as the middle of a sentence: "free some
+/// The remedy for a write that failed with this errno, to stand within a sentence: "free some
 /// space".
 std::string make_room(int error);
 

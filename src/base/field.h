@@ -11,8 +11,8 @@
 //         }
 //     };
 //
-// Reading (FieldReader), writing (FieldWriter) and whatever else needs names, units and bounds are
-// visitors. An enum lists its names once, in the order of its values, for argument-dependent
+// Reading (FieldReader), writing (FieldWriter) and everything else that needs names, units and
+// bounds are visitors. An enum lists the names of its values once, in order, for argument-dependent
 // lookup:
 //
 //     constexpr auto enum_names(Shape) { return std::array{"box", "sphere"}; }
@@ -29,11 +29,11 @@
 
 namespace dihaptic {
 
-/// The direction in which a limit becomes tighter. Once a limit is set, a later setting may only
+/// The direction in which a limit becomes tighter. Once a limit is set, later settings can only
 /// move it in that direction, or, if it is `fixed`, not at all.
 enum class Tighter { none, less, more, fixed };
 
-/// What a field's value must satisfy. Each component of a vector must satisfy it.
+/// The conditions on a field's value, or on each component of a vector.
 struct Field {
     Quantity quantity = Quantity::none;
     double min = -std::numeric_limits<double>::infinity();
@@ -41,7 +41,7 @@ struct Field {
     bool above_min = false;  ///< the minimum itself is not allowed
     bool is_required = false;
     Tighter tighter = Tighter::none;
-    const char* old_name = nullptr;  ///< as older files have it
+    const char* old_name = nullptr;  ///< in older files
     std::string_view what = {};      ///< a sentence for docs/reference.md
 
     static constexpr Field number() { return {}; }
@@ -65,7 +65,7 @@ struct Field {
         f.max = high;
         return f;
     }
-    /// Both bounds are included. Bounds that suit a tabletop catch a mistaken unit, which would
+    /// Both bounds are included. Bounds chosen for a tabletop catch a mistaken unit, which would
     /// otherwise show up as a simulation that diverges.
     constexpr Field within(double low, double high) const { return at_least(low).at_most(high); }
     constexpr Field tighter_when(Tighter way) const {
@@ -73,8 +73,8 @@ struct Field {
         f.tighter = way;
         return f;
     }
-    /// The field was renamed. A file with the old name gets an error that says so; inputs that an
-    /// earlier version froze in a session are still read.
+    /// The field was renamed. A file with the old name gets an error that says so; inputs that
+    /// an earlier version stored in a session are still read.
     constexpr Field formerly(const char* name) const {
         Field f = *this;
         f.old_name = name;
@@ -92,12 +92,12 @@ struct Field {
     }
 };
 
-/// A field that is described by a sentence only.
+/// A field with only a description.
 constexpr Field says(std::string_view sentence) {
     return Field{}.says(sentence);
 }
 
-/// The texts of a field for which a file gives a single text or a list.
+/// The texts of a field that accepts a single text or a list.
 struct Texts : std::vector<std::string> {
     using std::vector<std::string>::vector;
 };
@@ -115,8 +115,8 @@ concept NamedEnum = std::is_enum_v<E> && requires(E e) {
     enum_names(e);
 };
 
-/// A struct that lists its fields for visitors of type V. Eigen's matrices are excluded: they have
-/// a visit() of their own.
+/// A struct that lists its fields for visitors of type V. Eigen's matrices, which have
+/// a visit() of their own, are excluded.
 template <class Struct, class V>
 concept Described = !requires {
     Struct::RowsAtCompileTime;

@@ -38,7 +38,7 @@ bool is_too_low(const Field& field, double si) {
     return field.above_min ? si <= field.min : si < field.min;
 }
 
-/// What a value that is out of bounds must be; the bounds in the unit that the value was given in.
+/// The bounds that a value violates, in words and in the unit in which the value was given.
 std::string bounds_of(const Field& field, double si, double to_si) {
     const bool only_positive = field.above_min && field.min == 0 && std::isinf(field.max);
     const bool from_zero = field.min > 0 || field.above_min;
@@ -102,7 +102,7 @@ FieldReader::Given FieldReader::take(std::string_view name, const Field& field) 
         used_.insert(keys[i]);
         if (given.node != nullptr) {
             diagnostics_.error(node->place, keys[i],
-                               fmt::format("the same {} is given as {} too", name, given.key),
+                               fmt::format("the same {} is also given as {}", name, given.key),
                                "Keep one of the two.");
             continue;
         }
@@ -127,7 +127,7 @@ FieldReader::Given FieldReader::take_old(std::string_view name, const Field& fie
         const Node* node = mapping_.find(old[i]);
         if (node == nullptr || !used_.insert(old[i]).second) continue;
         if (diagnostics_.unknown_keys() == UnknownKeys::are_errors) {
-            diagnostics_.error(node->place, old[i], fmt::format("is called {} now", now[i]),
+            diagnostics_.error(node->place, old[i], fmt::format("is now called {}", now[i]),
                                fmt::format("Write {}.", now[i]));
         }
         if (given.node == nullptr) given = {node, old[i], all.empty() ? 1.0 : all[i].si};
@@ -211,7 +211,7 @@ std::optional<Vec3> FieldReader::vector(const Given& given, const Field& field) 
 std::optional<std::string> FieldReader::word(const Given& given, const Field& field) {
     if (given.node->kind != Node::Kind::scalar) {
         diagnostics_.error(given.node->place, given.key, "must be a single word or text",
-                           "Write one, in quotes if it has signs in it.");
+                           "Write one, in quotes if it contains punctuation.");
         return std::nullopt;
     }
     if (field.is_required && given.node->scalar.empty()) {
@@ -315,7 +315,7 @@ void FieldReader::operator()(std::string_view name, int& value, Field field) {
     if (*read != std::floor(*read) || std::abs(*read) > 1e9) {
         diagnostics_.error(given.node->place, given.key,
                            fmt::format("must be a whole number, is {}", given.node->scalar),
-                           "Leave out what is behind the point.");
+                           "Leave out the decimals.");
         return;
     }
     value = static_cast<int>(*read);

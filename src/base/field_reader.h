@@ -1,4 +1,4 @@
-// Reads configuration structs (base/field.h) from YAML, and reports everything that is wrong in the
+// Reads configuration structs (base/field.h) from YAML, and reports all mistakes in the
 // YAML: unknown keys, wrong units, wrong types, values out of bounds, missing fields.
 #pragma once
 
@@ -91,14 +91,14 @@ class FieldReader {
     /// Keeps a part of the file unread, for a reader that knows its content.
     void operator()(std::string_view name, Node& value, Field field = {});
 
-    /// A field that belongs to structs of another kind: giving it here is an error.
+    /// A field that belongs to structs of another kind; it is an error to give it here.
     void foreign(std::string_view name, const Field& field, const std::string& remedy);
 
     /// Where the struct itself was written; place_of() gives a field's place or, failing that, the
     /// struct's.
     Place place() const;
     Place place_of(std::string_view name) const;
-    /// Whether the mapping gives the field, in whatever unit.
+    /// Whether the mapping gives the field, in any unit.
     bool has(std::string_view name, Quantity quantity = Quantity::none) const;
     /// Whether a key is meant for the field, readable or not.
     bool mentions(std::string_view name) const;
@@ -106,7 +106,7 @@ class FieldReader {
     bool is_list(std::string_view name) const;
     Diagnostics& diagnostics() { return diagnostics_; }
 
-    /// Reports the keys that no field asked for. Call it after visit().
+    /// Reports the keys that belong to no field. Call it after visit().
     void finish();
 
   private:
@@ -124,7 +124,7 @@ class FieldReader {
     Given take(std::string_view name, const Field& field);
     /// Keys that may still be given.
     std::vector<Choice> choices() const;
-    /// `given`, or what stands under the field's old name.
+    /// `given`, or the entry under the field's old name.
     Given take_old(std::string_view name, const Field& field, Given given);
     const Node* take_mapping(std::string_view name, const Field& field);
     const Node* take_list(std::string_view name, const Field& field);
@@ -168,7 +168,7 @@ void read_fields(Struct& value, const Node& mapping, Diagnostics& diagnostics,
     reader.finish();
 }
 
-/// As read_fields(), for a mapping that may be left out: all fields then keep their defaults.
+/// Like read_fields(), for a mapping that may be left out; then all fields keep their defaults.
 template <class Struct>
 void read_given_fields(Struct& value, const Node& mapping, Diagnostics& diagnostics,
                        Origins* origins = nullptr) {

@@ -46,7 +46,7 @@ Table list_fields(Struct value, const Origins& origins) {
     Table table;
     table.columns = {{"setting", "name and unit"},
                      {"value", "as used"},
-                     {"origin", "file and line, or default"}};
+                     {"origin", "where the value was given: file and line, or default"}};
     FieldLister lister(table, origins);
     value.visit(lister);
     return table;

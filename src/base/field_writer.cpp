@@ -15,7 +15,7 @@ Node exact(const Vec3& value) {
     return list;
 }
 
-/// Whether a word is a number that is written just so: levels may be numbers or texts.
+/// Whether a word is a number in the form in which we write it: levels may be numbers or texts.
 bool is_as_written(const std::string& word) {
     if (const auto whole = whole_number<uint64_t>(word)) return number_text(*whole) == word;
     const auto number = finite_number(word);
@@ -86,7 +86,7 @@ void FieldWriter::operator()(std::string_view name, const bool& value, Field) {
 
 void FieldWriter::operator()(std::string_view name, const std::string& value, Field field) {
     if (value.empty()) return;
-    // a number that is kept as a text, for its size, has bounds
+    // a number that is stored as text because of its size has bounds
     const bool number = std::isfinite(field.min) && is_as_written(value);
     mapping_.set(std::string(name), number ? Node::plain_word(value) : Node::of(value));
 }

@@ -1,5 +1,5 @@
 // Writes configuration structs (base/field.h) as YAML, every value resolved and in SI units;
-// sessions keep their inputs in this form. A formula is written as it was given, with its unit.
+// sessions keep their inputs in this form. A formula is written as given, with its unit.
 // Reading the result gives the same struct, to the bit. An infinite value cannot be written and is
 // left out, so it must be the default of its field.
 #pragma once

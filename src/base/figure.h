@@ -11,9 +11,9 @@
 //         }
 //     };
 //
-// The columns of CSV and NWB files, what BIDS says of them, tables of pages and of the
-// documentation, and keys of JSON follow from that list. A member is in SI units, its column in the
-// unit that is given, by which its name ends: peak_grip_N, height_mm. If the name in the list
+// The columns of CSV and NWB files, their descriptions in BIDS, tables on pages and in the
+// documentation, and keys in JSON follow from that list. A member is in SI units; its column is in
+// the listed unit, with which its name ends: peak_grip_N, height_mm. If the name in the list
 // already ends in the unit, the member itself is in that unit. Pure numbers have the unit "1",
 // texts none: "".
 #pragma once
@@ -30,12 +30,12 @@
 
 namespace dihaptic {
 
-/// How a figure is written: the name of its column, and what its member is multiplied by.
+/// How a figure is written: the name of its column, and the factor for its member.
 struct FigureForm {
     std::string key;
     double scale = 1;
 };
-/// `unit` is written as people write it, e.g. "N/s"; base/unit.h must know it.
+/// `unit` is in the usual notation, e.g. "N/s"; base/unit.h must know it.
 FigureForm figure_form(std::string_view name, std::string_view unit);
 
 /// Collects figures, from a struct or from direct calls, as the columns and cells of a table.
@@ -107,7 +107,7 @@ void add_cells(std::vector<Table::Cell>& row, const Figures& figures) {
     for (Table::Cell& cell : list_figures(figures).cells) row.push_back(std::move(cell));
 }
 
-/// How a member of a struct is written: its column, and what the member is multiplied by.
+/// How a member of a struct is written: its column, and the factor for the member.
 struct FigureColumn {
     Table::Column column;
     double scale = 1;

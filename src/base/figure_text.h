@@ -1,5 +1,5 @@
-// Prints a struct's figures (base/figure.h) for people: first single ones, a line each, then lists
-// of structs, a table each.
+// Prints a struct's figures (base/figure.h) for people: first single figures, one a line, then
+// lists of structs, each as a table.
 #pragma once
 
 #include "base/figure.h"

@@ -1,6 +1,6 @@
-// A number of a file that may be written as an expression: hold_s: wait, or position_mm: [0, 10 *
-// step, 20]. Whoever knows the expression's names compiles the text (task/plan/formulas.h), and
-// sets the value when these have theirs.
+// A number in a file that may be written as an expression: hold_s: wait, or position_mm: [0, 10 *
+// step, 20]. The code that knows the expression's names compiles the text (task/plan/formulas.h), and
+// sets the value once the names have values.
 #pragma once
 
 #include <array>
@@ -13,12 +13,12 @@
 namespace dihaptic {
 
 struct Formula {
-    double value = 0;  ///< of the number, or what the text gives in the present trial, in SI units
-    std::string text;  ///< empty: the value stands
-    double to_si = 1;  ///< unit of the key, in which a text without a dimension is read
+    double value = 0;  ///< the number, or the text's result in the present trial, in SI units
+    std::string text;  ///< empty: a plain number
+    double to_si = 1;  ///< unit of the key, which applies to a text without a dimension
     std::string key;   ///< as in the file
     Place place;
-    Field field;     ///< bounds of what the text gives
+    Field field;     ///< bounds of the text's result
     int index = -1;  ///< of the compiled text; -1: none
 
     Formula() = default;
@@ -30,8 +30,8 @@ struct Formula {
     }
 };
 
-/// The components of a vector. If one of them is computed, all have a text, so that the vector can
-/// be written again in the unit that it was given in.
+/// The components of a vector. If one component is computed, all have a text, so that the vector
+/// can be written again in the unit in which it was given.
 using FormulaVec3 = std::array<Formula, 3>;
 
 inline Vec3 value(const FormulaVec3& v) noexcept {

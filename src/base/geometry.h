@@ -33,7 +33,7 @@ inline Quat rotation_xyz(const Vec3& angles) {
                 Eigen::AngleAxisd(angles.x(), Vec3::UnitX()));
 }
 
-/// The angles that rotation_xyz() turns by [rad]; the one about y lies in -pi / 2 to pi / 2. At
+/// The angles of rotation_xyz() [rad]; the angle about y lies in -pi / 2 to pi / 2. At
 /// either end of that range only the sum or difference of the other two is determined, and z is set
 /// to 0.
 inline Vec3 angles_xyz(const Quat& R_AB) {
@@ -68,7 +68,7 @@ struct Wrench {
     bool is_zero() const { return force == Vec3::Zero() && torque == Vec3::Zero(); }
 };
 
-/// Angle of the smallest rotation that takes A to B [rad].
+/// Angle of the smallest rotation from A to B [rad].
 inline double angle_between(const Quat& R_A, const Quat& R_B) {
     const Quat between = R_A.conjugate() * R_B;
     return 2.0 * std::atan2(between.vec().norm(), std::abs(between.w()));

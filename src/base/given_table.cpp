@@ -36,7 +36,7 @@ bool is_number(std::string_view line) {
     return finite_number(word).has_value();
 }
 
-/// The separator that is most frequent in a line outside of quotes; a comma if there is none.
+/// The separator that occurs most often outside quotes in a line; a comma if there is none.
 char most_frequent(std::string_view line) {
     std::array<int64_t, kSeparators.size()> counts{};
     bool quoted = false;
@@ -59,9 +59,9 @@ GivenTable::GivenTable(std::string_view text, std::string file, size_t begin)
     text.remove_prefix(begin);
     rest_ = text;
     if (text.find('\n') == std::string_view::npos && text.find('\r') != std::string_view::npos)
-        throw Error({file_, 0}, "", "its lines end in CR alone, as on old Macs",
-                    "Save it with line ends LF, or CR LF.");
-    // Microsoft's spreadsheets write and expect it
+        throw Error({file_, 0}, "", "its lines end in CR only, as on old Macs",
+                    "Save it with LF or CR LF line ends.");
+    // Microsoft's spreadsheets write and expect this line
     const std::string_view first = trimmed(text.substr(0, text.find_first_of("\r\n")));
     if (first.starts_with("sep=") && first.size() == 5) {
         separator_ = first[4];
@@ -78,7 +78,7 @@ GivenTable::GivenTable(std::string_view text, std::string file, size_t begin)
         const size_t end = std::min(rest.find('\n'), rest.size());
         const std::string_view line = rest.substr(0, end);
         separator_ = most_frequent(line);
-        // a single number with a decimal comma, as a rate of Nexus is, has no separator
+        // a single number with a decimal comma, like a rate from Nexus, has no separator
         if (line.find(separator_) != std::string_view::npos && !is_number(line)) return;
         rest.remove_prefix(std::min(end + 1, rest.size()));
         separator_ = ',';
@@ -160,8 +160,9 @@ std::optional<double> GivenTable::number(const std::string& cell) {
 
 void GivenTable::tell_commas(Diagnostics& diagnostics) const {
     if (comma_ == 0 || separator_ != ',') return;
-    diagnostics.warning({file_, comma_}, "", "from here on a comma in a number counts as its point",
-                        "If it parts thousands, export the table without it.");
+    diagnostics.warning({file_, comma_}, "",
+                        "from here on a comma in a number is read as a decimal point",
+                        "If it separates thousands, export the table without it.");
 }
 
 }  // namespace dihaptic

@@ -1,5 +1,5 @@
-// A table that somebody hands in, as spreadsheets, trackers and statistics programs write it in any
-// country: with commas, semicolons or tabs between its cells (perhaps said so by a line sep=;),
+// A table from a user, as spreadsheets, trackers and statistics programs write it in any
+// country: with commas, semicolons or tabs between its cells (perhaps declared by a line sep=;),
 // points or commas before decimals, and cells in quotes. Anything ambiguous is an error with file,
 // line and remedy. The program's own tables are read by read_csv().
 #pragma once
@@ -14,27 +14,27 @@
 
 namespace dihaptic {
 
-/// Goes through a table line by line: movements have millions of them.
+/// Reads a table line by line, because movements have millions of lines.
 class GivenTable {
   public:
     /// `text` is the file's text, which must outlive this object; the table begins at one of its
     /// lines.
     GivenTable(std::string_view text, std::string file, size_t begin = 0);
 
-    /// Cells of the next line that has any, without the blanks around them; nullopt at the end.
-    /// Throws Error when a line's quotes do not end in it, or it has thousands of cells.
+    /// Cells of the next line that is not empty, without the blanks around them; nullopt at the
+    /// end. Throws Error if a line has an unclosed quote or thousands of cells.
     std::optional<std::vector<std::string>> next();
     /// The number of the line that next() will return.
     std::optional<std::vector<std::string>> peek() const { return GivenTable(*this).next(); }
     /// The number of the line that next() returned.
     Place place() const { return {file_, line_}; }
-    /// Whether lines without cells stood before it.
+    /// Whether empty lines preceded it.
     bool after_gap() const { return gap_; }
 
     /// The number in a cell; nullopt if it is not a number. Throws Error when the table has both
-    /// decimal points and decimal commas: one of them must then separate thousands.
+    /// decimal points and decimal commas: one of the two must separate thousands.
     std::optional<double> number(const std::string& cell);
-    /// Warns, after everything was read, of numbers in which a comma may have separated thousands.
+    /// Warns, at the end, about numbers in which a comma may separate thousands.
     void tell_commas(Diagnostics& diagnostics) const;
 
     char separator() const { return separator_; }

@@ -52,13 +52,13 @@ Error unreadable(const std::string& file, const std::string& why) {
 
 void check_pixels(int64_t width, int64_t height, const std::string& file) {
     if (width * height <= kMostPixels) return;
-    throw Error(
-        {file, 0}, "", "has more pixels than this program takes",
-        fmt::format("Make it smaller: {} million pixels are the most.", kMostPixels / 1'000'000));
+    throw Error({file, 0}, "", "has more pixels than this program accepts",
+                fmt::format("Make it smaller: at most {} million pixels are allowed.",
+                            kMostPixels / 1'000'000));
 }
 
 /// Uses libpng's low-level interface, which applies no gamma, to convert every form of PNG file to
-/// rows of red, green, blue and alpha. libpng reports an error by longjmp, so nothing that it jumps
+/// rows of red, green, blue and alpha. libpng reports errors by longjmp, so no object that it jumps
 /// over may have a destructor.
 class PngReader {
   public:
@@ -112,7 +112,7 @@ class PngReader {
     std::string why_;
 };
 
-/// A sample of one or two bytes as a share of the most.
+/// A sample of one or two bytes as a fraction of the largest value.
 float share(const uint8_t* at, size_t bytes) {
     return bytes == 1 ? static_cast<float>(at[0]) / 255
                       : static_cast<float>(at[0] << 8 | at[1]) / 65535;
@@ -162,8 +162,8 @@ GreyImage read_grey_png(const std::string& file) {
                 {file, 0}, "",
                 fmt::format("pixel {} of row {} is not opaque", out.grey.size() % png.width() + 1,
                             out.grey.size() / png.width() + 1),
-                "Export it without transparency (an alpha channel): its greys are data, "
-                "which nothing shines through.");
+                "Export it without transparency (an alpha channel): its grey levels are "
+                "data and cannot be transparent.");
         out.grey.push_back((sample(0) + sample(1) + sample(2)) / 3);
     }
     return out;

@@ -1,5 +1,5 @@
-// A picture in memory, and its PNG file. A picture that is to be seen is read as it is meant to
-// look. A picture whose greys are data, such as heights, is read as stored, without gamma.
+// A picture in memory, and its PNG file. A picture for display is read as it is meant to
+// look. A picture whose grey levels are data, such as heights, is read as stored, without gamma.
 #pragma once
 
 #include <cstdint>
@@ -22,19 +22,19 @@ struct Image {
 
 /// Writes a PNG file, which appears only when it is whole. Throws Error when it cannot be written.
 void write_png(const Image& image, const std::string& file);
-/// Throws Error when the file is not a PNG file, or is very large. 16-bit samples are taken as sRGB
-/// too, unless the file says otherwise (gAMA); transparent pixels are drawn on black.
+/// Throws Error when the file is not a PNG file, or is very large. 16-bit samples are interpreted
+/// as sRGB too, unless the file says otherwise (gAMA); transparent pixels are drawn on black.
 Image read_png(const std::string& file);
 
-/// A picture whose greys are numbers.
+/// A picture whose grey levels are numbers.
 struct GreyImage {
     int width = 0;
     int height = 0;
     std::vector<float> grey;    ///< 0, black, to 1, white: mean of the colours as stored
     std::string checksum = {};  ///< of the file that it was read from (base/checksum.h)
 };
-/// Throws Error as read_png() does, and also when a pixel is not opaque: a number cannot be half
-/// there.
+/// Throws Error like read_png(), and also if a pixel is not opaque, because a number cannot be
+/// half transparent.
 GreyImage read_grey_png(const std::string& file);
 
 }  // namespace dihaptic

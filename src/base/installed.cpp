@@ -11,19 +11,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The shared library that contains this function, if there is one: the running program is then
+/// The shared library that contains this function, if there is one. The running program is then
 /// another one, such as Python.
 fs::path file_of_this() {
     std::error_code ignored;
     const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
     Dl_info info{};
     if (dladdr(reinterpret_cast<const void*>(&file_of_this), &info) == 0) return program;
-    // of a program this is the name that it was started by, which may be found on PATH alone
+    // for a program this is the name with which it was started, which may be on PATH only
     const fs::path library = fs::canonical(info.dli_fname, ignored);
     return ignored || library.extension() != ".so" ? program : library;
 }
 
-/// Where a user keeps files of all studies; "" if the user has no home.
+/// The folder of a user's files for all studies; "" if the user has no home.
 fs::path own_folder() {
     const std::string data = user_data();
     return data.empty() ? fs::path() : fs::path(data) / "dihaptic";
@@ -35,7 +35,8 @@ std::string in_or_above_program(std::initializer_list<std::string> names) {
     std::vector<fs::path> folders;
     for (fs::path at = file_of_this().parent_path(); at.has_relative_path(); at = at.parent_path())
         folders.push_back(at);
-    folders.insert(folders.end(), {"/usr/local", "/usr"});  // other programs use this library too
+    folders.insert(folders.end(),
+                   {"/usr/local", "/usr"});  // because other programs use this library too
     std::error_code ignored;
     for (const fs::path& folder : folders) {
         for (const std::string& name : names) {

@@ -8,13 +8,13 @@
 
 namespace dihaptic {
 
-/// The first of the files `names` that exists in the folder of this code or in one above it, the
-/// nearest folder first, then in /usr/local and /usr; "" if none exists. "This code" is the running
-/// program, or a shared library such as a Python module.
+/// The first of the files `names` that exists in the folder of this code or in a folder above it,
+/// the nearest folder first, then in /usr/local and /usr; "" if none exists. "This code" is the
+/// running program, or a shared library such as a Python module.
 std::string in_or_above_program(std::initializer_list<std::string> names);
 
-/// The folder of the files that come with the program: experiments, scenes, rigs and what they
-/// need. "" if it is missing.
+/// The folder of the files that come with the program: experiments, scenes, rigs and the files that
+/// they need. "" if the folder is missing.
 std::string shipped_folder();
 
 /// The file of this name, e.g. scenes/block-on-table.yaml, in the folder where a user keeps files
@@ -22,13 +22,13 @@ std::string shipped_folder();
 /// files that come with the program. "" if neither has it, or if the path is absolute.
 std::string kept(const std::string& name);
 
-/// `name` if there is such a file or folder, or else kept(name); `name`, which is missing, if
-/// neither is there.
+/// `name` if there is such a file or folder, or else kept(name); `name`, although missing, if
+/// neither exists.
 std::string given_or_kept(const std::string& name);
 
-/// The file that a file in `folder` names: relative to the folder or, if it is missing there,
-/// kept() without a leading ../. A copy of a shipped file therefore finds what it names wherever it
-/// is put. If neither exists, the (missing) one in the folder.
+/// The file with a name that a file in `folder` contains: relative to the folder or, if it is
+/// missing there, kept() without a leading ../. A copy of a shipped file can therefore be put
+/// anywhere and still finds its files. If neither exists, the (missing) file in the folder.
 std::string named_in(const std::string& folder, const std::string& name);
 
 }  // namespace dihaptic

@@ -12,7 +12,7 @@
 namespace dihaptic {
 namespace {
 
-/// What finite_number() takes for a number: FieldReader does not mind quotes around it.
+/// The syntax that finite_number() accepts; FieldReader also accepts quotes around a number.
 constexpr const char* kNumber = R"(^[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?$)";
 constexpr double kLargestWhole = 1e9;  // of FieldReader
 
@@ -34,8 +34,8 @@ Json three(const Json& item) {
     return {{"type", "array"}, {"items", item}, {"minItems", 3}, {"maxItems", 3}};
 }
 
-/// What is of these types, or true or false, which is said in another way: editors propose true and
-/// false where a type may be boolean.
+/// A value of these types, or true or false. The latter are listed, since editors propose true and
+/// false wherever a type may be boolean.
 Json one_of_these(const std::vector<std::string>& types, const char* said) {
     Json others{"string", "number", "object", "array", "null"};
     return {{"anyOf", {{{"type", types}, {"errorMessage", said}}, {{"not", {{"type", others}}}}}}};
@@ -59,7 +59,7 @@ Json preset_of(const Node& node, double si) {
     return out;
 }
 
-/// As a person would write it in a file.
+/// The value as a person would write it in a file.
 std::string in_words(const Json& value) {
     if (value.is_string()) return value.get<std::string>();
     if (!value.is_array()) return value.dump();
@@ -97,8 +97,8 @@ void require(Json& schema, const std::vector<std::vector<std::string>>& required
     }
 }
 
-/// The keys that only some kinds have; those of `common`, which are described already, may be
-/// there.
+/// The keys that only some kinds have; those in `common`, which are already described, may also
+/// occur.
 Json keys_of_kind(const SchemaKeys& keys, const SchemaKeys& common) {
     Json out{{"properties", Json::object()}, {"additionalProperties", false}};
     for (const SchemaKeys::Key& key : keys.keys)
@@ -111,7 +111,7 @@ Json keys_of_kind(const SchemaKeys& keys, const SchemaKeys& common) {
     return out;
 }
 
-/// What all kinds have.
+/// The keys that all kinds have.
 SchemaKeys common_keys(const std::vector<SchemaKeys>& each) {
     SchemaKeys out;
     const auto everywhere = [&](const auto& has) {
@@ -152,7 +152,7 @@ Json JsonSchema::mapping(std::string_view key, const std::vector<std::string_vie
                          const std::vector<SchemaKeys>& each) {
     const SchemaKeys common = common_keys(each);
     Json out = mapping(common);
-    out.erase("additionalProperties");  // each kind says which other keys there may be
+    out.erase("additionalProperties");  // each kind lists the other keys that it allows
     Json known = Json::array();
     bool any_word = false;
     for (const std::string_view word : words) {
@@ -221,7 +221,7 @@ void SchemaLister::add(std::string_view name, const Field& field, const Node& pr
     keep_one_default(names.size(), best);
 }
 
-/// An editor inserts all keys with a default when it begins a mapping, so each value has its
+/// An editor inserts all keys with a default when it starts a mapping, so each value has its
 /// default in one unit only.
 void SchemaLister::keep_one_default(size_t units, const Json& best) {
     bool kept = false;

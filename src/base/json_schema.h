@@ -1,5 +1,5 @@
 // Makes JSON Schemas, draft 7, of configuration structs (base/field.h). An editor that has the
-// schema of a file completes its keys, says what each means, and marks mistakes while it is typed.
+// schema of a file completes the keys, explains each, and marks mistakes during typing.
 //
 // A schema refuses nothing that FieldReader accepts. It is meant for YAML 1.2, in which yes and no
 // are words. What a schema cannot express is left to `dihaptic check`: names of things that do not
@@ -41,7 +41,7 @@ struct SchemaKeys {
 /// The schema of one kind of file. Each struct is defined once; keys refer to the definition.
 class JsonSchema {
   public:
-    /// Describes a part that is read elsewhere, for which a visit() has a Node of this name: by the
+    /// Describes a part that is read elsewhere (a Node of this name in a visit()), by the
     /// keys of a struct, or by a schema. Call it before of(). A Node without a description may be
     /// any mapping.
     template <class Struct>
@@ -57,14 +57,14 @@ class JsonSchema {
                       const Struct& value) {
         parts_[{name, word}] = [this, heading, value] {
             const Json ref = refer(value, heading);
-            // it may be left empty
+            // a mapping may be left empty
             definitions_[heading]["type"] = {"object", "null"};
             return ref;
         };
     }
 
-    /// The schema of a file that is read into such a struct. `heading` says in a word or two what
-    /// it is.
+    /// The schema of a file that is read into such a struct. `heading` names the kind of file
+    /// in a word or two.
     template <class Struct>
     Json of(const Struct& value, const std::string& heading) {
         return whole(object(value, heading), heading);
@@ -81,7 +81,7 @@ class JsonSchema {
     Json whole(const Json& keys, const std::string& heading) const;
     /// A mapping with these keys.
     static Json mapping(const SchemaKeys& keys);
-    /// A mapping whose keys depend on the word that `key` has.
+    /// A mapping whose keys depend on the value of `key`.
     static Json mapping(std::string_view key, const std::vector<std::string_view>& words,
                         const std::vector<SchemaKeys>& each);
     /// The keys of a mapping that can be given in two ways.
@@ -120,11 +120,11 @@ class JsonSchema {
     Json definitions_ = Json::object();
 };
 
-/// Lists the keys of one struct, as a visitor of it.
+/// Visitor that lists the keys of one struct.
 class SchemaLister {
   public:
-    /// `word`: of the struct's kind, if it has kinds. `as_lists`: describes what may be a list, in
-    /// place of a mapping, as the list.
+    /// `word`: the struct's kind, if it has kinds. `as_lists`: a value that may be a list or
+    /// a mapping is described as a list.
     SchemaLister(JsonSchema& schema, std::string path, std::string_view word, bool as_lists)
         : schema_(schema), path_(std::move(path)), word_(word), as_lists_(as_lists) {}
 

@@ -19,7 +19,7 @@ namespace dihaptic {
 
 template <class Struct>
 struct Kinds {
-    std::string_view key;  ///< of the file, that names the kind
+    std::string_view key;  ///< the key in the file that gives the kind
     /// The word for each kind; "" stands for any other word.
     std::vector<std::pair<std::string_view, Struct>> each;
 };
@@ -29,7 +29,7 @@ concept HasKinds = requires(const Struct& s) {
     kinds_of(s);
 };
 
-/// One struct for each value of an enum, which `set` gives it.
+/// One struct for each value of an enum; `set` puts the value into the struct.
 template <NamedEnum E, class Struct, class Set>
 Kinds<Struct> each_kind(std::string_view key, const Struct& value, const Set& set) {
     static constexpr auto kNames = enum_names(E{});

@@ -1,6 +1,6 @@
 // Latest hands the newest value from one thread that writes it to one that reads it. Neither thread
 // waits, and neither sees half a value: there are three copies, and the two threads never hold the
-// same one.
+// same copy.
 #pragma once
 
 #include <array>
@@ -18,7 +18,7 @@ class Latest {
     /// All three copies, e.g. to reserve their memory. Only before the threads start.
     std::array<T, 3>& values() noexcept { return values_; }
 
-    /// Writer: the copy to fill in, which holds an old value. publish() hands it over.
+    /// Writer: the copy to fill in, which still contains an old value. publish() hands it over.
     T& next() noexcept { return values_[writing_]; }
     void publish() noexcept {
         writing_ = shared_.exchange(static_cast<uint8_t>(writing_ | kNew), order()) & kIndex;
@@ -28,7 +28,7 @@ class Latest {
         publish();
     }
 
-    /// Reader: the newest value that was published, unchanged until the next read().
+    /// Reader: the newest value that was published, valid until the next read().
     const T& read() noexcept {
         if (is_new()) reading_ = shared_.exchange(reading_, order()) & kIndex;
         return values_[reading_];

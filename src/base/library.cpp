@@ -36,7 +36,7 @@ void* Library::address(const char* symbol) const {
     void* const found = dlsym(handle_, symbol);
     if (found != nullptr) return found;
     throw Error(place_, "library", fmt::format("{} has no {}", file_, symbol),
-                "It is of a version that this program does not know. " + spec_.remedy);
+                "This program does not support its version. " + spec_.remedy);
 }
 
 }  // namespace dihaptic

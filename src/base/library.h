@@ -13,11 +13,11 @@ class Library {
   public:
     struct Spec {
         std::string product;             ///< for messages
-        std::vector<std::string> files;  ///< tried in this order, found as dlopen() finds them
-        bool global = false;             ///< whether libraries that it loads see its symbols
+        std::vector<std::string> files;  ///< tried in this order; dlopen() looks for them
+        bool global = false;             ///< whether libraries loaded by it see its symbols
         std::string remedy;              ///< what to install
-        /// A library that this one needs: the beginning of its file name, and what to install for
-        /// it.
+        /// A library that this one needs: the start of its file name, and the package that
+        /// contains it.
         struct Need {
             std::string file;
             std::string remedy;
@@ -25,7 +25,7 @@ class Library {
         std::vector<Need> needs;
     };
 
-    /// Loads the first file that can be loaded, or `path` alone unless it is empty. The library is
+    /// Loads the first file that can be loaded, or only `path`, unless it is empty. The library is
     /// never unloaded: such libraries start threads that outlive their last call. Throws Error for
     /// `place` with the loader's message for each file.
     Library(Spec spec, const std::string& path, Place place);

@@ -38,7 +38,7 @@ Node Node::plain_word(std::string word) {
 
 Node Node::number(double value) {
     std::string text = number_text(value);
-    // PyYAML takes 1e-05 for a text
+    // PyYAML reads 1e-05 as text
     if (const size_t e = text.find('e'); e != std::string::npos && text.find('.') > e)
         text.insert(e, ".0");
     return plain_word(std::move(text));
@@ -62,12 +62,12 @@ void Node::set(const std::string& key, Node value) {
 
 namespace {
 
-/// An alias (*name) inside what it names would never end, and aliases of aliases double at each
-/// level.
+/// An alias (*name) inside the node that it refers to would never end, and aliases of aliases
+/// double at each level.
 constexpr size_t kDeepest = 32;
 constexpr size_t kMostNodes = 500'000;
 
-/// Builds the tree while the text is read, so that nesting or size beyond the limits is refused at
+/// Builds the tree while the text is read, so that excessive nesting or size is refused at
 /// once. In the tree of YAML::Load() each look-up of a key would search all keys.
 class TreeBuilder final : public YAML::EventHandler {
   public:
@@ -82,7 +82,7 @@ class TreeBuilder final : public YAML::EventHandler {
     struct Open {
         Node node;
         YAML::anchor_t anchor;
-        size_t count;       // of nodes before it
+        size_t count;       // nodes before it
         size_t height = 0;  // levels below it
         std::optional<Node> key = std::nullopt;
     };
@@ -102,7 +102,7 @@ class TreeBuilder final : public YAML::EventHandler {
                   const std::string& text) override {
         Node node = begin(Node::Kind::scalar, mark);
         node.scalar = text;
-        node.plain = tag == "?";  // yaml-cpp's word for it
+        node.plain = tag == "?";  // yaml-cpp's tag for plain scalars
         if (const auto fault = find_fault(text)) {
             node.scalar = mended(text);
             if (words_ == Words::checked)
@@ -156,7 +156,7 @@ void TreeBuilder::check_single(const Place& place) const {
                 "Keep one document a file.");
 }
 
-/// `height`: levels below what begins here.
+/// `height`: levels below the node that starts here.
 void TreeBuilder::check_size(const Place& place, size_t height) const {
     if (open_.size() + height > kDeepest)
         throw Error(place, "", fmt::format("is nested too deeply: in more than {} lists", kDeepest),
@@ -200,7 +200,8 @@ void TreeBuilder::OnAlias(const YAML::Mark& mark, YAML::anchor_t anchor) {
     check_single(place);
     const auto named = named_.find(anchor);
     if (named == named_.end())
-        throw Error(place, "", "an alias (*name) stands in what it names, which is endless",
+        throw Error(place, "",
+                    "an alias (*name) is inside the part that it refers to, which never ends",
                     "Write it out without the alias.");
     const auto& [node, count, height] = named->second;
     count_ += count;
@@ -217,7 +218,7 @@ void TreeBuilder::close() {
 void TreeBuilder::add(Node node, YAML::anchor_t anchor, size_t count, size_t height) {
     if (!open_.empty()) open_.back().height = std::max(open_.back().height, height + 1);
     if (anchor != 0) {
-        count_ += count;  // it is kept twice
+        count_ += count;  // the value is stored twice
         check_size(node.place, 0);
         named_[anchor] = {node, count, height};
     }
@@ -252,12 +253,12 @@ bool is_one_of(std::string_view word, std::initializer_list<std::string_view> wo
     });
 }
 
-/// Whether YAML 1.1 takes the word for a truth value, as this program does.
+/// Whether YAML 1.1 reads the word as a truth value, as this program does.
 bool is_truth(std::string_view word) {
     return is_one_of(word, {"yes", "no", "true", "false", "on", "off"});
 }
 
-/// Whether YAML 1.1 may take a text without quotes for something else (yaml.org/type/): it begins
+/// Whether YAML 1.1 may read a text without quotes as something else (yaml.org/type/): it starts
 /// like a number or a sign, or is one of YAML's own words.
 bool reads_otherwise(std::string_view text) {
     const auto begins_word = [](char c) {
@@ -282,7 +283,7 @@ bool is_number(std::string_view word) {
 }
 
 void emit_text(const std::string& text, YAML::Emitter& out) {
-    // YAML 1.1 takes them for line ends
+    // YAML 1.1 treats them as line ends
     if (text.find("\u2028") != std::string::npos || text.find("\u2029") != std::string::npos)
         out << YAML::EscapeNonAscii << YAML::DoubleQuoted;
     else if (reads_otherwise(text))

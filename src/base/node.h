@@ -16,14 +16,14 @@ struct Node {
     Kind kind = Kind::null;
     Place place;
     std::string scalar;
-    bool plain = false;       ///< of a scalar: without quotes, as numbers, yes and no are written
-    std::vector<Node> items;  ///< of a sequence
-    std::vector<Entry> entries;  ///< of a mapping, in the order of the file
+    bool plain = false;          ///< for a scalar: written without quotes, like numbers, yes and no
+    std::vector<Node> items;     ///< for a sequence
+    std::vector<Entry> entries;  ///< for a mapping, in the order of the file
 
     /// The value of a mapping's key, or null.
     const Node* find(const std::string& key) const;
 
-    /// A text, which to_yaml() quotes where other programs would take it for something else.
+    /// A text, which to_yaml() quotes where other programs would read something else.
     static Node of(std::string text);
     /// A number, or any other scalar that is not a text.
     static Node number(double value);
@@ -38,17 +38,17 @@ struct Node::Entry {
     Node value;
 };
 
-/// Whether control characters, which YAML has escapes for, are an error or are replaced: before
-/// version 0.3 they got into sessions, whose files then could not be read.
+/// Whether control characters, which YAML can escape, are an error or are replaced. Before
+/// version 0.3 they got into sessions, whose files were then unreadable.
 enum class Words { checked, mended };
 
 /// Reads a YAML file. Throws Error when the file cannot be read, is not YAML, gives a key twice, or
-/// has words with control characters.
+/// contains control characters.
 Node read_yaml(const std::string& file);
-/// As read_yaml(), from text; messages call it `file`.
+/// Like read_yaml(), from text, which messages call `file`.
 Node parse_yaml(const std::string& text, const std::string& file, Words words = Words::checked);
 
-/// Texts are quoted wherever a reader of YAML 1.1, as PyYAML and R have it, would take them for
+/// Texts are quoted wherever a reader of YAML 1.1, such as PyYAML or R, would read them as
 /// something else: 010 for 8, 1:30 for 90, no for false, a day for a date.
 std::string to_yaml(const Node& node);
 

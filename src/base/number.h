@@ -13,13 +13,14 @@
 
 namespace dihaptic {
 
-/// The number that the whole word is, "+1e3" too; nullopt if it is not a number, or not finite.
+/// The number that the whole word represents, e.g. "+1e3"; nullopt if it is not a number, or not
+/// finite.
 std::optional<double> finite_number(std::string_view word);
 
-/// As finite_number(), but accepts "inf" and "-inf", which occur in tables.
+/// Like finite_number(), but also accepts "inf" and "-inf", which occur in tables.
 std::optional<double> any_number(std::string_view word);
 
-/// The whole number that a word gives in digits; nullopt if it is not one, or does not fit.
+/// The whole number that a word of digits represents; nullopt if it is none or does not fit.
 template <std::integral Whole>
 std::optional<Whole> whole_number(std::string_view word, int base = 10) {
     Whole value{};

@@ -35,7 +35,7 @@ uint32_t nobodys_guess() {
     return out;
 }
 
-/// Makes a new folder beside `file`, which this user alone may enter.
+/// Makes a new folder beside `file`, which only this user can enter.
 std::string make_folder(const std::string& file) {
     for (int tries = 0; tries < 100; ++tries) {
         std::string folder =
@@ -46,8 +46,8 @@ std::string make_folder(const std::string& file) {
     throw not_written(file, std::strerror(errno));
 }
 
-/// The process that made a part, according to the part's name, or 0: `file`.PROCESS-RANDOM.part, in
-/// versions before 0.3 `file`.PROCESS.part.
+/// The process that made a part, according to the part's name (`file`.PROCESS-RANDOM.part, in
+/// versions before 0.3 `file`.PROCESS.part), or 0.
 int maker_of(std::string_view name, std::string_view file) {
     if (!name.starts_with(file) || !name.ends_with(kPart)) return 0;
     name.remove_prefix(file.size());
@@ -74,12 +74,12 @@ void check_replaceable(const std::string& file) {
         throw Error({file, 0}, "",
                     fmt::format("cannot be written: it is a link to {}",
                                 fs::read_symlink(file, unreadable).string()),
-                    "Remove the link, or name what it leads to.");
+                    "Remove the link, or name its target.");
     }
     throw Error({file, 0}, "",
                 S_ISDIR(there.st_mode)
                     ? "cannot be written: it is a folder"
-                    : "cannot be written: it is no file, but a pipe, a socket or a device",
+                    : "cannot be written: it is not a file, but a pipe, a socket or a device",
                 "Name another file, or move this away.");
 }
 
@@ -126,7 +126,7 @@ void make_folders(const std::string& root, const std::string& below) {
     if (!failed && fs::is_directory(folder, failed)) return;
     throw Error({folder.string(), 0}, "",
                 "cannot be made: " + (failed ? failed.message() : "a file has its name"),
-                "Name another folder, or look at its permissions.");
+                "Name another folder, or check its permissions.");
 }
 
 }  // namespace dihaptic

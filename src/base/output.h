@@ -1,7 +1,7 @@
 // A file or folder that is being made. It gets its name only when it is complete, so that a reader
-// finds nothing, the old one or the new one. It is made in a folder whose name nobody else can
-// foresee and that nobody else may enter, so that it cannot be redirected by anything that was put
-// beside it.
+// finds no file, the old file or the new file. It is made in a folder whose name nobody else can
+// predict and that nobody else can enter, so that nothing put beside it can
+// redirect it.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ namespace dihaptic {
 class Output {
   public:
     /// Makes the folder `file`.PROCESS-RANDOM.part beside `file`, which must not be a link, a
-    /// folder, or anything else than a file. Throws Error when it cannot.
+    /// folder, or anything other than a file. Throws Error on failure.
     explicit Output(const std::string& file);
     /// Removes the file unless it was kept.
     ~Output();
@@ -20,7 +20,7 @@ class Output {
 
     /// The path at which the file or folder is made. Nothing exists there at first.
     const std::string& path() const { return path_; }
-    /// Gives it its name, in place of the file that had it. Throws Error when it cannot.
+    /// Renames it to `file`, replacing an earlier one. Throws Error on failure.
     void keep();
 
   private:
@@ -29,16 +29,16 @@ class Output {
     std::string path_;
 };
 
-/// Removes the parts of `file` that killed programs left behind.
+/// Removes the parts of `file` that killed programs have left.
 void remove_dead_parts(const std::string& file);
 
 /// Throws Error when the name belongs to a link, a folder, a pipe or a device: writing there would
-/// go elsewhere, or would replace something that is not a file.
+/// go elsewhere or replace something other than a file.
 void check_replaceable(const std::string& file);
 
-/// Makes the folder `below` within `root`, which is made too, and any folder between the two.
-/// Throws Error when one of them cannot be made, or when one within `root` is a link: it would lead
-/// out.
+/// Makes the folder `below` within `root`, and creates `root` and all folders between.
+/// Throws Error when a folder cannot be made, or when one within `root` is a link, which would lead
+/// outside.
 void make_folders(const std::string& root, const std::string& below);
 
 }  // namespace dihaptic

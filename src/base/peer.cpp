@@ -25,7 +25,7 @@ std::string name_of(uid_t uid) {
     return number_text(uid);
 }
 
-/// The name that the process has given itself; "" if it is gone, or hidden.
+/// The process's own name; "" if the process has ended or is hidden.
 std::string program_of(pid_t pid) {
     std::string name;
     std::getline(std::ifstream(fmt::format("/proc/{}/comm", pid)), name);

@@ -1,5 +1,5 @@
-// Finds out from the kernel who is at the other end of a UNIX socket. Names and paths of sockets
-// prove nothing, because other users can take them.
+// Asks the kernel for the process at the other end of a UNIX socket. Names and paths of sockets
+// prove nothing, because other users can create them.
 #pragma once
 
 #include <sys/types.h>
@@ -13,10 +13,10 @@ struct Peer {
     pid_t pid = 0;
     uid_t uid = 0;
 
-    /// Whether it belongs to this user or to root, who can do anything in any case.
+    /// Whether the process belongs to this user, or to root, who can do everything anyway.
     bool is_trusted() const;
-    /// "dihaptic-keeper (process 1234 of user jane, since 2026-01-31 09:30)", as far as it is
-    /// known.
+    /// "dihaptic-keeper (process 1234 of user jane, since 2026-01-31 09:30)", as far as
+    /// it is known.
     std::string describe() const;
 };
 

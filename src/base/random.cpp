@@ -6,7 +6,7 @@
 namespace dihaptic {
 namespace {
 
-/// FNV-1a over the stream's name, started from the seed.
+/// FNV-1a over the stream's name, starting from the seed.
 uint64_t mix(uint64_t seed, std::string_view stream) {
     uint64_t hash = 14695981039346656037ULL ^ (seed * 0x9E3779B97F4A7C15ULL);
     for (const char c : stream) {
@@ -20,7 +20,7 @@ uint64_t mix(uint64_t seed, std::string_view stream) {
 
 Random::Random(uint64_t seed, std::string_view stream) : engine_(mix(seed, stream)) {}
 
-// The standard's distributions may differ between libraries; these do not.
+// The standard library's distributions may differ between implementations; ours do not.
 double Random::uniform(double low, double high) {
     const double unit = static_cast<double>(engine_() >> 11) * 0x1.0p-53;
     return low + (high - low) * unit;

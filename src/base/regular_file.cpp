@@ -37,8 +37,8 @@ RegularFile::RegularFile(const std::string& file)
     }
     if (descriptor_ >= 0) ::close(descriptor_);
     if (S_ISDIR(status.st_mode)) throw Error({file, 0}, "", "is a folder", "Name a file in it.");
-    throw Error({file, 0}, "", "is no file, but a pipe, a socket or a device",
-                "Put a file in its place: copy what it gives into one.");
+    throw Error({file, 0}, "", "is not a file, but a pipe, a socket or a device",
+                "Replace it by a file with a copy of its output.");
 }
 
 RegularFile::~RegularFile() {

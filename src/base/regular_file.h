@@ -9,7 +9,7 @@
 
 namespace dihaptic {
 
-/// A file that is open for reading.
+/// A file open for reading.
 class RegularFile {
   public:
     /// Throws Error when the file does not exist, is not a regular file, or cannot be opened.
@@ -37,7 +37,7 @@ class RegularFile {
 std::string read_bytes(const std::string& file, int64_t most);
 
 /// Whether anything has this name, even a dangling link or something other than a file; reading it
-/// then reports what is wrong. Also true when a folder on the path may not be searched.
+/// then reports what is wrong. Also true when a folder on the path cannot be searched.
 bool is_there(const std::string& file) noexcept;
 
 }  // namespace dihaptic

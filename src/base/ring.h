@@ -1,5 +1,5 @@
 // A ring of variable-size records between one producer thread and one consumer thread. Neither side
-// waits: a full ring refuses the record, and the producer counts what it could not hand over.
+// waits: a full ring refuses the record, and the producer counts refused records.
 #pragma once
 
 #include <atomic>
@@ -24,7 +24,8 @@ class Ring {
         bytes_ = std::make_unique<std::byte[]>(size);
     }
 
-    /// Producer: appends a record; false when it does not fit now. Does not allocate or wait.
+    /// Producer: appends a record; false when it does not fit at present. Does not allocate or
+    /// wait.
     bool push(std::span<const std::byte> record) noexcept {
         const uint64_t head = head_.load(std::memory_order_relaxed);
         const uint64_t tail = tail_.load(std::memory_order_acquire);

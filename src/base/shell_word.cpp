@@ -64,7 +64,7 @@ std::optional<std::vector<std::string>> shell_words(std::string_view command) {
                 word += letter;
             }
         }
-        // anything that shell_word() would write differently means something else to a shell
+        // anything that shell_word() would write differently has another meaning in a shell
         if (shell_word(word) != command.substr(at, end - at)) return std::nullopt;
         out.push_back(word);
         at = end + 1;

@@ -1,5 +1,5 @@
 // Quotes the words of a command that a person or a script will type into a shell, and splits such a
-// command again. File names may come from strangers: whatever they contain, a shell takes each as
+// command again. File names may come from strangers: whatever they contain, a shell reads each as
 // one word, and a terminal shows it.
 #pragma once
 
@@ -10,12 +10,12 @@
 
 namespace dihaptic {
 
-/// The word, quoted if a shell would not take it as it is; in $'...', which bash and zsh know, if
+/// The word, quoted if a shell would interpret it; in $'...', which bash and zsh support, if
 /// it has control characters.
 std::string shell_word(const std::string& word);
 
-/// As shell_word(), for a file name: one that begins with a dash, which every program would take
-/// for an option, gets ./ in front.
+/// Like shell_word(), for a file name: one that starts with a dash, which every program would read
+/// as an option, is preceded by ./.
 std::string shell_file(const std::string& name);
 
 /// The words of a command that was made with shell_word(); nullopt if a shell would do more than

@@ -1,5 +1,5 @@
-// One table of what may go wrong in a tick, and of what switches force off. Devices, haptics and
-// the Frame report by the same bits.
+// One table of the problems that a tick can report, and of the faults that switch force off.
+// Devices, haptics and the Frame use the same bits.
 #pragma once
 
 #include <bit>
@@ -10,7 +10,7 @@
 
 namespace dihaptic {
 
-/// A bit of a tick's status, and of a device's reading. Logs contain these numbers, so a bit never
+/// A bit of a tick's status, and of a device's reading. Logs contain the numbers, so a bit never
 /// changes its meaning.
 enum Status : uint32_t {
     kContactsFull = 1u << 0,
@@ -47,11 +47,11 @@ enum Status : uint32_t {
     kHeldBack = 1u << 31,
 };
 
-/// What devices report in their readings.
+/// The bits that devices set in their readings.
 constexpr uint32_t kStatusByDevice = kOutsideWorkspace | kForceClamped | kNoMoreData |
                                      kNotAnswering | kForceDropped | kUncalibrated | kDeviceFault;
 
-/// Why force was switched off; the table says each in words.
+/// Why force was switched off; the table has a sentence for each.
 enum class FaultKind {
     none,
     bad_reading,
@@ -74,14 +74,14 @@ enum class FaultKind {
 struct FaultText {
     FaultKind kind = FaultKind::none;
     std::string_view what{};
-    std::string_view remedy{};  ///< "": that of the status
+    std::string_view remedy{};  ///< "": the status's remedy
 };
 
 struct StatusRow {
     Status bit;
     std::string_view what;
     std::string_view remedy;  ///< "": there is none
-    /// The faults that have this status. A status without any leaves force on.
+    /// The faults with this status. A status without faults leaves force on.
     FaultText faults[2] = {};
 };
 
@@ -96,59 +96,60 @@ constexpr StatusRow kStatusTable[] = {
      "the simulation diverged: a force or a position was not a number",
      "do not use this session; look for an extreme mass, stiffness or damping, or report the "
      "session's folder as a bug",
-     {{FaultKind::not_finite, "{for_finger}a force was computed that is not a number"},
+     {{FaultKind::not_finite, "{for_finger}a computed force is not a number"},
       {FaultKind::diverged,
-       "the simulation diverged: the place or the speed of a body is not a number"}}},
+       "the simulation diverged: the position or velocity of a body is not a number"}}},
     {kOutsideWorkspace, "a handle left its device's workspace",
      "move the device in the rig file, or the hand"},
     {kForceClamped, "a device was asked for more than its peak force or torque",
      "lower settings: safety: max_force_N or max_torque_Nm, or soften the coupling"},
     {kNoMoreData, "the recording ended", ""},
-    {kOverrun, "the tick before had ended too late, and those that it missed were left out",
+    {kOverrun, "the previous tick ended too late, and the ticks that it missed were left out",
      "close other programs, lower the rate, or allow real time where a note asks for it"},
-    {kSolverFallback, "the contact solver missed its tolerance and another answered",
-     "nothing, when it is rare or there is a heap; otherwise choose settings: dynamics: solver: "
+    {kSolverFallback, "the contact solver missed its tolerance, and another solver answered",
+     "nothing if this is rare or in a heap; otherwise choose settings: dynamics: solver: "
      "newton"},
     {kSolverMissed, "the contact solver missed its tolerance, and the best answer was used",
      "nothing with sequential_impulse, which ends near the answer, or in a heap that no finger "
      "touches (solver_held_residual); where solver_route is out_of_work, the step had more "
      "contacts "
-     "than a tick has time for: use fewer objects, or such as do not begin within each other; "
-     "otherwise look at what the objects do in these ticks, and report the session's folder as a "
+     "than a tick has time for: use fewer objects, or objects that do not start inside each other; "
+     "otherwise check the objects' motion in these ticks, and report the session's folder as a "
      "bug"},
-    {kForceOff, "force was off, after a fault", "look at the first fault"},
+    {kForceOff, "force was off, after a fault", "see the first fault"},
     {kBadReading,
-     "a device gave a position or a velocity that is not a number",
-     "look at its cables and its calibration",
-     {{FaultKind::bad_reading, "{device}gave a position or a velocity that is not a number"}}},
+     "a device reported a position or velocity that is not a number",
+     "check its cables and its calibration",
+     {{FaultKind::bad_reading, "{device}reported a position or velocity that is not a number"}}},
     {kNotAnswering,
      "a device did not answer",
-     "look at its power and its cables",
+     "check its power and its cables",
      {{FaultKind::not_answering, "{device}does not answer"}}},
     {kTooFast,
      "a handle jumped, or turned or moved faster than allowed",
-     "look at the device's cables and encoders, or raise settings: safety: max_speed_m_s",
-     {{FaultKind::too_fast, "{device}moved at {value:.3g} m/s, and {limit:g} m/s are allowed",
-       "if no hand did that, look at its cables and encoders; otherwise raise settings: safety: "
+     "check the device's cables and encoders, or raise settings: safety: max_speed_m_s",
+     {{FaultKind::too_fast, "{device}moved at {value:.3g} m/s, but only {limit:g} m/s are allowed",
+       "if no hand did that, check its cables and encoders; otherwise raise settings: safety: "
        "max_speed_m_s"},
       {FaultKind::turned_too_fast,
-       "{device}turned at {value:.3g} rad/s, and {limit:g} rad/s are allowed",
-       "look at its cables and the encoders of its gimbal"}}},
+       "{device}turned at {value:.3g} rad/s, but only {limit:g} rad/s are allowed",
+       "check its cables and the encoders of its gimbal"}}},
     {kLate,
-     "the hands were left without an answer for longer than allowed",
+     "the hands received no new force for longer than allowed",
      "close other programs, or look for a device that blocks",
      {{FaultKind::late,
-       "nothing answered the hands for {value_ms:.0f} ms, and {limit_ms:g} ms are allowed"}}},
-    {kHeatLimited, "a force or a torque was cut to what the device's motors can bear for long",
-     "press less, or for shorter; the force comes back as they cool"},
+       "the hands received no new force for {value_ms:.0f} ms, but only {limit_ms:g} ms are "
+       "allowed"}}},
+    {kHeatLimited, "a force or a torque was cut to a level that the device's motors can sustain",
+     "press less, or for shorter; the force returns as they cool"},
     {kPushedInward, "a handle was pushed back into its device's workspace",
      "move the device in the rig file, or the hand"},
-    {kSoftStarted, "a force was still rising, as it does when it comes on",
+    {kSoftStarted, "a force was still rising after being switched on",
      "nothing; let the handles touch nothing when a session starts"},
     {kSwitchedOff, "force was off: nobody held the dead-man switch",
-     "hold it, or look at settings: safety: dead_man_finger and dead_man_button"},
+     "hold it, or check settings: safety: dead_man_finger and dead_man_button"},
     {kEnergyGenerated,
-     "a coupling gave a hand energy that nobody had put in",
+     "a coupling gave a hand more energy than had been put in",
      "soften the coupling, raise its damping, give its body more mass, or set settings: safety: "
      "energy_guard: act",
      {{FaultKind::active,
@@ -156,20 +157,20 @@ constexpr StatusRow kStatusTable[] = {
        "in"},
       {FaultKind::chatters,
        "{of_finger}force went on alternating from tick to tick, by {value:.1f} N"}}},
-    {kEnergyDamped, "a damper took of that energy", "soften the coupling, or raise its damping"},
+    {kEnergyDamped, "a damper removed some of that energy",
+     "soften the coupling, or raise its damping"},
     {kStopped,
      "the operator switched force off",
      "",
-     {{FaultKind::stopped, "it was stopped by the operator",
-       "what was done until then is recorded"}}},
+     {{FaultKind::stopped, "it was stopped by the operator", "everything until then is recorded"}}},
     {kResumed, "the session went on after a pause", "nothing"},
     {kForceDropped,
-     "a device took its force away for a moment: a force, a speed or a heat was beyond what it "
-     "bears",
+     "a device dropped its force for a moment: a force, a speed or a temperature exceeded its "
+     "limits",
      "soften the coupling, move more slowly, or let its motors cool"},
     {kUncalibrated,
      "a device lost its calibration",
-     "calibrate it as its maker says",
+     "calibrate it as its manual describes",
      {{FaultKind::uncalibrated, "{device}lost its calibration"}}},
     {kDeviceFault,
      "a device reported a fault of its own",
@@ -186,24 +187,24 @@ constexpr StatusRow kStatusTable[] = {
      "the coupling was softened to what can be rendered calmly at the rate that the loop kept",
      "close other programs, or lower the rate"},
     {kAbandoned,
-     "the window did not answer any more",
+     "the window no longer answered",
      "close other programs",
      {{FaultKind::abandoned, "the window has not answered for {value:.1f} s"}}},
     {kPaused, "the session paused, and force was off", ""},
     {kUnbalanced,
-     "the energy or the momentum of the objects changed by more than what acted on them explains",
-     "do not trust how objects moved in these ticks: look at energy_imbalance, momentum_imbalance "
-     "and angular_imbalance; let nothing begin within something else, turn by an eighth of a turn "
-     "in a tick, or hang on a spring too stiff for its mass; otherwise report the session's folder "
+     "the energy or the momentum of the objects changed by more than the forces on them explain",
+     "do not trust the objects' motion in these ticks: see energy_imbalance, momentum_imbalance "
+     "and angular_imbalance; let no object start inside another, turn by an eighth of a turn "
+     "in a tick, or hang on a spring that is too stiff for its mass; otherwise report the "
+     "session's folder "
      "as a bug"},
-    {kHeldBack,
-     "an object did not move as far as its velocity says, or else it would have entered another",
-     "nothing, when it is rare; otherwise use fewer, slower or thicker objects"},
+    {kHeldBack, "an object moved less than its velocity implies, so as not to enter another object",
+     "nothing if this is rare; otherwise use fewer, slower or thicker objects"},
 };
 constexpr int kStatusBits = static_cast<int>(std::size(kStatusTable));
 constexpr auto kAllStatus = static_cast<uint32_t>((uint64_t{1} << kStatusBits) - 1);
 
-/// The row of one bit.
+/// The table's row for one bit.
 constexpr const StatusRow& describe(Status bit) noexcept {
     return kStatusTable[std::countr_zero(static_cast<uint32_t>(bit))];
 }

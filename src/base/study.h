@@ -1,5 +1,5 @@
-// What archives want to know about a study besides its data: who did it, where, and what it is
-// about. It is part of the experiment file and of the session's record, and has no effect on a
+// Information on a study that archives ask for besides its data: experimenters, laboratory and
+// subject. It is part of the experiment file and of the session's record, and has no effect on a
 // session.
 #pragma once
 
@@ -19,10 +19,10 @@ struct Study {
     template <class Visitor>
     void visit(Visitor& v) {
         v("experimenters", experimenters,
-          says("Names of who did it, who are also the authors of a BIDS data set."));
-        v("institution", institution, says("Where it was done."));
+          says("Names of the experimenters, who are also the authors of a BIDS data set."));
+        v("institution", institution, says("Institution where the study was done."));
         v("lab", lab, says("Laboratory."));
-        v("keywords", keywords, says("What the study is about."));
+        v("keywords", keywords, says("Subjects of the study."));
     }
 };
 

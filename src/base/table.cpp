@@ -95,7 +95,7 @@ void write_csv(const Table& table, const std::string& file) {
 namespace {
 
 constexpr size_t kMostColumns = 10'000;
-constexpr size_t kMostCells = 20'000'000;  // in memory each takes more than its text
+constexpr size_t kMostCells = 20'000'000;  // in memory a cell takes more than its text
 
 class CsvParser {
   public:
@@ -140,14 +140,14 @@ class CsvParser {
     void end_cell(bool and_line) {
         row_.push_back(std::move(cell_));
         cell_.clear();
-        cells_ += and_line ? 3 : 1;  // a line without cells takes as much as three
+        cells_ += and_line ? 3 : 1;  // an empty line takes as much memory as three cells
         check_size();
         if (!and_line) return;
         ++line_;
         rows_.push_back(std::move(row_));
         row_.clear();
     }
-    /// Refuses a table that would take all memory: commas alone are a cell each.
+    /// Refuses a table that would take all memory: each comma alone makes a cell.
     void check_size() const {
         if (row_.size() <= kMostColumns && cells_ <= kMostCells) return;
         throw Error({file_, line_}, "",
@@ -196,7 +196,7 @@ CsvFile::CsvFile(const std::string& file) : file_(file), rows_(read_csv(file)) {
 
 namespace {
 
-/// If two columns had the same name, one of them would be ignored, and nobody could say which.
+/// If two columns had the same name, one of them would be ignored, and nobody would know which.
 void check_names(const CsvFile& table) {
     std::set<std::string> seen;
     for (size_t i = 0; i < table.columns().size(); ++i) {
@@ -218,7 +218,7 @@ CsvFile CsvFile::given(const std::string& file, Diagnostics& diagnostics,
     auto cells = table.next();
     if (!cells) throw Error({file, 0}, "", "is empty", "Its first line names its columns.");
     if (cells->front().starts_with('#'))
-        throw Error(table.place(), "", "begins with a comment (#), not with the columns' names",
+        throw Error(table.place(), "", "starts with a comment (#), not with the columns' names",
                     "Delete this line.");
     out.head_ = table.place().line;
     out.header_ = std::move(*cells);
@@ -229,11 +229,11 @@ CsvFile CsvFile::given(const std::string& file, Diagnostics& diagnostics,
         if (cells->size() != out.header_.size())
             throw Error(
                 table.place(), "",
-                fmt::format("has {}, where line {} names {}",
+                fmt::format("has {}, but line {} names {}",
                             counted(static_cast<int64_t>(cells->size()), "value"), out.head_,
                             counted(static_cast<int64_t>(out.header_.size()), "column")),
-                fmt::format("Complete it. Values are separated by {} here; in one that has a "
-                            "comma before its decimals stand quotes, or semicolons between "
+                fmt::format("Complete it. Values are separated by {} here; put a value "
+                            "with a decimal comma in quotes, or put semicolons between "
                             "all values.",
                             table.separators()));
         read += cells->size();
@@ -241,7 +241,7 @@ CsvFile CsvFile::given(const std::string& file, Diagnostics& diagnostics,
             throw Error(table.place(), "", "from here on the table is too large",
                         "Check that it is the right file, or make it smaller.");
         for (std::string& cell : *cells) {
-            // so that everything that uses it later finds a number
+            // so that all later code finds a number
             if (table.number(cell)) std::replace(cell.begin(), cell.end(), ',', '.');
         }
         out.lines_.push_back(table.place().line);

@@ -22,7 +22,8 @@ struct Table {
             return unit.empty() ? description : description + " [" + unit + "]";
         }
     };
-    using Cell = std::variant<std::string, double>;  ///< NaN: unmeasured, written as an empty cell
+    using Cell =
+        std::variant<std::string, double>;  ///< NaN: not measured, written as an empty cell
 
     std::vector<Column> columns;
     std::vector<std::vector<Cell>> rows;
@@ -35,14 +36,14 @@ Table transposed(const Table& table);
 std::string to_csv(const Table::Cell& cell);
 std::string to_csv(const Table& table);
 
-/// For people: numbers have six digits, what is unmeasured is "-", columns are aligned.
+/// For people: numbers have six digits, unmeasured values are "-", columns are aligned.
 std::string to_text(const Table::Cell& cell);
 std::string to_text(const Table& table);
 
 /// Writes the table, replacing the file as a whole. Throws Error when it cannot be written.
 void write_csv(const Table& table, const std::string& file);
 
-/// Rows of cells; the first, which is always there, is the header. Throws Error when the file is
+/// Rows of cells; the first, which always exists, is the header. Throws Error when the file is
 /// empty or cannot be read.
 std::vector<std::vector<std::string>> read_csv(const std::string& file);
 
@@ -53,16 +54,16 @@ class CsvFile {
     /// Throws Error when the file is empty or cannot be read.
     explicit CsvFile(const std::string& file);
     /// Reads a table from a user (base/given_table.h). Throws Error, with the line, when a line has
-    /// not as many cells as the first. Before that, `check_columns` gets the table without its
+    /// fewer or more cells than the first. Before that, `check_columns` gets the table without its
     /// rows, and may throw if a column is missing.
     static CsvFile given(const std::string& file, Diagnostics& diagnostics,
                          const std::function<void(const CsvFile&)>& check_columns);
 
-    /// Where a row stands.
+    /// The line of a row.
     Place place(size_t row) const {
         return {file_, lines_.empty() ? static_cast<int>(row) + 2 : lines_[row]};
     }
-    /// Where its columns are named.
+    /// The line of the header.
     Place head() const { return {file_, head_}; }
     const std::vector<std::string>& columns() const { return header_; }
     size_t rows() const { return rows_.size(); }
@@ -71,10 +72,10 @@ class CsvFile {
     bool has(const std::string& name) const { return column(name).has_value(); }
     const std::string& text(size_t row, size_t column) const;
     std::string text(size_t row, const std::string& column) const;
-    /// NaN where the cell holds no number.
+    /// NaN if the cell contains no number.
     double number(size_t row, size_t column) const;
     double number(size_t row, const std::string& column) const;
-    /// Gives a column of an earlier version's table the name that it has now.
+    /// Renames a column of an earlier version's table to its present name.
     void rename(const std::string& was, const std::string& now) {
         std::replace(header_.begin(), header_.end(), was, now);
     }
@@ -83,7 +84,7 @@ class CsvFile {
     CsvFile() = default;
     std::string file_;
     int head_ = 1;
-    std::vector<int> lines_;  // of a given table's rows
+    std::vector<int> lines_;  // line of each row of a table from a user
     std::vector<std::string> header_;
     std::vector<std::vector<std::string>> rows_;
 };

@@ -14,7 +14,7 @@ TemporaryFolder::TemporaryFolder()
     : path_((std::filesystem::temp_directory_path() / "dihaptic-XXXXXX").string()) {
     if (mkdtemp(path_.data()) == nullptr) {
         throw Error("no temporary folder can be made: " + std::string(std::strerror(errno)),
-                    "Free some disk space, or set TMPDIR to a folder that can be written to.");
+                    "Free some disk space, or set TMPDIR to a writable folder.");
     }
 }
 

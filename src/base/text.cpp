@@ -15,14 +15,14 @@ unsigned char byte_of(std::string_view text, size_t i) {
     return static_cast<unsigned char>(text[i]);
 }
 
-/// How long the character is that begins with this byte; 0 if none does.
+/// Length of the character that starts with this byte; 0 if none does.
 size_t length_by(unsigned char first) {
     if (first < 0x80) return 1;
     if (first < 0xc2 || first > 0xf4) return 0;
     return first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
 }
 
-/// Whether a second byte is outside of the range that the first one allows.
+/// Whether a second byte is outside the range that the first byte allows.
 bool is_out_of_range(unsigned char first, unsigned char second) {
     return (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
            (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f);
@@ -44,8 +44,8 @@ bool is_mark(std::string_view character) {
            character == "\xef\xbf\xbf";
 }
 
-/// Whether a character moves what follows it to another place on the screen, or to another line: in
-/// one line, such as a name or a command, it would make it look like another one (Unicode Technical
+/// Whether a character displaces the text after it on the screen, or moves it to another line. In
+/// a single line, such as a name or a command, it would disguise the text (Unicode Technical
 /// Report 36, 2.10).
 bool is_reordering(std::string_view character) {
     if (character.size() != 3 || !character.starts_with("\xe2")) return false;
@@ -95,7 +95,7 @@ std::optional<TextFault> find_fault(std::string_view text, Lines lines) {
             return TextFault{i, "has a character that changes the order of those around it",
                              "Leave it out."};
         if (is_mark(character))
-            return TextFault{i, "has a byte order mark, or a code that is no character",
+            return TextFault{i, "has a byte order mark, or a code that is not a character",
                              "Leave it out."};
     }
     return std::nullopt;

@@ -1,5 +1,5 @@
-// Defines what counts as text. The program must be able to read again what it writes, so the same
-// rule holds for everything that goes into files and that is read from them.
+// Defines valid text. The program must be able to read again what it writes, so the same
+// rule holds for all text that is written to files and read from them.
 #pragma once
 
 #include <cstddef>
@@ -9,25 +9,25 @@
 
 namespace dihaptic {
 
-/// Length of the UTF-8 character that a text starts with [bytes]; 0 if the bytes there are none
-/// (Unicode 15, table 3-7: neither too long a form, nor half of a surrogate pair).
+/// Length of the UTF-8 character that a text starts with [bytes]; 0 if the bytes are not a
+/// character (Unicode 15, table 3-7: neither too long a form, nor half of a surrogate pair).
 size_t utf8_length(std::string_view text);
 
 /// A reason why words cannot be written to a file and read again.
 struct TextFault {
-    size_t at = 0;     ///< of its first byte
+    size_t at = 0;     ///< position of its first byte
     std::string what;  ///< e.g. "has a control character (ESC)"
     std::string remedy;
 };
 
-/// Whether a text may have several lines, or is a name, an answer, or a word of the command line.
+/// Whether a text may have several lines, or is a single one: a name, an answer, an argument.
 enum class Lines { several, one };
 
 /// The first thing in a text that is not UTF-8, or is a control character: of those, only tabs and
 /// line feeds belong in a text, and only in one of several lines.
 std::optional<TextFault> find_fault(std::string_view text, Lines lines = Lines::several);
 
-/// Throws Error when find_fault() finds anything. `name`: what the text is, for the message.
+/// Throws Error if find_fault() finds a fault. `name`: the text's name in the message.
 void check_text(std::string_view text, const std::string& name, Lines lines = Lines::one);
 
 /// The text with U+FFFD in place of each byte or character that find_fault() finds. Used for words

@@ -19,8 +19,8 @@
 namespace dihaptic {
 namespace {
 
-/// Length of the character that starts at i [bytes]; 0 if the bytes there are not one, or are a
-/// control character that does not belong in a file of text.
+/// Length of the character that starts at i [bytes]; 0 if the bytes are no character, or are a
+/// control character that does not belong in a text file.
 size_t character(std::string_view text, size_t i) {
     const auto first = static_cast<unsigned char>(text[i]);
     const bool white = first == '\t' || first == '\n' || first == '\r' || first == '\f';
@@ -28,7 +28,7 @@ size_t character(std::string_view text, size_t i) {
     return utf8_length(text.substr(i));
 }
 
-/// Says what is wrong at the beginning of the rest of a text.
+/// Reports the fault at the start of the remaining text.
 [[noreturn]] void refuse(std::string_view rest, const Place& place) {
     const auto fault = find_fault(rest.substr(0, 1));
     if (!fault || static_cast<unsigned char>(rest.front()) >= 0x80)
@@ -74,7 +74,7 @@ void check_output(const std::string& file, const std::string& input, const std::
     const fs::path folder = fs::path(file).parent_path();
     if (access(folder.empty() ? "." : folder.c_str(), W_OK) == 0) return;
     throw Error({file, 0}, "", fmt::format("cannot be written: {}", std::strerror(errno)),
-                "Name a file in a folder that is there, and that you may write to.");
+                "Name a file in an existing folder that you can write to.");
 }
 
 void write_file(const std::string& text, const std::string& file, Keep keep) {

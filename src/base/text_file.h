@@ -1,4 +1,4 @@
-// Reads and writes text files. Files from users may be in any encoding, or no text at all. All of
+// Reads and writes text files. Files from users may be in any encoding or not text at all. All of
 // them are read by these functions, so that messages never show raw bytes.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace dihaptic {
 
-/// Size limit of a text file [bytes]: ten minutes of ten fingers at 5 kHz fit.
+/// Size limit of a text file [bytes]: enough for ten minutes of ten fingers at 5 kHz.
 constexpr int64_t kMostText = 500'000'000;
 /// Size limits of a YAML file and of a table [bytes].
 constexpr int64_t kMostYaml = 16'000'000;
@@ -18,15 +18,15 @@ constexpr int64_t kMostTable = 200'000'000;
 /// larger than `most` [bytes], cannot be opened, or is not UTF-8 text.
 std::string read_text_file(const std::string& file, int64_t most = kMostText);
 
-/// Call before work whose result goes to `file`: throws Error when write_file() could not write
-/// there now, or when `file` is `input`, the file that the work starts from. `what` is the input in
-/// words.
+/// To be called before work whose result goes to `file`: throws Error if write_file() could not
+/// write there now, or when `file` is `input`, the file from which the work starts. `what`
+/// describes the input in words.
 void check_output(const std::string& file, const std::string& input, const std::string& what);
-/// Whether the file is synchronised to the disk at once, or whenever the system does so.
+/// Whether the file is synchronised to the disk at once, or whenever the system chooses.
 enum class Keep { in_time, at_once };
-/// Replaces a file's content so that a reader sees either the old or the new, with Keep::at_once
-/// even after a loss of power. Throws Error when the file cannot be written, or when its name is a
-/// link: nothing is ever written through a link.
+/// Replaces a file's content so that a reader sees either the old or the new content, with
+/// Keep::at_once even after a loss of power. Throws Error when the file cannot be written, or when
+/// its name is a link: nothing is ever written through a link.
 void write_file(const std::string& text, const std::string& file, Keep keep = Keep::in_time);
 
 /// Text from a file, shortened to at most 40 bytes for a message.

@@ -12,7 +12,7 @@ namespace dihaptic {
 
 constexpr double kDegree = std::numbers::pi / 180;  ///< [rad]
 
-/// The kind of quantity that a value is. Values are written in the first unit of their kind.
+/// The kind of a quantity. Values are written in the first unit of their kind.
 enum class Quantity {
     none,  ///< a pure number: the key has no unit
     length,
@@ -57,7 +57,7 @@ struct Dimension {
     }
 };
 
-/// The units that a quantity may be given in, the SI unit first; empty for Quantity::none.
+/// The units in which a quantity may be given, the SI unit first; empty for Quantity::none.
 std::span<const Unit> units(Quantity quantity);
 
 /// The unit of any quantity that has this suffix; null if there is none.
@@ -75,11 +75,11 @@ std::optional<UnitInSi> find_unit_in_si(std::string_view suffix);
 /// m, kg, s, ns, N, Hz, rad and 1.
 UnitInSi unit_in_si(std::string_view symbol);
 Dimension dimension(Quantity quantity);
-/// The SI unit as people write it, e.g. "N/m"; "1" for a pure number.
+/// The SI unit in the usual notation, e.g. "N/m"; "1" for a pure number.
 std::string si_symbol(const Dimension& dimension);
 /// A name with its unit, e.g. "wait_ms".
 struct NameInUnit {
-    std::string_view name;  ///< without the unit, if it ends in one
+    std::string_view name;  ///< without its unit, if it has one
     Quantity quantity = Quantity::none;
     double si = 1;  ///< its unit in SI units
 };
@@ -88,10 +88,10 @@ NameInUnit split_unit(std::string_view key);
 /// "length", "stiffness", ...: for messages.
 std::string_view name(Quantity quantity);
 
-/// The key that a value is written with, e.g. "size_m".
+/// The key with which a value is written, e.g. "size_m".
 std::string si_key(std::string_view field, Quantity quantity);
 
-/// The SI unit as people write it, e.g. "N/m"; "1" for Quantity::none.
+/// The SI unit in the usual notation, e.g. "N/m"; "1" for Quantity::none.
 std::string_view si_symbol(Quantity quantity);
 
 }  // namespace dihaptic

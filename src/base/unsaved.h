@@ -1,4 +1,4 @@
-// The text of an editor that has not been saved. The thread that checks it reads this text in place
+// Text in an editor that has not been saved. The thread that checks it reads this text in place
 // of the file's, so that the file and its folder stay unchanged until the user saves, and paths in
 // the text are still relative to the file.
 #pragma once
@@ -16,7 +16,7 @@ class Unsaved {
     Unsaved(const Unsaved&) = delete;
     Unsaved& operator=(const Unsaved&) = delete;
 
-    /// The text that this thread reads in place of the file; null: the file itself.
+    /// The text that this thread reads in place of the file; null: it reads the file.
     static const std::string* text_of(const std::string& file);
 
   private:

@@ -1,4 +1,4 @@
-// The user's own folders, where programs keep what belongs to no project (XDG Base Directory
+// The user's own folders, for data that belongs to no project (XDG Base Directory
 // Specification 0.8).
 #pragma once
 

@@ -50,7 +50,7 @@ class WrittenBuilder final : public YAML::EventHandler {
         out.kind = kind;
         out.at = static_cast<size_t>(std::max(0, mark.pos)) + skipped_;
         out.column = std::max(0, mark.column);
-        // yaml-cpp has ? as the tag of what has none, and ! as that of quoted texts
+        // yaml-cpp uses the tag ? for nodes without one, and ! for quoted texts
         out.alone = anchor == YAML::NullAnchor && (tag.empty() || tag == "?" || tag == "!");
         return out;
     }
@@ -88,7 +88,7 @@ Written read_written(const std::string& text) {
         YAML::Parser parser(in);
         parser.HandleNextDocument(builder);
     } catch (const YAML::Exception& e) {
-        throw Error({"", e.mark.line + 1}, "", "is not YAML: " + e.msg, "Mend that first.");
+        throw Error({"", e.mark.line + 1}, "", "is not YAML: " + e.msg, "Correct that first.");
     }
     return std::move(builder.root);
 }

@@ -1,5 +1,5 @@
-// A YAML document with the place of each part in its text. It serves to change a part of the text
-// and leave the rest as it is, which reading (node.h) and writing again would not do.
+// A YAML document with the position of each part in its text. It serves to change a part of the
+// text and leave the rest unchanged, which is impossible by reading (node.h) and rewriting.
 #pragma once
 
 #include <string>
@@ -13,12 +13,13 @@ namespace dihaptic {
 /// A YAML document, or a part of it.
 struct Written {
     Node::Kind kind = Node::Kind::null;
-    size_t at = 0;       ///< of its first sign [bytes]
-    int column = 0;      ///< of the same, from 0 [bytes]
+    size_t at = 0;       ///< position of its first character [bytes]
+    int column = 0;      ///< column of the same character, from 0 [bytes]
     bool flow = false;   ///< in brackets
-    bool alone = false;  ///< no alias (*name), anchor (&name) or tag (!name): nothing else is meant
+    bool alone = false;  ///< has no alias (*name), anchor (&name) or tag (!name), which would
+                         ///< change the meaning
     std::string scalar;
-    std::vector<Written> items;  ///< of a mapping, each key with its value behind it
+    std::vector<Written> items;  ///< for a mapping: each key, followed by its value
 
     /// The value of a mapping's key, or null.
     const Written* find(std::string_view key) const;
@@ -33,7 +34,7 @@ struct TextChange {
     size_t length = 0;  ///< [bytes]
     std::string text;   ///< in its place
 };
-/// `changes`: in the order of the text, and apart.
+/// `changes`: in the order of the text, without overlaps.
 std::string changed(std::string text, const std::vector<TextChange>& changes);
 
 }  // namespace dihaptic

@@ -14,19 +14,19 @@
 namespace dihaptic::scene {
 namespace {
 
-/// The fields of a body that can be changed.
+/// The fields of a body that this file can change.
 struct WrittenField {
     std::string_view name;
     Quantity quantity;
-    double step;              ///< a change ends at a multiple of this [SI]
-    std::string_view suffix;  ///< of the unit in a file that has none of this field yet
+    double step;              ///< changed values are rounded to a multiple of this [SI]
+    std::string_view suffix;  ///< unit for a file that does not contain this field yet
 };
 constexpr WrittenField kWrittenPosition{"position", Quantity::length, 1e-4, "mm"};
 constexpr WrittenField kWrittenRotation{"rotation", Quantity::angle, 0.1 * kDegree, "deg"};
 
 /// A field of one body.
 struct WrittenVector {
-    const Written* list = nullptr;  ///< null: it has none
+    const Written* list = nullptr;  ///< null if the body lacks the field
     Unit unit{};
 };
 WrittenVector find_vector(const Written& body, const WrittenField& field) {
@@ -73,7 +73,8 @@ class BodyText {
 
     const Written& find_body() const {
         const Written* const bodies = root_.find("bodies");
-        if (bodies == nullptr) refuse("this file has no bodies", "Open the scene that has it.");
+        if (bodies == nullptr)
+            refuse("this file has no bodies", "Open the scene that contains it.");
         for (const Written& body : bodies->items) {
             const Written* const name = body.find("name");
             if (name != nullptr && name->scalar == name_) return body;
@@ -86,13 +87,13 @@ class BodyText {
                            "Change the lattice's position.");
             }
         }
-        refuse("the text does not have it", "Write it out as one of the bodies.");
+        refuse("the text does not contain it", "Write it out as one of the bodies.");
     }
 
     Vec3 numbers(const WrittenField& field, const Written& list, const Unit& unit) const {
         const std::string remedy = fmt::format("Write {}_{}: [x, y, z].", field.name, unit.suffix);
         if (!list.alone)
-            refuse(fmt::format("its {} has an anchor or an alias, and so is another's too",
+            refuse(fmt::format("its {} has an anchor or an alias, so another value depends on it",
                                field.name),
                    remedy);
         if (list.items.size() != 3)
@@ -130,7 +131,7 @@ class BodyText {
                              [&](const Unit& unit) { return unit.suffix == field.suffix; });
     }
 
-    /// Inserts it behind the name, which always exists, whatever the style of the mapping.
+    /// Inserts the field after the name, which always exists, in any style of mapping.
     void add(const WrittenField& field, const Vec3& value) {
         const Unit unit = usual_unit(field);
         const std::string line = fmt::format(
@@ -152,7 +153,7 @@ class BodyText {
         const size_t begin = name.at + (quoted ? 1 : 0), end = begin + name.scalar.size();
         const bool closed = !quoted || (end < text_.size() && text_[end] == first);
         if (!name.alone || !has_verbatim(text_, begin, name.scalar) || !closed)
-            refuse("it has no numbers for that yet, and its name is not written plainly",
+            refuse("it has no such key yet, and its name is not a plain word",
                    "Write its position_mm: [x, y, z], or its rotation_deg.");
         return end + (quoted ? 1 : 0);
     }
@@ -163,12 +164,12 @@ class BodyText {
     const Written& body_;
 };
 
-/// The angle between -pi and pi that is the same, with a turn of half a circle kept.
+/// The equivalent angle between -pi and pi; a turn of half a circle keeps its sign.
 double wrapped(double angle) {
     return std::abs(angle) <= kDegree * 180 ? angle : std::remainder(angle, kDegree * 360);
 }
 
-/// Whether a text, which may no longer be valid YAML, has this value for a body's field.
+/// Whether a text, which may be invalid YAML by now, has this value for a body's field.
 bool has_value(const std::string& text, const std::string& name, const WrittenField& field,
                const Vec3& value) {
     try {
@@ -183,7 +184,7 @@ bool has_value(const std::string& text, const std::string& name, const WrittenFi
 std::string body_at(const std::string& text, size_t at) {
     try {
         const Written root = read_written(text);
-        // the bodies are from the last key before the place on, and end at the next one
+        // a body extends from the last key before the position to the next key
         const Written* section = nullptr;
         for (size_t i = 0; i + 1 < root.items.size(); i += 2) {
             if (root.items[i].at <= at) section = &root.items[i];
@@ -192,7 +193,7 @@ std::string body_at(const std::string& text, size_t at) {
         std::string out;
         size_t before = section->at;
         for (const Written& body : root.find("bodies")->items) {
-            // from its line's start, unless something else of the list is there
+            // from the start of its line, unless another item is on that line
             const size_t line = text.rfind('\n', body.at) + 1;
             if (at < (line > before ? line : body.at)) break;
             before = body.at;

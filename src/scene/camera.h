@@ -1,4 +1,4 @@
-// Describes a camera: from where a scene is looked at.
+// Describes a camera, which is a viewpoint for a scene.
 #pragma once
 
 #include <numbers>
@@ -11,20 +11,19 @@ namespace dihaptic::scene {
 
 struct Camera {
     std::string name;
-    Vec3 position{0, -0.5, 0.35};  ///< of the eye, in W [m]
+    Vec3 position{0, -0.5, 0.35};  ///< viewpoint, in W [m]
     Vec3 look_at = Vec3::Zero();   ///< the point at the centre of the picture, in W [m]
     double field_of_view = 30 * std::numbers::pi / 180;  ///< from bottom to top [rad]
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name, Field::text().required().says("Name of the camera."));
-        v("position", position, Field::length().within(-100, 100).required().says("Where it is."));
+        v("position", position,
+          Field::length().within(-100, 100).required().says("Position of the camera."));
         v("look_at", look_at,
           Field::length().within(-100, 100).says("Point at the centre of the picture."));
         v("field_of_view", field_of_view,
-          Field::of(Quantity::angle)
-              .within(0.02, 2.5)
-              .says("Angle that the picture covers from bottom to top."));
+          Field::of(Quantity::angle).within(0.02, 2.5).says("Vertical angle of view."));
     }
 };
 

@@ -30,7 +30,7 @@ class Sets {
     std::vector<size_t> parent_;
 };
 
-/// A face at an edge, whose ends are the face's corners `first` and the next.
+/// A face at an edge, which runs from the face's corner `first` to the next corner.
 struct EdgeSide {
     size_t face = 0;
     size_t first = 0;
@@ -53,8 +53,8 @@ Sides sides_of(const Mesh& mesh) {
     return out;
 }
 
-/// The pairs of faces that bound the same wedge of solid at an edge where more than two meet: each
-/// that begins a wedge, counted by the angle about the edge, with the first that ends one.
+/// The pairs of faces that bound the same wedge of solid at an edge of more than two faces: each
+/// face that starts a wedge, in order of angle about the edge, with the first that ends one.
 std::vector<std::pair<EdgeSide, EdgeSide>> wedges(const Mesh& mesh, const Edge& edge,
                                                   std::vector<EdgeSide> sides) {
     const Vec3 along = (corner(mesh, edge.second) - corner(mesh, edge.first)).normalized();
@@ -66,7 +66,7 @@ std::vector<std::pair<EdgeSide, EdgeSide>> wedges(const Mesh& mesh, const Edge& 
     }
     std::stable_sort(sides.begin(), sides.end(),
                      [](const EdgeSide& a, const EdgeSide& b) { return a.angle < b.angle; });
-    // begins where no wedge is open
+    // start where no wedge is open
     int open = 0;
     int least = 0;
     size_t start = 0;
@@ -107,9 +107,9 @@ std::vector<Shell> separate(Mesh& mesh) {
             for (const auto& [a, b] : wedges(mesh, edge, sides)) join(a, b);
         }
     }
-    std::map<size_t, int> vertex;  // of each set of corners
+    std::map<size_t, int> vertex;  // for each set of corners
     std::vector<bool> is_taken(mesh.vertices.size());
-    std::map<size_t, size_t> number;  // of each set of faces
+    std::map<size_t, size_t> number;  // for each set of faces
     std::vector<Shell> shells;
     for (size_t i = 0; i < mesh.faces.size(); ++i) {
         for (size_t k = 0; k < 3; ++k) {
@@ -148,12 +148,12 @@ double winding(const Mesh& mesh, const Shell& shell, const Vec3& p) {
     return angle / (4 * M_PI);
 }
 
-/// What is known of a shell while shells are sorted.
+/// A shell's data during sorting.
 struct Nested {
     double volume = 0;
     Vec3 low;
     Vec3 high;
-    std::vector<size_t> around;  ///< the shells that it is in, the smallest first
+    std::vector<size_t> around;  ///< the shells around it, the smallest first
 };
 
 Nested look_at(const Mesh& mesh, const Shell& shell) {
@@ -179,12 +179,12 @@ bool is_in(const Mesh& mesh, const Shell& inner, const Nested& small, const Shel
     if ((small.low.array() < (large.low - room).array()).any() ||
         (small.high.array() > (large.high + room).array()).any())
         return false;
-    constexpr size_t kMost = 300;  // faces that are tried, evenly spread
+    constexpr size_t kMost = 300;  // number of faces tried, evenly spread
     const size_t step = inner.faces.size() / kMost + 1;
     for (size_t i = 0; i < inner.faces.size(); i += step) {
         const std::vector<int>& f = mesh.faces[inner.faces[i]];
         const Vec3 middle = (corner(mesh, f[0]) + corner(mesh, f[1]) + corner(mesh, f[2])) / 3;
-        // a corner of a box that touches from inside has an eighth
+        // 1/8 at the corner of a box that touches from inside
         for (const Vec3& p : {corner(mesh, f[0]), middle}) {
             if (std::abs(winding(mesh, outer, p)) < 0.01) return false;
         }
@@ -192,15 +192,15 @@ bool is_in(const Mesh& mesh, const Shell& inner, const Nested& small, const Shel
     return true;
 }
 
-/// Which shells are in which, and which way they face.
+/// The nesting of shells, and the side to which they face.
 class Nesting {
   public:
     explicit Nesting(ClosedMesh& solid) : solid_(solid) {
         for (const Shell& shell : solid.shells) all_.push_back(look_at(solid.mesh, shell));
         for (size_t i = 0; i < all_.size(); ++i) all_[i].around = around(i);
     }
-    /// Turns shells around whose faces point into the solid, and finds the shell that each cavity
-    /// is cut out of. Returns how many were turned although others face outward.
+    /// Reverses shells whose faces point into the solid, and finds the shell out of which each
+    /// cavity is cut. Returns the number of reversed shells if others face outward.
     size_t sort_out() {
         std::vector<size_t> order(all_.size());
         std::iota(order.begin(), order.end(), size_t{0});
@@ -234,7 +234,7 @@ class Nesting {
             std::swap(solid_.mesh.faces[f][1], solid_.mesh.faces[f][2]);
         all_[i].volume *= -1;
     }
-    /// A shell that is in no other one is turned together with everything in it.
+    /// An outermost shell is reversed together with all shells inside.
     void face_outermost(size_t i) {
         any_right_ |= all_[i].volume > 0;
         if (all_[i].volume > 0) return;
@@ -244,8 +244,8 @@ class Nesting {
             if (!all_[k].around.empty() && all_[k].around.back() == i) turn_around(k);
         }
     }
-    /// A shell that faces inward is a cavity of the smallest solid around it, or, if there is no
-    /// solid to cut it out of, in a cavity and turned.
+    /// An inward-facing shell is a cavity in the smallest solid around it. If there is no
+    /// solid around it, it lies in a cavity and is reversed.
     void face_inner(size_t i) {
         int depth = 0;
         int within = -1;
@@ -280,7 +280,7 @@ size_t count_faulty(const Mesh& mesh) {
     }));
 }
 
-/// What is wrong at an edge that is not balanced.
+/// The fault at an unbalanced edge.
 std::string fault_at(const Mesh& mesh, const Edge& edge) {
     size_t forward = 0;
     size_t back = 0;
@@ -296,7 +296,7 @@ std::string fault_at(const Mesh& mesh, const Edge& edge) {
     return fmt::format("where {} faces meet", forward + back);
 }
 
-/// How far a point is from an edge, its ends included.
+/// Distance of a point from an edge, including its ends.
 double distance(const Mesh& mesh, int point, const Edge& edge) {
     const Vec3& a = corner(mesh, edge.first);
     const Vec3 along = corner(mesh, edge.second) - a;
@@ -305,7 +305,7 @@ double distance(const Mesh& mesh, int point, const Edge& edge) {
     return (p - share * along).norm();
 }
 
-/// The corner nearest to an edge that does not end in it, if the two were probably meant to meet;
+/// The corner nearest to an edge, not one of its ends, if the two were probably meant to meet;
 /// "" if there is none.
 std::string near_miss(const Mesh& mesh, const std::map<Edge, int>& open, double rounding,
                       const MeshName& name) {
@@ -313,7 +313,7 @@ std::string near_miss(const Mesh& mesh, const std::map<Edge, int>& open, double 
     for (const auto& [edge, count] : open) ends.insert({edge.first, edge.second});
     int nearest = -1;
     double gap = 1000 * rounding;
-    constexpr size_t kMost = 3000;  // all are examined together
+    constexpr size_t kMost = 3000;  // all pairs are examined
     for (const auto& [edge, count] : open) {
         if (open.size() > kMost) break;
         for (const int end : ends) {
@@ -326,13 +326,13 @@ std::string near_miss(const Mesh& mesh, const std::map<Edge, int>& open, double 
     }
     if (nearest < 0) return "";
     return fmt::format(
-        "; its corner at {} is {:.2g} {} from another edge, where up to {:.2g} {} are taken for "
+        "; its corner at {} is {:.2g} {} from another edge, where up to {:.2g} {} count as "
         "rounding",
         name.place(corner(mesh, nearest)), gap / name.unit, name.word, rounding / name.unit,
         name.word);
 }
 
-/// The reason for refusing a mesh that stays open.
+/// The error for a mesh that remains open.
 Error not_closed(const Mesh& mesh, const Mesh& best, double rounding, const MeshName& name) {
     const std::map<Edge, int> open = open_edges(best);
     const Edge& first = open.begin()->first;
@@ -342,8 +342,8 @@ Error not_closed(const Mesh& mesh, const Mesh& best, double rounding, const Mesh
                     "orientation, the first from {} to {}, {}{}",
                     count_faulty(mesh), name.place(corner(best, first.first)),
                     name.place(corner(best, first.second)), fault_at(best, first), miss),
-        miss.empty() ? "Close its holes, orient its faces alike and delete faces that are there "
-                       "twice in a mesh editor, or leave out concave."
+        miss.empty() ? "Close its holes, orient its faces alike and delete duplicate "
+                       "faces in a mesh editor, or leave out concave."
                      : "Merge its close corners in a mesh editor, or leave out concave.");
 }
 
@@ -370,9 +370,9 @@ ClosedMesh closed(const Mesh& mesh, const MeshName& name, Diagnostics& diagnosti
         if (better.largest > 0) {
             diagnostics.warning(
                 name.asked_at, "file",
-                fmt::format("the mesh {} has corners up to {:.2g} {} apart that are taken as one",
+                fmt::format("the mesh {} has corners up to {:.2g} {} apart that are merged",
                             name.file, better.largest / name.unit, name.word),
-                "Merge its close corners in a mesh editor to be rid of this warning.");
+                "Merge its close corners in a mesh editor to avoid this warning.");
         }
         out.mesh = std::move(better.mesh);
     } else if (!open_edges(out.mesh).empty()) {
@@ -384,8 +384,8 @@ ClosedMesh closed(const Mesh& mesh, const MeshName& name, Diagnostics& diagnosti
     if (const size_t turned = Nesting(out).sort_out(); turned > 0) {
         diagnostics.warning(
             name.asked_at, "file",
-            fmt::format("the mesh {} has {} of {} shells whose faces face inward though they are "
-                        "no cavities; they are turned around",
+            fmt::format("the mesh {} has {} of {} inward-facing shells that are not "
+                        "cavities; they are turned around",
                         name.file, turned, out.shells.size()),
             "Orient the faces of its parts alike in a mesh editor.");
     }

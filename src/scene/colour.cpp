@@ -15,7 +15,7 @@ std::optional<int32_t> colour_of(const std::string& text) {
 int32_t read_colour(const std::string& text, const Place& place, Diagnostics& diagnostics) {
     if (text.empty()) return -1;
     if (const std::optional<int32_t> rgb = colour_of(text)) return *rgb;
-    diagnostics.error(place, "colour", fmt::format("'{}' is no colour", text),
+    diagnostics.error(place, "colour", fmt::format("'{}' is not a colour", text),
                       "Write red, green and blue in hexadecimal, e.g. colour: \"#d55e00\".");
     return -1;
 }

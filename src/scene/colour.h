@@ -1,4 +1,4 @@
-// Colours as files have them: "#rrggbb".
+// Colours in the notation of files: "#rrggbb".
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace dihaptic::scene {
 
-/// 65536 red + 256 green + blue of "#rrggbb"; none of any other text.
+/// 65536 red + 256 green + blue of "#rrggbb"; none for any other text.
 std::optional<int32_t> colour_of(const std::string& text);
 
-/// The same; -1 for an empty text, and for one that is not a colour, which is reported to
+/// The same, but -1 for an empty text, and for a text that is not a colour, with a report to
 /// `diagnostics`.
 int32_t read_colour(const std::string& text, const Place& place, Diagnostics& diagnostics);
 

@@ -11,7 +11,7 @@ constexpr size_t kMostFingers = 256;
 
 using FingerSet = std::bitset<kMostFingers>;
 
-/// Also valid for an index from a damaged recording that no scene can have.
+/// Also valid for an impossible index from a damaged recording.
 inline bool contains(const FingerSet& fingers, size_t finger) noexcept {
     return finger < fingers.size() && fingers[finger];
 }

@@ -30,7 +30,7 @@ double area(const Hull& hull) {
 }
 
 /// Bullet's hull rounds coordinates to a ten-thousandth of their extent, and merges corners, or
-/// flips faces, that are closer to each other than that.
+/// flips faces, that are closer together.
 Hull quick_hull(std::span<const Vec3> points) {
     Hull hull;
     btConvexHullComputer computer;
@@ -52,12 +52,12 @@ Hull quick_hull(std::span<const Vec3> points) {
     return hull;
 }
 
-/// Whether every face is flat and has all points behind it, up to rounding. Not checked for hulls
-/// of very many points, which would take long.
+/// Whether every face is flat and has all points behind it, up to rounding. Hulls of very many
+/// points, which would take long, are not checked.
 bool is_exact(const Hull& hull, std::span<const Vec3> points, double extent) {
     constexpr double kMostWork = 1e8;
-    constexpr double kThin = 1e-9;      // of a face, as a share of the extent
-    constexpr double kRounding = 1e-7;  // of files, likewise
+    constexpr double kThin = 1e-9;      // thickness of a face, as a fraction of the extent
+    constexpr double kRounding = 1e-7;  // rounding in files, likewise
     if (static_cast<double>(hull.faces.size()) * static_cast<double>(points.size()) > kMostWork)
         return false;
     return std::all_of(hull.faces.begin(), hull.faces.end(), [&](const std::vector<int>& face) {
@@ -75,7 +75,7 @@ bool is_exact(const Hull& hull, std::span<const Vec3> points, double extent) {
     });
 }
 
-/// Qhull's state, which has to be freed.
+/// Qhull's state, which must be freed.
 class Qhull {
   public:
     explicit Qhull(std::span<const Vec3> points) : coordinates_(points.begin(), points.end()) {
@@ -140,10 +140,10 @@ Hull convex_hull(std::span<const Vec3> points) {
     }
     const double extent = (high - low).norm();
     Hull hull = quick_hull(points);
-    // it goes first, because recordings depend on its order of corners and faces
+    // Bullet is tried first, because recordings depend on its order of corners and faces
     if (hull.faces.size() < 4 || !is_exact(hull, points, extent)) hull = Qhull(points).hull();
     if (hull.faces.size() < 4) return {};
-    // neither a needle nor a leaf, whose volume and area are but rounding
+    // neither a needle nor a leaf, whose volume and area are only rounding errors
     const double surface = area(hull);
     const double thickness = 2 * integrate(hull.vertices, hull.faces).volume / surface;
     if (!(surface > 1e-6 * extent * extent && thickness > 1e-6 * extent)) return {};

@@ -23,7 +23,7 @@ double torsion_constant(double side, double other) {
     return longer * std::pow(shorter, 3) * (1.0 / 3 - 0.21 * r * (1 - std::pow(r, 4) / 12));
 }
 
-/// What is made of one lattice.
+/// The bodies and joints made from a lattice.
 class Builder {
   public:
     Builder(const Lattice& lattice, Scene& scene)
@@ -78,7 +78,7 @@ class Builder {
         body.position = X_WL_ * centre(i);
         body.rotation = lattice_.rotation;
         body.friction = lattice_.friction;
-        // under pressure from outside, the part from the face to the block's middle yields too
+        // under pressure from outside, the half of the block below the face yields too
         double stiffness = 1;
         for (int a = 0; a < 3; ++a)
             stiffness *= 2 * lattice_.young * block_.prod() / (block_[a] * block_[a]);
@@ -90,7 +90,7 @@ class Builder {
         scene_.bodies.push_back(body);
     }
 
-    /// A link across the block's face along axis a: `at` blocks beyond its centre, between things
+    /// A link across the block's face along axis a: `at` blocks beyond its centre, between points
     /// that are `length` apart.
     void add_link(const Index& i, int a, double at, double length, std::vector<std::string> between,
                   const std::string& what) {
@@ -131,7 +131,7 @@ class Builder {
     const Lattice& lattice_;
     Scene& scene_;
     Pose X_WL_;
-    Vec3 block_;  // size of a block
+    Vec3 block_;  // size of one block
     Index count_;
     bool rod_;
 };
@@ -152,7 +152,8 @@ bool is_sound(const Lattice& lattice, const Scene& scene, Diagnostics& diagnosti
               fmt::format("makes {:.0f} blocks, more than {}", lattice.parts.prod(), kMostParts),
               "Use fewer: a tick has to solve them all.");
     if (lattice.mass.has_value() == lattice.density.has_value())
-        error(lattice.place, "mass", lattice.mass ? "stands beside a density" : "is missing",
+        error(lattice.place, "mass",
+              lattice.mass ? "is given in addition to a density" : "is missing",
               "Give mass_g or density_kg_m3.");
     if (!lattice.colour.empty() && read_colour(lattice.colour, lattice.place, diagnostics) < 0)
         sound = false;

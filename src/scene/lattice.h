@@ -1,7 +1,7 @@
-// Describes a soft body, such as a sponge or a flexible rod, as a scene file has it: rigid blocks
-// in rows and layers, with springs between neighbours that yield as the material would.
+// Describes a soft body, such as a sponge or a flexible rod, as given in a scene file: rigid blocks
+// in rows and layers, with springs between neighbours that yield like the material.
 //
-// With Young's modulus E and the shear modulus G, two blocks whose centres are L apart and that
+// With Young's modulus E and the shear modulus G, two blocks with centres L apart that
 // meet in a face of area A are joined by a bushing in the middle of this face, with
 //
 //     k = E A / L across it     G A / L along it     E I / L about its sides     G J / L about its
@@ -10,8 +10,8 @@
 // where I are the face's second moments of area and J is Saint-Venant's torsion constant. Bars and
 // beams made in this way stretch, shear and twist as in the textbooks, and n blocks bend as a beam
 // within 1 / (2 n^2). A block's sides do not bulge when it is pressed: Poisson's ratio is 0. Its
-// faces are soft, with 2 E A / L (the mean of its three sides), because what presses on them is
-// half a block away from the first link.
+// faces are soft, with 2 E A / L (the mean of its three sides), because an object that presses on
+// them is half a block away from the first link.
 #pragma once
 
 #include <array>
@@ -28,7 +28,7 @@ namespace dihaptic::scene {
 
 struct Scene;
 
-/// The face of a lattice that looks along -x, +x and so on, in its own axes.
+/// A face of a lattice, by its outward normal -x, +x and so on in the lattice's axes.
 enum class Side { x_low, x_high, y_low, y_high, z_low, z_high };
 constexpr auto enum_names(Side) {
     return std::array{"-x", "+x", "-y", "+y", "-z", "+z"};
@@ -42,19 +42,19 @@ struct Glued {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("side", side, says("The face that is glued, by the axis along which it looks."));
-        v("to", to, says("Body that it is glued to; left out, the world."));
+        v("side", side, says("The glued face, by its outward normal."));
+        v("to", to, says("Body to which the face is glued; if left out, the world."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
 struct Lattice {
     std::string name;
-    Vec3 size = Vec3::Zero();       ///< of the whole [m]
-    Vec3 parts{2, 2, 2};            ///< how many blocks along its x, y and z
+    Vec3 size = Vec3::Zero();       ///< of the entire lattice [m]
+    Vec3 parts{2, 2, 2};            ///< number of blocks along its x, y and z
     Vec3 position = Vec3::Zero();   ///< of its centre at the start [m]
     Vec3 rotation = Vec3::Zero();   ///< about the fixed axes x, then y, then z [rad]
-    std::optional<double> mass;     ///< of the whole [kg]; this or the density
+    std::optional<double> mass;     ///< of the entire lattice [kg]; this or the density
     std::optional<double> density;  ///< [kg/m^3]
     double young = 1e5;             ///< E [Pa]
     std::optional<double> shear;    ///< G [Pa]; unset: E / 2
@@ -69,35 +69,38 @@ struct Lattice {
         const Field modulus = Field::of(Quantity::pressure).within(1, 1e12);
         v("name", name,
           Field::text().required().says(
-              "Name; its blocks are called name_1, name_2 and so on in a rod, otherwise "
+              "Name; the blocks are called name_1, name_2 and so on in a rod, otherwise "
               "name_1_1_1, by x, y and z."));
-        v("size", size, Field::length().within(1e-4, 100).required().says("Size of the whole."));
+        v("size", size,
+          Field::length().within(1e-4, 100).required().says("Size of the entire lattice."));
         v("parts", parts,
-          Field::number().within(1, 100).says("How many blocks it has along its x, y and z."));
-        v("position", position, Field::length().within(-100, 100).says("Its centre at the start."));
+          Field::number().within(1, 100).says("Number of blocks along the lattice's x, y and z."));
+        v("position", position,
+          Field::length().within(-100, 100).says("Position of the centre at the start."));
         v("rotation", rotation,
           Field::of(Quantity::angle)
               .within(-kMostTurn, kMostTurn)
               .says("Rotation at the start, about the world's axes x, then y, then z."));
-        v("mass", mass, Field::of(Quantity::mass).within(1e-6, 1000).says("Mass of the whole."));
+        v("mass", mass,
+          Field::of(Quantity::mass).within(1e-6, 1000).says("Mass of the entire lattice."));
         v("density", density,
           Field::of(Quantity::density).within(0.01, 1e5).says("Density, in place of the mass."));
         v("young", young, modulus.says("Young's modulus of the material."));
-        v("shear", shear, modulus.says("Its shear modulus; left out, half of Young's."));
+        v("shear", shear, modulus.says("Shear modulus; if left out, half of Young's modulus."));
         v("retardation", retardation,
           Field::of(Quantity::time)
               .within(0, 10)
-              .says("How long it takes to yield: each spring has a damper of this times its "
+              .says("Retardation time: each spring has a damper of this time multiplied by its "
                     "stiffness."));
         v("friction", friction,
-          Field::number().within(0, kMostFriction).says("Coefficient of friction, as of a body."));
-        v("colour", colour, says("Colour, as \"#rrggbb\"; left out, the view chooses."));
+          Field::number().within(0, kMostFriction).says("Coefficient of friction, as for a body."));
+        v("colour", colour, says("Colour, as \"#rrggbb\"; if left out, the view chooses."));
         v("glued", glued, says("Faces that are glued to bodies or to the world."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// Turns the scene's lattices into bodies and joints, which follow those that it already has.
+/// Turns the scene's lattices into bodies and joints, which follow the existing ones.
 void expand_lattices(Scene& scene, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::scene

@@ -25,12 +25,12 @@ double extent_of(const Mesh& mesh) {
     return (box.high - box.low).maxCoeff();
 }
 
-/// What is seen and what is felt are of one size; otherwise a unit is wrong.
+/// The seen and the felt shape have similar sizes; otherwise a unit is wrong.
 void check_size(double seen, double felt, const SeenMesh& mesh, Diagnostics& diagnostics) {
     if (felt <= 0 || (seen < 2 * felt && felt < 2 * seen)) return;
     diagnostics.warning(
         mesh.place, "unit",
-        fmt::format("the mesh {} is {:g} mm large, and the shape that is felt {:g} mm", mesh.file,
+        fmt::format("the mesh {} is {:g} mm large, but the felt shape measures {:g} mm", mesh.file,
                     1e3 * seen, 1e3 * felt),
         "Check the unit of its coordinates.");
 }
@@ -63,7 +63,7 @@ void load_look(Body& body, const std::string& folder, Pictures& pictures, Diagno
         }
     };
     if (body.picture && !body.colour.empty())
-        diagnostics.error(body.picture->place, "picture", "stands beside a colour",
+        diagnostics.error(body.picture->place, "picture", "cannot be combined with a colour",
                           "Leave out one of the two.");
     if (body.picture && !body.picture->file.empty()) {
         attempt([&] {
@@ -90,9 +90,10 @@ void check_materials(const Mesh& mesh, const std::string& file, const Place& pla
     if (mesh.materials.empty() || !mesh.colours.empty()) return;
     diagnostics.warning(
         place, "file",
-        fmt::format("the mesh {} takes its colours from {}, which {}", file, mesh.materials,
-                    is_there(mesh.materials) ? "has none (Kd) for its materials" : "is not there"),
-        "Put the file of its materials beside it, or give the body a colour.");
+        fmt::format(
+            "the mesh {} takes its colours from {}, which {}", file, mesh.materials,
+            is_there(mesh.materials) ? "has no colour (Kd) for its materials" : "does not exist"),
+        "Put the materials file beside it, or give the body a colour.");
 }
 
 void load_looks(Scene& scene, const std::string& folder, Diagnostics& diagnostics,

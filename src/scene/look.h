@@ -12,19 +12,19 @@
 
 namespace dihaptic::scene {
 
-/// How a surface reflects: as plastic, not at all, or as a metal of its colour.
+/// How a surface reflects: like plastic, not at all, or like metal in its colour.
 enum class Finish { satin, matt, metal };
 constexpr auto enum_names(Finish) {
     return std::array{"satin", "matt", "metal"};
 }
 
-/// A mesh that is drawn in place of a body's shape.
+/// A mesh drawn in place of a body's shape.
 struct SeenMesh {
     std::string file;  ///< OBJ, STL, PLY or OFF, relative to the scene file
     MeshUnit unit = MeshUnit::m;
-    std::shared_ptr<const Mesh> mesh;  ///< without colours if others are drawn
-    Place place;                       ///< where the scene file names its file
-    Place unit_place;                  ///< where it names its unit
+    std::shared_ptr<const Mesh> mesh;  ///< without colours if other colours are drawn
+    Place place;                       ///< where the scene file gives the mesh file
+    Place unit_place;                  ///< where it gives the unit
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -43,10 +43,10 @@ struct SeenMesh {
 struct Body;
 struct Scene;
 
-/// Whether the colours of a mesh are drawn: nothing else colours the body.
+/// Whether a mesh's own colours are drawn, because the body has no other colour.
 bool has_own_colours(const Body& body);
 
-/// Warns that a mesh has no colours though it names a file for them.
+/// Warns if a mesh has no colours although it names a materials file.
 void check_materials(const Mesh& mesh, const std::string& file, const Place& place,
                      Diagnostics& diagnostics);
 

@@ -10,11 +10,11 @@
 
 namespace dihaptic::scene {
 
-/// Path of the MTL file that the OBJ mesh in `file` names, of which `text` is the content; "" if it
-/// names none. The file lies beside the mesh, under the name that the mesh has for it or, as
-/// sessions keep it, under the mesh's own.
+/// Path of the MTL file that the OBJ mesh in `file` names (`text` is the mesh's content); "" if it
+/// names none. The file lies beside the mesh, under the name in the mesh or, as
+/// in sessions, under the mesh's own name.
 std::string materials_of(const std::string& file, std::string_view text);
-/// The name that a copy of an MTL file has beside the copy of its mesh.
+/// The name for a copy of an MTL file beside the copy of its mesh.
 std::string materials_beside(const std::string& file);
 
 struct Materials {
@@ -22,7 +22,7 @@ struct Materials {
     std::string checksum;                    ///< of the file, as it was read (base/checksum.h)
 };
 
-/// Returns none, and no checksum, when the file cannot be read.
+/// Returns no colours and no checksum if the file cannot be read.
 Materials read_materials(const std::string& file);
 
 }  // namespace dihaptic::scene

@@ -21,7 +21,7 @@ Mesh joined(const Mesh& mesh, const std::vector<int>& into) {
         }
         return index[kept];
     };
-    // first the vertices, so that they keep their order
+    // vertices first, so that they keep their order
     for (int i = 0; i < static_cast<int>(mesh.vertices.size()); ++i) number(i);
     for (const std::vector<int>& f : mesh.faces) {
         const std::array<int, 3> t{number(f[0]), number(f[1]), number(f[2])};
@@ -30,7 +30,7 @@ Mesh joined(const Mesh& mesh, const std::vector<int>& into) {
     return out;
 }
 
-/// Leaves out pairs of faces with the same corners that face opposite ways.
+/// Drops pairs of opposite faces with the same corners.
 void drop_back_to_back(Mesh& mesh) {
     const auto turned = [](std::vector<int> f) {
         std::rotate(f.begin(), std::min_element(f.begin(), f.end()), f.end());
@@ -193,7 +193,7 @@ Mended mended(const Mesh& mesh, double rounding) {
     std::erase_if(out.mesh.faces,
                   [&](const std::vector<int>& f) { return height(out.mesh, f) <= rounding; });
     drop_back_to_back(out.mesh);
-    // each round ends one edge of a face at all corners that lie on it
+    // each round divides one edge of a face at all corners on it
     constexpr int kRounds = 100;
     for (int i = 0; i < kRounds && split(out.mesh, rounding); ++i) drop_back_to_back(out.mesh);
     return out;

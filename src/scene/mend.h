@@ -11,27 +11,27 @@
 
 namespace dihaptic::scene {
 
-using Edge = std::pair<int, int>;  ///< from one vertex to another, as a face has it
+using Edge = std::pair<int, int>;  ///< from one vertex to another, in a face's order
 
 inline const Vec3& corner(const Mesh& mesh, int i) {
     return mesh.vertices[static_cast<size_t>(i)];
 }
 
-/// For each edge that is not balanced by as many faces in the other direction: how many more faces
-/// have it in this one.
+/// For each edge that is not balanced by faces in the other direction: the number of excess faces
+/// in this direction.
 std::map<Edge, int> open_edges(const Mesh& mesh);
 
 /// Corners closer than this are merged [m]: a millionth of the mesh's diagonal, and eight steps of
 /// a coordinate in single precision.
 double rounding_of(const Mesh& mesh);
 
-/// The mesh without colours, with corners at equal positions merged, and without faces that have a
-/// corner twice or lie back to back.
+/// The mesh without colours, with corners at equal positions merged, and without faces that repeat
+/// a corner or lie back to back.
 Mesh merged(const Mesh& mesh);
 
 struct Mended {
     Mesh mesh;
-    double largest = 0;  ///< of the distances between merged corners [m]
+    double largest = 0;  ///< largest distance between merged corners [m]
 };
 
 /// The mesh with all these repairs, within `rounding`.

@@ -34,8 +34,8 @@ std::string format_of(const std::string& file) {
     return "";
 }
 
-/// What an OBJ file lacks to be a solid, which the reader does not report; "" if it lacks nothing
-/// or has another format.
+/// What an OBJ file lacks for a solid, because the reader does not report this; "" if nothing
+/// or for another format.
 std::string missing_in(const std::string& bytes, const std::string& format) {
     if (format != "obj") return "";
     std::istringstream in(bytes);
@@ -55,8 +55,8 @@ std::string missing_in(const std::string& bytes, const std::string& format) {
 }
 
 /// Limits of time and memory for a file of `size` bytes. Good files take at most a tenth of this
-/// time and half of this memory: 0.04 s of computing per MB, and 12 to 150 bytes per byte, the most
-/// for small OBJ files that have more faces than vertices. A file that takes more is damaged.
+/// time and half of this memory: 0.04 s of computing per MB, and 12 to 150 bytes per byte, the
+/// latter for small OBJ files with more faces than vertices. A file that takes more is damaged.
 CompanionLimits limits_for(uint64_t size) {
     CompanionLimits out;
     out.processor_time = static_cast<int>(2 + size / 2'000'000);
@@ -66,7 +66,7 @@ CompanionLimits limits_for(uint64_t size) {
     return out;
 }
 
-/// Reads what dihaptic-mesh writes, item by item.
+/// Reads the output of dihaptic-mesh, item by item.
 class Reader {
   public:
     explicit Reader(const std::string& bytes) : bytes_(bytes) {}
@@ -107,8 +107,8 @@ struct MeshParts {
     std::vector<MeshPart> parts;
 };
 
-/// Reads colours and parts of a mesh, which end what dihaptic-mesh writes; false if the parts are
-/// not the mesh's.
+/// Reads colours and parts of a mesh, the last items from dihaptic-mesh; false if the parts are
+/// not those of the mesh.
 bool read_colours(Reader& in, uint64_t count, MeshParts& out) {
     const size_t vertices = out.mesh.vertices.size();
     out.mesh.colours.reserve(vertices);
@@ -124,8 +124,8 @@ bool read_colours(Reader& in, uint64_t count, MeshParts& out) {
     return left == 0 && in.left() == 0;
 }
 
-/// The mesh that dihaptic-mesh has written (app/mesh/main.cpp), whose coordinates are counted from
-/// `from`; nullopt if the bytes are not one.
+/// The mesh that dihaptic-mesh has written (app/mesh/main.cpp), whose coordinates are relative to
+/// `from`; nullopt if the bytes are not a mesh.
 std::optional<MeshParts> mesh_of(const std::string& bytes, double unit,
                                  const std::array<double, 3>& from) {
     using Vertex = std::array<double, 3>;
@@ -155,7 +155,7 @@ std::optional<MeshParts> mesh_of(const std::string& bytes, double unit,
     return out;
 }
 
-/// Gives vertices without a colour that of their material; the mesh has no colours if no vertex
+/// Gives vertices without a colour the colour of their material; the mesh has none if no vertex
 /// gets one.
 void add_materials(MeshParts& read) {
     Mesh& mesh = read.mesh;
@@ -216,10 +216,10 @@ Mesh read_mesh(const std::string& file, double unit, const Place& asked_at,
     Mesh& mesh = read->mesh;
     mesh.checksum = checksum;
     for (const Vec3& v : mesh.vertices) {
-        if (!v.allFinite()) throw refused("has a vertex that is no number", "Export it again.");
+        if (!v.allFinite()) throw refused("has a vertex that is not a number", "Export it again.");
     }
     if (mesh.faces.empty()) throw refused("has no triangles", "Export it again with its surface.");
-    // STL defines no colours: each program uses the spare bytes in its own way
+    // STL defines no colours: each program uses the spare bytes differently
     if (format == "stl") std::fill(mesh.colours.begin(), mesh.colours.end(), -1);
     if (format == "obj") mesh.materials = materials_of(file, bytes);
     add_materials(*read);

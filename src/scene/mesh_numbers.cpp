@@ -21,7 +21,7 @@ namespace {
 
 using Words = std::vector<std::string_view>;
 
-/// Goes through a text line by line, without comments. Of OBJ, a line may be continued by a
+/// Reads a text line by line, without comments. In OBJ, a line may be continued by a
 /// backslash.
 class Lines {
   public:
@@ -39,16 +39,16 @@ class Lines {
         at_ = end + 1;
         return true;
     }
-    /// As next(), but leaves out lines without words.
+    /// Like next(), but skips empty lines.
     bool next_filled(Words& words) {
         while (next(words)) {
             if (!words.empty()) return true;
         }
         return false;
     }
-    /// Of the line that next() gave.
+    /// Number of the line that next() returned.
     int number() const { return number_; }
-    /// Where the next one begins.
+    /// Start of the next line.
     size_t at() const { return at_; }
 
   private:
@@ -74,24 +74,24 @@ class Lines {
     bool continues_;
     size_t at_ = 0;
     int number_ = 1;
-    int passed_ = 0;  // lines that the last one took
+    int passed_ = 0;  // lines taken by the last call
 };
 
-/// A vertex as a file gives it: x, y and z, and whether a fourth number scales them.
+/// A vertex in a file: x, y and z, and whether a fourth number scales them.
 struct Said {
     std::array<std::string_view, 3> xyz;
     bool is_scaled = false;
     int line = 0;
 };
 
-/// Takes a vertex; returns what is wrong with it, or "".
+/// Checks a vertex and returns its fault, or "".
 using Take = std::function<std::string(const Said&)>;
 
 std::string has_too_few(size_t found, size_t wanted, int line) {
     return fmt::format("has {} of the {} numbers of a vertex in line {}", found, wanted, line);
 }
 
-/// Those of OBJ and STL, whose lines begin with a word.
+/// The vertices of OBJ and STL, whose lines start with a word.
 std::string each_named(std::string_view text, std::string_view name, bool is_obj,
                        const Take& take) {
     Lines lines(text, is_obj);
@@ -105,13 +105,13 @@ std::string each_named(std::string_view text, std::string_view name, bool is_obj
     return "";
 }
 
-/// The vertices of OFF. A malformed head is left to the reader of meshes.
+/// The vertices of OFF. The mesh reader reports a malformed header.
 std::string each_off(std::string_view text, const Take& take) {
     Lines lines(text, false);
     Words words;
     if (!lines.next_filled(words)) return "";
     if (words[0].size() > 3 && words[0].starts_with("OFF")) {
-        words[0].remove_prefix(3);  // as in ModelNet, whose counts follow at once
+        words[0].remove_prefix(3);  // as in ModelNet, where the counts follow at once
     } else if (words[0].ends_with("OFF")) {
         if (words[0].find_first_of("4n") != std::string_view::npos) return "";
         words.erase(words.begin());
@@ -126,18 +126,18 @@ std::string each_off(std::string_view text, const Take& take) {
     return "";
 }
 
-/// The description of the vertices in the head of a PLY file.
+/// The description of the vertices in the header of a PLY file.
 struct PlyHead {
-    size_t before = 0;  // lines or other items between the head and the first vertex
+    size_t before = 0;  // lines or other items between the header and the first vertex
     size_t count = 0;
-    size_t numbers = 0;                          // of a vertex
-    size_t bytes = 0;                            // of a vertex
-    std::array<std::optional<size_t>, 3> xyz{};  // which of the numbers x, y and z are
-    std::array<size_t, 3> xyz_at{};              // and where in its bytes
-    int doubles = 0;                             // how many of these have double precision
+    size_t numbers = 0;                          // numbers per vertex
+    size_t bytes = 0;                            // bytes per vertex
+    std::array<std::optional<size_t>, 3> xyz{};  // positions of x, y and z among the numbers
+    std::array<size_t, 3> xyz_at{};              // and among the bytes
+    int doubles = 0;                             // number of these in double precision
     std::string format;
     bool has_lists = false;
-    size_t end = 0;  // of the head
+    size_t end = 0;  // end of the header
 };
 
 size_t size_of(std::string_view type) {
@@ -207,11 +207,11 @@ std::string each_vertex(std::string_view text, const std::string& format, const 
                            : each_named(text, "vertex", false, take);
 }
 
-/// Where the vertices are.
+/// The range of the vertices.
 struct Extent {
     std::array<double, 3> low;
     std::array<double, 3> high;
-    double rounding = 0;  // by which single precision changes a coordinate at most
+    double rounding = 0;  // largest error of a coordinate in single precision
     bool is_scaled = false;
 
     Extent() {
@@ -228,14 +228,14 @@ struct Extent {
         for (size_t i = 0; i < 3; ++i) {
             const auto value = finite_number(said.xyz[i]);
             if (!value)
-                return fmt::format("has a vertex that is no number in line {}: '{}'", said.line,
+                return fmt::format("has a vertex that is not a number in line {}: '{}'", said.line,
                                    shortened(std::string(said.xyz[i])));
             take(i, *value);
         }
         is_scaled = is_scaled || said.is_scaled;
         return "";
     }
-    /// Whether single precision does not suffice: in a mesh around its origin, rounding is a
+    /// Whether single precision is insufficient: in a mesh around its origin, rounding is a
     /// hundredth of this.
     bool is_far() const { return !is_scaled && rounding > 2e-7 * diagonal(); }
     std::array<double, 3> middle() const {
@@ -249,13 +249,13 @@ struct Extent {
     }
 };
 
-/// The text with all coordinates counted from a place.
+/// The text with all coordinates relative to a point.
 std::string counted_from(const std::array<double, 3>& from, const std::string& text,
                          const std::string& format) {
     std::string out;
     size_t done = 0;
     each_vertex(text, format, [&](const Said& said) {
-        std::array<std::pair<size_t, size_t>, 3> places;  // where each stands, and its axis
+        std::array<std::pair<size_t, size_t>, 3> places;  // the position of each, and its axis
         for (size_t i = 0; i < 3; ++i)
             places[i] = {static_cast<size_t>(said.xyz[i].data() - text.data()), i};
         std::sort(places.begin(), places.end());
@@ -270,8 +270,8 @@ std::string counted_from(const std::array<double, 3>& from, const std::string& t
     return out.append(text, done);
 }
 
-/// Calls change(axis, coordinate) for all of a binary PLY file whose vertices, which come first,
-/// have double precision.
+/// Calls change(axis, coordinate) for all coordinates of a binary PLY file whose vertices, which
+/// come first, have double precision.
 template <class Change>
 void each_double(std::string& bytes, const PlyHead& head, const Change& change) {
     const bool is_swapped =

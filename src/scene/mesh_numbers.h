@@ -1,4 +1,4 @@
-// Checks the coordinates in mesh files. The reader of meshes uses the part of a word that it
+// Checks the coordinates in mesh files. The mesh reader uses the part of a word that it
 // recognises as a number and ignores the rest (it reads 1.5D+01 as 1.5), and it keeps seven digits.
 #pragma once
 
@@ -8,13 +8,13 @@
 namespace dihaptic::scene {
 
 struct MeshNumbers {
-    std::string fault;             ///< what is wrong with the file, after its name; "": nothing
-    std::array<double, 3> from{};  ///< where the origin of the coordinates is now
+    std::string fault;             ///< the file's fault, to follow its name; "": none
+    std::array<double, 3> from{};  ///< the new origin of the coordinates
 };
 
-/// Checks all coordinates of a text, or those of a binary PLY file in double precision. Where seven
-/// digits would not suffice, far away from the origin, it subtracts the mesh's middle from them.
-/// `format`: obj, stl (of text), ply or off.
+/// Checks all coordinates of a text, or those of a binary PLY file in double precision. If seven
+/// digits do not suffice, far from the origin, it subtracts the mesh's centre from them.
+/// `format`: obj, stl (text), ply or off.
 MeshNumbers look_at_numbers(std::string& bytes, const std::string& format);
 
 }  // namespace dihaptic::scene

@@ -11,7 +11,7 @@
 namespace dihaptic::scene {
 namespace {
 
-/// Binary STL: 80 bytes of any content, the number of triangles, then the triangles.
+/// Binary STL: 80 arbitrary bytes, the number of triangles, then the triangles.
 constexpr size_t kCountAt = 80;
 constexpr size_t kHead = 84;
 constexpr size_t kTriangle = 50;
@@ -20,14 +20,14 @@ char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-/// Ends each line up to `end` that ends with a carriage return alone with a line feed.
+/// Replaces line ends that are only a carriage return by a line feed, up to `end`.
 void end_lines(std::string& bytes, size_t end) {
     for (size_t i = 0; i < end; ++i) {
         if (bytes[i] == '\r' && (i + 1 == bytes.size() || bytes[i + 1] != '\n')) bytes[i] = '\n';
     }
 }
 
-/// Blanks out what follows a # in those lines of OBJ that have numbers; names may contain a #.
+/// Blanks out text after a # in lines of OBJ with numbers; names may contain a #.
 void blank_comments(std::string& text) {
     constexpr std::string_view kOfNumbers = "vflp0123456789+-.";
     for (size_t begin = 0; begin < text.size();) {
@@ -43,7 +43,7 @@ void blank_comments(std::string& text) {
     }
 }
 
-/// The lines of OFF that have more than a comment.
+/// The lines of OFF that are not just comments.
 std::string without_comments(std::string_view text) {
     std::string out;
     out.reserve(text.size());
@@ -57,7 +57,7 @@ std::string without_comments(std::string_view text) {
     return out;
 }
 
-/// Where the text of a PLY file ends.
+/// The end of a PLY file's text.
 size_t end_of_text(const std::string& bytes) {
     constexpr std::string_view kEnd = "end_header";
     const size_t end = bytes.find(kEnd);
@@ -93,14 +93,13 @@ void set_count(std::string& bytes, size_t count) {
 /// A binary STL file whose size does not match its count.
 MeshText tidy_binary_stl(std::string bytes) {
     if (bytes.size() < kHead)
-        return {bytes,
-                fmt::format("has {} bytes, fewer than the head of an STL file", bytes.size())};
+        return {bytes, fmt::format("has {} bytes, fewer than an STL file's header", bytes.size())};
     const size_t count = count_of(bytes);
     const size_t room = (bytes.size() - kHead) / kTriangle;
     const size_t spare = (bytes.size() - kHead) % kTriangle;
     if (count > room)
-        return {bytes,
-                fmt::format("ends after {} of the {} triangles that its head counts", room, count)};
+        return {bytes, fmt::format("ends after {} of the {} triangles announced in its header",
+                                   room, count)};
     if (count == 0 && room > 0 && spare == 0) {
         set_count(bytes, room);
         return {bytes, ""};
@@ -108,8 +107,8 @@ MeshText tidy_binary_stl(std::string bytes) {
     const size_t end = kHead + count * kTriangle;
     const bool is_padded = bytes.find_first_not_of('\0', end) == std::string::npos;
     if (count == 0 || (spare == 0 && !is_padded))
-        return {bytes, fmt::format("counts {} triangles in its head, and has {} bytes after it, "
-                                   "room for {}",
+        return {bytes, fmt::format("announces {} triangles in its header, but {} bytes follow, "
+                                   "enough for {}",
                                    count, bytes.size() - kHead, room)};
     bytes.resize(end);
     return {bytes, ""};
@@ -136,7 +135,7 @@ MeshText tidy_stl(std::string bytes) {
 
 MeshText tidy(std::string bytes, const std::string& format) {
     if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff"))
-        return {std::move(bytes), "is text of 16 bits a letter (UTF-16)"};
+        return {std::move(bytes), "is UTF-16 text, with 16 bits a letter"};
     if (bytes.starts_with("\xef\xbb\xbf")) bytes.erase(0, 3);
     if (format == "stl") return tidy_stl(std::move(bytes));
     end_lines(bytes, format == "ply" ? end_of_text(bytes) : bytes.size());

@@ -1,5 +1,5 @@
-// Cleans up mesh files as they occur in practice: with byte order marks, old line ends, capitals,
-// comments behind numbers, spare bytes, or without a count. The reader of meshes handles none of
+// Cleans up mesh files from practice, with byte order marks, old line ends, capitals,
+// comments after numbers, spare bytes, or no count. The mesh reader handles none of
 // these, and does not report them.
 #pragma once
 
@@ -9,9 +9,9 @@
 namespace dihaptic::scene {
 
 struct MeshText {
-    std::string bytes;  ///< as the reader knows them
-    std::string fault;  ///< what is wrong with the file, after its name; "": nothing that is seen
-    std::array<double, 3> from{};  ///< where the origin of their coordinates is in the file's
+    std::string bytes;             ///< in the form that the reader expects
+    std::string fault;             ///< the file's fault, to follow its name; "": none detected
+    std::array<double, 3> from{};  ///< position of the new origin in the file's coordinates
 };
 
 /// `format`: obj, stl, ply or off.

@@ -1,4 +1,4 @@
-// Describes a picture that a body wears in place of a colour.
+// Describes a picture that covers a body in place of a colour.
 #pragma once
 
 #include <memory>
@@ -12,16 +12,16 @@
 namespace dihaptic::scene {
 
 /// An image of known size that repeats over a body. It is projected along the axes of the body's
-/// frame: at each place, along the axis that is closest to the surface's normal. Its middle is at
+/// frame: at each point, along the axis closest to the surface's normal. Its middle is at
 /// the body's origin. Its up direction is z, and on surfaces that face along z it is y seen from
 /// above, and -y seen from below.
 struct Picture {
     static constexpr int kMostPixels = 4096;  ///< along an edge
 
     std::string file;                    ///< PNG, relative to the scene file
-    double width = 0;                    ///< after which it repeats; its height follows [m]
+    double width = 0;                    ///< repeat distance; the height follows [m]
     std::shared_ptr<const Image> image;  ///< shared by bodies that name the same file
-    Place place;                         ///< where the scene file names it
+    Place place;                         ///< where the scene file gives it
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -38,7 +38,7 @@ struct Picture {
 /// Reads a PNG file whose edges have `fewest` to `most` pixels. Throws Error, with that place and
 /// the key `file`, when it is not a PNG file or has another size.
 Image read_picture(const std::string& file, int fewest, int most, const Place& place);
-/// As read_picture(), for a picture whose greys are data.
+/// Like read_picture(), for a picture whose grey levels are data.
 GreyImage read_data(const std::string& file, int fewest, int most, const Place& place);
 
 }  // namespace dihaptic::scene

@@ -24,7 +24,7 @@ constexpr const char* kUnchecked = "dihaptic pieces 1\n";
 constexpr const char* kFirstLine = "dihaptic pieces 2\n";
 constexpr const char* kDecomposer = "dihaptic-decompose";
 constexpr int64_t kMostPieces = 1'000'000'000;  // bytes
-/// Meshes with thousands of dents take minutes to cut; the user can cancel.
+/// Meshes with thousands of dents take minutes; the user can cancel the cut.
 constexpr CompanionLimits kLimits{
     .processor_time = 3600, .time = 2 * 3600, .memory = 16'000'000'000, .output = kMostPieces};
 
@@ -65,10 +65,10 @@ std::string text_of(const std::vector<Hull>& hulls) {
     return out;
 }
 
-/// What "piece <count>" lines and vertices say.
+/// The content of "piece <count>" lines and vertices.
 struct Parsed {
     std::vector<Hull> hulls;
-    std::optional<Vec3> lost;  ///< a corner that no hull has, of a piece that is too thin if any is
+    std::optional<Vec3> lost;  ///< a corner in no hull, if possible of a piece that is too thin
 };
 
 std::optional<Vec3> lost_of(const std::vector<Vec3>& points, const Hull& hull) {
@@ -100,7 +100,7 @@ std::optional<Parsed> parse(const std::string& text) {
                 if (!read(in, along)) return std::nullopt;
             }
         }
-        // sorted, so that pieces read from a file equal the newly cut ones to the bit
+        // sorted, so that pieces from a file equal newly cut ones to the bit
         std::sort(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) {
             return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
         });
@@ -115,8 +115,8 @@ std::optional<Parsed> parse(const std::string& text) {
     return out;
 }
 
-/// The pieces of a mesh in a file; nullopt if it has none. `volume` is the mesh's, which pieces of
-/// the first version must match.
+/// The pieces of a mesh in a file; nullopt if it has none. `volume` is the mesh's volume, which
+/// pieces of the first version must match.
 std::optional<Pieces> read_pieces(const std::string& file, uint64_t mesh, double volume) {
     if (!is_there(file)) return std::nullopt;
     const std::string text = [&]() -> std::string {
@@ -140,7 +140,7 @@ std::optional<Pieces> read_pieces(const std::string& file, uint64_t mesh, double
     return out;
 }
 
-/// What dihaptic-decompose reads (app/decompose/main.cpp).
+/// The input of dihaptic-decompose (app/decompose/main.cpp).
 std::string text_of(const ClosedMesh& solid) {
     std::string out;
     const auto add = [&](const Shell& shell, const char* kind, bool is_cavity) {
@@ -172,13 +172,13 @@ std::string text_of(const ClosedMesh& solid) {
     return out;
 }
 
-/// What dihaptic-decompose has written.
+/// The output of dihaptic-decompose.
 struct Cut {
-    std::vector<Hull> hulls;       ///< none if there is no way to cut the solid
+    std::vector<Hull> hulls;       ///< none if the solid cannot be cut
     double volume = 0;             ///< of the solid [m^3]
-    double inverted = 0;           ///< of what a shell winds around the wrong way [m^3]
+    double inverted = 0;           ///< of the space that a shell encloses the wrong way round [m^3]
     std::optional<Vec3> crossing;  ///< where a shell crosses or touches itself
-    std::optional<Vec3> lost;      ///< as Parsed has it
+    std::optional<Vec3> lost;      ///< as in Parsed
 };
 
 Cut cut_of(const std::string& text) {
@@ -196,7 +196,7 @@ Cut cut_of(const std::string& text) {
             if (!read(in, out.volume) || !read(in, shells)) break;
         } else {
             if (const std::optional<Parsed> first = parse(text.substr(at))) {
-                // as they will be when read from a file
+                // in the form in which a file returns them
                 if (std::optional<Parsed> again = parse(text_of(first->hulls)))
                     out.hulls = std::move(again->hulls);
                 out.lost = first->lost;
@@ -239,7 +239,7 @@ Cut cut_by(const std::string& way, const ClosedMesh& solid, const MeshName& name
     return text ? cut_of(*text) : Cut{};
 }
 
-/// Why a mesh is refused, and the remedy; empty if it is not refused.
+/// The reason for refusing a mesh, and the remedy; empty if it is accepted.
 struct Fault {
     std::string why;
     std::string remedy =
@@ -249,19 +249,19 @@ struct Fault {
 
 Fault fault_of(const Cut& cut, const ClosedMesh& solid, const MeshName& name) {
     if (cut.inverted > kSameSize * cut.volume)
-        return {fmt::format("winds the wrong way around {} of its space, beside {} of solid",
+        return {fmt::format("encloses {} the wrong way round, besides {} of solid",
                             name.volume(cut.inverted), name.volume(cut.volume))};
     if (cut.hulls.empty()) return {"cannot be cut into convex pieces"};
     const double filled = integrate(Pieces{cut.hulls}).volume;
-    const std::string both = fmt::format("has {}, and its convex pieces {}",
+    const std::string both = fmt::format("has {}, but its convex pieces have {}",
                                          name.volume(cut.volume), name.volume(filled));
     const bool is_filled = is_same_size(filled, cut.volume);
     if (!is_filled)
-        return {fmt::format("{}: faces that ought to be flat are bent by rounding{}, and what is "
-                            "too thin to be felt is lost",
+        return {fmt::format("{}: faces that should be flat are bent by rounding{}, and parts "
+                            "too thin to be felt are lost",
                             both, cut.lost ? ", near " + name.place(*cut.lost) : ""),
                 "Export it with more digits, or leave out concave."};
-    if (!reach(cut.hulls, solid.mesh)) return {"reaches further than its convex pieces"};
+    if (!reach(cut.hulls, solid.mesh)) return {"extends further than its convex pieces"};
     return {""};
 }
 
@@ -301,7 +301,7 @@ void write_pieces(const Pieces& pieces, const std::string& file) {
 
 namespace {
 
-/// The file that keeps the pieces of a mesh. It is in the user's own cache, because the mesh's
+/// The file that stores the pieces of a mesh. It is in the user's own cache, because the mesh's
 /// folder may belong to somebody else; "" if the user has no home.
 std::string kept_file(uint64_t print) {
     const std::string cache = user_cache();
@@ -319,7 +319,7 @@ void keep(const Pieces& pieces, const std::string& file) {
 
 namespace {
 
-/// Warns that shells overlap: their union is felt and weighed.
+/// Warns about overlapping shells, whose union is felt and weighed.
 void check_overlap(const ClosedMesh& solid, const Pieces& pieces, const MeshName& name,
                    Diagnostics& diagnostics) {
     const double shells = integrate(solid.mesh.vertices, solid.mesh.faces).volume;
@@ -327,8 +327,8 @@ void check_overlap(const ClosedMesh& solid, const Pieces& pieces, const MeshName
     if (is_same_size(shells, united)) return;
     diagnostics.warning(
         name.asked_at, "file",
-        fmt::format("the mesh {} has parts that overlap: they have {} together, and {} where what "
-                    "they share counts once, which is felt and weighed",
+        fmt::format("the mesh {} has overlapping parts: they add up to {}, but their union, "
+                    "which is felt and weighed, has {}",
                     name.file, name.volume(shells), name.volume(united)),
         "Unite its parts in a mesh editor, and turn the faces of cavities inward.");
 }
@@ -373,7 +373,7 @@ Pieces convex_pieces(const ClosedMesh& solid, const MeshName& name, Diagnostics&
         diagnostics.warning(name.asked_at, "file",
                             fmt::format("the convex pieces of {} cannot be kept: {} {}", name.file,
                                         kept, e.problems().front().what),
-                            "They are cut anew in each run, unless that folder can be written to.");
+                            "They are cut anew in each run until that folder can be written to.");
     }
     return pieces;
 }

@@ -1,6 +1,6 @@
 // Cuts concave meshes into convex pieces, for contact. The pieces fill the mesh exactly, which is
 // checked by their volume and extent. A separate program, dihaptic-decompose, cuts the mesh
-// (docs/adr/0008), and a file keeps the pieces.
+// (docs/adr/0008), and a file stores the pieces.
 #pragma once
 
 #include <cstdint>
@@ -25,14 +25,14 @@ struct Pieces {
 /// Integrals over all pieces, for unit density.
 VolumeIntegrals integrate(const Pieces& pieces);
 
-/// Convex pieces of a closed mesh. The pieces kept beside its file are used if they are intact,
-/// belong to this mesh and fill it; else the mesh is cut and the new pieces are kept. Where shells
-/// overlap, the pieces fill their union, with a warning. Warns if the pieces cannot be written.
-/// Throws Error when no pieces that fill the mesh are found, or when the cut is stopped.
+/// Convex pieces of a closed mesh. Stored pieces are used if they are intact,
+/// belong to this mesh and fill it; otherwise the mesh is cut and the new pieces are stored. If
+/// shells overlap, the pieces fill their union, with a warning. Warns if the pieces cannot be
+/// written. Throws Error when no pieces that fill the mesh are found, or when the cut is stopped.
 Pieces convex_pieces(const ClosedMesh& mesh, const MeshName& name, Diagnostics& diagnostics,
                      const std::stop_token& stop = {});
 
-/// Name of the file beside a mesh that keeps its pieces.
+/// Name of the file that stores a mesh's pieces.
 std::string pieces_file(const std::string& mesh_file);
 /// Writes pieces to a file. Throws Error when the file cannot be written.
 void write_pieces(const Pieces& pieces, const std::string& file);

@@ -1,11 +1,11 @@
-// What stands for a finger in the world.
+// The representation of a finger in the world.
 #pragma once
 
 #include <array>
 
 namespace dihaptic::scene {
 
-/// What a finger's proxy is: a rigid body of the finger's shape, or a point kept on surfaces.
+/// Kind of a finger's proxy: a rigid body of the finger's shape, or a point kept on surfaces.
 enum class ProxyKind { rigid, point };
 constexpr auto enum_names(ProxyKind) {
     return std::array{"rigid", "point"};

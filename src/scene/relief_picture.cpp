@@ -10,7 +10,7 @@
 namespace dihaptic::scene {
 namespace {
 
-/// The weights of four pixels for a place t beyond the second, and their derivatives.
+/// The weights of four pixels at t beyond the second one, and their derivatives.
 struct Weights {
     std::array<double, 4> of{};
     std::array<double, 4> rise{};
@@ -43,7 +43,7 @@ ReliefPicture::ReliefPicture(int width, int height, std::vector<float> grey, std
 }
 
 ReliefPicture::Value ReliefPicture::at(double x, double y) const noexcept {
-    // the middle of the first pixel is at half a pixel from the corner; rows go down
+    // the centre of the first pixel is half a pixel from the corner; rows run downward
     double column = std::remainder(x, width_) + width_ / 2.0 - 0.5;
     double row = height_ / 2.0 - std::remainder(y, height_) - 0.5;
     const int i = static_cast<int>(std::floor(column));

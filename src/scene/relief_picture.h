@@ -1,4 +1,4 @@
-// A picture as a relief: its greys are smoothed to a height that has a slope everywhere.
+// A picture as a relief: its grey levels are smoothed to a height that has a slope everywhere.
 #pragma once
 
 #include <cstddef>
@@ -14,14 +14,14 @@ namespace dihaptic::scene {
 /// whose slope has no jumps.
 class ReliefPicture {
   public:
-    /// Pixels along an edge.
+    /// Limits of the pixels along an edge.
     static constexpr int kFewest = 4;
     static constexpr int kMost = 2048;
 
     struct Value {
         double height = 0;  ///< 0 to 1
-        double rise_x = 0;  ///< by how much it rises over a pixel to the right,
-        double rise_y = 0;  ///< and over one upward
+        double rise_x = 0;  ///< rise over one pixel to the right,
+        double rise_y = 0;  ///< and over one pixel upward
     };
 
     /// Rows from top to bottom. Needs width x height values, and both edges within the limits.
@@ -31,7 +31,7 @@ class ReliefPicture {
     int height() const noexcept { return height_; }
     /// Checksum of its file when it was read (base/checksum.h).
     const std::string& checksum() const noexcept { return checksum_; }
-    /// The relief at this many pixels to the right of the picture's middle, and above it.
+    /// The relief at a point this many pixels to the right of and above the picture's centre.
     Value at(double x, double y) const noexcept;
     /// The largest rise over a pixel in any direction, sampled four times per pixel along each
     /// edge.
@@ -45,7 +45,7 @@ class ReliefPicture {
     double steepest_ = 0;
 };
 
-/// Reads a PNG file; a colour counts by the mean of its channels. Throws Error, with that place and
+/// Reads a PNG file; colours are averaged over their channels. Throws Error, with that place and
 /// key, when it is not a PNG file, or is too large or small.
 ReliefPicture read_relief(const std::string& file, const Place& place);
 

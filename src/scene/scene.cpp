@@ -24,7 +24,7 @@
 namespace dihaptic::scene {
 namespace {
 
-/// Anything on a tabletop is smaller and lighter: beyond these a unit is probably wrong.
+/// Anything on a tabletop is smaller and lighter: beyond these limits a unit is probably wrong.
 constexpr double kImplausibleSize = 3.0;   // [m]
 constexpr double kImplausibleMass = 20.0;  // [kg]
 
@@ -44,17 +44,17 @@ void keep_colours(Shape& shape, const Mesh& mesh, const std::string& file,
     if (!mesh.colours.empty()) shape.coloured = std::make_shared<const Mesh>(mesh);
 }
 
-/// The meshes of a scene, each read once however many bodies have it.
+/// The meshes of a scene, each read only once, for any number of bodies.
 class Meshes {
   public:
     Meshes(std::string folder, Diagnostics& diagnostics, const std::stop_token& stop)
         : folder_(std::move(folder)), diagnostics_(diagnostics), stop_(stop) {}
 
-    /// `coloured`: the colours of meshes are drawn.
+    /// `coloured`: whether the meshes' colours are drawn.
     void load(Shape& shape, bool coloured);
 
   private:
-    /// Null if it could not be read, which has been reported.
+    /// Null if the mesh could not be read, after a report.
     const Mesh* read(const std::string& file, double unit, const Place& place);
     void load_file(Shape& shape, bool coloured, const std::string& file);
 
@@ -106,7 +106,7 @@ void Meshes::load_file(Shape& shape, bool coloured, const std::string& file) {
         const MeshName name{file, place, metres(shape.unit), enum_name(shape.unit)};
         ClosedMesh solid = closed(mesh, name, diagnostics_);
         shape.pieces = convex_pieces(solid, name, diagnostics_, stop_);
-        // where shells overlap, what they share counts once
+        // the overlap of shells counts once
         const VolumeIntegrals shells = integrate(solid.mesh.vertices, solid.mesh.faces);
         const VolumeIntegrals pieces = integrate(shape.pieces);
         shape.solid = is_same_size(shells.volume, pieces.volume) ? shells : pieces;
@@ -119,9 +119,9 @@ void Meshes::load_file(Shape& shape, bool coloured, const std::string& file) {
         diagnostics_.warning(
             place, "file",
             fmt::format("the mesh {} is not convex: its convex hull, of {:.0f} % more volume, "
-                        "stands in for it",
+                        "replaces it",
                         file, 100 * (hull / solid - 1)),
-            "Add concave: yes to feel the mesh itself.");
+            "Add concave: yes to make the mesh itself felt.");
     }
 }
 
@@ -140,7 +140,7 @@ void check_parts(const Shape& shape, const Place& place, Diagnostics& diagnostic
     if (shape.kind != ShapeKind::compound) return;
     if (shape.parts.empty()) {
         diagnostics.error(place, "parts", "there are none",
-                          "List one at least, each with a shape.");
+                          "List at least one, each with a shape.");
     }
     for (const Part& part : shape.parts) {
         if (part.shape.kind != ShapeKind::plane && part.shape.kind != ShapeKind::compound) continue;
@@ -150,7 +150,7 @@ void check_parts(const Shape& shape, const Place& place, Diagnostics& diagnostic
     }
 }
 
-/// Whether the shape's integrals are known; they are not while its mesh could not be loaded.
+/// Whether the shape's integrals are known; they are unknown if its mesh could not be loaded.
 bool has_volume(const Shape& shape) {
     return shape.kind != ShapeKind::plane && integrate(shape).volume > 0;
 }
@@ -162,7 +162,7 @@ void check_plausible(const Shape& shape, const Place& place, Diagnostics& diagno
     }
 }
 
-/// Checks the mass of a body that can move; false if it makes no sense.
+/// Checks the mass of a body that can move; false if the mass is impossible.
 bool check_weight(const Body& body, Diagnostics& diagnostics) {
     if (!body.mass && !body.density) {
         if (body.weighed) return false;  // the wrong key has been reported
@@ -184,7 +184,7 @@ bool check_weight(const Body& body, Diagnostics& diagnostics) {
 
 void check_driven(const Body& body, Diagnostics& diagnostics) {
     if (!body.fixed && !body.weighed) return;
-    diagnostics.error(body.place, body.fixed ? "fixed" : "mass", "goes with no body that is driven",
+    diagnostics.error(body.place, body.fixed ? "fixed" : "mass", "does not apply to a driven body",
                       "Leave it out.");
 }
 
@@ -209,15 +209,14 @@ void check_body(const Body& body, Diagnostics& diagnostics) {
     }
 }
 
-/// Refuses more things than a scene may have, and drops the excess; returns false in this case.
+/// Reports an excessive number of objects and drops the excess; then returns false.
 template <class Thing>
 bool check_count(std::vector<Thing>& things, size_t most, const char* key,
                  Diagnostics& diagnostics) {
     if (things.size() <= most) return true;
-    diagnostics.error(
-        things[most].place, key,
-        fmt::format("there are {}, where {} are the most", things.size(), most),
-        "Leave out those from here on, or put fewer together in a scene of their own.");
+    diagnostics.error(things[most].place, key,
+                      fmt::format("there are {}, but at most {} are allowed", things.size(), most),
+                      "Leave out those from here on, or split the scene.");
     things.resize(most);
     return false;
 }
@@ -248,9 +247,10 @@ void check_columns(const Scene& scene, Diagnostics& diagnostics) {
     for_each_thing([&](const std::string& name, const Place&) { taken.insert(name + "_angular"); });
     for_each_thing([&](const std::string& name, const Place& place) {
         if (taken.contains(name))
-            diagnostics.error(place, "name",
-                              fmt::format("'{}' is what recordings call a part of another", name),
-                              "Choose another name.");
+            diagnostics.error(
+                place, "name",
+                fmt::format("'{}' is the name of another object's part in recordings", name),
+                "Choose another name.");
     });
 }
 
@@ -261,7 +261,7 @@ bool may_be_name(const std::string& name) {
 }
 
 void check_names(const Scene& scene, Diagnostics& diagnostics) {
-    // thumb and index of a file that names no fingers stand nowhere in it
+    // the default fingers thumb and index have no line in the file
     const bool in_file = !scene.fingers.empty() && !scene.fingers.front().place.file.empty();
     std::set<std::string> names;
     for (const Finger& finger : scene.fingers) {
@@ -335,31 +335,31 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
     }
 }
 
-/// Of a distance, points that have one.
+/// Checks that the points of a distance joint are apart.
 void check_points(const Joint& joint, Diagnostics& diagnostics) {
     if (joint.is_distance() != joint.second_position.has_value()) {
         diagnostics.error(joint.place, "second_position",
-                          joint.is_distance() ? "is missing" : "belongs to a distance",
-                          joint.is_distance() ? "Say where the second body's point is at the start."
-                                              : "Leave it out, or make it kind: distance.");
+                          joint.is_distance() ? "is missing" : "belongs to a distance joint",
+                          joint.is_distance() ? "Give the second body's point at the start."
+                                              : "Leave it out, or set kind: distance.");
     } else if (joint.is_rod() && (*joint.second_position - joint.position).norm() < 1e-9) {
         diagnostics.error(joint.place, "second_position",
-                          "is the same point, which gives a rod no direction",
-                          "Put it elsewhere, or make it kind: ball.");
+                          "is the same point, so the rod has no direction",
+                          "Move it, or set kind: ball.");
     }
 }
 
-/// A bushing has stiffnesses or dampings; no other joint does.
+/// Only a bushing has stiffnesses or dampings.
 void check_bushing(const Joint& joint, Diagnostics& diagnostics) {
     const bool bushes = !joint.stiffnesses.isZero(0) || !joint.turn_stiffnesses.isZero(0) ||
                         !joint.dampings.isZero(0) || !joint.turn_dampings.isZero(0);
     if (bushes != joint.is_bushing())
-        diagnostics.error(
-            joint.place, "stiffnesses",
-            bushes ? fmt::format("belongs to a bushing, not to a {}", enum_name(joint.kind))
-                   : "is missing",
-            bushes ? "Give one stiffness, or make it kind: bushing."
-                   : "Add e.g. stiffnesses_N_m: [500, 500, 2000].");
+        diagnostics.error(joint.place, "stiffnesses",
+                          bushes ? fmt::format("belongs to a bushing joint, not to a {} joint",
+                                               enum_name(joint.kind))
+                                 : "is missing",
+                          bushes ? "Give a single stiffness, or set kind: bushing."
+                                 : "Add e.g. stiffnesses_N_m: [500, 500, 2000].");
 }
 
 /// The points of a curve must ascend, and no line may be steeper than the stiffest spring allowed.
@@ -371,7 +371,7 @@ void check_curve(const Joint& joint, Diagnostics& diagnostics) {
     if (points < 2 || points != curve.resistance.size()) {
         diagnostics.error(
             joint.place, points < 2 ? "curve_at" : "curve",
-            fmt::format("has {} stretches and {} resistances, and needs two or more of "
+            fmt::format("has {} stretches and {} resistances, but needs two or more of "
                         "each",
                         points, curve.resistance.size()),
             example);
@@ -379,7 +379,7 @@ void check_curve(const Joint& joint, Diagnostics& diagnostics) {
     }
     if (joint.stiffness > 0)
         diagnostics.error(joint.place, "stiffness",
-                          "stands beside a curve, which is a spring itself",
+                          "cannot be combined with a curve, which is a spring itself",
                           "Leave out one of the two.");
     for (size_t i = 1; i < points; ++i) {
         const double way = curve.stretch[i] - curve.stretch[i - 1];
@@ -390,9 +390,9 @@ void check_curve(const Joint& joint, Diagnostics& diagnostics) {
         if (std::abs(curve.resistance[i] - curve.resistance[i - 1]) <= Joint::kStiffest * way)
             continue;
         diagnostics.error(joint.place, "curve",
-                          fmt::format("has a line steeper than {:g} {}", Joint::kStiffest,
+                          fmt::format("has a segment steeper than {:g} {}", Joint::kStiffest,
                                       joint.slides() ? "N/m" : "N*m/rad"),
-                          "Give a wall as a stop (low, high).");
+                          "Model a wall as a stop (low, high).");
     }
 }
 
@@ -403,11 +403,11 @@ void check_axis(const Joint& joint, Diagnostics& diagnostics) {
     if (asks && !joint.has_coordinate()) {
         diagnostics.error(
             joint.place, joint.name,
-            fmt::format("has a spring, damper, friction or stop, and a {} joint has no "
-                        "single axis that it could act along",
+            fmt::format("has a spring, damper, friction or stop, but a {} joint has no "
+                        "single axis for it",
                         enum_name(joint.kind)),
-            joint.is_bushing() ? "Give it stiffnesses and dampings, one for each axis."
-                               : "Leave it out, or make it a hinge, a slider or a distance.");
+            joint.is_bushing() ? "Give stiffnesses and dampings for each axis."
+                               : "Leave it out, or set kind: hinge, slider or distance.");
     }
     constexpr double kShort = 1e-9;
     if (joint.axis.norm() < kShort)
@@ -416,13 +416,13 @@ void check_axis(const Joint& joint, Diagnostics& diagnostics) {
         joint.axis.cross(joint.second_axis).norm() <
             kShort * joint.axis.norm() * joint.second_axis.norm())
         diagnostics.error(joint.place, "second_axis", "lies along the first axis",
-                          "Let it cross the first one, best at a right angle.");
+                          "Set it at an angle to the first axis, ideally a right angle.");
     if (joint.low && joint.high && *joint.low > *joint.high)
-        diagnostics.error(joint.place, "low", "is above high, so that the joint has no place to be",
+        diagnostics.error(joint.place, "low", "is above high, so that no position is allowed",
                           "Exchange the two.");
 }
 
-/// Warns of a joint that begins beyond its stops, which would throw what it joins.
+/// Warns about a joint that starts beyond its stops, because this would hurl the joined bodies.
 void check_start(const Joint& joint, Diagnostics& diagnostics) {
     if (!joint.has_coordinate()) return;
     double start = 0;
@@ -434,12 +434,12 @@ void check_start(const Joint& joint, Diagnostics& diagnostics) {
     const double unit = joint.slides() ? 1e-3 : kDegree;
     diagnostics.warning(
         joint.place, below ? "low" : "high",
-        fmt::format("{} begins at {:.4g} {}, beyond its stop at {:.4g}", joint.name, start / unit,
+        fmt::format("{} starts at {:.4g} {}, beyond its stop at {:.4g}", joint.name, start / unit,
                     joint.slides() ? "mm" : "deg", (below ? *joint.low : *joint.high) / unit),
-        "Begin within its stops: the first tick would throw what it joins there.");
+        "Start within its stops; otherwise the first tick would hurl the joined bodies.");
 }
 
-/// Warns of joined bodies whose masses differ so much that rounding shows in the light one's
+/// Warns about joined bodies whose masses differ so much that rounding affects the light one's
 /// motion.
 void check_masses(const Joint& joint, const Scene& scene, Diagnostics& diagnostics) {
     constexpr double kApart = 1e6;
@@ -479,29 +479,30 @@ void check_between(const Joint& joint, const Scene& scene, Diagnostics& diagnost
                           fmt::format("'{}' cannot be joined to itself", joint.between[0]),
                           "Name two different bodies.");
     } else if (known && !moves) {
-        diagnostics.error(joint.place, "between", "joins nothing that can move",
-                          "Name a body that can, or leave the joint out.");
+        diagnostics.error(joint.place, "between", "joins no body that can move",
+                          "Name a movable body, or leave the joint out.");
     }
 }
 
-/// The shortest edge of the box that a body fills [m].
+/// The shortest edge of a body's bounding box [m].
 double thickness(const Body& body) {
     const Bounds box = bounds(body.shape);
     return (box.high - box.low).minCoeff();
 }
 
-/// Warns of bodies that sink deep into what they lie on, by their weight alone.
+/// Warns about bodies whose weight alone makes them sink deep into their support.
 void check_softness(const Scene& scene, Diagnostics& diagnostics) {
-    constexpr double kDeep = 0.2;  // of its thickness
+    constexpr double kDeep = 0.2;  // fraction of the thickness
     for (const Body& body : scene.bodies) {
         if (!body.surface.stiffness || !body.moves_at_all()) continue;
         const double depth = mass(body) * scene.gravity.norm() / *body.surface.stiffness;
         if (depth < kDeep * thickness(body)) continue;
         diagnostics.warning(
             body.surface.place, "stiffness",
-            fmt::format("lets {} sink by {:.3g} mm under its own weight, and it is {:.3g} mm thick",
-                        body.name, depth * 1e3, thickness(body) * 1e3),
-            "Make it stiffer or lighter: what sinks too deep comes out on another side.");
+            fmt::format(
+                "lets {} sink by {:.3g} mm under its own weight; its thickness is {:.3g} mm",
+                body.name, depth * 1e3, thickness(body) * 1e3),
+            "Make it stiffer or lighter: a body that sinks too deep comes out on another side.");
     }
 }
 
@@ -509,8 +510,8 @@ void check_surfaces(const Scene& scene, Diagnostics& diagnostics) {
     for (const Body& body : scene.bodies) check(body.surface, body.friction, diagnostics);
     const auto has_no_texture = [&](const Surface& surface) {
         if (surface.texture)
-            diagnostics.error(surface.texture->place, "texture", "is of a body, and of no other",
-                              "Give it to the body that is felt.");
+            diagnostics.error(surface.texture->place, "texture", "is allowed for bodies only",
+                              "Give it to the body that the finger touches.");
     };
     for (const Finger& finger : scene.fingers) {
         check(finger.surface, finger.friction, diagnostics);
@@ -521,7 +522,7 @@ void check_surfaces(const Scene& scene, Diagnostics& diagnostics) {
         check(pair.surface, pair.friction, diagnostics);
         if (!pair.friction && pair.surface == Surface{})
             diagnostics.error(pair.place, "friction", "is missing, and there is no surface",
-                              "Say what is different about the pair, or leave it out.");
+                              "Give a property of the pair, or leave the pair out.");
     }
 }
 
@@ -537,7 +538,7 @@ void check_joints(const Scene& scene, Diagnostics& diagnostics) {
     }
 }
 
-/// Puts joints that are given in a body's frame into the world's.
+/// Converts joints given in a body's frame to the world's.
 void place_joints(Scene& scene, Diagnostics& diagnostics) {
     for (Joint& joint : scene.joints) {
         if (joint.in.empty()) continue;
@@ -563,7 +564,7 @@ double reach(const Body& body) {
     return box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).norm();
 }
 
-/// Warns of bodies that start inside a fixed one: contact forces would push or shoot them out.
+/// Warns about bodies that start inside a fixed one: contact forces would push or shoot them out.
 void check_overlaps(const Scene& scene, Diagnostics& diagnostics) {
     constexpr double kDeep = 1e-3;  // [m]
     std::vector<double> reaches;
@@ -586,9 +587,9 @@ void check_overlaps(const Scene& scene, Diagnostics& diagnostics) {
             sink(fixed, body);
             if (deepest < kDeep) continue;
             diagnostics.warning(body.place, body.name,
-                                fmt::format("starts {:.3g} mm deep inside {}, which is fixed",
+                                fmt::format("starts {:.3g} mm deep inside the fixed body {}",
                                             deepest * 1e3, fixed.name),
-                                "Move it, or expect it to be pushed out.");
+                                "Move it, or expect contact forces to push it out.");
         }
     }
 }

@@ -1,4 +1,4 @@
-// Describes what a world is made of, as read from a scene file (docs/files/scene.md).
+// Describes the contents of a world, as read from a scene file (docs/files/scene.md).
 #pragma once
 
 #include <array>
@@ -19,12 +19,12 @@
 
 namespace dihaptic::scene {
 
-/// Limits of what a scene may hold. Beyond them a unit is wrong, or a body is too light to be
+/// Limits for a scene. Beyond them a unit is wrong, or a body is too light to be
 /// simulated together with others.
 constexpr double kLightest = 1e-6;  // [kg]
 constexpr double kHeaviest = 1000;  // [kg]
 constexpr double kFurthest = 100;   // from the world's origin [m]
-/// Largest number of bodies, of joints and of pairs. Some checks compare each two of them, and no
+/// Largest number of bodies, of joints and of pairs. Some checks compare every pair of them, and no
 /// tick could step a tenth of them.
 constexpr size_t kMostThings = 4000;
 constexpr size_t kMostLattices = 100;
@@ -44,23 +44,23 @@ struct Body {
     std::optional<double> mass;     ///< [kg]; this or the density, unless the body is fixed
     std::optional<double> density;  ///< [kg/m^3]
     bool fixed = false;             ///< never moves
-    bool driven = false;            ///< moves where a task drives it, whatever presses on it
+    bool driven = false;            ///< moves as driven by a task, whatever presses on it
     Vec3 position = Vec3::Zero();   ///< of B's origin at the start [m]
     Vec3 rotation = Vec3::Zero();   ///< at the start, about the fixed axes x, then y, then z [rad]
     double friction = 0.8;          ///< see pair_friction()
     double torsion_radius = 0;  ///< a contact carries a moment about its normal up to friction x
-                                ///< radius x normal force; of a pair, the larger counts [m]
+                                ///< radius x normal force; for a pair, the larger radius counts [m]
     Axes moves =
         Axes::xyz;  ///< world axes along which it may move: z is a bead on an upright string
     Axes turns = Axes::xyz;  ///< world axes about which it may turn: none, one, or xyz
     Surface surface;
-    std::string group;   ///< bodies of one group do not touch each other; empty: of none
-    std::string colour;  ///< "#rrggbb"; empty: the mesh's own, or the view chooses
+    std::string group;   ///< bodies of the same group do not touch each other; empty: no group
+    std::string colour;  ///< "#rrggbb"; empty: the mesh's own, or chosen by the view
     Finish finish = Finish::satin;
-    std::optional<Picture> picture;  ///< in place of a colour
+    std::optional<Picture> picture;  ///< replaces the colour
     std::optional<SeenMesh> seen;    ///< drawn in place of the shape
     Place place;                     ///< in the scene file
-    bool weighed = false;  ///< the file has a key for its mass or density, even if a wrong one
+    bool weighed = false;  ///< whether the file has a key for mass or density, even a wrong one
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -69,16 +69,16 @@ struct Body {
         v("mass", mass,
           Field::of(Quantity::mass)
               .within(kLightest, kHeaviest)
-              .says("Mass; a body that is not fixed has this or its density."));
+              .says("Mass; a body that is not fixed needs this or its density."));
         v("density", density,
           Field::of(Quantity::density).within(0.01, 1e5).says("Density, in place of the mass."));
         v("fixed", fixed, says("Whether it never moves."));
         v("driven", driven,
-          says("Whether it moves as a task drives it and not otherwise, whatever presses on it."));
+          says("Whether it moves only as driven by a task, whatever presses on it."));
         v("position", position,
           Field::length()
               .within(-kFurthest, kFurthest)
-              .says("Position of its origin at the start."));
+              .says("Position of the origin at the start."));
         v("rotation", rotation,
           Field::of(Quantity::angle)
               .within(-kMostTurn, kMostTurn)
@@ -86,21 +86,22 @@ struct Body {
         v("friction", friction,
           Field::number()
               .within(0, kMostFriction)
-              .says("Coefficient of friction; of a pair, the geometric mean counts."));
+              .says("Coefficient of friction; for a pair, the geometric mean counts."));
         v("torsion_radius", torsion_radius,
-          Field::length().within(0, 0.1).says("Radius of its soft contact points: each carries a "
+          Field::length().within(0, 0.1).says("Radius of the soft contact points: each carries a "
                                               "moment up to friction x radius x normal force."));
-        v("surface", surface, says("How its surface slides, gives way and bounces."));
+        v("surface", surface, says("How the surface slides, yields and bounces."));
         v("moves", moves, says("World axes along which it may move."));
         v("turns", turns, says("World axes about which it may turn: none, one, or xyz."));
         v("group", group,
-          Field::text().says("A word; bodies with the same one do not touch each other."));
+          Field::text().says("Any word; bodies of the same group do not touch each other."));
         v("colour", colour,
-          says("Colour, as \"#rrggbb\"; left out, that of its mesh, or the view chooses."));
+          says(
+              "Colour, as \"#rrggbb\"; if left out, the mesh's colour or one chosen by the view."));
         v("finish", finish,
-          says("How it reflects: as satin plastic, not at all, or as a metal of its colour."));
-        v("picture", picture, says("Picture of known size over it, in place of a colour."));
-        v("seen", seen, says("Mesh that is drawn in place of its shape, which is felt."));
+          says("How it reflects: like satin plastic, not at all, or like metal in its colour."));
+        v("picture", picture, says("Picture of known size that covers it, in place of a colour."));
+        v("seen", seen, says("Mesh drawn in place of the shape that is felt."));
         if constexpr (requires { v.place(); }) {
             place = v.place();
             weighed = v.mentions("mass") || v.mentions("density");
@@ -114,14 +115,14 @@ struct Body {
     }
 };
 
-/// A finger's proxy in the world. Gravity does not act on it. It keeps its canonical orientation
-/// or, with a device that measures orientation, turns from it.
+/// A finger's proxy in the world. Gravity does not act on it. The proxy keeps its canonical
+/// orientation or, with a device that measures orientation, turns with the device.
 struct Finger {
     std::string name;
     Shape shape;
     double mass = 0.001;        ///< [kg]
     double friction = 0.8;      ///< see pair_friction()
-    double torsion_radius = 0;  ///< of a soft finger; see Body [m]
+    double torsion_radius = 0;  ///< for a soft finger; see Body [m]
     Surface surface;
     std::optional<ProxyKind> proxy;  ///< overrides the setting proxy.kind
     Vec3 rotation =
@@ -137,22 +138,24 @@ struct Finger {
         v("friction", friction,
           Field::number()
               .within(0, kMostFriction)
-              .says("Coefficient of friction; of a pair, the geometric mean counts."));
+              .says("Coefficient of friction; for a pair, the geometric mean counts."));
         v("torsion_radius", torsion_radius,
-          Field::length().within(0, 0.1).says("Radius of a soft finger, as of a body."));
-        v("surface", surface, says("How its surface slides, gives way and bounces."));
+          Field::length().within(0, 0.1).says(
+              "Radius of a soft finger's contact points, as for a body."));
+        v("surface", surface, says("How the surface slides, yields and bounces."));
         v("proxy", proxy,
-          says("What stands for the finger in the world, in place of proxy.kind of the settings."));
+          says("Kind of the finger's proxy, in place of proxy.kind in the settings."));
         v("rotation", rotation,
           Field::of(Quantity::angle)
               .within(-kMostTurn, kMostTurn)
-              .says("Orientation while its device is in the neutral one, about the world's axes x, "
+              .says("Orientation at the device's neutral orientation, about the world's axes x, "
                     "then y, then z."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// Surface of one pair of bodies or fingers: what it says overrides what follows from their own.
+/// Surface properties of one pair of bodies or fingers, which override those from their own
+/// surfaces.
 struct Pair {
     std::vector<std::string> between;  ///< two names
     std::optional<double> friction;    ///< none: the geometric mean
@@ -165,9 +168,10 @@ struct Pair {
         v("friction", friction,
           Field::number()
               .within(0, kMostFriction)
-              .says("Coefficient of friction between them, in place of the mean of their own."));
+              .says("Coefficient of friction between them, in place of the mean of their own "
+                    "coefficients."));
         v("surface", surface,
-          says("How they slide on each other, give way and bounce, in place of what follows from "
+          says("How they slide on each other, yield and bounce, in place of the combination of "
                "their own surfaces."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
@@ -179,13 +183,13 @@ struct Scene {
     std::vector<Body> bodies;
     std::vector<Pair> pairs;
     std::vector<Joint> joints;
-    std::vector<Lattice> lattices;  ///< of a file; complete() makes bodies and joints of them
+    std::vector<Lattice> lattices;  ///< from a file; complete() makes bodies and joints of them
     std::vector<Finger> fingers;  ///< empty in a file: thumb and index, two pads for a grip along x
-    std::string object;  ///< the body that summaries are about; empty: the first one that can move
+    std::string object;           ///< the body for summaries; empty: the first movable body
     std::vector<Camera> cameras;  ///< in addition to those that every scene has (view/camera.h)
-    Node settings;                ///< settings that this scene asks for (frame::Settings)
+    Node settings;                ///< settings that this scene requires (frame::Settings)
     Node hand;                    ///< how the simulated hand tries out the scene (hand::HandSpec)
-    Place bodies_place;           ///< in the scene file
+    Place bodies_place;           ///< their line in the scene file
     Place object_place;
 
     template <class Visitor>
@@ -194,41 +198,41 @@ struct Scene {
         v("gravity", gravity,
           Field::of(Quantity::acceleration).within(-1000, 1000).says("Gravity."));
         v("bodies", bodies, Field::text().required().says("Bodies, fixed ones included."));
-        v("pairs", pairs, says("Pairs with a friction or surface of their own."));
-        v("joints", joints, says("Joints between two bodies, or a body and the world."));
-        v("lattices", lattices, says("Soft bodies that are made of parts joined by springs."));
+        v("pairs", pairs, says("Pairs with their own friction or surface."));
+        v("joints", joints, says("Joints between two bodies, or between a body and the world."));
+        v("lattices", lattices, says("Soft bodies made of parts joined by springs."));
         v("fingers", fingers,
-          says("Fingers, each with a device of its own in the rig; left out, thumb "
+          says("Fingers, each with its own device in the rig; if left out, thumb "
                "and index with pads for a grip along x."));
-        v("object", object,
-          says("Body that summaries are about; left out, the first that can move."));
+        v("object", object, says("Body for summaries; if left out, the first movable body."));
         v("cameras", cameras,
-          says("Cameras besides front, above and side; the first one here is then the default."));
-        v("settings", settings, says("Settings that the scene asks for."));
+          says("Cameras besides front, above and side; the first one listed here is then the "
+               "default."));
+        v("settings", settings, says("Settings that the scene requires."));
         v("hand", hand, says("How the simulated hand tries out the scene."));
         if constexpr (requires { v.place(); }) {
             bodies_place = v.place_of("bodies");
             object_place = v.place_of("object");
             if (v.mentions("fingers") && fingers.empty()) {
                 v.diagnostics().error(v.place_of("fingers"), "fingers", "there are none",
-                                      "List one at least, or leave it out: thumb and index.");
+                                      "List at least one, or leave it out for thumb and index.");
             }
         }
     }
 
     /// Index of the named body, or -1.
     int find(const std::string& name) const;
-    /// Index of the body that summaries are about, or -1 if nothing can move.
+    /// Index of the body for summaries, or -1 if no body can move.
     int object_index() const;
 };
 
 /// Names of the fingers, in order.
 std::vector<std::string> finger_names(const Scene& scene);
 
-/// The joints that are recorded and may be named in tasks; complete() puts them first.
+/// The recorded joints, which tasks can use; complete() puts them first.
 std::span<const Joint> recorded_joints(const Scene& scene);
 
-/// What the file says of a pair of bodies or fingers, in any order, or null.
+/// The file's entry for a pair of bodies or fingers, in any order, or null.
 const Pair* find_pair(const Scene& scene, const std::string& a, const std::string& b);
 
 /// Coefficient of friction between two bodies or fingers: the file's value for the pair, or else
@@ -239,15 +243,15 @@ double pair_friction(const Scene& scene, const std::string& a, double friction_a
 /// Mass of a body that is not fixed, from its mass or its density [kg].
 double mass(const Body& body);
 
-/// Whether a body falls freely where nothing touches it: no joint, rail or axis holds it.
+/// Whether a body falls freely unless touched: no joint, rail or axis constrains it.
 bool flies(const Scene& scene, const Body& body);
 
 /// Reads a scene file and its meshes, until `stop`. Reports all problems to `diagnostics` and
-/// returns what could be read.
+/// returns everything that it could read.
 Scene read_scene(const std::string& file, Diagnostics& diagnostics,
                  const std::stop_token& stop = {});
 
-/// Reports the error that the scene has no body of this name, with the one that may be meant.
+/// Reports the error that the scene has no body of this name, with a suggestion.
 void report_unknown_body(const std::string& name, const Scene& scene, const Place& place,
                          const char* key, Diagnostics& diagnostics);
 

@@ -21,7 +21,7 @@ VolumeIntegrals moved(const VolumeIntegrals& in, const Pose& X) {
     return {in.volume, X * in.centre, R * in.inertia * R.transpose()};
 }
 
-/// Sum over parts; the parallel axis theorem moves each part's moments to the common centre.
+/// Sum over parts, with each part's moments moved to the common centre (parallel axis theorem).
 VolumeIntegrals sum(const std::vector<VolumeIntegrals>& parts) {
     VolumeIntegrals out;
     for (const VolumeIntegrals& part : parts) {
@@ -100,7 +100,7 @@ VolumeIntegrals integrate(const Shape& shape) {
             return symmetric(volume, {across, across, volume * r * r / 2});
         }
         case ShapeKind::cone: {
-            // its centre of volume is a quarter of its height above its base
+            // a cone's centre of volume is a quarter of its height above the base
             const double volume = kPi * r * r * l / 3;
             const double across = 3.0 / 80 * volume * (4 * r * r + l * l);
             VolumeIntegrals out = symmetric(volume, {across, across, 0.3 * volume * r * r});

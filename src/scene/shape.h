@@ -19,7 +19,7 @@ constexpr auto enum_names(ShapeKind) {
     return std::array{"box", "sphere", "capsule", "cylinder", "cone", "plane", "mesh", "compound"};
 }
 
-/// The unit of a mesh file's coordinates, which the file itself does not give.
+/// The unit of a mesh file's coordinates, which is not stored in the file.
 enum class MeshUnit { m, cm, mm, inch };
 constexpr auto enum_names(MeshUnit) {
     return std::array{"m", "cm", "mm", "inch"};
@@ -28,7 +28,7 @@ constexpr auto enum_names(MeshUnit) {
 /// Length of one such unit [m].
 double metres(MeshUnit unit);
 
-/// Limits of lengths, radii and meshes; beyond them contacts are lost in rounding [m].
+/// Limits of lengths, radii and meshes; beyond them contacts vanish in rounding [m].
 constexpr double kSmallest = 1e-4;
 constexpr double kLargest = 100;
 /// Limit of rotations; beyond it a unit is wrong [rad].
@@ -43,26 +43,26 @@ struct Part;
 struct Shape {
     ShapeKind kind = ShapeKind::box;
     Vec3 size = Vec3::Zero();  ///< box: lengths of the edges [m]
-    double radius = 0;         ///< sphere, capsule, cylinder; cone: of its base [m]
+    double radius = 0;         ///< sphere, capsule, cylinder; cone: radius of the base [m]
     double length = 0;         ///< cylinder, cone: height; capsule: between its caps' centres [m]
     std::string file;          ///< mesh: OBJ, STL, PLY or OFF, relative to the scene file
-    std::string checksum;      ///< mesh: of its file, as it was read (base/checksum.h)
+    std::string checksum;      ///< mesh: checksum of its file, as read (base/checksum.h)
     MeshUnit unit = MeshUnit::m;
-    bool concave = false;     ///< mesh: felt as it is, not as its convex hull
+    bool concave = false;     ///< mesh: whether it is felt itself, not its convex hull
     std::vector<Part> parts;  ///< compound: at least one; none may be a plane or a compound
     Hull hull;                ///< mesh: its convex hull [m]
-    Mesh surface;             ///< concave mesh: the mesh itself, closed [m]
+    Mesh surface;             ///< concave mesh: the closed mesh itself [m]
     Pieces pieces;            ///< concave mesh: convex pieces that fill it
-    VolumeIntegrals solid;    ///< concave mesh: integrals over what its pieces fill
-    Place file_place;         ///< mesh: where the scene file names its file
-    Place unit_place;         ///< mesh: where it names its unit
-    std::shared_ptr<const Mesh> coloured;  ///< mesh: as its file has it, if its colours are drawn
+    VolumeIntegrals solid;    ///< concave mesh: integrals over the union of its pieces
+    Place file_place;         ///< mesh: where the scene file gives the mesh file
+    Place unit_place;         ///< mesh: where it gives the unit
+    std::shared_ptr<const Mesh> coloured;  ///< mesh: as in its file, if its colours are drawn
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("shape", kind,
           Field::text().required().says(
-              "Shape; capsules and cylinders lie along z, a cone's tip is at the top of z and its "
+              "Shape; capsules and cylinders lie along z, a cone's tip is at the top of z, its "
               "origin in the middle of its height, and a plane is z = 0, solid below."));
         switch (kind) {
             case ShapeKind::box:
@@ -96,7 +96,7 @@ struct Shape {
                       "Mesh file (OBJ, STL, PLY or OFF), relative to this file."));
                 v("unit", unit, Field::text().required().says("Unit of the mesh's coordinates."));
                 v("concave", concave,
-                  says("Whether the mesh itself is felt, in place of its convex hull."));
+                  says("Whether the mesh itself is felt, instead of its convex hull."));
                 if constexpr (requires { v.place(); }) {
                     file_place = v.place_of("file");
                     unit_place = v.place_of("unit");
@@ -119,7 +119,7 @@ struct Shape {
 /// A shape in a compound.
 struct Part {
     Shape shape;
-    Vec3 position = Vec3::Zero();  ///< of the shape's own origin in the body's frame [m]
+    Vec3 position = Vec3::Zero();  ///< of the part's origin in the body's frame [m]
     Vec3 rotation = Vec3::Zero();  ///< about the body's axes x, then y, then z [rad]
     Place place;                   ///< in the scene file
 
@@ -133,7 +133,7 @@ struct Part {
         v("rotation", rotation,
           Field::of(Quantity::angle)
               .within(-kMostTurn, kMostTurn)
-              .says("Its rotation about the body's axes x, then y, then z."));
+              .says("Rotation of the part about the body's axes x, then y, then z."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 
@@ -143,23 +143,22 @@ struct Part {
 template <class Visitor>
 void Shape::visit_parts(Visitor& v) {
     v("parts", parts,
-      Field::text().required().says(
-          "Shapes that it consists of, none of them a plane or a compound."));
+      Field::text().required().says("Component shapes, none of them a plane or a compound."));
 }
 
-/// A convex shape and its pose in the body B that it is a part of.
+/// A convex shape and its pose in its body B.
 struct ConvexPart {
     Shape shape;
     Pose X_BS;
 };
 
-/// The convex shapes that a shape consists of: the shape itself, the pieces of a concave mesh, or
+/// The convex components of a shape: the shape itself, the pieces of a concave mesh, or
 /// the convex shapes of all parts.
 std::vector<ConvexPart> convex_parts(const Shape& shape);
 
-/// Volume integrals of the shape, for unit density. Those of a concave mesh are over the mesh
-/// itself; those of a compound are summed over its parts, so that overlaps count twice. A plane has
-/// zero volume.
+/// Volume integrals of the shape, for unit density. The integrals of a concave mesh are over the
+/// mesh itself; those of a compound are sums over its parts, so that overlaps count twice. A plane
+/// has zero volume.
 VolumeIntegrals integrate(const Shape& shape);
 
 /// Depth of a point of B below the surface; negative outside [m].
@@ -169,7 +168,7 @@ double depth(const Shape& shape, const Vec3& p_B);
 std::vector<Vec3> marks(const Shape& shape);
 
 /// The bounding box of a shape along the axes of its body; for a compound, that of its marks(),
-/// which may cut off round parts that are turned. Zero for a plane [m].
+/// which may cut off rotated round parts. Zero for a plane [m].
 struct Bounds {
     Vec3 low = Vec3::Zero();
     Vec3 high = Vec3::Zero();

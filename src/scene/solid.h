@@ -1,4 +1,4 @@
-// Describes a shape with a mass in the body's principal axes, as simulators need it.
+// Describes a shape with a mass in the body's principal axes, as simulators require.
 #pragma once
 
 #include "scene/shape.h"
@@ -12,7 +12,7 @@ struct Solid {
     Pose X_BM;                    ///< centre of mass and principal axes in B
 };
 
-/// The solid of a shape with uniform density; inertia and pose stay at their defaults without mass
+/// The solid of a shape with uniform density; inertia and pose keep their defaults without mass
 /// or volume.
 Solid solid_of(const Shape& shape, double mass);
 

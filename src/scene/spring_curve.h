@@ -1,5 +1,5 @@
-// The curve of a spring that does not obey Hooke's law: the force with which it resists at each
-// stretch, by straight lines between points that were measured or drawn.
+// The curve of a spring that does not obey Hooke's law: its resisting force at each
+// stretch, given by straight lines between measured or drawn points.
 #pragma once
 
 #include <algorithm>
@@ -9,15 +9,16 @@
 namespace dihaptic::scene {
 
 struct SpringCurve {
-    std::vector<double> stretch;     ///< ascending [m] or [rad]
-    std::vector<double> resistance;  ///< at these, positive against a positive stretch [N] or [N*m]
+    std::vector<double> stretch;  ///< ascending [m] or [rad]
+    std::vector<double>
+        resistance;  ///< at these stretches, positive against a positive stretch [N] or [N*m]
 
     struct Point {
         double resistance = 0;
-        double stiffness = 0;  ///< of the line that it is on [N/m] or [N*m/rad]
+        double stiffness = 0;  ///< slope of the current segment [N/m] or [N*m/rad]
     };
     bool is_empty() const noexcept { return stretch.empty(); }
-    /// Beyond its ends the curve continues along its first and its last line. It has two or more
+    /// Beyond its ends the curve continues along its first and last segments. It has two or more
     /// points, and as many stretches as resistances.
     Point at(double x) const noexcept {
         const auto next = std::upper_bound(stretch.begin() + 1, stretch.end() - 1, x);
@@ -25,7 +26,7 @@ struct SpringCurve {
         const double slope = (resistance[i] - resistance[i - 1]) / (stretch[i] - stretch[i - 1]);
         return {resistance[i - 1] + slope * (x - stretch[i - 1]), slope};
     }
-    /// Work that it takes to stretch the spring from the curve's first point to x [J].
+    /// Work to stretch the spring from the curve's first point to x [J].
     double energy(double x) const noexcept {
         double out = 0;
         double from = stretch.front();

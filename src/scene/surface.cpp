@@ -11,7 +11,7 @@
 namespace dihaptic::scene {
 namespace {
 
-/// The larger of two that may be left out.
+/// The larger of two optional values.
 double larger(const std::optional<double>& a, const std::optional<double>& b) {
     return std::max(a.value_or(0), b.value_or(0));
 }
@@ -63,7 +63,7 @@ PairSurface pair_surface(const Scene& scene, const SurfaceOf& a, const SurfaceOf
         if (own.dynamic_friction) {
             out.dynamic_friction = *own.dynamic_friction;
         } else if (pair->friction) {
-            out.dynamic_friction = out.friction;  // a coefficient for the pair is all there is
+            out.dynamic_friction = out.friction;  // the pair has only one coefficient
         }
     }
     out.dynamic_friction = std::min(out.dynamic_friction, out.friction);
@@ -79,14 +79,14 @@ void check(const Texture& texture, Diagnostics& diagnostics) {
     if (texture.kind == TextureKind::picture && texture.file.empty())
         diagnostics.error(texture.place, "file", "is missing", "Name the picture, a PNG file.");
     if (texture.kind != TextureKind::picture && !texture.file.empty())
-        diagnostics.error(texture.place, "file", "is of pictures alone", "Write kind: picture.");
+        diagnostics.error(texture.place, "file", "applies only to pictures", "Set kind: picture.");
     if (texture.friction == 0 && texture.height == 0)
-        diagnostics.error(texture.place, "friction", "is missing, and height too",
+        diagnostics.error(texture.place, "friction", "is missing, and so is height",
                           "Add e.g. friction: 0.5, or height_mm: 0.1.");
     if (texture.steepest() > Texture::kSteepest)
         diagnostics.error(
             texture.place, "height",
-            fmt::format("makes slopes of {:.3g} degrees, over which no finger slides",
+            fmt::format("gives slopes of {:.3g} degrees, too steep for a finger to slide",
                         std::atan(texture.steepest()) / kDegree),
             fmt::format("For 45 degrees make it at most {:.3g} mm at this wavelength.",
                         1e3 * texture.height * Texture::kSteepest / texture.steepest()));
@@ -97,12 +97,12 @@ void check(const Texture& texture, Diagnostics& diagnostics) {
 void check(const Surface& surface, std::optional<double> friction, Diagnostics& diagnostics) {
     if (surface.texture) check(*surface.texture, diagnostics);
     if (surface.damping && !surface.stiffness)
-        diagnostics.error(surface.place, "damping",
-                          "is beside no stiffness, which a rigid face has not",
+        diagnostics.error(surface.place, "damping", "needs a stiffness, but the face is rigid",
                           "Add stiffness_N_m, or leave the damping out.");
     if (surface.stiffness && surface.restitution)
-        diagnostics.error(surface.place, "restitution", "stands beside a stiffness",
-                          "Keep one of the two: how a soft face bounces follows from its damping.");
+        diagnostics.error(
+            surface.place, "restitution", "cannot be combined with a stiffness",
+            "Keep one of the two: the bounce of a soft face follows from its damping.");
     if (surface.dynamic_friction && friction && *surface.dynamic_friction > *friction)
         diagnostics.error(surface.place, "dynamic_friction",
                           fmt::format("is above the static coefficient of {:g}", *friction),

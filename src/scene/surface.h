@@ -1,4 +1,4 @@
-// Describes what happens where something touches a surface: how it slides, gives way and bounces.
+// Describes how a touched surface slides, yields and bounces.
 #pragma once
 
 #include <limits>
@@ -15,16 +15,16 @@ constexpr double kSoftest = 50;   // [N/m]
 constexpr double kHardest = 1e6;  // [N/m]
 constexpr double kMostFriction = 100;
 
-/// The surface of a body, a finger or a pair. A body or finger lacks what is left out; a pair
-/// leaves it to its two surfaces.
+/// The surface of a body, a finger or a pair. A body or finger lacks the properties that are left
+/// out; a pair derives them from its two surfaces.
 struct Surface {
-    std::optional<double> stiffness;         ///< of a face that is pressed [N/m]; none: rigid
-    std::optional<double> damping;           ///< beside it [N*s/m]
-    std::optional<double> restitution;       ///< Newton's, from 0 to 1
-    std::optional<double> dynamic_friction;  ///< coefficient while it slides; none: the static one
+    std::optional<double> stiffness;         ///< of a pressed face [N/m]; none: rigid
+    std::optional<double> damping;           ///< parallel to it [N*s/m]
+    std::optional<double> restitution;       ///< coefficient in Newton's law, 0 to 1
+    std::optional<double> dynamic_friction;  ///< coefficient during sliding; none: the static one
     std::optional<double> stribeck_speed;    ///< see friction_at() [m/s]
-    std::optional<double> film;              ///< viscous drag of a face that slides [N*s/m]
-    std::optional<Texture> texture;          ///< of a body, not of fingers and pairs
+    std::optional<double> film;              ///< viscous drag of a sliding face [N*s/m]
+    std::optional<Texture> texture;          ///< for bodies, not for fingers and pairs
     Place place;
 
     bool operator==(const Surface& other) const {
@@ -39,33 +39,31 @@ struct Surface {
         v("stiffness", stiffness,
           Field::of(Quantity::stiffness)
               .within(kSoftest, kHardest)
-              .says(
-                  "Stiffness of a face that is pressed, for soft things; two soft ones are springs "
-                  "in series. Left out, it is rigid."));
+              .says("Stiffness of a pressed face, for soft objects; two soft faces are springs "
+                    "in series. If left out, rigid."));
         v("damping", damping,
-          Field::of(Quantity::damping).within(0, 1000).says("Damper beside the stiffness."));
+          Field::of(Quantity::damping).within(0, 1000).says("Damper parallel to the stiffness."));
         v("restitution", restitution,
           Field::number().within(0, 1).says(
-              "Speed after a bounce over the speed before it, Newton's law; of two surfaces, the "
+              "Speed after a bounce over the speed before it, Newton's law; for two surfaces, the "
               "larger counts."));
         v("dynamic_friction", dynamic_friction,
           Field::number()
               .within(0, kMostFriction)
-              .says("Coefficient of friction while it slides, at most the static one; of two "
+              .says("Coefficient of friction during sliding, at most the static one; for two "
                     "surfaces, the geometric mean counts."));
         v("stribeck_speed", stribeck_speed,
           Field::of(Quantity::speed)
               .within(1e-4, 10)
-              .says(
-                  "Speed of sliding at which friction has fallen from the static to the dynamic "
-                  "coefficient by 1 - 1/e; of two surfaces, the mean counts. Left out, 10 mm/s."));
+              .says("Sliding speed at which friction has fallen from the static to the dynamic "
+                    "coefficient by 1 - 1/e; for two surfaces, the mean counts. If left out, 10 "
+                    "mm/s."));
         v("film", film,
           Field::of(Quantity::damping)
               .within(0, 1000)
-              .says("Viscous drag of a face that slides, besides its friction; those of two "
+              .says("Viscous drag of a sliding face, in addition to friction; the drags of two "
                     "surfaces are added."));
-        v("texture", texture,
-          says("Friction and height that rise and fall along a body's surface."));
+        v("texture", texture, says("Variation of friction and height along a body's surface."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -83,7 +81,7 @@ struct PairSurface {
     bool is_soft() const { return stiffness < std::numeric_limits<double>::infinity(); }
     bool slides_like_coulomb() const { return dynamic_friction == friction && film == 0; }
 
-    /// Coefficient of friction at a speed of sliding [m/s] under a normal force [N]: Stribeck's
+    /// Coefficient of friction at a sliding speed [m/s] under a normal force [N]: Stribeck's
     /// curve, from the static to the dynamic coefficient, and the film's drag.
     ///
     ///     mu_d + (mu_s - mu_d) exp(-(v / v_s)^2) + film v / N
@@ -99,11 +97,12 @@ struct SurfaceOf {
 
 struct Scene;
 
-/// The combined surface of two bodies or fingers: what the file says of the pair or, otherwise,
-/// what follows from their own surfaces.
+/// The combined surface of two bodies or fingers: the file's values for the pair or, otherwise,
+/// the combination of their own surfaces.
 PairSurface pair_surface(const Scene& scene, const SurfaceOf& a, const SurfaceOf& b);
 
-/// Checks that the keys of a surface go together; `friction` is its static coefficient, if known.
+/// Checks that the keys of a surface are compatible; `friction` is its static coefficient, if
+/// known.
 void check(const Surface& surface, std::optional<double> friction, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::scene

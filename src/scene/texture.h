@@ -1,5 +1,5 @@
-// Describes a texture: friction and height that rise and fall along a surface, as on a fine
-// grating, a grid, or as a picture says.
+// Describes a texture: variation of friction and height along a surface, as on a fine
+// grating or a grid, or given by a picture.
 #pragma once
 
 #include <array>
@@ -22,21 +22,22 @@ constexpr auto enum_names(TextureKind) {
 struct Relief {
     double friction = 1;        ///< factor on the coefficient
     double height = 0;          ///< above the face [m]
-    Vec3 slope = Vec3::Zero();  ///< of the height along the face: by how much it rises a metre
+    Vec3 slope = Vec3::Zero();  ///< gradient of the height along the face
 };
 
 struct Texture {
-    /// Contacts are found this far ahead, and no steeper face can be slid over.
+    /// Contacts are detected this far ahead, and a finger cannot slide over a steeper face.
     static constexpr double kHighest = 3e-4;  // [m]
     static constexpr double kSteepest = 1;
 
     TextureKind kind = TextureKind::grating;
-    double wavelength = 0.002;   ///< from ridge to ridge, or width of the picture [m]
-    double friction = 0;         ///< share by which friction rises on ridges and falls between them
-    double height = 0;           ///< of ridges above what is between them [m]
-    Vec3 along = Vec3::UnitX();  ///< across ridges, or to a picture's right, in the body's frame
-    std::string file;            ///< of a picture
-    std::shared_ptr<const ReliefPicture> picture;  ///< what the file holds
+    double wavelength = 0.002;  ///< from ridge to ridge, or width of the picture [m]
+    double friction = 0;  ///< fraction by which friction rises on ridges and falls between them
+    double height = 0;    ///< of ridges above the valleys [m]
+    Vec3 along =
+        Vec3::UnitX();  ///< across ridges, or toward a picture's right, in the body's frame
+    std::string file;   ///< for a picture
+    std::shared_ptr<const ReliefPicture> picture;  ///< the file's content
     Place place;
 
     bool operator==(const Texture& other) const {
@@ -47,33 +48,33 @@ struct Texture {
     template <class Visitor>
     void visit(Visitor& v) {
         v("kind", kind,
-          says("Ridges across a direction, bumps in rows and columns, or what a file draws."));
+          says("Ridges across a direction, bumps in rows and columns, or a picture from a file."));
         v("wavelength", wavelength,
           Field::length().within(1e-4, 1).required().says(
-              "From one ridge to the next; of a picture, its width, after which it repeats."));
+              "Distance between ridges; for a picture, its width, after which it repeats."));
         v("friction", friction,
           Field::number().within(0, 1).says(
-              "Share by which the coefficient of friction rises on ridges and falls between "
+              "Fraction by which the coefficient of friction rises on ridges and falls between "
               "them."));
         v("height", height,
-          Field::length().within(0, kHighest).says("Of ridges above what is between them."));
+          Field::length().within(0, kHighest).says("Height of ridges above the valleys."));
         v("along", along,
-          Field::number().within(-1e6, 1e6).says(
-              "Direction across the ridges of a grating, or to a picture's right, in the body's "
-              "frame, of any length."));
+          Field::number().within(-1e6, 1e6).says("Direction across the ridges of a grating, or "
+                                                 "toward a picture's right, in the body's "
+                                                 "frame, of any length."));
         v("file", file,
-          Field::text().says("PNG file of a picture, relative to this one: white is a ridge."));
+          Field::text().says("PNG file of the picture, relative to this file; white is high."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 
-    /// Its steepest slope.
+    /// The texture's steepest slope.
     double steepest() const noexcept;
 
-    /// Where a face with the normal n_B is touched at p_B [m], in the body's frame. A ridge goes
+    /// The texture on a face with the normal n_B at p_B [m], in the body's frame. A ridge passes
     /// through the body's origin; a grid has its rows along the two axes of the body's frame that
-    /// the face looks along least; a picture has its middle at the origin. With r from 0 between
-    /// ridges to 1 on them, the factor on friction is 1 + friction (2 r - 1), and the height is
-    /// height r.
+    /// are most nearly parallel to the face; a picture has its centre at the origin. With r from 0
+    /// between ridges to 1 on them, the factor on friction is 1 + friction (2 r - 1), and the
+    /// height is height r.
     Relief at(const Vec3& p_B, const Vec3& n_B) const noexcept;
 
   private:

@@ -259,7 +259,7 @@ MISTAKES = [
      "pair)", 'Put that text in quotes, e.g. when: "gripped(block, hand)"'),
     ("count: 3", "count: 0", "count", "Correct the value"),
     ("count: 3", "count: many", "count", "Write a number"),
-    ("count: 3", "count: 2.5", "count", "Leave out what is behind the point"),
+    ("count: 3", "count: 2.5", "count", "Leave out the decimals"),
     ("- { when: time, after_s: 1,", "- { when: time, count: 2, hold_s: 1,",
      "count", "It belongs to when: inside, outside, touched, released, gripped"),
     ("finger: index, count: 3", "finger: indx, count: 3", "finger", "Did you mean index?"),

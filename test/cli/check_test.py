@@ -62,7 +62,7 @@ class Commands(unittest.TestCase):
                 self.assertRegex(result.stdout, r"scene.yaml:3: error: file: .*" + name)
             os.mkfifo(folder + "/pipe.obj")
             scene.write_text(SHORT.replace("block.obj", "pipe.obj"))
-            self.assertIn("is no file, but a pipe, a socket or a device", dihaptic("check", str(scene)).stdout)
+            self.assertIn("is not a file, but a pipe, a socket or a device", dihaptic("check", str(scene)).stdout)
 
 
 if __name__ == "__main__":

@@ -219,7 +219,7 @@ class Interruptions(unittest.TestCase):
                 result = dihaptic("recover", folder, preexec_fn=limit, env=nowhere)
                 self.assertEqual(result.returncode, 2, f"{share} {result.returncode} {result.stderr}")
                 self.assertIn("session.nwb: error: cannot be written: File too large", result.stderr)
-                self.assertIn("no file may get so large there", result.stderr)
+                self.assertIn("files cannot become so large there", result.stderr)
                 self.assertIn("dihaptic recover " + folder.rstrip("/"), result.stderr)
                 self.assertFalse(glob.glob(folder + "session.nwb*"), share)
             recovered = dihaptic("recover", folder)

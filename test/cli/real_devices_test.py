@@ -55,7 +55,7 @@ class RealDevices(unittest.TestCase):
         self.assertRegex(result.stdout, r"forcedimension\n    Force Dimension's SDK cannot be loaded; tried libdhd.so.3 \(.*"
                                         r"Install the Force Dimension SDK 3")
         self.put(self.HD, "libfake_dhd.so")
-        self.assertIn("has no hdInitDevice. It is of a version", dihaptic("devices", env=self.env).stdout)
+        self.assertIn("has no hdInitDevice. This program does not support its version", dihaptic("devices", env=self.env).stdout)
 
     def test_devices_lists_what_is_there(self):
         self.put(self.HD, "libfake_hd.so")

@@ -28,7 +28,7 @@ class Commands(unittest.TestCase):
             result = dihaptic("run", "scenes/block-on-table.yaml", "--out", out, "--set", "safety.max_speed_m_s=0.01")
             self.assertEqual(result.returncode, 1, result.stdout)
             told = (r"force is off since 0\.\d+ s: the (thumb|index)'s device \(simulated plant\) moved at 0\.01\d* m/s, "
-                    r"and 0\.01 m/s are allowed\. .* raise settings: safety: max_speed_m_s")
+                    r"but only 0\.01 m/s are allowed\. .* raise settings: safety: max_speed_m_s")
             self.assertRegex(result.stdout, "WARNING: " + told)
             folder = session_of(out)
             self.assertIn("force is off since", pathlib.Path(folder + "session.yaml").read_text())

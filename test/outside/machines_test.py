@@ -85,7 +85,7 @@ class Machines(unittest.TestCase):
         result = dihaptic("run", self.scene, "--out", self.out, preexec_fn=with_largest_file(20_000))
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertIn("raw.log: error: cannot be written: File too large", result.stderr)
-        self.assertIn("no file may get so large there (4 GB on a stick with FAT", result.stderr)
+        self.assertIn("files cannot become so large there (4 GB on a FAT stick", result.stderr)
         self.assertNotIn("free some space", result.stderr)
 
     def test_without_a_screen_the_window_says_so_and_the_rest_works(self):

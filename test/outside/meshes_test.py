@@ -137,7 +137,7 @@ class Meshes(unittest.TestCase):
         inner = made.box((-10, -10, -10), (10, 10, 10))
         self.felt("hollow.obj", made.obj(CUBE + made.turned(inner)), 56000)
         self.felt("inside-out.obj", made.obj(made.turned(CUBE) + inner), 56000)
-        self.felt("filled.obj", made.obj(CUBE + inner), 64000, ["parts that overlap", "72000 cubic mm", "64000 cubic mm"])
+        self.felt("filled.obj", made.obj(CUBE + inner), 64000, ["overlapping parts", "72000 cubic mm", "64000 cubic mm"])
         island = made.box((-5, -5, -5), (5, 5, 5))
         self.felt("island.obj", made.obj(CUBE + made.turned(inner) + island), 57000)
 
@@ -153,7 +153,7 @@ class Meshes(unittest.TestCase):
 
     def test_what_winds_the_wrong_way_is_refused(self):
         faces = made.prism([(-20, -10), (20, 10), (20, -10), (-20, 10)], 10)
-        self.refused("bow.obj", made.obj(faces), "winds the wrong way around", "cubic mm", "near (")
+        self.refused("bow.obj", made.obj(faces), "the wrong way round", "cubic mm", "near (")
 
     def test_triangles_without_area(self):
         a, b, c, d = CUBE[0]
@@ -171,7 +171,7 @@ class Meshes(unittest.TestCase):
 
     def test_corners_that_differ_by_rounding(self):
         draw = made.random.Random(1)
-        self.felt("rounded.stl", made.stl(made.triangles(CUBE), draw), 64000, ["are taken as one"])
+        self.felt("rounded.stl", made.stl(made.triangles(CUBE), draw), 64000, ["are merged"])
         faces = made.triangles(CUBE)
         faces[0] = [tuple(c + 0.004 for c in faces[0][0]), *faces[0][1:]]
         self.refused("gap.stl", made.stl(faces), "is not closed", "from another edge", "rounding", ") mm is 0.")
@@ -189,7 +189,7 @@ class Meshes(unittest.TestCase):
 
     def test_an_open_mesh_is_refused_with_a_place(self):
         faces = made.triangles(CUBE)
-        self.refused("twice.stl", made.stl(faces + faces[:1]), "where 3 faces meet", "there twice")
+        self.refused("twice.stl", made.stl(faces + faces[:1]), "where 3 faces meet", "duplicate faces")
         self.refused("mixed.stl", made.stl(made.turned(faces[:1]) + faces[1:]), "where two faces face opposite ways")
         self.refused("hole.stl", made.stl(made.triangles(CUBE)[:-1]), "is not closed: 3 of its edges", "the first from (-20",
                      "where one face has no neighbour")
@@ -255,7 +255,7 @@ class Meshes(unittest.TestCase):
             for written in ("{:.2f}D+00", "{:.1f}mm", "0x{:.0f}", "{:.0f},5", "{:.0f},000", "1.#QNAN", "nan", "2_{:.0f}", "\u2212{:.0f}"):
                 with self.subTest(ending, written=written):
                     words = [written.format(abs(float(n))) for n in numbers]
-                    said = f"has a vertex that is no number in line {line}: '{words[0].lower() if ending == 'stl' else words[0]}'"
+                    said = f"has a vertex that is not a number in line {line}: '{words[0].lower() if ending == 'stl' else words[0]}'"
                     self.refused(f"cube.{ending}", text.format(*words).encode(), said)
             self.refused(f"short.{ending}", text.format("", *numbers[1:]).encode(), f"has 2 of the 3 numbers of a vertex in line {line}")
 

@@ -119,7 +119,7 @@ class Movements(unittest.TestCase):
 
     def test_commas_that_might_part_thousands_are_told(self):
         said = self.hand(joined([HEAD, *with_commas(ROWS)], quoted=True))[1]
-        self.assertIn("movement.csv:2: warning: from here on a comma in a number counts as its point", said)
+        self.assertIn("movement.csv:2: warning: from here on a comma in a number is read as a decimal point", said)
         mixed = [HEAD, *with_commas(ROWS[:20]), *ROWS[20:]]
         found, said = self.hand(joined(mixed, ";"))
         self.assertIsNone(found)
@@ -206,13 +206,13 @@ PATHS = {
     "blanks after commas": (GOOD.replace(",", ", "), ""),
     "R's quotes and row names": ('"","time_s","z_mm"\n"1",0,0\n"2",0.4,30\n', ""),
     "exponents": ("time_s,z_mm\n0.00E+00,0\n4.00E-01,3.00E+01\n", ""),
-    "decimal commas in quotes": ('time_s,z_mm\n0,0\n"0,4",30\n', "path.csv:3: warning: from here on a comma in a number counts as its point"),
-    "comment": ("# platform\n" + GOOD, "path.csv:1: error: begins with a comment (#)"),
+    "decimal commas in quotes": ('time_s,z_mm\n0,0\n"0,4",30\n', "path.csv:3: warning: from here on a comma in a number is read as a decimal point"),
+    "comment": ("# platform\n" + GOOD, "path.csv:1: error: starts with a comment (#)"),
     "empty cell": ("time_s,z_mm\n0,0\n0.4,\n", "path.csv:3: error: z_mm: '' is not a number"),
     "NaN": ("time_s,z_mm\n0,0\n0.4,NaN\n", "path.csv:3: error: z_mm: 'NaN' is not a number"),
     "text": ("time_s,z_mm\n0,0\n0.4,high\n", "path.csv:3: error: z_mm: 'high' is not a number"),
-    "decimal commas without quotes": ("time_s,z_mm\n0,0\n0,4,30\n", "path.csv:3: error: has 3 values, where line 1 names 2 columns"),
-    "a short line": ("time_s,z_mm\n0,0\n0.4\n", "path.csv:3: error: has 1 value, where line 1 names 2 columns"),
+    "decimal commas without quotes": ("time_s,z_mm\n0,0\n0,4,30\n", "path.csv:3: error: has 3 values, but line 1 names 2 columns"),
+    "a short line": ("time_s,z_mm\n0,0\n0.4\n", "path.csv:3: error: has 1 value, but line 1 names 2 columns"),
     "points and commas": ("time_s;z_mm\n0,1;0\n0.4;30\n", "path.csv:3: error: '0.4' has a point before its decimals, and line 2 has a comma"),
     "times that go back": ("time_s,z_mm\n0,0\n0.4,30\n0.3,20\n", "path.csv:4: error: time_s: time goes from 0.4 to 0.3 s"),
     "other names": ("t,z\n0,0\n0.4,30\n", "path.csv:1: error: time_s: no column has this name; the columns are t, z"),

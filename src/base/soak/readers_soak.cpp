@@ -1,5 +1,5 @@
-// Reads large and damaged YAML: the time to read it grows with its size, not with the square, and
-// ten thousand damaged files are read or refused with a line.
+// Reads large and damaged YAML: reading time is proportional to size, not to its square, and
+// each of ten thousand damaged files is read, or refused with a line number.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -17,7 +17,7 @@ std::string keys(int count) {
     return out;
 }
 
-/// The shortest of three times to read it [s].
+/// The shortest of three reading times [s].
 double time_to_read(const std::string& text) {
     double shortest = 1e9;
     for (int i = 0; i < 3; ++i) {

@@ -138,9 +138,10 @@ TEST(Diagnostics, TellsSoManyMistakesAndThatThereAreMore) {
                       [](const Problem& p) { return p.severity == Severity::error; });
     EXPECT_EQ(errors, 201);
     EXPECT_LT(diagnostics.problems().size(), 1300u);
-    EXPECT_EQ(diagnostics.problems().back().text(),
-              "a.yaml:199: error: more is wrong than what is told above. Mend these first, and "
-              "check again.");
+    EXPECT_EQ(
+        diagnostics.problems().back().text(),
+        "a.yaml:199: error: there are more problems than those above. Correct these first, and "
+        "check again.");
 }
 
 TEST(Image, ThatWasCutShortIsRefused) {

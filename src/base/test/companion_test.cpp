@@ -64,8 +64,8 @@ TEST(Companion, ThatFailsIsToldWithItsInputThePlaceAndTheRemedy) {
     EXPECT_EQ(failure(task("kill -KILL $$")), start + "took more than 500 MB of memory. Mend it.");
     EXPECT_EQ(failure(task("exit 3")), start + "took more than 500 MB of memory. Mend it.");
     EXPECT_EQ(failure(task("while :; do :; done")),
-              start + "took more than 1 s of computing. Mend it.");
-    EXPECT_EQ(failure(task("exec cat /dev/zero")), start + "gave more than 1 MB. Mend it.");
+              start + "took more than 1 s of computing time. Mend it.");
+    EXPECT_EQ(failure(task("exec cat /dev/zero")), start + "wrote more than 1 MB. Mend it.");
     CompanionTask asleep = task("sleep 100");
     asleep.limits.time = 1;
     EXPECT_EQ(failure(asleep), start + "took more than 1 s. Mend it.");

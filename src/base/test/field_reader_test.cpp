@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"name: a\nsize_mm: [1, 2, 3 mm]\n", "Write the number alone; its unit is in the key."},
         Bad{"name: a\nsize_mm: [1, -2, 3]\n", "size_mm: must be positive, is -2"},
         Bad{"name: a\nsize_m: [1, 1, 1]\nsize_mm: [1, 1, 1]\n",
-            "size_mm: the same size is given as size_m too"},
+            "size_mm: the same size is also given as size_m"},
         Bad{"name: a\ncount: 11\n", "count: must be at least 1 and at most 10, is 11"},
         Bad{"name: a\ncount: 2.5\n", "must be a whole number"},
         Bad{"name: a\ncount: nan\n", "must be a number, is 'nan'"},
@@ -160,7 +160,7 @@ TEST(FieldReader, AnOldNameIsAnErrorInAFileAndIsReadInWhatWasFrozen) {
     ASSERT_EQ(written.problems().size(), 1u);
     EXPECT_EQ(written.problems()[0].key, "hold_ms");
     EXPECT_EQ(written.problems()[0].place.line, 1);
-    EXPECT_EQ(written.problems()[0].what, "is called wait_ms now");
+    EXPECT_EQ(written.problems()[0].what, "is now called wait_ms");
 }
 
 TEST(FieldReader, ReportsAllProblemsOfAFile) {
@@ -269,7 +269,8 @@ TEST(Node, RefusesAliasesWithoutEnd) {
                                          "it has more than 500000 keys and values."))
         << refusal_of(doubling);
     EXPECT_TRUE(refusal_of("a: &a\n  - *a\n")
-                    .starts_with("far.yaml:2: error: an alias (*name) stands in what it names"))
+                    .starts_with(
+                        "far.yaml:2: error: an alias (*name) is inside the part that it refers to"))
         << refusal_of("a: &a\n  - *a\n");
 }
 

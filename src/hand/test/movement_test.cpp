@@ -232,7 +232,7 @@ std::string replaced(std::string text, char from, char to) {
 INSTANTIATE_TEST_SUITE_P(
     Movement, NoMovement,
     ::testing::Values(std::pair{replaced(join(reach_lines()), '\n', '\r'),
-                                std::string("end in CR alone")},
+                                std::string("end in CR only")},
                       std::pair{std::string("\xff\xfet\0i\0", 6), std::string("is UTF-16 text")},
                       std::pair{std::string("\x7f"
                                             "ELF\2\1\0\0",

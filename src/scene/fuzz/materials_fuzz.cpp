@@ -1,4 +1,4 @@
-// Reads any text as an OBJ mesh that names its materials, and as their file.
+// Reads any text as an OBJ mesh that names its materials, and as the materials' file.
 #include "scene/materials.h"
 
 #include <string_view>

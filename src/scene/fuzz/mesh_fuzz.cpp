@@ -1,5 +1,5 @@
-// Reads any file as a mesh, of a format that its beginning tells; above all tests how the answers
-// of dihaptic-mesh are handled.
+// Reads any file as a mesh, in a format chosen by its first bytes; mainly tests the handling
+// of answers from dihaptic-mesh.
 #include "scene/mesh.h"
 
 #include <string_view>
@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     try {
         (void)scene::read_mesh(testing::as_file({data, size}, "mesh." + ending), 1e-3, {});
     } catch (const Error&) {
-        // reported with file, line and remedy, as it should be
+        // reported with file, line and remedy, as intended
     }
     return 0;
 }

@@ -1,5 +1,5 @@
-// Reads ten thousand damaged meshes: the program survives each, and gives a reason for each that it
-// refuses.
+// Reads ten thousand damaged meshes: the program survives each one and gives a reason for each
+// refusal.
 #include <thread>
 
 #include "scene/test/mutated_mesh.h"

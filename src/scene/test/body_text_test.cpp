@@ -196,7 +196,7 @@ TEST(BodyText, SaysWhyItMovesNothing) {
                   .find("part of the lattice rod"),
               std::string::npos);
     EXPECT_NE(refusal("scene: ../scenes/a.yaml\n", "a").find("no bodies"), std::string::npos);
-    EXPECT_NE(refusal("bodies: [a, b]\n", "a").find("does not have it"), std::string::npos);
+    EXPECT_NE(refusal("bodies: [a, b]\n", "a").find("does not contain it"), std::string::npos);
     EXPECT_NE(refusal("bodies: [\n", "a").find("not YAML"), std::string::npos);
     EXPECT_NE(refusal("", "a").find("no bodies"), std::string::npos);
 }

@@ -121,14 +121,14 @@ TEST(Look, ThatCannotBeIsToldWithItsPlaceAndARemedy) {
              {picture("file: " + good), "width: is missing"},
              {picture("width_mm: 10"), "file: is missing"},
              {picture("file: " + good + ", width_mm: 10") + "\n    colour: \"#ffffff\"",
-              "scene.yaml:6: error: picture: stands beside a colour"},
+              "scene.yaml:6: error: picture: cannot be combined with a colour"},
              {seen("file: nowhere.obj, unit: mm"),
               "scene.yaml:6: error: file: there is no mesh nowhere.obj"},
              {seen("file: " + points + ", unit: mm"), "has 2 vertices ('v') and no faces ('f')"},
              {seen("file: README.md, unit: mm"), "its name ends neither in .obj"},
              {seen("file: " + mesh), "unit: is missing"},
              {seen("file: " + mesh + ", unit: m"),
-              "a.ply is 20000 mm large, and the shape that is felt 20 mm"},
+              "a.ply is 20000 mm large, but the felt shape measures 20 mm"},
              {"finish: glossy", "'glossy' is not known. Use satin, matt or metal."},
          }) {
         EXPECT_NE(problems(body(keys)).find(said), std::string::npos) << keys << ":\n"
@@ -144,12 +144,12 @@ TEST(Look, AMeshWhoseMaterialsAreMissingIsDrawnAndTold) {
     const std::string said = problems(body("finish: matt", mesh));
     EXPECT_NE(
         said.find("scene.yaml:4: warning: file: the mesh " + file + " takes its colours from " +
-                  folder.file("gone.mtl") + ", which is not there"),
+                  folder.file("gone.mtl") + ", which does not exist"),
         std::string::npos)
         << said;
     EXPECT_EQ(problems(body("colour: \"#ffffff\"", mesh)), "");
     folder.write("gone.mtl", "newmtl a\n");
-    EXPECT_NE(problems(body("finish: matt", mesh)).find("has none (Kd) for its materials"),
+    EXPECT_NE(problems(body("finish: matt", mesh)).find("has no colour (Kd) for its materials"),
               std::string::npos);
 }
 

@@ -93,8 +93,8 @@ TEST(MeshReading, RefusesWhatIsNoFileWithoutWaiting) {
     fs::create_directory(folder.file("folder.obj"));
     fs::create_symlink("/dev/zero", folder.file("zero.obj"));
     fs::create_symlink("loop.obj", folder.file("loop.obj"));
-    expect_refused(folder.file("fifo.obj"), "is no file, but a pipe, a socket or a device");
-    expect_refused(folder.file("zero.obj"), "is no file, but a pipe, a socket or a device");
+    expect_refused(folder.file("fifo.obj"), "is not a file, but a pipe, a socket or a device");
+    expect_refused(folder.file("zero.obj"), "is not a file, but a pipe, a socket or a device");
     expect_refused(folder.file("folder.obj"), "is a folder");
     expect_refused(folder.file("loop.obj"), "cannot be read: Too many levels");
     expect_refused(folder.file("gone.obj"), "there is no mesh");

@@ -218,7 +218,7 @@ inline void count_message(const Problem& problem, const std::string& file, Outco
         ++out.crashed;
     } else if (says("of memory")) {
         ++out.memory;
-    } else if (says("gave more")) {
+    } else if (says("wrote more")) {
         ++out.output;
     } else if (says("took more")) {
         ++out.time;

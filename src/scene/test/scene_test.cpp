@@ -278,10 +278,10 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 100,\n     surface: "
             "{damping_Ns_m: 3}}\n",
-            "scene.yaml:3: error: damping: is beside no stiffness"},
+            "scene.yaml:3: error: damping: needs a stiffness"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 100, surface: "
             "{stiffness_N_m: 500, restitution: 0.5}}\n",
-            "restitution: stands beside a stiffness"},
+            "restitution: cannot be combined with a stiffness"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 100, surface: "
             "{stiffness_N_m: 5}}\n",
             "stiffness_N_m: must be at least 50"},
@@ -293,17 +293,17 @@ INSTANTIATE_TEST_SUITE_P(
             "dynamic_friction: is above the static coefficient of 0.4"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 400, surface: "
             "{stiffness_N_m: 200}}\n",
-            "lets b sink by 19.6 mm under its own weight, and it is 40 mm thick"},
+            "lets b sink by 19.6 mm under its own weight; its thickness is 40 mm"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 400}\npairs:\n  - "
             "{between: [b, thumb]}\n",
             "friction: is missing, and there is no surface"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 400}\njoints:\n  - "
             "{name: j, kind: hinge, between: [b], low_deg: 5, high_deg: 50}\n",
-            "warning: low: j begins at 0 deg, beyond its stop at 5"},
+            "warning: low: j starts at 0 deg, beyond its stop at 5"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 400}\njoints:\n  - "
             "{name: j, kind: distance, between: [b], position_mm: [0, 0, 0], second_position_mm: "
             "[0, 0, 90], high_mm: 50}\n",
-            "warning: high: j begins at 90 mm, beyond its stop at 50"},
+            "warning: high: j starts at 90 mm, beyond its stop at 50"},
         Bad{"bodies:\n  - {name: a, shape: box, size_mm: [40, 40, 40], mass_g: 0.002}\n  - {name: "
             "b, "
             "shape: box, size_mm: [40, 40, 40], mass_g: 15000}\njoints:\n  - {name: j, kind: "
@@ -311,16 +311,16 @@ INSTANTIATE_TEST_SUITE_P(
             "between: [a, b]}\n",
             "a ratio above 1e+06"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], driven: yes, mass_g: 4}\n",
-            "mass: goes with no body that is driven"},
+            "mass: does not apply to a driven body"},
         Bad{"title: x\n", "bodies: is missing"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: -100}\n",
             "scene.yaml:2: error: mass_g: must be positive, is -100"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 9, colour: "
             "reddish}\n",
-            "scene.yaml:2: error: colour: 'reddish' is no colour. Write red, green and blue in"},
+            "scene.yaml:2: error: colour: 'reddish' is not a colour. Write red, green and blue in"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 9, colour: "
             "'#d0303'}\n",
-            "colour: '#d0303' is no colour"},
+            "colour: '#d0303' is not a colour"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40]}\n",
             "has neither mass nor density"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_g: 1, density_g_cm3: "
@@ -367,7 +367,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"bodies:\n  - {name: thumb, shape: sphere, radius_mm: 4, mass_g: 1}\n",
             "'thumb' is used twice"},
         Bad{"bodies:\n  - {name: thumb_proxy, shape: sphere, radius_mm: 4, mass_g: 1}\n",
-            "'thumb_proxy' is what recordings call a part of another"},
+            "'thumb_proxy' is the name of another object's part in recordings"},
         Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, fixed: yes}\nobject: b\n",
             "scene.yaml:3: error: object: 'b' is fixed"},
         Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\nobject: something\n",
@@ -391,7 +391,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
             "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: "
             "[t]}\n",
-            "joins nothing that can move"},
+            "joins no body that can move"},
         Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
             "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: [b, "
             "t, b]}\n",
@@ -415,14 +415,14 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\njoints:\n  - {name: "
             "j, "
             "kind: hinge, between: [b], second_position_mm: [0, 0, 9]}\n",
-            "belongs to a distance"},
+            "belongs to a distance joint"},
         Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\njoints:\n  - {name: "
             "j, "
             "kind: distance, between: [b], second_position_mm: [0, 0, 0]}\n",
-            "gives a rod no direction"},
+            "so the rod has no direction"},
         Bad{"bodies:\n  - {name: b_angular, shape: sphere, radius_mm: 4, mass_g: 1}\njoints:\n  - "
             "{name: b, kind: ball, between: [b_angular]}\n",
-            "is what recordings call a part of another"},
+            "is the name of another object's part in recordings"},
         Bad{"bodies:\n  - {name: b, shape: sphere, radius_mm: 4, mass_g: 1}\n  - {name: t, shape: "
             "sphere, radius_mm: 4, fixed: yes}\njoints:\n  - {name: j, kind: hinge, between: "
             "[b]}\n  - {name: j, kind: ball, between: [b, t]}\n",
@@ -479,14 +479,15 @@ std::string scene_with_bodies(size_t count) {
 TEST(SceneFile, MoreFingersOrBodiesThanASceneMayHaveAreToldWhereTheyBegin) {
     EXPECT_EQ(problems_of(scene_with_fingers(kMostFingers)), "");
     EXPECT_NE(problems_of(scene_with_fingers(kMostFingers + 1))
-                  .find(fmt::format("scene.yaml:{}: error: fingers: there are 257, where 256 are "
-                                    "the most",
+                  .find(fmt::format("scene.yaml:{}: error: fingers: there are 257, but at most "
+                                    "256 are allowed",
                                     kMostFingers + 4)),
               std::string::npos)
         << problems_of(scene_with_fingers(kMostFingers + 1));
     const std::string said = problems_of(scene_with_bodies(20'000));
-    EXPECT_NE(said.find("scene.yaml:4002: error: bodies: there are 20000, where 4000 are the most"),
-              std::string::npos)
+    EXPECT_NE(
+        said.find("scene.yaml:4002: error: bodies: there are 20000, but at most 4000 are allowed"),
+        std::string::npos)
         << said;
 }
 
@@ -496,7 +497,7 @@ TEST(SceneFile, NamesThatAreNotThereAreToldUpToAHundredThousandOfThem) {
         scene += fmt::format("  - {{between: [b{}, nobody{}], friction: 0.5}}\n", i, i);
     const std::string said = problems_of(scene);
     EXPECT_NE(said.find("there is no body or finger 'nobody0'"), std::string::npos);
-    EXPECT_NE(said.find("more is wrong than what is told above"), std::string::npos);
+    EXPECT_NE(said.find("there are more problems than those above"), std::string::npos);
     EXPECT_LT(std::count(said.begin(), said.end(), '\n'), 300);
 }
 

@@ -37,7 +37,7 @@ TEST(SpringCurve, OfAFileHasPointsThatAscend) {
              {"kind: slider, curve_at_mm: [0, 2, 1], curve_N: [0, 1, 2]", "does not ascend"},
              {"kind: slider, curve_at_mm: [0, 0.001], curve_N: [0, 100]", "steeper than"},
              {"kind: slider, curve_at_mm: [0, 1], curve_N: [0, 1], stiffness_N_m: 5",
-              "stands beside a curve"},
+              "cannot be combined with a curve"},
              {"kind: ball, curve_at_deg: [0, 1], curve_Nm: [0, 1]", "no single axis"},
              {"kind: hinge, curve_at_mm: [0, 1], curve_Nm: [0, 1]", "is not a unit of angle"},
          }) {

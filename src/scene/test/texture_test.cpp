@@ -103,17 +103,18 @@ TEST(Texture, OfAFileIsOneThatCanBeFelt) {
     EXPECT_EQ(first_problem("kind: picture, file: " + good + ", wavelength_mm: 40, height_mm: 0.1"),
               "");
     for (const auto& [texture, said] : {
-             std::pair<std::string, std::string>{"wavelength_mm: 4", "is missing, and height too"},
+             std::pair<std::string, std::string>{"wavelength_mm: 4",
+                                                 "is missing, and so is height"},
              {"wavelength_mm: 1, height_mm: 0.5", "height"},
-             {"wavelength_mm: 0.5, height_mm: 0.3", "makes slopes of 62"},
+             {"wavelength_mm: 0.5, height_mm: 0.3", "gives slopes of 62"},
              {"wavelength_mm: 4, friction: 0.5, along: [0, 0, 0]", "has no direction"},
-             {"wavelength_mm: 4, friction: 0.5, file: " + good, "is of pictures alone"},
+             {"wavelength_mm: 4, friction: 0.5, file: " + good, "applies only to pictures"},
              {"kind: picture, wavelength_mm: 4, friction: 0.5", "file: is missing"},
              {"kind: picture, wavelength_mm: 4, friction: 0.5, file: nowhere.png",
               "the picture nowhere.png"},
              {"kind: picture, wavelength_mm: 4, friction: 0.5, file: README.md", "PNG"},
              {"kind: picture, wavelength_mm: 4, friction: 0.5, file: " + thin, "has 8 x 2 pixels"},
-             {"kind: picture, wavelength_mm: 1, height_mm: 0.3, file: " + good, "makes slopes of"},
+             {"kind: picture, wavelength_mm: 1, height_mm: 0.3, file: " + good, "gives slopes of"},
          }) {
         EXPECT_NE(first_problem(texture).find(said), std::string::npos)
             << texture << ": " << first_problem(texture);

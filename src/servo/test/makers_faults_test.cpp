@@ -126,7 +126,7 @@ INSTANTIATE_TEST_SUITE_P(
              FaultKind::device_fault, kDeviceFault,
              "the thumb's device (PHANToM Premium 1.0, serial 40123) reports a fault of its own."},
         Case{"HD NaN", "openhaptics", [](Grasp& g) { g.hd->devices[1].nonsense = true; },
-             FaultKind::bad_reading, kBadReading, "that is not a number. Look at its cables"},
+             FaultKind::bad_reading, kBadReading, "that is not a number. Check its cables"},
         Case{"HD silent", "openhaptics", [](Grasp& g) { g.hd->silent = true; },
              FaultKind::not_answering, kNotAnswering, "does not answer. Look at its power"},
         Case{"DHD silent", "forcedimension", [](Grasp& g) { g.dhd->devices[1].silent = true; },
@@ -134,10 +134,10 @@ INSTANTIATE_TEST_SUITE_P(
              "the index's device (omega.3, serial 102) does not answer. Look at its power and its "
              "cables. communication error."},
         Case{"DHD NaN", "forcedimension", [](Grasp& g) { g.dhd->devices[0].nonsense = true; },
-             FaultKind::bad_reading, kBadReading, "that is not a number. Look at its cables"},
+             FaultKind::bad_reading, kBadReading, "that is not a number. Check its cables"},
         Case{"DHD uncalibrated", "forcedimension",
              [](Grasp& g) { g.dhd->devices[0].calibrated = false; }, FaultKind::uncalibrated,
-             kUncalibrated, "lost its calibration. Calibrate it as its maker says"},
+             kUncalibrated, "lost its calibration. Calibrate it as its manual describes"},
         Case{"DHD broken", "forcedimension", [](Grasp& g) { g.dhd->devices[0].broken = true; },
              FaultKind::device_fault, kDeviceFault, "reports a fault of its own. Let it cool"}));
 

@@ -149,12 +149,12 @@ TEST(Plan, RefusesSharesThatContradictAreNoneOrAreOfNothing) {
     SharedFiles both;
     both.experiment += "settings: {coupling: {stiffness_share: 0.5, stiffness_N_m: 600}}\n";
     EXPECT_NE(both.messages().find("experiment.yaml:3: error: stiffness_share: the same stiffness "
-                                   "is given as stiffness_N_m too. Keep one of the two."),
+                                   "is also given as stiffness_N_m. Keep one of the two."),
               std::string::npos)
         << both.messages();
     SharedFiles damping;
     damping.experiment += "settings: {coupling: {damping_Ns_m: 2, damping_share: 0.5}}\n";
-    EXPECT_NE(damping.messages().find("the same damping is given as damping_Ns_m too"),
+    EXPECT_NE(damping.messages().find("the same damping is also given as damping_Ns_m"),
               std::string::npos)
         << damping.messages();
     SharedFiles large;

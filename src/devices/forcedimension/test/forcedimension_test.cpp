@@ -102,7 +102,8 @@ TEST(ForceDimension, TheLibrarysFaultsAreTold) {
         "/nowhere/libdhd.so",
         said);
     expect_in("Install the Force Dimension SDK 3 for Linux", said);
-    expect_in("has no dhdGetDeviceCount. It is of a version", with(DIHAPTIC_FAKE_HD));
+    expect_in("has no dhdGetDeviceCount. This program does not support its version",
+              with(DIHAPTIC_FAKE_HD));
 }
 
 TEST(ForceDimension, DevicesThatAreNotThereAreTold) {

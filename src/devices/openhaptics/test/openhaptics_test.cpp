@@ -201,7 +201,7 @@ TEST(OpenHaptics, TheLibrarysFaultsAreTold) {
               said);
     expect_in("Install OpenHaptics 3.4 for Linux and the device driver from 3D Systems", said);
     said = with(DIHAPTIC_FAKE_DHD);
-    expect_in("has no hdInitDevice. It is of a version that this program does not know", said);
+    expect_in("has no hdInitDevice. This program does not support its version", said);
 }
 
 TEST(OpenHaptics, DevicesThatAreNotThereAreTold) {
