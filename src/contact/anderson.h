@@ -1,5 +1,5 @@
 // Anderson acceleration of a fixed-point iteration x = g(x) (Walker and Ni 2011): the next x is
-// that combination of the last ones for which the residual g(x) - x, linearised, is smallest.
+// the combination of the last points with the smallest linearised residual g(x) - x.
 #pragma once
 
 #include <Eigen/Dense>
@@ -11,8 +11,8 @@ namespace dihaptic::contact {
 class Anderson {
   public:
     static constexpr int kDepth = 10;
-    /// A column is left out if no more than this share of it lies outside of the span of the newer
-    /// ones.
+    /// A column is left out if no more than this fraction of it lies outside the span of the newer
+    /// columns.
     static constexpr double kNothingNew = 1e-8;
 
     void reserve(size_t size) {

@@ -96,10 +96,10 @@ bool BlockLu::analyse(int nodes, std::span<const std::pair<int, int>> edges,
     return true;
 }
 
-/// The work for a node: it is inverted, and eliminated from its later neighbours and from each pair
-/// of them.
+/// The work for a node: its inversion, and its elimination from its later neighbours and from each
+/// pair of them.
 void BlockLu::count_products() noexcept {
-    constexpr int64_t kInverse = 8;  // takes as long as so many products
+    constexpr int64_t kInverse = 8;  // in products of the same duration
     products_ = 0;
     for (size_t k = 0; k < order_.size(); ++k) {
         const auto others = static_cast<int64_t>(later(k).size());
@@ -144,7 +144,7 @@ int BlockLu::degree_of(int node) noexcept {
     return degree;
 }
 
-/// Of the nodes not yet eliminated that vary, or do not, the first with the fewest neighbours
+/// Among the remaining nodes that vary, or those that do not, the first with the fewest neighbours
 /// (minimum degree).
 int BlockLu::least_connected(int nodes, bool varies) const noexcept {
     int least = -1;
@@ -159,8 +159,8 @@ int BlockLu::least_connected(int nodes, bool varies) const noexcept {
     return least;
 }
 
-/// Eliminates a node: its neighbours become neighbours of each other, with new blocks where that
-/// fills in. False if the memory does not suffice.
+/// Eliminates a node: its neighbours become neighbours of each other, with new blocks for
+/// fill-in. False if the memory does not suffice.
 bool BlockLu::eliminate(int node) noexcept {
     eliminated_[static_cast<size_t>(node)] = 1;
     order_.push_back(node);

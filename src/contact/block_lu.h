@@ -3,7 +3,7 @@
 // or a chain causes little fill-in; pivoting stays inside the diagonal blocks.
 //
 // If the same pattern is solved repeatedly and the blocks of some bodies never change, those bodies
-// are eliminated first, and only once, by keep(); each solve then begins with again().
+// are eliminated first, and only once, by keep(); each solve then starts with again().
 //
 // Memory is reserved once; everything else allocates nothing.
 #pragma once
@@ -24,8 +24,8 @@ class BlockLu {
     void reserve(int nodes, int edges);
 
     /// Finds the order of elimination, and where fill-in arises, for a pattern of unordered pairs.
-    /// `varies` says for each node whether its blocks change between solves; if it is left out, all
-    /// do. Does nothing if the pattern is the same as last time. False if it is larger than
+    /// `varies` says for each node whether its blocks change between solves; if left out, all
+    /// do. Does nothing if the pattern is unchanged. False if it is larger than
     /// reserved.
     bool analyse(int nodes, std::span<const std::pair<int, int>> edges,
                  std::span<const char> varies = {}) noexcept;
@@ -38,16 +38,16 @@ class BlockLu {
     Block& block(int slot) noexcept { return blocks_[static_cast<size_t>(slot)]; }
     void set_identity() noexcept;
 
-    /// Keeps the present blocks as the beginning of each solve, after eliminating the nodes that do
+    /// Keeps the present blocks as the start of each solve, after eliminating the nodes that do
     /// not vary.
     void keep() noexcept;
-    /// Restores the blocks that can vary to what was kept.
+    /// Restores the varying blocks from the copy kept.
     void again() noexcept;
-    /// Solves for x in place; destroys the blocks that can vary. Needs keep() before.
+    /// Solves for x in place; destroys the varying blocks. Needs an earlier keep().
     void solve(std::span<Vector> x) noexcept;
 
     int blocks() const noexcept { return used_; }
-    /// Number of block products to which a solve amounts.
+    /// Cost of a solve in block products.
     int64_t products() const noexcept { return products_; }
 
   private:
@@ -59,11 +59,11 @@ class BlockLu {
     int least_connected(int nodes, bool varies) const noexcept;
     bool eliminate(int node) noexcept;
     void count_products() noexcept;
-    /// Nodes of the order that are eliminated after its k-th.
+    /// Nodes that are eliminated after the k-th in the order.
     std::span<const int> later(size_t k) const noexcept {
         return {later_.data() + later_begin_[k], later_begin_[k + 1] - later_begin_[k]};
     }
-    /// Eliminates the k-th node of the order from the blocks of later ones.
+    /// Eliminates the k-th node in the order from the blocks of later nodes.
     void factorise(size_t k) noexcept;
     int& slot_of(int row, int column) noexcept {
         return slot_[static_cast<size_t>(row) * static_cast<size_t>(capacity_) +
@@ -91,7 +91,7 @@ class BlockLu {
     std::vector<size_t> later_begin_;
     std::vector<int> slot_;  // by row and column; -1: no block
     std::vector<Block> blocks_;
-    std::vector<Block> kept_;  // of nodes that vary
+    std::vector<Block> kept_;  // blocks of varying nodes
 };
 
 }  // namespace dihaptic::contact

@@ -30,14 +30,14 @@ class BodySystem {
     void reserve(int bodies, int contacts, int joints);
     /// Allocates if the problem is larger than reserved.
     void assemble(const ContactProblem& problem) noexcept;
-    /// Counts the work of everything that follows.
+    /// Counts the work of all following calls.
     void count_in(Work& work) noexcept { work_ = &work; }
     Work& work() const noexcept { return *work_; }
-    /// Cost of a step of Newton's method, without its law [visits].
+    /// Cost of a step of Newton's method, without the contact law [visits].
     int64_t step_visits() const noexcept {
         return Visits::matrix * static_cast<int64_t>(size()) + Visits::product * lu_.products();
     }
-    /// Finds the matrix for newton_step(). False if it is larger than reserved.
+    /// Finds the matrix for newton_step(). False if the matrix is larger than reserved.
     bool prepare_newton() noexcept;
 
     /// Contacts, then joints.
@@ -55,7 +55,7 @@ class BodySystem {
     /// Solves (I + G W) d = -c; changes G and c.
     void newton_step(std::span<Linearised<D>> contacts, std::span<Vec> d) noexcept;
     /// Does projected Gauss-Seidel sweeps on a law, until a sweep changes no contact's velocity by
-    /// more than `enough` [m/s], or their work is used up. Returns their number.
+    /// more than `enough` [m/s], or until their work is used up. Returns their number.
     template <class Law>
     int sweep(const Law& law, std::span<Vec> r, int most, double enough = -1) noexcept {
         gather(r);
@@ -70,7 +70,7 @@ class BodySystem {
     /// Block of W for contacts j (rows) and k (columns).
     Eigen::Matrix<double, Dim, Dim> delassus_block(size_t j, size_t k) const noexcept;
 
-    /// Computes the velocity changes of all bodies by impulses; change() returns a body's, linear,
+    /// Computes the changes of all bodies' velocities by impulses; change() returns one: linear,
     /// then angular.
     void body_velocity(std::span<const Vec> r) noexcept;
     Vec6 change(int body) const noexcept;
@@ -106,7 +106,7 @@ class BodySystem {
         Vec q;
         Scale law;
         double unit = 1;
-        double compliance = 0;  // of a contact's normal; a joint has its own in `law`
+        double compliance = 0;  // of a contact along its normal; a joint's is in `law`
         int a = kFixed;
         int b = kFixed;
         int aa = -1, bb = -1, ab = -1, ba = -1;  // indices of blocks in the matrix of bodies
@@ -123,7 +123,7 @@ class BodySystem {
     }
     /// Adds H' G H of one contact or joint to the matrix.
     void add_to_matrix(const ContactRows& row, const Linearised<D>& contact) noexcept;
-    /// Takes the compliance of contacts out of W and into G and c.
+    /// Moves the compliance of contacts from W to G and c.
     void soften(std::span<Linearised<D>> contacts) const noexcept;
     void gather(std::span<const Vec> r) noexcept;
     /// Adds one contact's H' r to y.
@@ -142,10 +142,10 @@ class BodySystem {
     std::vector<Mat6> root_;  // of the inverse mass matrix, by body
     std::vector<Vec6> y_;
     std::vector<std::pair<int, int>> edges_;
-    std::vector<char> varies_;  // by body: whether a row is on it that is not linear
+    std::vector<char> varies_;  // by body: whether it has a row that is not linear
     BlockLu lu_;
     Work* work_ = nullptr;
-    bool kept_ = false;  // what linear rows add to the matrix is in it
+    bool kept_ = false;  // whether the matrix contains the linear rows' contribution
     bool finite_ = true;
 };
 

@@ -1,4 +1,4 @@
-// The record of one contact point. Contacts are found once in a step, by dynamics; frames and
+// The record of one contact point. Contacts are found once per step, by dynamics; frames and
 // fingers read these records.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace dihaptic::contact {
 
-/// Names a body of one World; scene bodies come first, then the fingers' proxies.
+/// Index of a body in a World; scene bodies come first, then the fingers' proxies.
 struct BodyIndex {
     int value = -1;
     bool valid() const { return value >= 0; }
@@ -22,7 +22,7 @@ struct Contact {
     double friction = 0;        ///< coefficient of the pair
     double normal_force = 0;    ///< pressing the bodies apart, mean over the step, at least 0 [N]
     Vec3 f_B_W = Vec3::Zero();  ///< total force of a on b, mean over the step [N]
-    double moment = 0;          ///< of a on b about the normal, mean over the step [N*m]
+    double moment = 0;          ///< moment of a on b about the normal, mean over the step [N*m]
 };
 
 }  // namespace dihaptic::contact

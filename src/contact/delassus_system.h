@@ -24,7 +24,7 @@ class DelassusSystem {
     Vec q(size_t j) const noexcept { return q_.segment<3>(3 * static_cast<Eigen::Index>(j)); }
     double unit(size_t j) const noexcept { return units_[j]; }
 
-    /// Work is counted as if there were bodies, since such problems are solved outside of ticks.
+    /// Work is counted as for bodies, since such problems are solved outside ticks.
     void count_in(Work& work) noexcept { work_ = &work; }
     Work& work() const noexcept { return *work_; }
     int64_t step_visits() const noexcept { return Visits::matrix * static_cast<int64_t>(size()); }
@@ -33,7 +33,7 @@ class DelassusSystem {
     void newton_step(std::span<const Linearised<3>> contacts, std::span<Vec> d);
     static bool prepare_newton() noexcept { return true; }
     static bool has_joints() noexcept { return false; }
-    /// As BodySystem::sweep().
+    /// Like BodySystem::sweep().
     template <class Law>
     int sweep(const Law& law, std::span<Vec> r, int most, double enough = -1) noexcept {
         const int64_t visits = Law::kVisits * static_cast<int64_t>(size());

@@ -1,5 +1,5 @@
-// The hand-over: the methods that are tried, in this order, until one answers. README.md says how
-// much work each may do.
+// The order in which methods are tried until one solves the problem. README.md gives the limits
+// of their work.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace dihaptic::contact {
 
 struct HandOver {
     Solver asked;
-    std::array<Route, 4> answer;  ///< `none`: nobody more
+    std::array<Route, 4> answer;  ///< `none`: no further method
 };
 constexpr std::array<HandOver, kSolvers> kHandOver{{
     {Solver::sequential_impulse, {Route::sequential_impulse}},
@@ -23,9 +23,9 @@ constexpr std::array<HandOver, kSolvers> kHandOver{{
      {Route::newton, Route::coarse_polygon, Route::staggered_projections, Route::sweeps}},
 }};
 
-/// The methods that are tried for the solver `asked`. Where work is bounded, sweeps finish what the
-/// first method left undone; where the work or the memory does not suffice for an exact answer,
-/// sweeps do it alone.
+/// The methods that are tried for the solver `asked`. If work is bounded, sweeps finish the
+/// first method's answer; if work or memory does not suffice for an exact answer,
+/// only sweeps are used.
 constexpr std::array<Route, 4> hand_over(Solver asked, bool exact, bool bounded) {
     for (const HandOver& row : kHandOver) {
         if (row.asked != asked || !exact) continue;

@@ -6,7 +6,7 @@
 //     Phi_T = r_T - P_disc(mu g)(r_T - a_T u^_T)      g = max(0, r_N - a_N u^_N)
 //
 // With A = dPhi/du^ and B = dPhi/dr, Newton's step solves A (W + rho) d + B d = -Phi. Multiplied by
-// K = (B + rho A)^-1, which has a closed form for every state of the contact, it becomes
+// K = (B + rho A)^-1, which has a closed form for each state of the contact, this becomes
 //
 //     (I + G W) d = -c        G = K A,  c = K Phi
 //
@@ -22,7 +22,7 @@
 //     between   G = 1 / (gamma + rho)                c = (u^ + gamma r) / (gamma + rho)
 //     at a bound  G = 0                              c = r - bound
 //
-// Rows without bounds are linear equations, which Newton's method solves in a single step however
+// Rows without bounds are linear equations, which Newton's method solves in a single step, however
 // large they are. Their rho is kLinearRho or none, so their G is always the same.
 //
 // rho regularises a singular W (four coplanar contacts); it has no effect at the fixed point r =
@@ -45,14 +45,14 @@ struct JointScale {
     Vec3 compliance = Vec3::Zero();
     Vec3 low = Vec3::Zero();
     Vec3 high = Vec3::Zero();
-    bool linear = false;  ///< no row has bounds, but for rows that ask for nothing
+    bool linear = false;  ///< no row has bounds, except rows without effect
 
     bool is_bounded(int row) const noexcept {
         return std::isfinite(low[row]) || std::isfinite(high[row]);
     }
 };
 
-/// The regularisation of rows without bounds: their compliance, or rho where there is hardly any
+/// The regularisation of rows without bounds: their compliance, or rho if there is hardly any
 /// compliance, since a G much larger than 1 / rho would cost Newton's step its precision. A larger
 /// rho would take a chain of joints many proximal steps, because motions of its whole length change
 /// its rows little.
@@ -121,7 +121,7 @@ struct Joint {
         }
         return sum;
     }
-    /// Row after row, each with what the rows before it have changed.
+    /// Row by row, each including the changes of the rows before.
     template <int D>
     static void relax(const JointScale& joint, Eigen::Matrix<double, D, 1>& r,
                       const Eigen::Matrix<double, D, 1>& u) noexcept {
@@ -141,7 +141,7 @@ struct Joint {
 };
 
 /// Linearises sliding or sticking on the disc of radius `radius`: returns |Phi_T|^2 and fills the
-/// tangential part of G and c, without coupling to the normal. `slides` is set to whether the
+/// tangential part of G and c, without coupling to the normal. `slides` tells whether the
 /// impulse is on the rim.
 template <int D>
 double linearise_disc(const Eigen::Matrix<double, D, 1>& r, const Eigen::Matrix<double, D, 1>& u,
@@ -181,8 +181,8 @@ double linearise_disc(const Eigen::Matrix<double, D, 1>& r, const Eigen::Matrix<
     return phi.squaredNorm();
 }
 
-/// Linearises the normal part, leaving the tangential part zero; all of an open contact. Returns
-/// r_N - a_N u^_N.
+/// Linearises the normal part, with the tangential part zero; this is all for an open contact.
+/// Returns r_N - a_N u^_N.
 template <int D>
 double linearise_normal(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
                         const Eigen::Matrix<double, D, 1>& u, double rho,
@@ -199,7 +199,7 @@ double linearise_normal(const Scale& scale, const Eigen::Matrix<double, D, 1>& r
 
 /// Coulomb's law: normal and tangential part together.
 struct Coulomb {
-    /// Cost of a sweep, or of judging an answer, for each contact (work.h).
+    /// Cost per contact of a sweep, or of judging an answer (work.h).
     static constexpr int kVisits = 1;
     template <int D>
     static double linearise(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
@@ -276,7 +276,7 @@ struct NormalOnly {
 };
 
 /// Tangential impulses on discs of the present radius mu r_N, with steps of 2 / trace(W_TT). Sweeps
-/// are then stable however much the rows differ; that of torsion is often by far the smallest.
+/// are then stable however much the rows differ; the torsion row is often by far the smallest.
 struct FrictionOfLoad {
     template <int D>
     static void relax(const Scale& scale, Eigen::Matrix<double, D, 1>& r,
@@ -287,7 +287,7 @@ struct FrictionOfLoad {
 };
 
 /// Coulomb's law for sweeps: one over all normal impulses, then one over all friction. In stacks
-/// this leaves two thirds of the error that sweeping both at once leaves.
+/// this leaves two thirds of the error of sweeping both at once.
 struct NormalThenFriction {
     static constexpr int kVisits = 2;
     NormalOnly normal;
@@ -298,7 +298,7 @@ struct NormalThenFriction {
 /// projections. Contacts without load have no friction and are left out.
 struct FrictionOnly {
     static constexpr int kVisits = 1;
-    std::span<const double> normal;  ///< by contact, of the scaled system
+    std::span<const double> normal;  ///< by contact, in the scaled system
 
     template <int D>
     double linearise(const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
@@ -381,8 +381,8 @@ struct Polygonal {
     }
 };
 
-/// The following functions use the law for a contact, and the joint's own rows for a joint. This
-/// one is in a proximal step about r_k.
+/// The following functions use the law for a contact, and a joint's own rows for a joint. This
+/// function applies to a proximal step about r_k.
 template <int D, class Law>
 double linearise(const Law& law, const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
                  const Eigen::Matrix<double, D, 1>& u, const Eigen::Matrix<double, D, 1>& r_k,

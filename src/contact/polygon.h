@@ -3,7 +3,7 @@
 // direction and mu N cos(pi / n) halfway between two. With torsion (T = 3) it is a double pyramid:
 // the polygon and two further vertices, one on either side along axes.col(2).
 //
-// A regular polygon, and such a pyramid, are symmetric about the planes through neighbouring
+// A regular polygon, and such a pyramid, are symmetric about the planes between neighbouring
 // directions. So the point nearest to a vector in the sector between them lies in that sector too,
 // on the one facet that spans the sector's T vertices.
 #pragma once
@@ -56,7 +56,7 @@ struct Polygon {
     struct Sector {
         std::array<int, T> index;  ///< indices of its directions
         Square vertices;           ///< the directions, one per column
-        Square inverse;  ///< of vertices: multiplied by a vector, the vector's shares of them
+        Square inverse;  ///< of vertices: its product with a vector gives the vector's coefficients
     };
     Sector sector(const Tangent& x) const noexcept {
         const double pitch = 2 * std::numbers::pi / directions;
@@ -83,7 +83,7 @@ struct Polygon {
     struct Projection {
         Tangent point;
         bool inside = false;
-        Square along;        ///< projector on the facet or edge that was hit; zero at a vertex
+        Square along;        ///< projector on the nearest facet or edge; zero at a vertex
         Tangent per_radius;  ///< d point / d radius
     };
     /// The nearest point of the polygon with vertices at `radius`.

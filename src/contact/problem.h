@@ -1,5 +1,5 @@
-// The contact problem of one step: which impulses keep bodies from passing through each other, obey
-// Coulomb's law, and hold joints together. README.md has the equations.
+// The contact problem of one step: to find impulses that keep bodies from passing through each
+// other, obey Coulomb's law, and hold joints together. README.md has the equations.
 #pragma once
 
 #include <Eigen/Dense>
@@ -18,10 +18,10 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 struct ProblemBody {
-    /// Of linear velocity, then angular velocity, at the centre of mass in W: symmetric, and
+    /// Inverse mass for linear, then angular velocity at the centre of mass in W: symmetric, and
     /// singular where a joint holds the body (hold()) [1/kg], [1/(kg*m)], [1/(kg*m^2)].
     Mat6 inverse_mass = Mat6::Zero();
-    Vec3 v_W = Vec3::Zero();  ///< of the centre of mass, with all loads but contact [m/s]
+    Vec3 v_W = Vec3::Zero();  ///< of the centre of mass, with all loads except contact [m/s]
     Vec3 w_W = Vec3::Zero();  ///< [rad/s]
 };
 
@@ -42,9 +42,9 @@ struct ProblemContact {
     Mat3 R_WC = Mat3::Identity();  ///< columns: unit normal from a to b, two tangents
     double bias = 0;               ///< added to the normal velocity: gap over time step [m/s]
     Eigen::Vector2d slip = Eigen::Vector2d::Zero();  ///< added to the tangential velocities [m/s]
-    double compliance = 0;      ///< of a soft contact, along the normal [m/s per N*s]
+    double compliance = 0;      ///< for a soft contact, along the normal [m/s per N*s]
     double friction = 0;        ///< coefficient mu
-    double torsion_radius = 0;  ///< allows a moment about the normal of up to mu r N; 0: none [m]
+    double torsion_radius = 0;  ///< limits the moment about the normal to mu r N; 0: no moment [m]
 };
 
 /// Impulse of a on b in the contact's frame: normal, two tangents [N*s], moment about the normal
@@ -65,9 +65,9 @@ struct ProblemJoint {
 
     int a = kFixed;
     int b = kFixed;
-    Rows J_a = Rows::Zero();  ///< of the linear, then the angular velocity; signs are in it
+    Rows J_a = Rows::Zero();  ///< for linear, then angular velocity, including signs
     Rows J_b = Rows::Zero();
-    Vec3 bias = Vec3::Zero();        ///< [m/s] or [rad/s], as u
+    Vec3 bias = Vec3::Zero();        ///< [m/s] or [rad/s], like u
     Vec3 compliance = Vec3::Zero();  ///< [m/s per N*s] or [rad/s per N*m*s]
     Vec3 low = Vec3::Constant(-std::numeric_limits<double>::infinity());  ///< [N*s] or [N*m*s]
     Vec3 high = Vec3::Constant(std::numeric_limits<double>::infinity());
@@ -75,7 +75,7 @@ struct ProblemJoint {
 
 /// Bodies, contacts and joints of one step. Find impulses r so that for each contact, with u the
 /// velocity of b relative to a plus slip and, along the normal, bias and compliance r_N, at the end
-/// of the step: r_N >= 0, u_N >= 0, r_N u_N = 0, |r_T| <= mu r_N, and r_T opposite to u_T where it
+/// of the step: r_N >= 0, u_N >= 0, r_N u_N = 0, |r_T| <= mu r_N, and r_T opposite to u_T if it
 /// slides; and so that the rows of each joint hold.
 struct ContactProblem {
     std::vector<ProblemBody> bodies;
@@ -107,7 +107,7 @@ struct DelassusProblem {
 /// The problem without bodies; torsion and joints are left out.
 DelassusProblem delassus(const ContactProblem& problem);
 
-/// |F|^2 of the error with which one contact satisfies Coulomb's law, zero if exactly: the natural
+/// |F|^2 of the error of one contact in Coulomb's law, zero if exact: the natural
 /// map F = r - P_K(r - (u + mu |u_T| n)), with the projection on the cone K of any dimension (De
 /// Saxce and Feng 1998; Acary, Bremond and Huber 2018).
 template <int D>
@@ -134,9 +134,9 @@ double natural_map_squared(const Eigen::Matrix<double, D, 1>& r,
     return sum;
 }
 
-/// Norm of the natural map over 1 + |q|, in the units of the problem as given, which has no joints.
+/// Norm of the natural map over 1 + |q|, in the units of the given problem, which has no joints.
 double natural_map_residual(const ContactProblem& problem, std::span<const Impulse> r);
-/// As above, without allocating: `scratch` has as many elements as the problem has bodies.
+/// The same, without allocating: `scratch` has as many elements as the problem has bodies.
 double natural_map_residual(const ContactProblem& problem, std::span<const Impulse> r,
                             std::span<Vec6> scratch) noexcept;
 double natural_map_residual(const DelassusProblem& problem, const Eigen::VectorXd& r);

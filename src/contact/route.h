@@ -6,10 +6,10 @@
 
 namespace dihaptic::contact {
 
-/// It is recorded with every tick, so append new values at the end.
+/// Recorded with every tick, so append new values at the end.
 enum class Route {
-    none,            ///< nothing to solve, the problem was refused, or an older recording
-    start,           ///< the start was already an answer
+    none,            ///< no problem, a refused problem, or an older recording
+    start,           ///< the start already solved the problem
     newton,          ///< Newton's method on Coulomb's cone
     own_newton,      ///< stewart_trinkle: Newton's method on its friction polygon
     lemke,           ///< stewart_trinkle: Lemke's method on its friction polygon

@@ -1,4 +1,4 @@
-// Computes how a contact's relative velocity depends on the bodies, for all solvers.
+// Computes a contact's relative velocity from the bodies' velocities, for all solvers.
 #pragma once
 
 #include "contact/problem.h"
@@ -9,9 +9,9 @@ template <int D>
 using Row = Eigen::Matrix<double, D, 6>;
 
 /// J with u = J (v, w) for the velocity of a body's centre of mass and its angular velocity; the
-/// caller applies the sign that differs between a and b. D = 4 has the spin about the normal times
-/// the torsion radius as fourth row, so that a soft finger's elliptic limit surface is a Coulomb
-/// cone of one more dimension.
+/// caller applies the sign, which differs between a and b. For D = 4 the spin about the normal
+/// times the torsion radius is the fourth row, so that a soft finger's elliptic limit surface is a
+/// Coulomb cone with one more dimension.
 template <int D>
 Row<D> contact_row(const ProblemContact& contact, const Vec3& arm) noexcept {
     Row<D> J;

@@ -16,14 +16,14 @@ namespace {
 constexpr int kMostStaggeredIterations = 200;
 constexpr size_t kFewPairs = 10;
 constexpr int kLastSweeps = 2000;
-constexpr int kConeSweeps = 200;  // that try to bring an answer back into the cone
+constexpr int kConeSweeps = 200;  // to bring an answer back into the cone
 /// Bounds as a fallback: pairs of projections times contacts squared, and sweeps times contacts.
 constexpr size_t kMostStaggeredWork = 20'000;
 constexpr size_t kMostSweepWork = 60'000;
 
 template <class System>
 struct SolverMemory {
-    StaggeredMemory<System> staggered;  // its Newton part is used by all methods
+    StaggeredMemory<System> staggered;  // all methods use its Newton part
     StewartTrinkleMemory<System> stewart_trinkle;
     std::vector<typename System::Vec> r;
 
@@ -34,7 +34,7 @@ struct SolverMemory {
     }
 };
 
-/// One solve: by the solver asked for, then by others until one answers. Leaves the answer in
+/// One solve: by the requested solver, then by others until one succeeds. Leaves the answer in
 /// memory.r.
 template <class System>
 class Solve {
@@ -67,7 +67,7 @@ class Solve {
     void answer(Solver solver, SolveSettings settings, SolveDetail* detail) {
         project();
         const bool sweeps = solver == Solver::sequential_impulse;
-        if (sweeps) settings.work = kUnbounded;  // it has bounds of its own
+        if (sweeps) settings.work = kUnbounded;  // it has its own bounds
         const bool bounded = settings.work < kUnbounded;
         out_of_work_ = !sweeps && !system_.work().affords(visits(kFewestSteps * kVisitsPerStep));
         const bool exact =
@@ -83,7 +83,7 @@ class Solve {
         stats_.missed = !own && !(residual.judged() <= kTolerance);
     }
 
-    /// Asks one after another; what the tick's work does not suffice for is ended by sweeps.
+    /// Tries one method after another; if the tick's work runs out, sweeps end the solve.
     void hand_on(std::span<const Route> routes, bool exact, const SolveSettings& settings,
                  SolveDetail* detail) {
         bool first = true;
@@ -100,7 +100,8 @@ class Solve {
         ask(Route::sequential_impulse, false, settings, detail);
     }
 
-    /// Whether the tick's work allows another pair of steps, of which all but sweeps are made.
+    /// Whether the tick's work allows another pair of steps, of which all methods but sweeps
+    /// consist.
     bool may_step() const { return system_.work().affords(2 * system_.step_visits()); }
 
     int64_t visits(int64_t of_each) const { return of_each * static_cast<int64_t>(r_.size()); }
@@ -146,7 +147,7 @@ class Solve {
         return answer;
     }
 
-    /// Pairs are bounded by contacts squared where another solver was asked, and few where work is
+    /// Pairs are bounded by contacts squared if another solver was requested, and few if work is
     /// bounded.
     Outcome by_staggered_projections(bool asked, bool bounded) {
         const size_t affordable = kMostStaggeredWork / (contacts_ * contacts_);
@@ -176,8 +177,8 @@ class Solve {
                       std::min(most_work, kMostNewtonWork));
     }
 
-    /// Where no start leads to an answer on the cone, a start near one is found on a coarse polygon
-    /// that turns with sliding.
+    /// If no start leads to an answer on the cone, a coarse polygon that turns with sliding
+    /// gives a start near one.
     Outcome by_coarse_polygon() {
         constexpr PolygonSettings kCoarse{4, DirectionFrame::sliding};
         StewartTrinkle<System> method(system_, kCoarse, kTolerance, memory_.stewart_trinkle);
@@ -197,8 +198,8 @@ class Solve {
 
     /// Projects the impulses into the cone, so that a remaining error never pulls. Some problems
     /// are so delicate that this small change is too much. Sweeps lead answers of staggered
-    /// projections into the cone then, as they take the velocities along; newton's stay as they
-    /// are, since they are more exact by orders than a few sweeps would leave them.
+    /// projections into the cone then, as these also update the velocities; newton's remain as they
+    /// are, since they are orders of magnitude more exact than a few sweeps would leave them.
     Residual end_inside_cone() {
         std::copy(r_.begin(), r_.end(), newton_memory_.best.begin());
         project();
@@ -238,8 +239,8 @@ class Solve {
     size_t contacts_;  // at least 1
     SolveStats& stats_;
     Outcome outcome_;
-    int counted_ = 0;           // of the work allowed
-    bool out_of_work_ = false;  // of the tick
+    int counted_ = 0;           // share of the allowed work
+    bool out_of_work_ = false;  // whether the tick's work is used up
 };
 
 template <int D>

@@ -1,9 +1,9 @@
 // The interface to the contact solvers: takes a problem and a start, and returns impulses and
 // statistics.
 //
-// A solver that misses its tolerance hands over to others (hand_over.h). The statistics report if
-// another solver answered, and if even the last one missed. Each has a bound on counted work and
-// none reads a clock, so that replay repeats every solve bit for bit.
+// A solver that misses its tolerance hands over to others (hand_over.h). The statistics tell
+// whether another solver answered, and whether even the last one missed. Each solver has a bound on
+// counted work and none reads a clock, so that a replay repeats every solve bit for bit.
 #pragma once
 
 #include <algorithm>
@@ -22,28 +22,30 @@ namespace dihaptic::contact {
 /// Stewart-Trinkle, of its own complementarity problem.
 constexpr double kTolerance = 1e-8;
 
-/// Number of sweeps that every solve makes, however little work it may do.
+/// Number of sweeps in every solve, however small its allowance of work.
 constexpr int kFewestSweeps = 4;
 /// Visits per contact: of a sweep over normals and one over friction, and of a step of Newton's
 /// method.
 constexpr int kVisitsPerSweep = 2;
 constexpr int kVisitsPerStep = 12;
-/// Newton's method is not begun if its work would not suffice for this many steps.
+/// Newton's method is not started if the work does not suffice for this many steps.
 constexpr int kFewestSteps = 6;
 
 /// The outcome of a solve.
 struct SolveStats {
     int iterations = 0;
-    double residual = 0;    ///< natural map of Coulomb's law over 1 + |q|, of the problem as given
-    bool fallback = false;  ///< a solver other than the one asked for answered
-    bool missed = false;    ///< the impulses in use, the best found, miss the tolerance
-    bool refused = false;   ///< the problem held values that are not numbers: there are no impulses
-    bool ended = false;     ///< counted work ended it by sweeps, or ended its sweeps
+    double residual = 0;    ///< natural map of Coulomb's law over 1 + |q|, for the given problem
+    bool fallback = false;  ///< whether a solver other than the requested one answered
+    bool missed = false;    ///< whether the impulses used, the best found, miss the tolerance
+    bool refused = false;   ///< whether the problem contained values that are not numbers; then
+                            ///< there are no impulses
+    bool ended =
+        false;  ///< whether the limit of work made sweeps end the solve, or ended its sweeps
     Route route = Route::none;
-    int64_t work = 0;  ///< that it took [visits]
+    int64_t work = 0;  ///< work done [visits]
 
     /// Combines several problems of one step: iterations and work are summed, and the worst of each
-    /// other value is kept. The route is that of a problem that another solver answered, if any;
+    /// other value is kept. The route is that of a problem answered by another solver, if any;
     /// among equals, the last in the enumeration.
     void join(const SolveStats& other) noexcept {
         if (std::pair(other.fallback, other.route) > std::pair(fallback, route))
@@ -60,7 +62,7 @@ struct SolveStats {
 
 /// Further results of one solve.
 struct SolveDetail {
-    double lcp_residual = 0;  ///< stewart_trinkle: of its own complementarity problem, as given
+    double lcp_residual = 0;  ///< stewart_trinkle: for its own complementarity problem, as given
 };
 
 class ContactSolvers {
@@ -76,8 +78,8 @@ class ContactSolvers {
     void reserve(int bodies, int contacts, bool torsion, int joints = 0);
     static constexpr int kLemkeContacts = 60;
 
-    /// Solves from the start in r, and in `joints` by rows of joints, and leaves the impulses
-    /// there. A problem that is larger than reserved allocates memory, and is left to sweeps. A
+    /// Solves from the start in r and, for rows of joints, in `joints`, and leaves the impulses
+    /// there. A problem larger than reserved allocates memory and is solved by sweeps. A
     /// problem with values that are not numbers is refused before any solver starts
     /// (SolveStats::refused).
     void solve(Solver solver, const SolveSettings& settings, const ContactProblem& problem,
@@ -97,7 +99,7 @@ class ContactSolvers {
     std::unique_ptr<Memory> memory_;
 };
 
-/// Solves a problem that is given without bodies. Allocates.
+/// Solves a problem given without bodies. Allocates.
 Eigen::VectorXd solve(Solver solver, const SolveSettings& settings, const DelassusProblem& problem,
                       SolveStats& stats, SolveDetail* detail = nullptr);
 

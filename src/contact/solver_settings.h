@@ -13,8 +13,8 @@ constexpr auto enum_names(Solver) {
 }
 constexpr int kSolvers = 4;
 
-/// Placement of a friction polygon's corners: in directions fixed to the contact, or turned with
-/// sliding.
+/// Placement of a friction polygon's corners: in directions fixed in the contact frame, or turned
+/// with sliding.
 enum class DirectionFrame { fixed, sliding };
 constexpr auto enum_names(DirectionFrame) {
     return std::array{"fixed", "sliding"};
@@ -27,13 +27,13 @@ struct PolygonSettings {
 };
 constexpr int kMostDirections = 32;
 
-/// When sequential_impulse ends.
+/// Conditions under which sequential_impulse ends.
 struct SweepSettings {
     int most = 200;
-    double tolerance = 1e-7;  ///< a sweep changes no contact's velocity by more [m/s]
+    double tolerance = 1e-7;  ///< largest change of a contact's velocity in the last sweep [m/s]
 };
 
-/// Work is counted in visits: a visit is what a sweep does to one contact.
+/// Work is counted in visits: a visit is a sweep's work on one contact.
 constexpr int kUnbounded = std::numeric_limits<int>::max();
 
 class Work;
@@ -41,8 +41,8 @@ class Work;
 struct SolveSettings {
     PolygonSettings polygon;
     SweepSettings sweeps;
-    int work = kUnbounded;  ///< visits after which sweeps end the solve (at least kFewestSweeps of
-                            ///< them); not for sequential_impulse
+    int work = kUnbounded;  ///< visits after which sweeps end the solve (at least kFewestSweeps
+                            ///< sweeps); not for sequential_impulse
     Work* tick = nullptr;   ///< for all solves of a tick together; every solver obeys it
 };
 

@@ -1,8 +1,8 @@
-// Work counts what the solves of a tick do, and says how much more they may do. No clock is read,
+// Work counts the work of a tick's solves and gives their remaining allowance. No clock is read,
 // so a replay repeats it to the bit.
 //
-// The unit is a visit: what a projected Gauss-Seidel sweep does to one contact. Everything else
-// counts as the number of visits that would take as long (README.md has the table, and the time of
+// The unit is a visit: the work of a projected Gauss-Seidel sweep on one contact. Everything else
+// counts as the number of visits of the same duration (README.md has the table, and the time of
 // a visit).
 #pragma once
 
@@ -16,7 +16,7 @@ namespace dihaptic::contact {
 struct Visits {
     static constexpr int64_t assembly = 6;
     static constexpr int64_t velocity = 1;
-    static constexpr int64_t matrix = 4;        ///< of Newton's method
+    static constexpr int64_t matrix = 4;        ///< for Newton's method
     static constexpr int64_t acceleration = 4;  ///< a step of Anderson's method
     /// Cost of a product of two 6 x 6 blocks; a factorisation is counted in such products.
     static constexpr int64_t product = 2;
@@ -28,11 +28,11 @@ class Work {
   public:
     static constexpr int64_t kEndless = std::numeric_limits<int64_t>::max() / 4;
 
-    /// This share of the work is reserved for the sweeps that finish what exact methods left
-    /// undone.
+    /// This fraction of the work is reserved for sweeps, which finish the answers of exact
+    /// methods.
     explicit Work(int64_t most = kEndless) noexcept : most_(most) { share(1); }
 
-    /// Allows the following solves one of `parts` equal parts of the work that is left.
+    /// Allows the following solves one of `parts` equal parts of the remaining work.
     void share(int64_t parts) noexcept {
         const int64_t part = std::max<int64_t>(0, most_ - spent_) / std::max<int64_t>(1, parts);
         exact_ = limit_ = spent_ + part - part / kForSweeps;
@@ -46,13 +46,13 @@ class Work {
     void spend(int64_t visits) noexcept { spent_ += visits; }
     int64_t spent() const noexcept { return spent_; }
     bool affords(int64_t visits) const noexcept { return spent_ + visits <= limit_; }
-    /// How often the given number of visits may still be made.
+    /// How many times the given number of visits is still allowed.
     int64_t times(int64_t visits) const noexcept {
         return std::max<int64_t>(0, limit_ - spent_) / std::max<int64_t>(1, visits);
     }
 
   private:
-    static constexpr int64_t kForSweeps = 5;  // one part in so many
+    static constexpr int64_t kForSweeps = 5;  // one part in this number
 
     int64_t most_;
     int64_t spent_ = 0;

@@ -1,5 +1,5 @@
-// Describes what a device is and can do, together with the hand that holds it. A backend states it,
-// a session records it, and the session's replay uses it again; all three follow from visit().
+// Describes a device's identity and capabilities, and the hand that holds it. A backend reports
+// them, a session records them, and the replay uses them again; all three follow from visit().
 #pragma once
 
 #include <limits>
@@ -15,27 +15,27 @@ namespace dihaptic::frame {
 struct DeviceInfo {
     std::string model;
     std::string serial;  ///< "" if the device does not report one
-    /// The device does not move a person's hand, so a late force harms nobody.
+    /// Whether no person's hand holds the device, so a late force harms nobody.
     bool simulated = false;
-    /// Peak force; infinite if it is not known, as for a real device that has not been opened yet
+    /// Peak force; infinite if unknown, as for a real device that has not been opened yet
     /// [N].
     double peak_force = std::numeric_limits<double>::infinity();
-    /// Force that the device can hold for long [N].
+    /// Force that the device can sustain [N].
     double continuous_force = std::numeric_limits<double>::infinity();
     std::optional<Vec3> workspace;  ///< edges of the box around D's origin [m]
     bool measures_orientation = false;
     double peak_torque = 0;  ///< 0: the device renders no torque [N*m]
-    /// Torque that the device can hold for long [N*m].
+    /// Torque that the device can sustain [N*m].
     double continuous_torque = std::numeric_limits<double>::infinity();
-    /// Factor by which readings exceed the hand's movement, and by which the forces given here
+    /// Factor by which readings exceed the hand's movement, and by which the forces listed here
     /// exceed those in the hand.
     double scale = 1;
-    double delay = 0;  ///< from write to force [s]
-    /// Largest stiffness [N/m] and damping [N*s/m] that the device renders stably, if its maker
-    /// states them: settings given as shares of a maximum refer to these.
+    double delay = 0;  ///< from write() to force [s]
+    /// Largest stiffness [N/m] and damping [N*s/m] that the device renders stably, if its
+    /// manufacturer states them: settings given as fractions of a maximum refer to these.
     std::optional<double> max_stiffness;
     std::optional<double> max_damping;
-    /// Links of a Premium that reports its joint angles: p_DH is where the angles put the endpoint.
+    /// Links of a Premium that reports joint angles, from which p_DH follows.
     std::optional<model::PhantomLinks> arm;
 
     // of handle and hand together; 0: not known

@@ -1,5 +1,5 @@
-// Computes where the things in a Frame are shown, and how they look. Drawing and simulated people
-// use only these functions.
+// Computes the displayed positions and looks of the objects in a Frame. Drawing and simulated
+// people use only these functions.
 #pragma once
 
 #include "frame/frame.h"
@@ -13,7 +13,7 @@ inline const VisualMap* map_of(const Frame& frame, Moves what) noexcept {
     return (map.moves & what) != 0 ? &map : nullptr;
 }
 
-/// The item of a list of the TaskFrame that refers to this body or proxy, or null.
+/// The item in a TaskFrame's list that refers to this body or proxy, or null.
 template <class Item>
 const Item* item_of(const std::vector<Item>& list, size_t body) noexcept {
     for (const Item& item : list) {
@@ -27,7 +27,7 @@ inline size_t proxy_of(const Frame& frame, size_t finger) noexcept {
     return frame.bodies.size() + finger;
 }
 
-/// Pose of a body of the scene by the visual map alone, without delay or noise.
+/// Pose of a scene's body under the visual map alone, without delay or noise.
 inline Pose mapped_body(const Frame& frame, size_t body) noexcept {
     const Pose& X_WB = frame.bodies[body].X_WB;
     const VisualMap* map = map_of(frame, kMovesObject);
@@ -35,20 +35,20 @@ inline Pose mapped_body(const Frame& frame, size_t body) noexcept {
                                                                        : X_WB;
 }
 
-/// Pose of a finger's proxy by the visual map alone.
+/// Pose of a finger's proxy under the visual map alone.
 inline Pose mapped_proxy(const Frame& frame, size_t finger) noexcept {
     const Pose X_WP{frame.fingers[finger].R_WP, frame.fingers[finger].p_WP};
     const VisualMap* map = map_of(frame, kMovesProxies);
     return map != nullptr ? map->displayed(X_WP) : X_WP;
 }
 
-/// Pose of a body of the scene as it is shown.
+/// Displayed pose of a scene's body.
 inline Pose displayed_body(const Frame& frame, size_t body) noexcept {
     const DisplacedFrame* displaced = item_of(frame.task.displaced, body);
     return displaced != nullptr ? displaced->X_WB : mapped_body(frame, body);
 }
 
-/// Displayed size of a body over its true one.
+/// Ratio of a body's displayed to its true size.
 inline double displayed_size(const Frame& frame, size_t body) noexcept {
     const VisualMap* map = map_of(frame, kMovesObject);
     const LookFrame* look = item_of(frame.task.looks, body);
@@ -57,19 +57,19 @@ inline double displayed_size(const Frame& frame, size_t body) noexcept {
     return look != nullptr ? look->scale * of_map : of_map;
 }
 
-/// Whether a body of the scene, or a proxy (proxy_of()), is shown at all.
+/// Whether a body of the scene, or a proxy (proxy_of()), is shown.
 inline bool is_displayed(const Frame& frame, size_t body) noexcept {
     const LookFrame* look = item_of(frame.task.looks, body);
     return look == nullptr || look->hidden == 0;
 }
 
-/// Pose of a finger's proxy as it is shown.
+/// Displayed pose of a finger's proxy.
 inline Pose displayed_proxy(const Frame& frame, size_t finger) noexcept {
     const DisplacedFrame* displaced = item_of(frame.task.displaced, proxy_of(frame, finger));
     return displaced != nullptr ? displaced->X_WB : mapped_proxy(frame, finger);
 }
 
-/// Pose of a finger's handle as it is shown, with the proxy's orientation. If the proxy is
+/// Displayed pose of a finger's handle, with the proxy's orientation. If the proxy is
 /// displaced, the handle is shown displaced with it.
 inline Pose displayed_handle(const Frame& frame, size_t finger) noexcept {
     const DisplacedFrame* displaced = item_of(frame.task.displaced, proxy_of(frame, finger));
@@ -79,7 +79,7 @@ inline Pose displayed_handle(const Frame& frame, size_t finger) noexcept {
     return map != nullptr ? map->displayed(X_WH) : X_WH;
 }
 
-/// Where the frame shows the middle of some fingers' handles, which is at p_W now.
+/// Displayed position of the midpoint between some fingers' handles, which is at p_W.
 inline Vec3 displayed_hand(const Frame& frame, const scene::FingerSet& fingers,
                            const Vec3& p_W) noexcept {
     if (frame.task.displaced.empty()) {
@@ -93,7 +93,7 @@ inline Vec3 displayed_hand(const Frame& frame, const scene::FingerSet& fingers,
     return sum / static_cast<double>(fingers.count());
 }
 
-/// Centre of the frame's i-th target as it is shown.
+/// Displayed centre of the frame's i-th target.
 inline Vec3 displayed_target(const Frame& frame, size_t i) noexcept {
     const Vec3& p_WT = frame.task.targets[i].p_WT;
     const VisualMap* map = map_of(frame, kMovesTargets);

@@ -1,4 +1,4 @@
-// The settings of dynamics that an experiment may choose.
+// The dynamics settings that an experiment can choose.
 #pragma once
 
 #include <array>
@@ -10,28 +10,28 @@ namespace dihaptic::frame {
 
 struct DynamicsSettings {
     contact::Solver solver = contact::Solver::newton;
-    int every = 1;            ///< number of the servo's ticks per step of the world
+    int every = 1;            ///< number of servo ticks per step of the world
     int iterations = 200;     ///< limit of iterations in a step, for sequential_impulse
     double tolerance = 1e-7;  ///< sequential_impulse ends when an iteration changes no contact's
                               ///< velocity by more [m/s]
-    int friction_directions = 8;  ///< of the friction polygon of stewart_trinkle
+    int friction_directions = 8;  ///< number for stewart_trinkle's friction polygon
     contact::DirectionFrame friction_frame =
-        contact::DirectionFrame::sliding;  ///< placement: along sliding, or fixed
+        contact::DirectionFrame::sliding;  ///< orientation: along sliding, or fixed
     bool warm_start = true;                ///< start from the contact forces of the last step
     double penetration_recovery =
-        0.2;               ///< share of a penetration that one step removes (Bullet's erp2)
-    bool sleeping = true;  ///< leave objects that are at rest and untouched out of the step
-    int max_contacts = 0;  ///< contact points to reserve memory for; 0: by the number of bodies
+        0.2;               ///< fraction of a penetration that one step removes (Bullet's erp2)
+    bool sleeping = true;  ///< leave untouched objects at rest out of the step
+    int max_contacts =
+        0;  ///< number of contact points with reserved memory; 0: by the number of bodies
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("solver", solver, says("Contact solver."));
         v("every", every,
-          Field::number().at_least(1).at_most(100).says(
-              "Number of ticks for each step of the world."));
+          Field::number().at_least(1).at_most(100).says("Number of ticks per step of the world."));
         v("iterations", iterations,
           Field::number().at_least(1).at_most(100000).says(
-              "Largest number of iterations of a step, for sequential_impulse."));
+              "Largest number of iterations in a step, for sequential_impulse."));
         v("tolerance", tolerance,
           Field::of(Quantity::speed)
               .within(0, 1)
@@ -42,17 +42,18 @@ struct DynamicsSettings {
               .at_most(contact::kMostDirections)
               .says("Directions of the friction polygon of stewart_trinkle."));
         v("friction_frame", friction_frame,
-          says("Whether the first of them lies along each contact's friction or along its frame."));
+          says("Whether the first direction lies along each contact's friction or along its "
+               "frame."));
         v("warm_start", warm_start,
-          says("Whether a step starts from the last one's contact impulses."));
+          says("Whether a step starts from the last step's contact impulses."));
         v("penetration_recovery", penetration_recovery,
           Field::number().at_least(0).at_most(1).says(
-              "Share of a penetration that one step removes."));
+              "Fraction of a penetration that one step removes."));
         v("sleeping", sleeping,
-          says("Whether objects that are at rest and untouched are left out of the step."));
+          says("Whether untouched objects at rest are left out of the step."));
         v("max_contacts", max_contacts,
-          Field::number().within(0, 100000).says("Number of contact points for which memory is "
-                                                 "reserved; 0 is by the number of bodies."));
+          Field::number().within(0, 100000).says("Number of contact points with reserved memory; "
+                                                 "0: by the number of bodies."));
     }
 };
 

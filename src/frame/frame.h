@@ -1,5 +1,5 @@
-// The Frame is the record of a tick. Each of its quantities is described once, in visit(): log, NWB
-// file, docs/quantities.md, summaries and plots all follow from that.
+// The Frame is the record of a tick. Each quantity is described once, in visit(), from which log,
+// NWB file, docs/quantities.md, summaries and plots all follow.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace dihaptic::frame {
 
-using enum Status;  // as kStopped: the bits of a Frame
+using enum Status;  // the bits of a Frame, e.g. kStopped
 
 struct FingerFrame {
     Vec3 p_DH = Vec3::Zero();
@@ -36,21 +36,25 @@ struct FingerFrame {
     static void visit(Self& f, Visitor& v) {
         v(f.p_DH, {"device_position", "m", "D", "Position of the handle, from the device."});
         v(f.v_DH, {"device_velocity", "m/s", "D", "Velocity of the handle, from the device."});
-        v(f.buttons, {"buttons", "1", "",
-                      "Pressed buttons, a sum: the first counts 1, the second 2, the third 4."});
+        v(f.buttons,
+          {"buttons", "1", "",
+           "Sum over the pressed buttons: 1 for the first, 2 for the second, 4 for the third."});
         v(f.status, {"status", "1", "", "Sum of the status bits of this finger."});
         v(f.p_WH, {"handle_position", "m", "W", "Position of the handle."});
         v(f.v_WH, {"handle_velocity", "m/s", "W",
-                   "Velocity of the handle, including that of the workspaces' turn."});
+                   "Velocity of the handle, including the rotation of the workspaces."});
         v(f.p_WP, {"proxy_position", "m", "W",
-                   "Position of the proxy, which stands for the finger in the world."});
+                   "Position of the proxy, which represents the finger in the world."});
         v(f.v_WP, {"proxy_velocity", "m/s", "W", "Velocity of the proxy."});
         v(f.R_WP, {"proxy_orientation", "1", "W",
                    "Unit quaternion that turns the proxy's axes into the world's."});
-        v(f.f_asked_W, {"force_asked", "N", "W", "Force on the handle, as the coupling asks."});
+        v(f.f_asked_W,
+          {"force_asked", "N", "W", "Force on the handle, as requested by the coupling."});
         v(f.f_sent_W, {"force_sent", "N", "W", "Force on the handle, as sent to the device."});
-        v(f.f_contact_W, {"contact_force", "N", "W", "Force on the proxy, from what it touches."});
-        v(f.normal_force, {"normal_force", "N", "", "Normal part of contact_force, at least 0."});
+        v(f.f_contact_W,
+          {"contact_force", "N", "W", "Force on the proxy from the bodies that it touches."});
+        v(f.normal_force,
+          {"normal_force", "N", "", "Normal component of contact_force, at least 0."});
     }
 };
 
@@ -72,9 +76,10 @@ struct TurnFrame {
         v(f.R_WH,
           {"handle_orientation", "1", "W", "Rotation of the handle from its neutral orientation."});
         v(f.w_WH, {"handle_angular_velocity", "rad/s", "W",
-                   "Angular velocity of the handle, including that of the workspaces' turn."});
+                   "Angular velocity of the handle, including the rotation of the workspaces."});
         v(f.w_WP, {"proxy_angular_velocity", "rad/s", "W", "Angular velocity of the proxy."});
-        v(f.t_asked_W, {"torque_asked", "N*m", "W", "Torque on the handle, as the coupling asks."});
+        v(f.t_asked_W,
+          {"torque_asked", "N*m", "W", "Torque on the handle, as requested by the coupling."});
         v(f.t_sent_W, {"torque_sent", "N*m", "W", "Torque on the handle, as sent to the device."});
     }
 };
@@ -92,7 +97,7 @@ struct BodyFrame {
                      "Unit quaternion that turns the body's axes into the world's."});
         v(b.v_WB, {"velocity", "m/s", "W", "Velocity of the body's origin."});
         v(b.w_WB, {"angular_velocity", "rad/s", "W", "Angular velocity of the body."});
-        v(b.awake, {"awake", "1", "", "0 while the body sleeps or if it is fixed, otherwise 1."});
+        v(b.awake, {"awake", "1", "", "0 if the body sleeps or is fixed, otherwise 1."});
     }
 };
 
@@ -107,17 +112,17 @@ struct JointFrame {
     template <class Self, class Visitor>
     static void visit(Self& j, Visitor& v) {
         v(j.angle, {"angle", "rad", "",
-                    "Angle of a hinge's second body against the first, 0 at the start; NaN of "
+                    "Angle of a hinge's second body relative to the first, 0 at the start; NaN for "
                     "other joints."});
-        v(j.angular_velocity, {"angular_velocity", "rad/s", "", "Rate of that angle."});
+        v(j.angular_velocity, {"angular_velocity", "rad/s", "", "Rate of change of the angle."});
         v(j.displacement, {"displacement", "m", "",
-                           "Displacement of a slider's second body against the first, 0 at the "
-                           "start, or the distance of a distance's points; NaN of other joints."});
-        v(j.velocity, {"velocity", "m/s", "", "Rate of that displacement."});
+                           "Displacement of a slider's second body relative to the first, 0 at the "
+                           "start, or the distance in a distance joint; NaN for other joints."});
+        v(j.velocity, {"velocity", "m/s", "", "Rate of change of the displacement."});
         v(j.f_B_W, {"force", "N", "W",
-                    "Force on the second body at the joint, with those of spring, friction and "
+                    "Force on the second body at the joint, including spring, friction and "
                     "stops."});
-        v(j.t_B_W, {"torque", "N*m", "W", "Torque on it, likewise."});
+        v(j.t_B_W, {"torque", "N*m", "W", "Torque on the second body at the joint, likewise."});
     }
 };
 
@@ -146,7 +151,7 @@ struct ContactFrame {
     }
 };
 
-/// A Frame has the Knobs that were in force.
+/// A Frame contains the Knobs in effect.
 struct Frame : Knobs {
     int64_t sequence = 0;
     Time time{0};
@@ -155,14 +160,14 @@ struct Frame : Knobs {
     uint32_t status = 0;
     double grip_force = kUnmeasured;
     double load_force = 0;
-    // of the step's islands: bodies that touch, directly or through others, are solved apart from
-    // the rest
+    // summary over the step's islands: bodies that touch, directly or through others, are solved
+    // separately from the rest
     int32_t solver_iterations = 0;
     int32_t solver_fallback = 0;
     int32_t solver_route = 0;  ///< contact::Route
     double solver_residual = 0;
     double solver_held_residual = kUnmeasured;
-    // the balance of the step (dynamics/balance.h)
+    // energy and momentum balance of the step (dynamics/balance.h)
     double kinetic_energy = kUnmeasured;
     double potential_energy = kUnmeasured;
     double work = kUnmeasured;
@@ -181,7 +186,7 @@ struct Frame : Knobs {
     std::vector<JointFrame> joints;
     std::vector<ContactFrame> contacts;
 
-    /// Calls v(value, Term) for values; for lists, v.each(name, list, meaning) and
+    /// Calls v(value, Term) for values, and for lists v.each(name, list, meaning) or
     /// v.changed(name, list, which, meaning).
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
@@ -190,48 +195,47 @@ struct Frame : Knobs {
         v(f.trial, {"trial", "1", "", "Number of the trial, from 1; 0: none."});
         v(f.phase, {"phase", "1", "", "Index of the trial's phase in the session's list."});
         v(f.status, {"status", "1", "", "Sum of the status bits of the tick and of its fingers."});
-        v(f.grip_force, {"grip_force", "N", "",
-                         "Pinch part of the normal forces, half their sum; NaN for one finger."});
+        v(f.grip_force,
+          {"grip_force", "N", "",
+           "Pinch component of the normal forces, half their sum; NaN for one finger."});
         v(f.load_force, {"load_force", "N", "",
                          "Tangential contact forces along gravity, summed over the fingers."});
         Knobs::visit([&](auto knob, const Knob& is) {
             v(f.*knob, {is.name, is.unit, "", is.what});
         });
-        v(f.solver_iterations,
-          {"solver_iterations", "1", "",
-           "Iterations of all solvers that worked on the step, summed over its islands."});
+        v(f.solver_iterations, {"solver_iterations", "1", "",
+                                "Iterations of all solvers in the step, summed over its islands."});
         v(f.solver_fallback,
           {"solver_fallback", "1", "",
-           "1 if another solver answered for some island than the one asked for, otherwise 0."});
-        v(f.solver_route, {"solver_route", "1", "", "Method that found the impulses in use."});
+           "1 if a solver other than the requested one answered for any island, otherwise 0."});
+        v(f.solver_route, {"solver_route", "1", "", "Method that found the impulses used."});
         v(f.solver_residual,
           {"solver_residual", "1", "",
-           "Largest error in Coulomb's law, as src/contact/README.md defines it."});
+           "Largest error in Coulomb's law, as defined in src/contact/README.md."});
         v(f.solver_held_residual,
           {"solver_held_residual", "1", "",
-           "The same of the contacts of what a finger touches, directly or through others."});
+           "The same for contacts of bodies that a finger touches, directly or through others."});
         v(f.kinetic_energy,
           {"kinetic_energy", "J", "",
-           "Of all bodies that move by themselves, half a step before their positions."});
-        v(f.potential_energy,
-          {"potential_energy", "J", "",
-           "Of their weights, zero at the world's origin, and of springs, then as well."});
-        v(f.work,
-          {"work", "J", "",
-           "Work done on them in the step by fingers, loads, motors and driven bodies, and the "
-           "energy that came with what the experiment set."});
-        v(f.dissipation,
-          {"dissipation", "J", "", "Energy that friction, dampers and impacts took in the step."});
-        v(f.energy_imbalance,
-          {"energy_imbalance", "J", "",
-           "Energy that came from nowhere in the step: the change of kinetic_energy and "
-           "potential_energy, less work, plus dissipation."});
+           "Kinetic energy of all freely moving bodies, half a step before their positions."});
+        v(f.potential_energy, {"potential_energy", "J", "",
+                               "Potential energy of their weights, zero at the world's origin, and "
+                               "of springs, at that time."});
+        v(f.work, {"work", "J", "",
+                   "Work done on these bodies in the step by fingers, loads, motors and driven "
+                   "bodies, and the "
+                   "energy of changes by the experiment."});
+        v(f.dissipation, {"dissipation", "J", "",
+                          "Energy dissipated by friction, dampers and impacts in the step."});
+        v(f.energy_imbalance, {"energy_imbalance", "J", "",
+                               "Unexplained energy in the step: the change of kinetic_energy and "
+                               "potential_energy, minus work, plus dissipation."});
         v(f.momentum_imbalance,
           {"momentum_imbalance", "N*s", "",
-           "The largest change of a body's momentum in the step that no force explains."});
+           "Largest change of a body's momentum in the step that no force explains."});
         v(f.angular_imbalance,
           {"angular_imbalance", "N*m*s", "",
-           "The largest change of a body's angular momentum in the step that no force explains."});
+           "Largest change of a body's angular momentum in the step that no force explains."});
         v(f.lateness, {"lateness", "s", "", "Lateness of the wake-up; NaN on the virtual clock."});
         v(f.tick_duration,
           {"tick_duration", "s", "", "Duration of the last tick; NaN on the virtual clock."});
@@ -240,7 +244,7 @@ struct Frame : Knobs {
         v.each("turns", f.turns, "One for each finger whose device measures orientation.");
         v.changed("bodies", f.bodies, f.changed, "One for each body of the scene, in order.");
         v.each("joints", f.joints, "One for each joint of the scene, in order.");
-        v.each("contacts", f.contacts, "One for all contact points of two bodies.");
+        v.each("contacts", f.contacts, "One for all contact points between two bodies.");
     }
 };
 

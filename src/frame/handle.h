@@ -1,11 +1,11 @@
-// The handle of a device, as it was read.
+// The state of a device's handle, as read.
 #pragma once
 
 #include "base/geometry.h"
 
 namespace dihaptic::frame {
 
-/// What a device measures at its endpoint, in world axes.
+/// A device's measurements at its endpoint, in world axes.
 struct Handle {
     Vec3 p_WH = Vec3::Zero();  ///< [m]
     Vec3 v_WH = Vec3::Zero();  ///< [m/s]
@@ -15,7 +15,7 @@ struct Handle {
     Vec3 w_WH = Vec3::Zero();
 };
 
-/// Whether a device reports the same as before.
+/// Whether a device repeats its last reading.
 inline bool same(const Handle& a, const Handle& b) noexcept {
     return a.p_WH == b.p_WH && a.v_WH == b.v_WH && a.R_WH.coeffs() == b.R_WH.coeffs() &&
            a.w_WH == b.w_WH;

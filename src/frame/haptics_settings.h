@@ -1,4 +1,4 @@
-// The settings of haptic rendering that an experiment may choose.
+// The haptic rendering settings that an experiment can choose.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace dihaptic::frame {
 
 /// Upper limits: the stiffest admittance displays render about 5e4 N/m and 1e3 N*s/m, and no hand
-/// has to bear more than a kilonewton.
+/// need bear more than a kilonewton.
 constexpr double kMostStiffness = 1e5;  // [N/m]
 constexpr double kMostDamping = 1000;   // [N*s/m]
 constexpr double kMostForce = 1000;     // [N]
@@ -22,13 +22,13 @@ constexpr auto enum_names(CouplingKind) {
     return std::array{"implicit", "dual_spring", "velocity_impulse"};
 }
 
-/// The coupling between a handle and its proxy; README.md of src/haptics has the equations.
+/// The coupling between a handle and its proxy; src/haptics/README.md has the equations.
 struct CouplingSettings {
     CouplingKind kind = CouplingKind::implicit;
     double stiffness = 1000;        ///< k [N/m]
-    std::optional<double> damping;  ///< c [N*s/m]; unset: k h / 2, h being the step of the dynamics
-    /// Stiffness and damping as shares of what the devices render calmly. They become N/m and
-    /// N*s/m, and are reset, once that is known.
+    std::optional<double> damping;  ///< c [N*s/m]; unset: k h / 2, with h the dynamics step
+    /// Stiffness and damping as fractions of the largest values that the devices render calmly.
+    /// They are converted to N/m and N*s/m, and reset, once these are known.
     std::optional<double> stiffness_share;
     std::optional<double> damping_share;
     double turn_stiffness = 1;           ///< k_r, if the device measures orientation [N*m/rad]
@@ -36,12 +36,13 @@ struct CouplingSettings {
     double onset = 0;  ///< time from first touch to full stiffness and damping; 0: at once [s]
 
     // dual spring only
-    double body_mass = 0.02;  ///< of the proxy, instead of its own: an explicit spring diverges
-                              ///< above about m / h^2 [kg]
+    double body_mass = 0.02;         ///< replaces the proxy's own mass: an explicit spring diverges
+                                     ///< above about m / h^2 [kg]
     double body_damping_along = 2;   ///< c_b,par: along the line from handle to proxy [N*s/m]
-    double body_damping_across = 2;  ///< c_b,perp: across it [N*s/m]
-    double free_stiffening = 10;     ///< k_b over k while the proxy touches nothing
-    double smoothing = 0.2;  ///< alpha: share of the new force in the force sent; 1: no smoothing
+    double body_damping_across = 2;  ///< c_b,perp: across that line [N*s/m]
+    double free_stiffening = 10;     ///< k_b / k while the proxy touches nothing
+    double smoothing =
+        0.2;  ///< alpha: fraction of the new force in the force sent; 1: no smoothing
 
     bool operator==(const CouplingSettings&) const = default;
 
@@ -55,13 +56,13 @@ struct CouplingSettings {
         v("damping", damping,
           Field::of(Quantity::damping)
               .within(0, kMostDamping)
-              .says("Damping of the coupling; left out, k h / 2, with h the step of the world."));
+              .says("Damping of the coupling; if left out, k h / 2, with h the world's step."));
         v("stiffness_share", stiffness_share,
           Field::number().positive().at_most(1).says(
-              "Stiffness as a share of what the devices render calmly, in place of it."));
+              "Stiffness as a fraction of the largest that the devices render calmly."));
         v("damping_share", damping_share,
           Field::number().within(0, 1).says(
-              "Damping as a share of what the devices render calmly, in place of it."));
+              "Damping as a fraction of the largest that the devices render calmly."));
         if constexpr (requires { v.diagnostics(); }) {
             one_of_two(v, "stiffness", Quantity::stiffness, stiffness_share);
             one_of_two(v, "damping", Quantity::damping, damping_share);
@@ -69,15 +70,15 @@ struct CouplingSettings {
         v("turn_stiffness", turn_stiffness,
           Field::of(Quantity::turn_stiffness)
               .within(1e-4, 1000)
-              .says("Stiffness k_r for turning, where the device measures orientation."));
+              .says("Rotational stiffness k_r, if the device measures orientation."));
         v("turn_damping", turn_damping,
           Field::of(Quantity::turn_damping)
               .within(0, 10)
-              .says("Damping for turning; left out, k_r h / 2."));
+              .says("Rotational damping; if left out, k_r h / 2."));
         v("onset", onset,
           Field::of(Quantity::time)
               .within(0, 1)
-              .says("Time from first touch to full stiffness; 0 is at once."));
+              .says("Time from first touch to full stiffness; 0: at once."));
         v("body_mass", body_mass,
           Field::of(Quantity::mass).within(1e-4, 10).says("Mass of the proxy in a dual spring."));
         v("body_damping_along", body_damping_along,
@@ -87,18 +88,18 @@ struct CouplingSettings {
         v("body_damping_across", body_damping_across,
           Field::of(Quantity::damping)
               .within(0, kMostDamping)
-              .says("Damping of a dual spring across that line."));
+              .says("Damping of a dual spring across the line from handle to proxy."));
         v("free_stiffening", free_stiffening,
-          Field::number().within(1, 100).says(
-              "Factor on a dual spring's stiffness to the proxy while it touches nothing."));
+          Field::number().within(1, 100).says("Factor on a dual spring's stiffness toward the "
+                                              "proxy while the proxy touches nothing."));
         v("smoothing", smoothing,
           Field::number().within(0.001, 1).says(
-              "Share of the new force in the force that a dual spring sends; 1 is no smoothing."));
+              "Fraction of the new force in the force that a dual spring sends; 1: no smoothing."));
     }
 
   private:
-    /// A value and its share are two ways to give one setting. The later file's counts, and a file
-    /// may have only one of them.
+    /// A value and its fraction are two forms of one setting. The later file overrides, and a file
+    /// may contain only one form.
     template <class Reader>
     static void one_of_two(Reader& v, const std::string& name, Quantity quantity,
                            std::optional<double>& share) {
@@ -106,15 +107,15 @@ struct CouplingSettings {
         if (v.has(name + "_share")) {
             v.diagnostics().error(
                 v.place_of(name + "_share"), name + "_share",
-                "the same " + name + " is given as " + si_key(name, quantity) + " too",
+                "the same " + name + " is also given as " + si_key(name, quantity) + "",
                 "Keep one of the two.");
         }
         share.reset();
     }
 };
 
-/// Where a point's friction is computed: in the step of the world, together with everything that it
-/// acts on, or apart from the step, as OpenHaptics' HL did.
+/// Where a point's friction is computed: in the step of the world, together with all bodies that it
+/// acts on, or separately, as in OpenHaptics' HL.
 enum class PointFriction { together, apart };
 constexpr auto enum_names(PointFriction) {
     return std::array{"together", "apart"};
@@ -122,29 +123,31 @@ constexpr auto enum_names(PointFriction) {
 
 /// How fingers are represented in the world.
 struct ProxySettings {
-    scene::ProxyKind kind = scene::ProxyKind::rigid;  ///< of fingers for which the scene gives none
+    scene::ProxyKind kind =
+        scene::ProxyKind::rigid;  ///< for fingers whose kind the scene does not give
     PointFriction friction = PointFriction::together;  ///< point
     double sliding_friction = 1;  ///< point: dynamic friction relative to static friction
-    /// For a point: a body that is pressed harder than this yields, and is not felt again until the
+    /// For a point: a body pressed harder than this yields and is not felt again until the
     /// point has left it [N]. Unset: no body yields.
     std::optional<double> popthrough;
-    bool changeable = false;  ///< the kind may change while a session runs, as the user wishes
+    bool changeable =
+        false;  ///< whether the kind may change during a session, at the user's request
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("kind", kind,
-          says("Whether a finger is a rigid body or a point that is kept on "
-               "surfaces, unless the scene says so of the finger."));
+          says("Whether a finger is a rigid body or a point kept on "
+               "surfaces, unless the scene gives the finger's kind."));
         v("friction", friction,
-          says("Whether a point's friction is solved with the dynamics or apart from them."));
+          says("Whether a point's friction is solved together with the dynamics or separately."));
         v("sliding_friction", sliding_friction,
           Field::number().within(0, 1).says(
-              "Dynamic friction of a point, as a share of static friction."));
+              "Dynamic friction of a point, as a fraction of static friction."));
         v("popthrough", popthrough,
           Field::of(Quantity::force)
               .within(0.01, kMostForce)
-              .says("Force beyond which a body yields to a point; left out, none does."));
-        v("changeable", changeable, says("Whether the kind may change while a session runs."));
+              .says("Force beyond which a body yields to a point; if left out, no body yields."));
+        v("changeable", changeable, says("Whether the kind can change during a session."));
     }
 
     /// The kind of a finger's proxy, given its own kind, if it has one.
@@ -158,9 +161,9 @@ constexpr auto enum_names(EnergyGuardMode) {
     return std::array{"off", "warn", "act"};
 }
 
-/// Time within which any force falls to zero when nothing asks for it any more; the Limiter ensures
-/// it. With a slower limit, a hand that no longer touches anything would be pushed for longer than
-/// it takes to notice [s].
+/// Time within which a force that is no longer requested falls to zero; the Limiter ensures
+/// this. With a slower limit, a hand that no longer touches anything would be pushed for longer
+/// than the time to notice it [s].
 constexpr double kLongestFall = 0.1;
 /// Rates that bring a Premium's 8.5 N and the sigma.7's 0.4 N*m to zero in that time.
 constexpr double kLeastForceRate = 85;  // [N/s]
@@ -171,31 +174,32 @@ struct SafetySettings {
     std::optional<double> max_force;   ///< magnitude [N]; unset: the device's peak force
     double max_force_rate = 3000;      ///< magnitude of the change of force [N/s]
     std::optional<double> max_torque;  ///< magnitude [N*m]; unset: the device's peak torque
-    double max_torque_rate = 150;      ///< change of torque: of that force at 5 cm [N*m/s]
-    double max_speed = 10;             ///< of a handle; a hand that throws reaches a few m/s [m/s]
-    /// Longest time from one tick to the next, during which a force is held; longer than any tick
+    double max_torque_rate =
+        150;                ///< magnitude of the change of torque: max_force_rate at 5 cm [N*m/s]
+    double max_speed = 10;  ///< speed of a handle; a throwing hand reaches a few m/s [m/s]
+    /// Longest time from one tick to the next, during which a force is held; above any tick
     /// [s].
     double max_pause = 0.04;
-    /// Latest start of a tick after it was due; unset: only `max_pause` counts [s].
+    /// Longest delay of a tick's start; unset: only `max_pause` counts [s].
     std::optional<double> max_late;
-    /// Damping of handle and hand, from which the stiffness that a late loop can hold follows;
-    /// unset: what the devices state, or that of a loose hand [N*s/m].
+    /// Damping of handle and hand, which determines the stiffness allowed for a late loop;
+    /// unset: the devices' values, or a loose hand's [N*s/m].
     std::optional<double> hand_damping;
     /// Time constant with which the device's motors warm and cool: of the order of a small motor's
     /// winding [s].
     double heating_time = 10;
-    double workspace_stiffness = 500;  ///< of the wall at the end of the reach; 0: no wall [N/m]
-    double soft_start = 0.5;           ///< time over which force comes on after a start [s]
+    double workspace_stiffness = 500;  ///< of the wall at the limit of reach; 0: no wall [N/m]
+    double soft_start = 0.5;           ///< time over which force rises after being switched on [s]
     std::string dead_man_finger;  ///< finger whose device has the dead-man switch; empty: no switch
     int dead_man_button = 0;      ///< index of the switch among the device's buttons
     EnergyGuardMode energy_guard = EnergyGuardMode::warn;
 
-    /// Limit of the force's magnitude for a device of this peak force, both `scale` times as large
-    /// as what the hand feels of them [N].
+    /// Limit of the force's magnitude for a device with this peak force, both `scale` times as
+    /// large as the hand feels them [N].
     double largest_force(double peak, double scale = 1) const {
         return max_force ? std::min(*max_force * scale, peak) : peak;
     }
-    /// Limit of the torque's magnitude for a device of this peak torque [N*m].
+    /// Limit of the torque's magnitude for a device with this peak torque [N*m].
     double largest_torque(double peak) const { return std::min(max_torque.value_or(peak), peak); }
 
     template <class Visitor>
@@ -206,15 +210,16 @@ struct SafetySettings {
         };
         v("max_force", max_force,
           limit(Quantity::force, 0.01, kMostForce)
-              .says("Largest force; left out, the device's peak."));
+              .says("Largest force; if left out, the device's peak force."));
         v("max_force_rate", max_force_rate,
           limit(Quantity::force_rate, kLeastForceRate, 1e6)
-              .says("Largest rate at which a force changes, unless it falls to zero."));
+              .says("Largest rate of change of a force, except when it falls to zero."));
         v("max_torque", max_torque,
-          limit(Quantity::torque, 1e-4, 100).says("Largest torque; left out, the device's peak."));
+          limit(Quantity::torque, 1e-4, 100)
+              .says("Largest torque; if left out, the device's peak torque."));
         v("max_torque_rate", max_torque_rate,
           limit(Quantity::torque_rate, kLeastTorqueRate, 1e5)
-              .says("Largest rate at which a torque changes, unless it falls to zero."));
+              .says("Largest rate of change of a torque, except when it falls to zero."));
         v("max_speed", max_speed,
           limit(Quantity::speed, 1e-3, 100)
               .says("Speed of a handle above which force is switched off."));
@@ -223,23 +228,24 @@ struct SafetySettings {
               .says("Time between two ticks above which force is switched off."));
         v("max_late", max_late,
           limit(Quantity::time, 1e-4, 1)
-              .says("How late a tick may be before force is switched off; left out, only max_pause "
+              .says("Lateness of a tick above which force is switched off; if left out, only "
+                    "max_pause "
                     "counts."));
         v("hand_damping", hand_damping,
           limit(Quantity::damping, 0.1, 100, Tighter::fixed)
-              .says("Damping of handle and hand, from which the stiffness follows that a late loop "
-                    "is trusted with; left out, the device's."));
+              .says("Damping of handle and hand, which determines the stiffness allowed for a late "
+                    "loop; if left out, the device's."));
         v("heating_time", heating_time,
           limit(Quantity::time, 1, 1000).says("Time constant of the device's motors."));
         v("workspace_stiffness", workspace_stiffness,
           limit(Quantity::stiffness, 0, 2000, Tighter::more)
-              .says("Stiffness of the wall where a device's reach ends; 0 is none."));
+              .says("Stiffness of the wall at the limit of a device's reach; 0: no wall."));
         v("soft_start", soft_start,
           limit(Quantity::time, 0, 10, Tighter::more)
-              .says("Time in which force rises from zero when it comes on; 0 is none."));
-        // a dead-man switch that the rig asks for cannot be changed
+              .says("Time over which force rises from zero after being switched on; 0: at once."));
+        // a dead-man switch required by the rig cannot be changed
         v("dead_man_finger", dead_man_finger,
-          says("Finger whose device has the dead-man switch; left out, there is none."));
+          says("Finger whose device has the dead-man switch; if left out, there is none."));
         v("dead_man_button", dead_man_button,
           Field::number().within(0, 31).says("Button of that device, counted from 0."));
         v("energy_guard", energy_guard,

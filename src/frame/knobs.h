@@ -1,6 +1,6 @@
-// Knobs are what may change while a session runs. A director orders them, each Frame records their
-// values, a replay orders them again, events.csv lists each change, and the operator's window has a
-// panel for them. All of this follows from visit().
+// Knobs are settings that may change during a session. A director orders them, each Frame records
+// their values, a replay orders them again, events.csv lists each change, and the operator's window
+// has a panel for them. All this follows from visit().
 #pragma once
 
 #include <cmath>
@@ -12,18 +12,18 @@
 
 namespace dihaptic::frame {
 
-/// What is known of a knob besides its value.
+/// The properties of a knob besides its value.
 struct Knob {
-    const char* name;  ///< of its column in the log
+    const char* name;  ///< name of its column in the log
     const char* unit;
     const char* what;  ///< one sentence
-    /// Its name in events.csv, the window's log and the panel, with & before the letter of its
-    /// shortcut; null: it does not appear there.
+    /// Its name in events.csv, the window's log and the panel, with & before its shortcut
+    /// letter; null: not shown there.
     const char* key = nullptr;
     const char* label = nullptr;
-    double least = 0, most = 0, step = 0;  ///< of a number, in the panel
-    const char* unset = nullptr;           ///< what NaN stands for
-    bool eased = false;  ///< a person's change is spread over a while: what is held stays held
+    double least = 0, most = 0, step = 0;  ///< for a number in the panel
+    const char* unset = nullptr;           ///< the meaning of NaN
+    bool eased = false;  ///< a user's change is gradual, so that held objects are not dropped
 
     constexpr Knob within(double low, double high, double by) const {
         Knob k = *this;
@@ -49,40 +49,40 @@ struct Knobs {
     double stiffness = 0;  ///< k [N/m]
     double damping = 0;    ///< c [N*s/m]; NaN: k h / 2
     double smoothing = 0;  ///< alpha
-    /// The proxy kind of all fingers whose kind may change and is not set by the scene. Whoever
-    /// orders another kind must make sure that these fingers touch nothing.
+    /// The proxy kind of all fingers whose kind may change and is not set by the scene. The code
+    /// that orders another kind must ensure that these fingers touch nothing.
     scene::ProxyKind proxy{};
-    double friction_scale = 1;  ///< of every coefficient of friction
-    /// Angle of WorkspaceTurn in the tick [rad]. It follows from the rate; ordering it has no
+    double friction_scale = 1;  ///< factor on every coefficient of friction
+    /// Angle of WorkspaceTurn in the tick [rad]. It follows from the rate; an order has no
     /// effect.
     double workspace_turn = 0;
-    double workspace_rate = 0;  ///< rate of that angle until the next tick [rad/s]
-    contact::Solver solver{};   ///< from the next step of the world on
+    double workspace_rate = 0;  ///< rate of workspace_turn until the next tick [rad/s]
+    contact::Solver solver{};   ///< effective from the next step of the world
 
-    /// Calls v(member, Knob) for each, in the order of the log.
+    /// Calls v(member, Knob) for each knob, in the order of the log.
     template <class Visitor>
     static void visit(Visitor&& v) {
         v(&Knobs::coupling,
-          Knob{"coupling", "1", "Kind of coupling in force.", "coupling.kind", "&Coupling"});
-        v(&Knobs::stiffness, Knob{"stiffness", "N/m", "Stiffness k of the coupling in force.",
+          Knob{"coupling", "1", "Kind of coupling in effect.", "coupling.kind", "&Coupling"});
+        v(&Knobs::stiffness, Knob{"stiffness", "N/m", "Stiffness k of the coupling in effect.",
                                   "coupling.stiffness_N_m", "Stiff&ness"}
                                  .within(1, 20000, 100)
                                  .with_ease());
-        v(&Knobs::damping, Knob{"damping", "N*s/m",
-                                "Damping in force; NaN: k h / 2, h being the step of the dynamics.",
-                                "coupling.damping_Ns_m", "&Damping"}
-                               .within(0, 50, 0.1)
-                               .nan_is("k h / 2")
-                               .with_ease());
+        v(&Knobs::damping,
+          Knob{"damping", "N*s/m", "Damping in effect; NaN: k h / 2, with h the dynamics step.",
+               "coupling.damping_Ns_m", "&Damping"}
+              .within(0, 50, 0.1)
+              .nan_is("k h / 2")
+              .with_ease());
         v(&Knobs::smoothing,
           Knob{"smoothing", "1",
-               "Smoothing in force: the share of the new force in the force sent.",
+               "Smoothing in effect: the fraction of the new force in the force sent.",
                "coupling.smoothing", "S&moothing"}
               .within(0.01, 1, 0.05));
         v(&Knobs::proxy, Knob{"proxy", "1",
-                              "Kind of proxy in force, for fingers without a kind of their own; a "
+                              "Kind of proxy in effect, for fingers without a kind of their own; a "
                               "change waits until "
-                              "they touch nothing.",
+                              "these fingers touch nothing.",
                               "proxy.kind", "Pro&xy"});
         v(&Knobs::friction_scale,
           Knob{"friction_scale", "1", "Factor on all coefficients of friction.",
@@ -93,11 +93,11 @@ struct Knobs {
                "Angle of all devices' workspaces, counterclockwise seen from above."});
         v(&Knobs::workspace_rate,
           Knob{"workspace_rate", "rad/s", "Rate of workspace_turn until the next tick."});
-        v(&Knobs::solver, Knob{"solver", "1", "Contact solver that was asked for.",
-                               "dynamics.solver", "Contact so&lver"});
+        v(&Knobs::solver,
+          Knob{"solver", "1", "Contact solver requested.", "dynamics.solver", "Contact so&lver"});
     }
 
-    /// The knobs at the beginning of a session with these settings.
+    /// The knobs at the start of a session with these settings.
     static Knobs of(const Settings& settings) noexcept {
         Knobs out;
         out.set_coupling(settings.coupling);
@@ -111,7 +111,7 @@ struct Knobs {
         damping = settings.damping.value_or(kUnmeasured);
         smoothing = settings.smoothing;
     }
-    /// The settings with these knobs in place of their own.
+    /// The settings with the values of these knobs.
     CouplingSettings coupled(CouplingSettings settings) const noexcept {
         settings.kind = coupling;
         settings.stiffness = stiffness;

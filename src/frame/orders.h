@@ -10,18 +10,18 @@
 
 namespace dihaptic::frame {
 
-/// Orders that hold until the director changes them.
+/// Orders that remain in effect until the director changes them.
 struct LastingOrders {
     int32_t trial = 0;
     int32_t phase = 0;
-    Knobs knobs;  ///< at first those of the settings
+    Knobs knobs;  ///< initially those of the settings
 };
 
-/// Orders for one tick: none are given before the director is called.
+/// Orders for one tick: empty before the director is called.
 struct TickOrders {
-    bool stop = false;       ///< this tick is the last
-    bool force_off = false;  ///< from this tick on, for good, as the operator wishes
-    bool rest = false;       ///< no force in this tick, which is the last until resume(): a pause
+    bool stop = false;       ///< whether this tick is the last
+    bool force_off = false;  ///< from this tick on, permanently, at the operator's request
+    bool rest = false;       ///< a pause: no force in this tick, which is the last until resume()
     /// Set if the window that watches the session has not answered for too long: that time [s].
     /// Force is then off from this tick on.
     double abandoned = 0;
@@ -39,13 +39,13 @@ struct TickOrders {
 /// The director's orders for a tick.
 struct Commands : LastingOrders, TickOrders {};
 
-/// Fills in the orders of the tick that begins.
+/// Fills in the orders for the starting tick.
 ///
 /// It is called in each tick once the devices have been read, before forces are computed: with the
-/// Frame of the last tick, and with the handles as they are now. `commands` holds the lasting
-/// orders as the director left them, those of the settings at first, and no orders for the tick.
+/// Frame of the last tick, and the present handles. `commands` holds the lasting
+/// orders as the director left them, initially those of the settings, and no orders for the tick.
 /// In the first tick there is no last Frame: `last.sequence` is -1, and the lists of `last` are as
-/// long as the scene's, with nothing measured in them. As a part of the tick the director must not
+/// long as the scene's, without measurements. As a part of the tick the director must not
 /// allocate, lock, wait or throw.
 using Director =
     std::function<void(const Frame& last, std::span<const Handle> handles, Commands& commands)>;

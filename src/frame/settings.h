@@ -1,5 +1,5 @@
-// All settings that scene, rig, experiment and command line may set. The later source counts,
-// except for `safety`, which belongs to the rig and which the others may only tighten
+// All settings that scene, rig, experiment and command line can set. The later source overrides,
+// except for `safety`, which belongs to the rig and can only be tightened by the others
 // (session/safety_limits.h).
 #pragma once
 
@@ -10,7 +10,7 @@ namespace dihaptic::frame {
 
 struct Settings {
     double rate = 1000;           ///< tick rate [Hz]
-    int real_time_priority = 80;  ///< of SCHED_FIFO, above the kernel's interrupt threads (50)
+    int real_time_priority = 80;  ///< under SCHED_FIFO, above the kernel's interrupt threads (50)
     DynamicsSettings dynamics;
     ProxySettings proxy;
     CouplingSettings coupling;
@@ -24,11 +24,11 @@ struct Settings {
           Field::number().at_least(1).at_most(95).says(
               "Priority of the servo's thread on the real clock (SCHED_FIFO)."));
         v("dynamics", dynamics, says("How the world is stepped."));
-        v("proxy", proxy, says("What stands for fingers in the world."));
+        v("proxy", proxy, says("How fingers are represented in the world."));
         v("coupling", coupling, says("How a handle and its proxy pull at each other."));
         v("safety", safety,
           says(
-              "Limits on every force, which scene, experiment and command line may only tighten."));
+              "Limits on every force, which scene, experiment and command line can only tighten."));
     }
 
     double tick() const { return 1 / rate; }                 ///< [s]

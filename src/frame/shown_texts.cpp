@@ -20,7 +20,7 @@ bool read_format(std::string_view format, int& decimals) {
     return fits;
 }
 
-/// Reads the placeholder that begins with the brace at `begin`.
+/// Reads the placeholder that starts at the brace `begin`.
 Placeholder placeholder(std::string_view text, size_t begin) {
     Placeholder out;
     out.begin = begin;

@@ -1,14 +1,14 @@
-// TaskFrame describes what a task does in a tick: what it shows, what it perturbs, and how the
+// TaskFrame describes a task's actions in a tick: its display, its perturbations, and how the
 // trial ended. The task's director orders it, the Frame records it, and a replay orders it again.
 //
-// Perturbations act at three places:
-//   visual map        from true to displayed pose, of the things it names
-//   body properties   inertia and weight independently, and friction; scale those of the scene
-//   joint properties  springs, dampers and dry friction; scale those of the scene
+// Perturbations act on:
+//   visual map        from true to displayed poses of selected objects
+//   body properties   inertia, weight and friction, as factors on the scene's
+//   joint properties  springs, dampers and dry friction, as factors on the scene's
 //   loads             forces and torques on handles and bodies
 //
-// In addition, things are hidden, coloured and sized (looks), or shown where they were before
-// (displaced); texts stand over the scene (message, lines), or a page in its place.
+// In addition, objects are hidden, coloured and scaled (looks), or shown at earlier poses
+// (displaced); texts stand over the scene (message, lines), or a page replaces the scene.
 #pragma once
 
 #include <cstdint>
@@ -21,14 +21,14 @@
 
 namespace dihaptic::frame {
 
-/// What a visual map moves: a sum of these.
+/// The objects that a visual map moves, as a sum of these.
 enum Moves : uint32_t { kMovesProxies = 1, kMovesObject = 2, kMovesTargets = 4 };
 
-/// The difference between what is shown and what is true. A point p is shown at
+/// The difference between displayed and true poses. A point p is shown at
 ///
 ///     c + R S (p - c),   S = diag(scale)         or, on a ray,     c + |p - c| along
 ///
-/// A body is also turned by R, so that a rotated hand still touches what is rotated with it.
+/// A body is also turned by R, so that a rotated hand still touches the objects rotated with it.
 struct VisualMap {
     uint32_t moves = 0;  ///< Moves
     int32_t object = -1;
@@ -49,18 +49,19 @@ struct VisualMap {
 
     template <class Self, class Visitor>
     static void visit(Self& m, Visitor& v) {
-        v(m.moves, {"moves", "1", "",
-                    "What the map moves, a sum: 1 the proxies, 2 the object, 4 the targets."});
-        v(m.object, {"object", "1", "", "Index of the body that is the object; -1: none."});
+        v(m.moves,
+          {"moves", "1", "", "Sum over what the map moves: 1 proxies, 2 object, 4 targets."});
+        v(m.object, {"object", "1", "", "Index of the object's body; -1: none."});
         v(m.p_WC, {"centre", "m", "W", "Centre of the map."});
-        v(m.scale, {"scale", "1", "W", "Factors on distances from the centre, along each axis."});
+        v(m.scale, {"scale", "1", "W", "Factors on distances from the centre along each axis."});
         v(m.R, {"rotation", "1", "W", "Rotation about the centre, after scaling."});
         v(m.along_W, {"along", "1", "W",
                       "Unit direction of the ray on which points are shown; zero: no ray."});
-        v(m.size, {"size", "1", "", "The object's displayed size over its true one."});
-        v(m.delay, {"delay", "s", "", "Delay with which what the map moves is shown."});
-        v(m.noise, {"noise", "m", "W",
-                    "Standard deviation, along each axis, of the noise on where that is shown."});
+        v(m.size, {"size", "1", "", "Ratio of the object's displayed to its true size."});
+        v(m.delay, {"delay", "s", "", "Display delay of the objects that the map moves."});
+        v(m.noise,
+          {"noise", "m", "W",
+           "Standard deviation of the noise on their displayed positions, along each axis."});
     }
 };
 
@@ -76,7 +77,8 @@ struct TargetFrame {
         v(t.p_WT, {"position", "m", "W", "Centre of the sphere."});
         v(t.radius, {"radius", "m", "", "Radius of the sphere."});
         v(t.colour, {"colour", "1", "",
-                     "Colour: 65536 red + 256 green + blue, each 0 to 255; -1: that of targets."});
+                     "Colour: 65536 red + 256 green + blue, each 0 to 255; -1: the default colour "
+                     "of targets."});
     }
 };
 
@@ -98,10 +100,10 @@ struct PropertiesFrame {
         v(p.turning_scale, {"turning_scale", "1", "", "Factor on the body's moments of inertia."});
         v(p.friction_scale,
           {"friction_scale", "1", "", "Factor on the body's coefficients of friction."});
-        v(p.stiffness_scale,
-          {"stiffness_scale", "1", "", "Factor on the stiffness and damping of its surface."});
+        v(p.stiffness_scale, {"stiffness_scale", "1", "",
+                              "Factor on the stiffness and damping of the body's surface."});
         v(p.restitution_scale,
-          {"restitution_scale", "1", "", "Factor on the restitution of its surface."});
+          {"restitution_scale", "1", "", "Factor on the restitution of the body's surface."});
     }
 };
 
@@ -114,9 +116,11 @@ struct JointPropertiesFrame {
     template <class Self, class Visitor>
     static void visit(Self& p, Visitor& v) {
         v(p.joint, {"joint", "1", "", "Index of the joint in the scene."});
-        v(p.stiffness_scale, {"stiffness_scale", "1", "", "Factor on its spring's stiffness."});
-        v(p.damping_scale, {"damping_scale", "1", "", "Factor on its damper's damping."});
-        v(p.friction_scale, {"friction_scale", "1", "", "Factor on its dry friction."});
+        v(p.stiffness_scale,
+          {"stiffness_scale", "1", "", "Factor on the stiffness of the joint's spring."});
+        v(p.damping_scale,
+          {"damping_scale", "1", "", "Factor on the damping of the joint's damper."});
+        v(p.friction_scale, {"friction_scale", "1", "", "Factor on the joint's dry friction."});
     }
 };
 
@@ -146,8 +150,8 @@ struct PlacementFrame {
         v(p.X_WB.p, {"position", "m", "W", "Position of the body's origin."});
         v(p.X_WB.R, {"orientation", "1", "W",
                      "Unit quaternion that turns the body's axes into the world's."});
-        v(p.v_WB, {"velocity", "m/s", "W", "Velocity that its origin is given there."});
-        v(p.w_WB, {"angular_velocity", "rad/s", "W", "Angular velocity that it is given."});
+        v(p.v_WB, {"velocity", "m/s", "W", "Velocity given to the body's origin there."});
+        v(p.w_WB, {"angular_velocity", "rad/s", "W", "Angular velocity given to the body."});
     }
 };
 
@@ -158,9 +162,10 @@ struct DriveFrame {
     template <class Self, class Visitor>
     static void visit(Self& d, Visitor& v) {
         v(d.body, {"body", "1", "", "Index of the body."});
-        v(d.X_WB.p, {"position", "m", "W", "Where its origin is at the end of the tick."});
-        v(d.X_WB.R,
-          {"orientation", "1", "W", "Unit quaternion that turns its axes into the world's, then."});
+        v(d.X_WB.p,
+          {"position", "m", "W", "Position of the body's origin at the end of the tick."});
+        v(d.X_WB.R, {"orientation", "1", "W",
+                     "Unit quaternion that turns the body's axes into the world's at that time."});
     }
 };
 
@@ -174,12 +179,13 @@ struct MotorFrame {
     template <class Self, class Visitor>
     static void visit(Self& m, Visitor& v) {
         v(m.joint, {"joint", "1", "", "Index of the joint in the scene."});
-        v(m.follows, {"follows", "1", "", "1 if the motor moves the joint to a position, or 0."});
+        v(m.follows,
+          {"follows", "1", "", "1 if the motor moves the joint to a position, otherwise 0."});
         v(m.position,
-          {"position", "1", "", "Where the joint is to be at the tick's end, in m or rad."});
+          {"position", "1", "", "Desired joint position at the end of the tick, in m or rad."});
         v(m.most_force, {"most_force", "1", "",
-                         "The most with which it is moved there, in N, or N*m of a hinge."});
-        v(m.push, {"push", "1", "", "With what it is pushed besides, in N, or N*m of a hinge."});
+                         "Largest force (N), or torque for a hinge (N*m), of this motion."});
+        v(m.push, {"push", "1", "", "Additional force (N), or torque for a hinge (N*m)."});
     }
 };
 
@@ -202,10 +208,11 @@ struct LookFrame {
     static void visit(Self& l, Visitor& v) {
         v(l.body,
           {"body", "1", "", "Index of the body; fingers' proxies come after the scene's bodies."});
-        v(l.hidden, {"hidden", "1", "", "1 if it is not shown, nor its shadow, otherwise 0."});
-        v(l.colour,
-          {"colour", "1", "", "Colour: 65536 red + 256 green + blue, each 0 to 255; -1: its own."});
-        v(l.scale, {"scale", "1", "", "Factor on its displayed size."});
+        v(l.hidden,
+          {"hidden", "1", "", "1 if neither the body nor its shadow is shown, otherwise 0."});
+        v(l.colour, {"colour", "1", "",
+                     "Colour: 65536 red + 256 green + blue, each 0 to 255; -1: the body's own."});
+        v(l.scale, {"scale", "1", "", "Factor on the body's displayed size."});
     }
 };
 
@@ -217,9 +224,9 @@ struct DisplacedFrame {
     static void visit(Self& d, Visitor& v) {
         v(d.body,
           {"body", "1", "", "Index of the body; fingers' proxies come after the scene's bodies."});
-        v(d.X_WB.p, {"position", "m", "W", "Where it is shown; the visual map is in it."});
+        v(d.X_WB.p, {"position", "m", "W", "Displayed position, including the visual map."});
         v(d.X_WB.R, {"orientation", "1", "W",
-                     "Unit quaternion that turns its axes into the world's, as it is shown."});
+                     "Unit quaternion that turns the displayed body's axes into the world's."});
     }
 };
 
@@ -230,7 +237,7 @@ struct SoundFrame {
     template <class Self, class Visitor>
     static void visit(Self& s, Visitor& v) {
         v(s.sound, {"sound", "1", "", "Index of the sound in the session's list."});
-        v(s.on, {"on", "1", "", "1 if it begins in the tick, 0 if it ends."});
+        v(s.on, {"on", "1", "", "1 if the sound starts in the tick, 0 if it ends."});
     }
 };
 
@@ -248,29 +255,29 @@ struct NumberFrame {
 
     template <class Self, class Visitor>
     static void visit(Self& n, Visitor& v) {
-        v(n.value, {"value", "1", "", "The number, in the unit that its name in the text has."});
+        v(n.value, {"value", "1", "", "The number, in the unit of its name in the text."});
     }
 };
 
-/// What the index of a list's items names: their `body`, `joint` or `object`. -1 stands for none.
+/// The kind of index in a list's items: `body`, `joint` or `object`. -1 means none.
 enum class Names { nothing, bodies, bodies_and_proxies, joints };
 
 /// The counts on which the lengths of lists depend.
 struct Sizes {
-    size_t bodies = 0;  ///< of the scene
+    size_t bodies = 0;  ///< bodies of the scene
     size_t fingers = scene::kMostFingers;
 };
 
-/// What is known of a list of the TaskFrame besides its items.
+/// The properties of a TaskFrame's list besides its items.
 struct TaskList {
     const char* name;
     const char* meaning;  ///< one sentence
     Names names = Names::nothing;
     size_t fixed = 0;
     bool per_body = false, per_finger = false;
-    bool perturbs = false;  ///< what is in it is a perturbation of the trial
+    bool perturbs = false;  ///< whether its items are perturbations of the trial
 
-    /// Its largest length in a tick.
+    /// Largest length of the list in a tick.
     constexpr size_t most(const Sizes& sizes) const {
         return fixed + (per_body ? sizes.bodies : 0) + (per_finger ? sizes.fingers : 0);
     }
@@ -301,8 +308,8 @@ struct TaskList {
     }
 };
 
-/// Its lists are declared once, in visit_lists(): their lengths, checks, and the event
-/// "perturbation" follow from that.
+/// Lists are declared once, in visit_lists(), from which their lengths, checks, and the event
+/// "perturbation" follow.
 struct TaskFrame {
     /// Limits of the numbers in a tick.
     static constexpr size_t kMostTargets = 16;
@@ -339,7 +346,7 @@ struct TaskFrame {
     void reserve(const Sizes& sizes) {
         visit_lists(*this, [&](auto& list, const TaskList& is) { list.reserve(is.most(sizes)); });
     }
-    /// Resizes all lists to their greatest length, with meaningless items.
+    /// Resizes all lists to their largest length, with meaningless items.
     void fill(const Sizes& sizes) {
         visit_lists(*this, [&](auto& list, const TaskList& is) { list.resize(is.most(sizes)); });
     }
@@ -370,11 +377,12 @@ struct TaskFrame {
     template <class Self, class Visitor>
     static void visit(Self& t, Visitor& v) {
         v(t.attempt, {"attempt", "1", "", "Number of the attempt at the trial, from 1."});
-        v(t.outcome, {"outcome", "1", "",
-                      "Index of the trial's outcome in the session's list, in its last tick."});
+        v(t.outcome,
+          {"outcome", "1", "",
+           "Index of the trial's outcome in the session's list, in the trial's last tick."});
         v(t.message, {"message", "1", "", "Index of the shown message in the session's list."});
         v(t.marker, {"marker", "1", "", "Event code of the tick, 1 to 255; 0: none."});
-        v(t.share, {"share", "1", "", "Share of the trial's perturbation that acts."});
+        v(t.share, {"share", "1", "", "Fraction of the trial's perturbation that acts."});
         v(t.page, {"page", "1", "", "Index of the shown page in the session's list."});
         visit_lists(t, [&](auto& list, const TaskList& is) { v.each(is.name, list, is.meaning); });
     }
@@ -384,14 +392,13 @@ struct TaskFrame {
     static void visit_acting(Self& t, Visitor& v) {
         using enum Names;
         v(t.visual,
-          TaskList{
-              "visual",
-              "The visual map, if any: the difference between what is shown and what is there."}
+          TaskList{"visual",
+                   "The visual map, if any: the difference between displayed and true poses."}
               .of(bodies)
               .up_to(1)
               .is_perturbation());
-        v(t.targets, TaskList{"targets", "One for each target, which is shown as a sphere."}.up_to(
-                         kMostTargets));
+        v(t.targets,
+          TaskList{"targets", "One for each target, shown as a sphere."}.up_to(kMostTargets));
         v(t.properties,
           TaskList{"properties", "One for each body whose properties differ from the scene's."}
               .of(bodies_and_proxies)
@@ -407,13 +414,12 @@ struct TaskFrame {
                        .of(bodies_and_proxies)
                        .up_to(kMostLoads)
                        .is_perturbation());
-        v(t.placements, TaskList{"placements", "One for each body that is put at a pose."}
+        v(t.placements, TaskList{"placements", "One for each body that is placed at a pose."}
                             .of(bodies)
                             .one_for_each_body());
-        v(t.drives,
-          TaskList{"drives", "One for each body that is driven: where it gets in the tick."}
-              .of(bodies)
-              .one_for_each_body());
+        v(t.drives, TaskList{"drives", "One for each driven body: its pose at the end of the tick."}
+                        .of(bodies)
+                        .one_for_each_body());
         v(t.motors,
           TaskList{"motors", "One for each joint that a motor turns or moves."}.of(joints).up_to(
               kMostMotors));
@@ -423,26 +429,27 @@ struct TaskFrame {
         using enum Names;
         v(t.variables,
           TaskList{"variables",
-                   "One for each variable of the task: its value in this trial, and in the trial's "
-                   "last tick its value in the next."}
+                   "One for each variable of the task: its value in this trial or, in the trial's "
+                   "last tick, its value in the next trial."}
               .up_to(kMostVariables));
         v(t.looks,
           TaskList{"looks",
-                   "One for each body or proxy that is hidden, or drawn otherwise than the "
-                   "scene has it."}
+                   "One for each body or proxy that is hidden, or drawn differently from the "
+                   "scene."}
               .of(bodies_and_proxies)
               .one_for_each_body()
               .one_for_each_finger());
         v(t.displaced,
-          TaskList{"displaced",
-                   "One for each body or proxy that is shown late, shaken, or where it was."}
+          TaskList{
+              "displaced",
+              "One for each body or proxy that is shown delayed, shaken, or at an earlier pose."}
               .of(bodies_and_proxies)
               .up_to(1)
               .one_for_each_finger());
-        v(t.sounds, TaskList{"sounds", "One for each sound that begins or ends in the tick."}.up_to(
+        v(t.sounds, TaskList{"sounds", "One for each sound that starts or ends in the tick."}.up_to(
                         kMostSounds));
-        v(t.lines, TaskList{"lines", "One for each text that is shown below the message."}.up_to(
-                       kMostLines));
+        v(t.lines,
+          TaskList{"lines", "One for each text shown below the message."}.up_to(kMostLines));
         v(t.numbers,
           TaskList{"numbers",
                    "One for each number in the shown texts, the message's first, then the lines'."}

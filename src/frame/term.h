@@ -1,6 +1,6 @@
-// Term describes a quantity of the Frame, in one place: the visit() that lists it. The quantity has
-// this name in the schema of the log, in session.nwb, in docs/quantities.md and in the window's
-// plots.
+// Term describes a quantity of the Frame, in one place: the visit() that lists it. The schema
+// of the log, session.nwb, docs/quantities.md and the window's plots
+// use this name.
 #pragma once
 
 namespace dihaptic::frame {
@@ -8,7 +8,7 @@ namespace dihaptic::frame {
 struct Term {
     const char* name;
     const char* unit;     ///< "1": a pure number
-    const char* frame;    ///< of its components: W or D (docs/conventions.md); "": it has none
+    const char* frame;    ///< frame of its components: W or D (docs/conventions.md); "": none
     const char* meaning;  ///< one sentence
 };
 

@@ -2,10 +2,10 @@
 // makes a singular problem regular, and at convergence (r = r_k) the regularisation has no effect
 // on the answer.
 //
-// At first, steps are full, the regularisation follows the residual, and a proximal step is done
+// At first, steps are full, the regularisation follows the residual, and a proximal step ends
 // when its equation's error has fallen to a fifth. A proximal step that does not converge is
-// undone, a few projected Gauss-Seidel sweeps move on, and the regularisation grows tenfold. If all
-// of this takes too long, it starts again elsewhere.
+// undone, a few projected Gauss-Seidel sweeps provide a new iterate, and the regularisation grows
+// tenfold. If this takes too long, the method starts again elsewhere.
 #pragma once
 
 #include <array>
@@ -21,24 +21,24 @@ namespace dihaptic::contact {
 /// How an iterative solve ended.
 struct Outcome {
     int iterations = 0;
-    double residual = std::numeric_limits<double>::infinity();  ///< in the measure of the tolerance
+    double residual = std::numeric_limits<double>::infinity();  ///< in the tolerance's measure
     bool converged = false;
 };
 
-/// Natural map of a law, relative, in two measures: in the units of the problem as given, and in
-/// those of the scaled system, which depend on no choice of units.
+/// Natural map of a law, relative, in two measures: in the units of the given problem, and in
+/// those of the scaled system, which are independent of the choice of units.
 struct Residual {
     double scaled = std::numeric_limits<double>::infinity();  ///< over |q^|
     double given = std::numeric_limits<double>::infinity();   ///< over 1 + |q|
 
-    /// The value to which tolerances apply: the residual as given or, if it is larger, a hundredth
-    /// of the scaled one, so that small units do not make the test easy. Not the whole scaled
+    /// The value to which tolerances apply: the given problem's residual or, if larger, a hundredth
+    /// of the scaled one, so that small units do not make the test easier. Not the whole scaled
     /// value, because with very small loads the rounding in the gaps of four coplanar contacts may
     /// contribute more.
     double judged() const noexcept { return std::max(given, 0.01 * scaled); }
 };
 
-/// The quantities to which residuals are relative.
+/// The reference quantities of relative residuals.
 struct Load {
     double scaled = 0;  ///< |q^|
     double given = 0;   ///< |q|
@@ -78,23 +78,23 @@ Load load(const System& system) noexcept {
 
 /// Iterations aim this far below the tolerance, so that an answer at its edge is rare.
 constexpr double kTarget = 1e-2;
-/// Once within tolerance, iterations end when this many of them have not brought the best residual
-/// below this share of itself: rounding then prevents further progress.
+/// Once within tolerance, iterations end when this many of them have not reduced the best residual
+/// below this fraction: rounding then prevents further progress.
 constexpr double kStalledShare = 0.5;
 constexpr int kStalledIterations = 2;
 
-/// One way to run the proximal loop.
+/// Parameters of the proximal loop.
 struct NewtonStart {
     enum class From { given, zero, scattered } from;
     double rho;
     int most_steps;
-    int trial_steps;  ///< after this many, a proximal step is given up if its error has grown
-    int most_inner;   ///< or after this many, if it is not small
+    int trial_steps;  ///< steps after which a proximal step is abandoned if its error has grown
+    int most_inner;   ///< steps after which it is abandoned if its error is not small
     /// The next rho is proportional to the residual, as in Levenberg and Marquardt's method;
     /// otherwise it is divided by ten after proximal steps that took few Newton steps.
     bool rho_follows;
     int halvings;  ///< at most, of a Newton step that makes the error grow fourfold
-    int sweeps;    ///< done first; they find most contacts that slide
+    int sweeps;    ///< initial sweeps, which find most sliding contacts
 };
 /// The starts: as given, from zero, and from random impulses. Where one start cycles, four out of
 /// ten others do not. Chosen for the fewest hand-overs in a million problems of shaken grasps (soak
@@ -150,7 +150,7 @@ class ProximalNewton {
     }
 
   private:
-    static constexpr double kSafe = 0.1;  // to be reached by a start that runs out of steps
+    static constexpr double kSafe = 0.1;  // to be reached by a start that uses up its steps
     static constexpr double kLeastRho = 1e-7;
     static constexpr double kMostRho = 1.0;
     static constexpr double kRhoOfResidual = 0.3;
@@ -181,7 +181,7 @@ class ProximalNewton {
         return out_.converged;
     }
 
-    /// Goes to where a start begins. Returns whether that is good enough.
+    /// Sets r to the initial point of a start. Returns whether that is good enough.
     bool begin(const NewtonStart& start) {
         if (start.from == NewtonStart::From::zero) {
             for (Vec& impulse : r_) impulse.setZero();
@@ -232,7 +232,7 @@ class ProximalNewton {
         return error;
     }
 
-    /// Moves by a share of the Newton step. Returns whether r is good enough.
+    /// Moves by a fraction of the Newton step. Returns whether r is good enough.
     bool move(double share) {
         for (size_t j = 0; j < r_.size(); ++j) r_[j] += share * memory_.d[j];
         ++out_.iterations;
@@ -265,7 +265,7 @@ class ProximalNewton {
                (inner_ >= start.trial_steps && error_ > kGrown * first_) || !std::isfinite(error_);
     }
 
-    /// Undoes the proximal step; sweeps move on. Returns whether r is good enough.
+    /// Undoes the proximal step and continues by sweeps. Returns whether r is good enough.
     bool undo() {
         std::copy(memory_.r_k.begin(), memory_.r_k.end(), r_.begin());
         system_.sweep(law_, r_, kRescueSweeps);
@@ -280,11 +280,11 @@ class ProximalNewton {
     NewtonMemory<System>& memory_;
     const Measure& measure_;
     int most_iterations_;
-    std::minstd_rand random_;  // the same numbers in every solve, so that replay repeats it
+    std::minstd_rand random_;  // the same numbers in every solve, for replay
 
     Outcome out_;
     double residual_ = 0;   // of r
-    bool is_best_ = false;  // r is the best so far, and memory.u its velocity
+    bool is_best_ = false;  // whether r is the best so far, with memory.u as its velocity
     int stalled_ = 0;
     double rho_ = 0;
     double first_ = 0;  // squared error at the start of the proximal step
@@ -304,8 +304,8 @@ Outcome proximal_newton(System& system, const Law& law, std::span<typename Syste
         .solve(starts);
 }
 
-/// Residual of Coulomb's law. If it is above `enough` as given, that decides, and the scaled one is
-/// left at zero.
+/// Residual of Coulomb's law. If the given problem's is above `enough`, it decides, and the scaled
+/// residual is left zero.
 template <class System>
 Residual coulomb_residual(const System& system, std::span<const typename System::Vec> r,
                           std::span<const typename System::Vec> u, const Load& load,

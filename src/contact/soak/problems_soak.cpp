@@ -1,6 +1,6 @@
-// Solves a hundred thousand problems of bodies thrown together, from zero impulses, on which no
-// solver's starts were chosen. Counts how often each solver hands over, and how often all of them
-// miss.
+// Solves a hundred thousand problems of bodies thrown together, from zero impulses; no
+// solver's starts were chosen for these problems. Counts how often each solver hands over, and how
+// often all of them miss.
 #include <gtest/gtest.h>
 
 #include "contact/test/problems.h"
@@ -25,8 +25,8 @@ INSTANTIATE_TEST_SUITE_P(Soak, Problems,
                                     (of.param.torsion ? "_torsion" : "");
                          });
 
-/// Solves so many problems by the case's solver, each from zero impulses, and gives each problem,
-/// answer and report to `judge`.
+/// Solves the case's number of problems with its solver, each from zero impulses, and gives each
+/// problem, answer and report to `judge`.
 template <class Judge>
 void solve_each(int count, uint64_t seed, const Case& of, const Judge& judge) {
     Random random(seed, "thrown together");
@@ -57,14 +57,14 @@ TEST_P(Problems, AreAnswered) {
     EXPECT_LE(missed, kProblems / 10'000);
 }
 
-/// What a contact's friction has above its cone, over the cone's radius.
+/// The excess of a contact's friction over its cone, relative to the cone's radius.
 double outside(const ProblemContact& contact, const Impulse& r) {
     const double radius = contact.friction * r[0];
     const double friction = r.segment<2>(1).norm();
     return friction > radius * (1 + 1e-12) ? friction / radius - 1 : 0;
 }
 
-/// An answer that leaves the cone lets a finger pull where it may not.
+/// An answer outside the cone would let a finger pull where it must not.
 TEST_P(Problems, KeepFrictionInTheCone) {
     constexpr int kProblems = 30'000;
     int left = 0;

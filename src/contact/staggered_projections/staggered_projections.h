@@ -1,5 +1,5 @@
 // Staggered projections (Kaufman, Sueda, James and Pai 2008) solve Coulomb's law as two convex
-// problems that take turns,
+// alternating problems,
 //
 //     friction:  the tangential impulses that dissipate most, on discs of radius mu r_N
 //     contact:   the normal impulses that keep bodies apart, with that friction
@@ -8,8 +8,8 @@
 // active set of a convex problem; inexact inner solutions would stall the outer loop at their own
 // error. Contacts without load are left out of the friction problem. Anderson acceleration of the
 // normal impulses shortens the loop; where the loop still wanders, projected Gauss-Seidel sweeps
-// help it on. Every pair ends with a contact projection, so no pair leaves bodies approaching each
-// other; the best pair is the answer.
+// provide new iterates. Every pair ends with a contact projection, so no pair leaves bodies
+// approaching each other; the best pair is the answer.
 #pragma once
 
 #include "contact/anderson.h"
@@ -22,8 +22,8 @@ struct StaggeredMemory {
     NewtonMemory<System> newton;
     Anderson anderson;
     std::vector<typename System::Vec> best;
-    std::vector<double> normal;  ///< for which friction is solved
-    std::vector<double> image;   ///< with which the contact problem answers
+    std::vector<double> normal;  ///< the loads for the friction problem
+    std::vector<double> image;   ///< the loads from the contact problem
 
     void reserve(size_t contacts) {
         newton.reserve(contacts);
@@ -79,19 +79,19 @@ class StaggeredProjections {
     }
 
   private:
-    // Relative to |q|. The inner loop aims at kTarget of it, and need not be much more exact than
+    // Relative to |q|. The inner loop aims at kTarget of this and need not be much more exact than
     // the outer loop is at this point.
     static constexpr double kInnerTolerance = 1e-10;
     static constexpr double kInnerOfLast = 1e-3;
-    // Loads that nothing determines must not wander from pair to pair: a large rho that falls
+    // Undetermined loads must not wander from pair to pair: a large rho that falls
     // slowly keeps the inner answer near its start.
     static constexpr NewtonStart kInnerStart[] = {
         {NewtonStart::From::given, 1e-3, 40, 6, 12, false, 0, 0}};
     static constexpr int kPlainIterations = 3;
-    static constexpr int kPatience = 15;  // iterations before sweeps move on
+    static constexpr int kPatience = 15;  // iterations before sweeps provide a new iterate
     static constexpr int kSweeps = 200;
 
-    /// Of a contact; 0 for a joint, whose rows are solved in both problems.
+    /// For a contact; 0 for a joint, whose rows are solved in both problems.
     double load_of(size_t j) const { return system_.scale(j).joint != nullptr ? 0 : r_[j][0]; }
 
     /// Solves one of the two convex problems exactly.
@@ -148,12 +148,12 @@ class StaggeredProjections {
         plain_ = kPlainIterations;
     }
 
-    /// Sets the loads that the next pair starts from.
+    /// Sets the initial loads of the next pair.
     void accelerate() {
         for (size_t j = 0; j < r_.size(); ++j) memory_.image[j] = load_of(j);
         if (plain_ > 0) {
             --plain_;
-            // Coulomb's law may have several solutions: start gently, to find the nearest
+            // Coulomb's law may have several solutions: start with small steps, to find the nearest
             memory_.normal.swap(memory_.image);
             return;
         }

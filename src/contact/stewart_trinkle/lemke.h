@@ -15,7 +15,7 @@ class Lemke {
   public:
     /// Reserves memory for problems of up to this many variables, without touching it: the system
     /// provides pages when problems first need them, and most programs never do. The page faults of
-    /// the first use cost too little to be measured beside the pivots.
+    /// the first use are too cheap to be measurable beside the pivots.
     void reserve(int variables);
     int capacity() const noexcept { return capacity_; }
 
@@ -28,17 +28,17 @@ class Lemke {
     double z(int i) const noexcept { return z_[static_cast<size_t>(i)]; }
     double w(int i) const noexcept { return w_[static_cast<size_t>(i)]; }
 
-    /// Pivots along covering vector number `attempt`: 0 is all ones, others are scattered about
-    /// that. Allocates nothing. False if no solution is found within its own limit of pivots, or
-    /// within `most_pivots`.
+    /// Pivots along covering vector number `attempt`: number 0 is all ones, others are scattered
+    /// about that. Allocates nothing. False if no solution is found within the method's own limit
+    /// of pivots, or within `most_pivots`.
     bool solve(int attempt, int64_t most_pivots = std::numeric_limits<int64_t>::max()) noexcept;
     /// Tries the set of variables that were positive in the last solution with the present M and q.
-    /// False if it does not solve the problem.
+    /// False if this does not solve the problem.
     bool try_last_basis() noexcept;
     bool solve_last_basis(int m) noexcept;
 
     int pivots() const noexcept { return pivots_; }
-    /// Entries of the tableau that a pivot changes, and that try_last_basis() does.
+    /// Number of tableau entries changed by a pivot, and by try_last_basis().
     int64_t pivot_entries() const noexcept { return int64_t{n_} * (2 * n_ + 2); }
     int64_t basis_entries() const noexcept {
         const auto m = static_cast<int64_t>(last_basis_.size());
@@ -56,13 +56,13 @@ class Lemke {
 
     int capacity_ = 0;
     int n_ = 0;
-    size_t stride_ = 0;  // of a row: w, z, z0, right side
+    size_t stride_ = 0;  // length of a row: w, z, z0, right side
     int pivots_ = 0;
     std::unique_ptr<double[]> M_;
     std::unique_ptr<double[]> tableau_;  // try_last_basis() uses it as scratch memory
     std::vector<double> q_, z_, w_;
     std::vector<int> basis_;       // by row: the column that is basic
-    std::vector<int> last_basis_;  // z that were basic in the last solution
+    std::vector<int> last_basis_;  // the basic z of the last solution
     std::vector<double> right_;
 };
 

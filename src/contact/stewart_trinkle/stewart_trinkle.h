@@ -7,13 +7,14 @@
 //
 // Directions are fixed in the contact frame, as in the literature, which makes friction between two
 // directions weaker by a factor down to cos(pi/n); or the first is laid along each contact's
-// friction force, so that sliding is isotropic. A soft finger's torsion adds two directions, about
+// friction force, so that sliding is isotropic. Torsion of a soft finger adds two directions, about
 // +n and -n.
 //
-// Two methods solve it, and the statistics say which one did: Newton's on the polygon and, where
-// that fails, Lemke's in proximal steps, which remove the regularisation from the answer. Where
+// Two methods solve it, and the statistics report which one did: Newton's on the polygon and, if
+// that fails, Lemke's in proximal steps, which remove the regularisation from the answer. If
 // directions follow friction, the problem is solved with the present directions, they are turned,
-// and it is solved again, until friction opposes sliding: the answer is then Coulomb's as well.
+// and it is solved again, until friction opposes sliding: the answer then obeys Coulomb's law as
+// well.
 #pragma once
 
 #include <numbers>
@@ -28,7 +29,7 @@ namespace dihaptic::contact {
 
 struct StewartTrinkleOutcome : Outcome {
     Route route = Route::none;
-    double lcp_residual = 0;  ///< norm of min(z, w) over 1 + |q|, of the problem as given
+    double lcp_residual = 0;  ///< norm of min(z, w) over 1 + |q|, for the given problem
 };
 
 template <class System>
@@ -41,15 +42,15 @@ struct StewartTrinkleMemory {
     std::vector<Polygon<T>> polygons;
     std::vector<Directions> directions;
     std::vector<typename System::Vec> best;
-    std::vector<double> aim;    // first directions that polygons were given
-    std::vector<double> image;  // first directions that the answer with them asks for
+    std::vector<double> aim;    // first directions given to the polygons
+    std::vector<double> image;  // first directions required by the resulting answer
     Anderson anderson;
     std::vector<double> last;  // z of the last proximal step
     Lemke lemke;
 
     /// The size of Lemke's tableau grows with the square of its variables: it is reserved for
     /// twelve variables per contact of `lemke_contacts` (eight directions with torsion). Larger
-    /// problems do without Lemke's method.
+    /// problems are solved without Lemke's method.
     void reserve(size_t contacts, size_t lemke_contacts) {
         newton.reserve(contacts);
         polygons.reserve(contacts);
@@ -85,7 +86,7 @@ class StewartTrinkle {
     }
 
     /// Starts from r; leaves the best answer in r and its velocity in memory.newton.u. Converged
-    /// means that its own problem is solved and, with directions that follow friction, Coulomb's as
+    /// means that its own problem is solved and, if directions follow friction, Coulomb's as
     /// well.
     StewartTrinkleOutcome solve(std::span<Vec> r) {
         StewartTrinkleOutcome out;
@@ -94,7 +95,7 @@ class StewartTrinkle {
         if (follows()) turn(r);
         if (accept(r, Route::start, out)) return out;
         solve_and_turn(r, out, [&](double enough) { newton_once(r, enough, out); });
-        // a row of a joint has no sign, as Lemke's variables must have
+        // a joint's row has no fixed sign, unlike Lemke's variables
         if (!out.converged && !system_.has_joints())
             solve_and_turn(r, out, [&](double enough) { lemke_once(r, enough, out); });
         restore(r);
@@ -111,7 +112,7 @@ class StewartTrinkle {
         return out;
     }
 
-    /// Uses only Lemke's method, starting from no impulse.
+    /// Uses only Lemke's method, starting from zero impulses.
     StewartTrinkleOutcome solve_by_lemke(std::span<Vec> r) {
         StewartTrinkleOutcome out;
         for (Vec& impulse : r) impulse.setZero();
@@ -122,7 +123,7 @@ class StewartTrinkle {
         return out;
     }
 
-    /// Norm of min(z, w), z = (r_N, b, lambda), with the polygons as they lie.
+    /// Norm of min(z, w), z = (r_N, b, lambda), with the present polygons.
     Residual residual(std::span<const Vec> r, std::span<const Vec> u) const {
         double scaled = 0;
         double given = 0;
@@ -144,7 +145,7 @@ class StewartTrinkle {
             };
             const Shares b = in.inverse * r[j].template tail<T>();
             add(r[j][0], u[j][0], unit);
-            // the other directions have no share, and their w is not negative
+            // the other directions have zero coefficients and w >= 0
             for (int i = 0; i < T; ++i) add(b[i], in.vertices.col(i).dot(u_t) + lambda, unit);
             add(lambda, system_.scale(j).mu * r[j][0] - b.sum(), 1 / unit);
         }
@@ -152,15 +153,15 @@ class StewartTrinkle {
     }
 
   private:
-    /// Limits of solve_and_turn(). Answers with the last polygons are warm starts after a small
+    /// Limits of solve_and_turn(). The answer with the last polygons is a warm start after a small
     /// turn.
     static constexpr int kMostTurns = 60;
     static constexpr double kInnerOfLast = 1e-3;
-    static constexpr size_t kMostWork = 32000;  // contacts times steps, as for Newton's method
+    static constexpr size_t kMostWork = 32000;  // contacts times steps, as in Newton's method
 
     bool follows() const { return settings_.frame == DirectionFrame::sliding; }
 
-    /// Lays first directions along z = r_T - a_T u_T, in which friction points by the law: along
+    /// Lays first directions along z = r_T - a_T u_T, the direction of friction by the law: along
     /// r_T where the contact sticks, against u_T where it slides.
     void turn(std::span<const Vec> r) {
         for (size_t j = 0; j < r.size(); ++j) m_.polygons[j].turn_to(asked(j, r[j]));
@@ -168,8 +169,8 @@ class StewartTrinkle {
     Tangent asked(size_t j, const Vec& r) const {
         return r.template tail<T>() - system_.scale(j).a_t * m_.newton.u[j].template tail<T>();
     }
-    /// Turns the polygons as turn() does, as one step of an iteration that is accelerated over its
-    /// last ones. Contacts that stick inside their polygon, or are open, do not turn: their
+    /// Turns the polygons as turn() does, as one step of an iteration accelerated over its
+    /// last steps. Contacts that stick inside their polygon, or are open, do not turn: their
     /// directions would only disturb the others.
     void turn_faster(std::span<const Vec> r) {
         constexpr double kInside = 1e-9;
@@ -191,7 +192,7 @@ class StewartTrinkle {
         for (size_t j = 0; j < r.size(); ++j) m_.polygons[j].turn_to(Map(&m_.aim[j * T]));
     }
 
-    /// Calls `once` to solve the problem with the present polygons and, where directions follow
+    /// Calls `once` to solve the problem with the present polygons and, if directions follow
     /// friction, again after each turn.
     template <class Once>
     void solve_and_turn(std::span<Vec> r, StewartTrinkleOutcome& out, const Once& once) {
@@ -235,7 +236,7 @@ class StewartTrinkle {
     /// Solves by Newton's method, to `enough` at least.
     void newton_once(std::span<Vec> r, double enough, StewartTrinkleOutcome& out) {
         auto starts = kNewtonStarts;
-        if (enough > 0) {  // from an answer with slightly different polygons
+        if (enough > 0) {  // from the answer with slightly different polygons
             starts[0].rho = std::clamp(residual_, 1e-7, starts[0].rho);
             starts[0].sweeps = 0;
         }
@@ -308,9 +309,9 @@ class StewartTrinkle {
         }
     }
 
-    /// Whether the work suffices to fill in a problem of this many variables; spends it.
+    /// Whether the work suffices to fill in a problem with this many variables; spends that work.
     bool affords_entries(int64_t variables) {
-        constexpr int64_t kOfEach = 4;  // an entry is a product, and there is the tableau
+        constexpr int64_t kOfEach = 4;  // each entry needs a product and a place in the tableau
         const int64_t visits = kOfEach * variables * variables / Visits::entries + 1;
         if (!system_.work().affords(visits)) return false;
         system_.work().spend(visits);
@@ -329,7 +330,7 @@ class StewartTrinkle {
         for (int attempt = 0; attempt < kAttempts; ++attempt) {
             const int before = m_.lemke.pivots();
             const bool solved = m_.lemke.solve(attempt, system_.work().times(visits));
-            // a search begins with the tableau's entries
+            // a search starts by filling the tableau
             system_.work().spend(visits * (1 + m_.lemke.pivots() - before));
             if (solved) return true;
         }

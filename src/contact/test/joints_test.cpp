@@ -29,7 +29,7 @@ Vec3 random_vector(Random& random, double size) {
     return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
 }
 
-/// Keeps a point of b where a has it.
+/// Keeps a point of b at a point of a.
 ProblemJoint ball(int a, int b, const Vec3& arm_a, const Vec3& arm_b) {
     const ProblemContact frame;  // the world's axes
     ProblemJoint out;
@@ -40,7 +40,7 @@ ProblemJoint ball(int a, int b, const Vec3& arm_a, const Vec3& arm_b) {
     return out;
 }
 
-/// The given number of rows in which bodies do not turn against each other.
+/// The given number of rows that prevent relative rotation of two bodies.
 ProblemJoint turns(int a, int b, const Mat3& R, int rows) {
     ProblemJoint out;
     out.a = a;
@@ -62,7 +62,8 @@ ProblemJoint along_x(int b) {
     return out;
 }
 
-/// A chain of bodies on hinges, the first on the world; some turn about any axis, some about none.
+/// A chain of bodies on hinges, the first joined to the world; some turn about any axis, some about
+/// none.
 ContactProblem mechanism(Random& random, int bodies) {
     ContactProblem out = random_problem(random, bodies, 0);
     for (int i = 0; i < bodies; ++i) {
@@ -81,7 +82,8 @@ Eigen::VectorXd stacked(const std::vector<Vec6>& of) {
     return out;
 }
 
-/// Changes of velocity by the linear equations J M^-1 J' r + (J v + bias) = 0, of least impulses.
+/// Changes of velocity by the linear equations J M^-1 J' r + (J v + bias) = 0, with the smallest
+/// impulses.
 Eigen::VectorXd exact_change(const ContactProblem& problem) {
     const auto m = static_cast<Eigen::Index>(problem.bodies.size());
     const auto n = static_cast<Eigen::Index>(problem.joints.size());
@@ -125,7 +127,7 @@ TEST(Joints, ThatAreRedundantAreHarmless) {
         const Answer a = answer(Solver::newton, problem);
         EXPECT_FALSE(a.stats.missed) << i;
         EXPECT_LT((stacked(a.change) - exact).norm(), 1e-7 * (1 + exact.norm())) << i;
-        // how two joints that do the same share is theirs, but they do not push against each other
+        // two redundant joints may share the load in any way, but do not push against each other
         for (size_t j = 0; j < count; ++j)
             EXPECT_LT(a.joints[j].norm() + a.joints[j + count].norm(),
                       2 * (a.joints[j] + a.joints[j + count]).norm() + 1e-5)
@@ -165,10 +167,10 @@ TEST_P(JointsOfEach, StopAndRubWithinTheirBounds) {
         problem.joints.push_back(along_x(0));
         problem.joints[0].low[0] = 0;  // a stop: it pushes only
         EXPECT_NEAR(speed + answer(GetParam(), problem).change[0][0], std::max(0.0, speed), 1e-10);
-        problem.joints[0].bias[0] = 0.2;  // which is 0.2 h away
+        problem.joints[0].bias[0] = 0.2;  // at a distance of 0.2 h
         EXPECT_NEAR(speed + answer(GetParam(), problem).change[0][0], std::max(-0.2, speed), 1e-10);
         problem.joints[0].bias[0] = 0;
-        problem.joints[0].low[0] = -0.1;  // dry friction: 0.1 N s take 0.2 m/s from it
+        problem.joints[0].low[0] = -0.1;  // dry friction: 0.1 N s reduce its velocity by 0.2 m/s
         problem.joints[0].high[0] = 0.1;
         const double left = std::abs(speed) > 0.2 ? speed - std::copysign(0.2, speed) : 0;
         EXPECT_NEAR(speed + answer(GetParam(), problem).change[0][0], left, 1e-10) << speed;
@@ -176,8 +178,8 @@ TEST_P(JointsOfEach, StopAndRubWithinTheirBounds) {
 }
 
 TEST_P(JointsOfEach, AndContactsAreSolvedTogether) {
-    // two cubes on a slope steeper than the friction angle of one, and less than that of the other,
-    // on a rod between them: both slide as one mass with the mean of the two coefficients
+    // two cubes on a slope steeper than the friction angle of one and less steep than that of the
+    // other, on a rod between them: both slide as one mass with the mean of the two coefficients
     const double slope = 25 * kDegree;
     const Vec3 n(std::sin(slope), 0, std::cos(slope));
     ContactProblem problem = block_on_plane(n, 0.3);

@@ -1,4 +1,4 @@
-// Tests the parts that solvers are made of: linear complementarity, sparse factorisation, friction
+// Tests the components of solvers: linear complementarity, sparse factorisation, friction
 // polygon, acceleration, the linearised law.
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ TEST(LemkeTest, SolvesProblemsThatEnumerationSolves) {
             for (int j = 0; j < n; ++j) EXPECT_NEAR(lemke.z(j), set >> j & 1 ? x[j] : 0, 1e-9);
             break;
         }
-        // the set of a solved problem also solves a problem close to it
+        // the active set of a solved problem also solves a nearby problem
         for (int i = 0; i < n; ++i) lemke.q(i) *= 1.0001;
         if (q.minCoeff() < 0) {
             EXPECT_TRUE(lemke.try_last_basis());
@@ -208,7 +208,8 @@ TEST(PolygonTest, WithTorsionProjectsToItsNearestPoint) {
         const double radius = random.uniform(0.1, 2);
         const Vec3 x = vector(3);
         const auto on = polygon.project(x, radius);
-        // the nearest point of a convex body, as none of the body lies beyond the plane through it
+        // the nearest point of a convex body, as no part of the body lies beyond the plane through
+        // it
         double beyond = 0;
         for (int i = 0; i < polygon.count(); ++i) {
             beyond = std::max(beyond, (x - on.point).dot(radius * polygon.direction(i) - on.point));

@@ -43,8 +43,8 @@ inline ContactProblem block_on_plane(const Vec3& n, double mu, double h = 1e-3) 
     return out;
 }
 
-/// Bodies scattered in a box, touching each other and the ground at random points: all states of
-/// contacts occur, and W is often singular.
+/// Bodies scattered in a box, touching each other and the ground at random points: all contact
+/// states occur, and W is often singular.
 inline ContactProblem random_problem(Random& random, int bodies, int contacts,
                                      double torsion_radius = 0) {
     const auto vector = [&](double size) {
@@ -75,7 +75,7 @@ inline ContactProblem random_problem(Random& random, int bodies, int contacts,
 }
 
 /// Projected Gauss-Seidel on the exact cone, contact by contact, each solved by many small
-/// projected steps: slow, simple, and without anything in common with the solvers under test.
+/// projected steps: slow, simple, and sharing no code with the solvers under test.
 inline std::vector<Impulse> reference_solution(const ContactProblem& problem, double tolerance) {
     const DelassusProblem d = delassus(problem);
     Eigen::VectorXd r = Eigen::VectorXd::Zero(d.q.size());
@@ -99,7 +99,7 @@ inline std::vector<Impulse> reference_solution(const ContactProblem& problem, do
     return out;
 }
 
-/// Impulses from a cold start, and what was achieved.
+/// Impulses from a cold start, and the solve's statistics.
 struct Answer {
     std::vector<Impulse> r;
     std::vector<Vec3> joints;

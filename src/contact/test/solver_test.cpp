@@ -1,5 +1,5 @@
 // Tests all solvers through their interface: closed forms, invariance, an independent reference,
-// and what they must never do.
+// and forbidden results.
 #include <gtest/gtest.h>
 
 #include <functional>
@@ -75,7 +75,7 @@ TEST(StewartTrinkle, SlidesByItsPolygonWhenDirectionsAreFixed) {
 }
 
 TEST(StewartTrinkle, LeavesTheFallLineOnlyWhenDirectionsAreFixed) {
-    // nothing is aligned: the fall line is 15 degrees off the first of four directions
+    // no alignment: the fall line is 15 degrees from the first of four directions
     const double slope = 30 * kDegree;
     const Vec3 fall(std::cos(slope), 0, -std::sin(slope));
     ContactProblem problem = block_on_plane(tilted(slope, 0), 0.5);
@@ -90,7 +90,7 @@ TEST(StewartTrinkle, LeavesTheFallLineOnlyWhenDirectionsAreFixed) {
         const Vec3 v = problem.bodies[0].v_W + a.change[0].head<3>();
         return std::atan2(v.cross(fall).norm(), v.dot(fall)) / kDegree;
     };
-    // a little friction across keeps it sliding at 45 degrees, where two directions are equally
+    // a little transverse friction keeps it sliding at 45 degrees, where two directions are equally
     // good
     EXPECT_NEAR(off_fall_line(DirectionFrame::fixed), 30, 1e-4);
     EXPECT_LT(off_fall_line(DirectionFrame::sliding), 1e-5);
@@ -116,7 +116,7 @@ TEST(StewartTrinkle, AnswersByMeansOfItsOwn) {
                 }
                 ++own;
             }
-            // where polygons turn, a few in a hundred go round in circles, more with torsion
+            // with turning polygons, a few in a hundred cycle, more with torsion
             const bool hard = frame == DirectionFrame::sliding && radius > 0;
             EXPECT_GE(own, hard ? 190 : 195)
                 << static_cast<int>(frame) << ", torsion radius " << radius;
@@ -232,7 +232,8 @@ TEST_P(EachSolver, AgreesWithAnIndependentReference) {
     for (int i = 0; i < 40; ++i) {
         const ContactProblem problem = random_problem(random, 1 + i % 3, 1 + i % 6);
         const std::vector<Impulse> reference = testing::reference_solution(problem, 1e-11);
-        if (natural_map_residual(problem, reference) > 1e-11) continue;  // too slow for this one
+        if (natural_map_residual(problem, reference) > 1e-11)
+            continue;  // the reference is too slow here
         const Answer a = answer(GetParam(), problem);
         const DelassusProblem d = delassus(problem);
         Eigen::VectorXd difference(d.q.size());
@@ -240,14 +241,14 @@ TEST_P(EachSolver, AgreesWithAnIndependentReference) {
             difference.segment<3>(3 * static_cast<Eigen::Index>(j)) =
                 (a.r[j] - reference[j]).head<3>();
         }
-        // Coulomb friction may have several solutions, which only the residual can judge
+        // Coulomb friction may have several solutions, which only the residual can assess
         if ((d.W * difference).norm() < 1e-6) ++compared;
         EXPECT_LE(natural_map_residual(problem, a.r), 1e-8);
     }
     EXPECT_GE(compared, 30);
 }
 
-/// Makes every other contact soft, from hardly to far more than the bodies give.
+/// Makes every other contact soft, from hardly soft to far softer than the bodies.
 void soften(Random& random, ContactProblem& problem) {
     for (size_t j = 0; j < problem.contacts.size(); j += 2)
         problem.contacts[j].compliance = std::pow(10, random.uniform(-2, 4));
@@ -268,7 +269,7 @@ TEST_P(EachSolver, PressesASoftContactAsItsSpringSays) {
                 const Answer a = answer(GetParam(), problem);
                 const double expected =
                     (kMass * v - kStep * k * kX) / (kMass + kStep * c + kStep * kStep * k);
-                // what lets go does not pull
+                // a separating contact does not pull
                 EXPECT_NEAR(v + a.change[0][2], std::max(v, expected), 1e-8)
                     << k << " " << c << " " << v;
             }
@@ -297,7 +298,8 @@ TEST_P(EachSolver, AgreesWithAnIndependentReferenceOnSoftContacts) {
         ContactProblem problem = random_problem(random, 1 + i % 3, 1 + i % 6);
         soften(random, problem);
         const std::vector<Impulse> reference = testing::reference_solution(problem, 1e-11);
-        if (natural_map_residual(problem, reference) > 1e-11) continue;  // too slow for this one
+        if (natural_map_residual(problem, reference) > 1e-11)
+            continue;  // the reference is too slow here
         const Answer a = answer(GetParam(), problem);
         for (size_t j = 0; j < reference.size(); ++j) {
             if (problem.contacts[j].compliance > 0) {
@@ -394,7 +396,7 @@ TEST_P(EachSolver, TakesOddProblems) {
     ContactProblem still = block_on_plane(Vec3::UnitZ(), 0.8);
     still.bodies[0].v_W.setZero();
     fine(still);
-    ContactProblem twice = block_on_plane(Vec3::UnitZ(), 0.8);  // each contact given twice
+    ContactProblem twice = block_on_plane(Vec3::UnitZ(), 0.8);  // with each contact twice
     for (size_t j = 0; j < 4; ++j) twice.contacts.push_back(twice.contacts[j]);
     fine(twice);
     ContactProblem held = block_on_plane(Vec3::UnitZ(), 0.8);  // may only rise
@@ -490,7 +492,7 @@ TEST(SequentialImpulse, NearsTheAnswerOfTheOthersWithTorsionToo) {
 }
 
 TEST(Hold, TakesAwayOneMotionAndKeepsTheInertiaOfTheOthers) {
-    // a slanted rod that can turn about x alone has 1 / I_xx there, whatever its products of
+    // a slanted rod that can turn about x alone has 1 / I_xx there, for any products of
     // inertia
     const Mat3 R = Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized())).toRotationMatrix();
     const Mat3 I = R * Vec3(1, 2, 0.1).asDiagonal() * R.transpose();

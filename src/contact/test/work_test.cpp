@@ -1,4 +1,4 @@
-// Tests that the work of all solves of a tick together is bounded, whichever solver is asked.
+// Tests that the work of all solves of a tick together is bounded, for any requested solver.
 #include <gtest/gtest.h>
 
 #include "contact/test/problems.h"
@@ -40,8 +40,8 @@ INSTANTIATE_TEST_SUITE_P(Contact, EachSolversWork,
                                  enum_names(Solver{})[static_cast<size_t>(which.param)]);
                          });
 
-/// Two loads that contradict each other: there is no answer, and without a bound each solver asks
-/// all others for one.
+/// Two contradictory loads: there is no answer, and without a bound each solver tries
+/// all others.
 ContactProblem without_answer(Random& random, int bodies, int contacts) {
     ContactProblem out = testing::random_problem(random, bodies, contacts);
     for (size_t j = 0; j < 2; ++j) {
@@ -69,7 +69,7 @@ TEST_P(EachSolversWork, IsBoundedWhereThereIsNoAnswer) {
         SolveStats stats;
         solvers.solve(GetParam(), settings, problem, r, stats);
         EXPECT_EQ(stats.work, tick.spent());
-        // what comes on top: assembly, the fewest sweeps, the residual of what they left
+        // additional work: assembly, the fewest sweeps, their final residual
         EXPECT_LE(stats.work, most + 24 * 40) << i;
         EXPECT_TRUE(stats.missed);
         EXPECT_EQ(stats.ended, stats.route == Route::out_of_work);
@@ -124,7 +124,7 @@ TEST_P(EachSolversWork, ChangesNothingWhereThereIsEnoughOfIt) {
 }
 
 TEST_P(EachSolversWork, IsNotSpentOnWhatNothingCanPushApart) {
-    // on a rail along x, deep inside a table: the contact asks for a motion that there is not
+    // on a rail along x, deep inside a table: the contact requires an impossible motion
     ContactProblem problem = testing::block_on_plane(Vec3::UnitZ(), 0.8);
     for (const int i : {1, 2, 3, 4, 5}) hold(problem.bodies[0].inverse_mass, i);
     problem.bodies[0].v_W = {0.1, 0, 0};

@@ -1,4 +1,4 @@
-// Tests texts with numbers in them, and how the things of a Frame are shown.
+// Tests texts with numbers in them, and the display of objects in a Frame.
 #include "frame/shown_texts.h"
 
 #include <gtest/gtest.h>
