@@ -6,14 +6,14 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// The series of a stretch in which a body turns by less than this [rad] converge in a few terms:
-/// each is smaller than the one before by at least this factor.
+/// The series for an interval in which a body turns by less than this [rad] converge in a few
+/// terms: each term is smaller than the one before by at least this factor.
 constexpr double kStretch = 0.2;
 constexpr size_t kMostTerms = 24;
-/// A term this small, of numbers about one, changes nothing.
+/// A term below this, in a sum of about one, has no effect.
 constexpr double kNothing = 1e-17;
 
-/// Moves q and w, in the body's axes, on by h. `a` are (I_y - I_z) / I_x and so on.
+/// Advances q and w, in the body's axes, by h. `a` are (I_y - I_z) / I_x and so on.
 void advance(const Vec3& a, double h, Quat& q, Vec3& w) noexcept {
     // coefficients of h w and q, by powers of t / h
     std::array<Vec3, kMostTerms + 1> W;
@@ -38,7 +38,7 @@ void advance(const Vec3& a, double h, Quat& q, Vec3& w) noexcept {
         w_sum += W[k + 1];
         q_sum += Q[k + 1].coeffs();
         const double now = std::max(W[k + 1].norm(), Q[k + 1].norm());
-        if (now < kNothing && last < kNothing) break;  // every second one may be zero
+        if (now < kNothing && last < kNothing) break;  // every second term may be zero
         last = now;
     }
     w = w_sum / h;

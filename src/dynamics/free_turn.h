@@ -5,16 +5,16 @@
 
 namespace dihaptic::dynamics {
 
-/// The constant angular velocity, in W, that turns a body in a step of h as far as it turns freely
-/// when it begins with w_W [rad/s]: R' = exp(h w) R is the orientation to which its angular
-/// momentum takes it.
+/// The constant angular velocity, in W, that turns a body in a step of h like its free rotation
+/// from the initial w_W [rad/s]: R' = exp(h w) R is the orientation to which its angular
+/// momentum leads.
 ///
 /// `inertia` are the principal moments [kg*m^2], about the axes of R_WM. In these axes
 ///
 ///     I w' = (I w) x w,    q' = q w / 2
 ///
 /// are quadratic, so that the terms of their Taylor series follow from one another (Cauchy's
-/// products; Jorba and Zou 2005). They are added until the next ones change nothing.
+/// products; Jorba and Zou 2005). They are added until further terms have no effect.
 Vec3 mean_velocity(const Quat& R_WM, const Vec3& inertia, const Vec3& w_W, double h) noexcept;
 
 }  // namespace dihaptic::dynamics

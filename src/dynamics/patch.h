@@ -1,4 +1,4 @@
-// Parts of polyhedron.cpp and round.cpp: polygons that are clipped to contact patches.
+// Parts of polyhedron.cpp and round.cpp: polygons clipped to contact patches.
 #pragma once
 
 #include <array>
@@ -12,11 +12,11 @@ namespace dihaptic::dynamics {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// An edge axis must separate better than the best face by this much: faces give whole patches, and
-/// near ties would make the contact flip between one point and four.
+/// An edge axis must separate better than the best face by this margin: faces give complete
+/// patches, and near ties would make the contact flip between one point and four.
 constexpr double kFacePreference = 1e-5;  // [m]
 
-/// A polygon of fixed capacity: a face that is clipped by another. Two points are a line, one is a
+/// A polygon of fixed capacity: a face clipped by another. Two points are a line, one is a
 /// point.
 struct Polygon {
     std::array<Vec3, 2 * Polyhedron::kMostFaceVertices> points;
@@ -39,17 +39,17 @@ inline void flip(ContactPatch& patch) {
     for (ContactPoint& point : patch.points) std::swap(point.p_WA, point.p_WB);
 }
 
-/// Whether a shape that is apart by `separation` along the normal n of a face, and moves by `way`
+/// Whether a shape at a distance `separation` along a face's normal n, which moves by `way`
 /// in the coming step, stands flush with that face and stays so. If it also touches an edge, the
-/// face's plane is as near as that edge, and what slides along the plane must not run into the
-/// edge. Seams between bodies that stand side by side are therefore not felt.
+/// face's plane is as near as that edge, and a body that slides along the plane must not run into
+/// the edge. Seams between bodies side by side are therefore not felt.
 inline bool is_flush(double separation, const Vec3& n, const Vec3& way) {
-    constexpr double kFlush = 3e-5;  // [m]: what falls in a step, and a little more
+    constexpr double kFlush = 3e-5;  // [m]: a little more than the fall in a step
     return std::abs(separation) < kFlush && separation + n.dot(way) > -kFlush;
 }
 
-/// Whether the best axis separates shapes in another direction than the face with which they are
-/// flush.
+/// Whether the best axis separates shapes in a direction other than that of the face with which
+/// they are flush.
 inline bool is_across(const Vec3& axis, const Vec3& n_flush) {
     return axis.dot(n_flush) < 0.9;
 }
@@ -59,7 +59,7 @@ inline bool is_across(const Vec3& axis, const Vec3& n_flush) {
 void reduce(const Polygon& points, const Gaps& gaps, const Vec3& n, std::array<size_t, 4>& kept,
             int& count);
 
-/// Adds the points on B within the margin to the patch, whose normal is known; `offset` is that of
+/// Adds the points on B within the margin to the patch, whose normal is known; `offset` belongs to
 /// A's face.
 void keep_near(const Polygon& points, double offset, double margin, ContactPatch& patch);
 

@@ -13,7 +13,7 @@ namespace {
 struct FaceQuery {
     double separation = -kInfinity;
     int face = -1;
-    int flush = -1;  ///< a face that `b` stands flush with
+    int flush = -1;  ///< a face with which `b` is flush
 };
 
 /// `way` is the displacement of b relative to a in the coming step, in a's frame.
@@ -33,7 +33,7 @@ FaceQuery query_faces(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB
             best.separation = separation;
             best.face = static_cast<int>(f);
         }
-        if (separation > margin) break;  // apart: the other faces no longer matter
+        if (separation > margin) break;  // apart: other faces are irrelevant
     }
     return best;
 }
@@ -53,7 +53,7 @@ EdgeQuery query_edges(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB
         for (size_t j = 0; j < b.directions.size(); ++j) {
             Vec3 axis = a.directions[i].cross(R_AB * b.directions[j]);
             const double size = axis.norm();
-            if (size < 1e-4) continue;  // parallel edges: a face axis serves as well
+            if (size < 1e-4) continue;  // parallel edges: a face axis suffices
             axis /= size;
             double a_low = kInfinity, a_high = -kInfinity, b_low = kInfinity, b_high = -kInfinity;
             for (const Vec3& v : a.vertices) {
@@ -81,7 +81,7 @@ EdgeQuery query_edges(const Polyhedron& a, const Polyhedron& b, const Pose& X_AB
     return best;
 }
 
-/// The edge of a given direction that lies farthest along the axis.
+/// The edge with a given direction that is farthest along the axis.
 Polyhedron::Edge support_edge(const Polyhedron& p, int direction, const Vec3& axis) {
     const Polyhedron::Edge* best = nullptr;
     double furthest = -kInfinity;
@@ -97,7 +97,7 @@ Polyhedron::Edge support_edge(const Polyhedron& p, int direction, const Vec3& ax
     return *best;
 }
 
-/// Clips the face of `other` that is turned to the reference face. The patch's points are pairs (on
+/// Clips the face of `other` that faces the reference face. The patch's points are pairs (on
 /// reference, on other); its normal points away from the reference.
 void face_contact(const Polyhedron& ref, const Pose& X_WR, int face, const Polyhedron& other,
                   const Pose& X_WO, double margin, ContactPatch& patch) {
@@ -348,7 +348,7 @@ ContactPatch collide_half_space(const Pose& X_WA, const Polyhedron& b, const Pos
                                 double margin) noexcept {
     ContactPatch patch;
     patch.n_W = X_WA.R * Vec3::UnitZ();
-    // the vertices within the margin make up the patch, whatever faces they belong to
+    // the vertices within the margin make up the patch, for any faces
     Polygon corners;
     for (const Vec3& vertex : b.vertices) corners.add(X_WB * vertex);
     keep_near(corners, patch.n_W.dot(X_WA.p), margin, patch);

@@ -3,7 +3,7 @@
 // Separating-axis test over the faces of both and the cross products of their edge directions
 // (Gottschalk 1996; Gregorius 2013); then the incident face is clipped against the reference face.
 // Contacts are found up to `margin` before the bodies touch, so that a solver can prevent any
-// overlap: a gap g lets bodies approach by g in the step, no more.
+// overlap: a gap g lets bodies approach by at most g in the step.
 //
 // Bullet finds box contacts only once they overlap, and allocates in doing so; hence this
 // implementation.
@@ -40,7 +40,7 @@ struct Polyhedron {
     std::vector<Face> faces;
     std::vector<Edge> edges;
     std::vector<Vec3> directions;  ///< of edges, unit; parallel ones only once
-    /// Outward normals of faces that other parts of the same body cover, and that nothing can
+    /// Outward normals of faces that other parts of the same body cover, and which nothing can
     /// touch. Without them, a body sliding over the seam would run into the covered face behind it.
     std::vector<Vec3> covered;
 
@@ -54,8 +54,8 @@ struct ContactPoint {
     Vec3 p_WA;   ///< on A's surface [m]
     Vec3 p_WB;   ///< on B's surface [m]
     double gap;  ///< from A to B along the normal; negative: overlap [m]
-    /// From this point to the one where a rolling rim will touch in the middle of the step, without
-    /// the body's own motion [m].
+    /// From this point to the point of a rolling rim that will touch in the middle of the step,
+    /// without the body's own motion [m].
     Vec3 ahead_W = Vec3::Zero();
 };
 

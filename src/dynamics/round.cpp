@@ -12,7 +12,7 @@ namespace {
 /// A cap is treated as a polygon with this many corners, the first of which is the lowest point of
 /// its rim.
 constexpr int kRim = 16;
-/// The whole rim of a cap counts where the axis is within some 25 degrees of the normal; otherwise
+/// The whole rim of a cap counts if the axis is within some 25 degrees of the normal; otherwise
 /// only the rim's lowest point does.
 constexpr double kCap = 0.9;
 /// Lines closer to parallel than this touch along their length.
@@ -34,13 +34,13 @@ struct Placed {
     const Round& shape;
     Vec3 centre;
     Vec3 axis;
-    Vec3 across;  ///< at a right angle to the axis
+    Vec3 across;  ///< perpendicular to the axis
 
     Placed(const Round& round, const Pose& X_W)
         : shape(round), centre(X_W.p), axis(X_W.R * Vec3::UnitZ()), across(X_W.R * Vec3::UnitX()) {}
 
     Vec3 end(double sign) const { return centre + sign * shape.half * axis; }
-    /// How far it extends from its centre along the unit vector u.
+    /// Extent from its centre along the unit vector u.
     double extent(const Vec3& u) const {
         const double along = axis.dot(u);
         const double side = shape.has_rim() ? std::sqrt(std::max(0.0, 1 - along * along)) : 1;
@@ -71,16 +71,16 @@ struct Core {
     double low = 0, high = 0;  // along the axis
     bool has_tip = false;
 
-    /// The core of a shape that has a round surface, or is to get one of the given radius.
+    /// The core of a shape whose round surface exists or has the given radius.
     static Core of(const Round& shape, double rounding) {
         if (!shape.has_rim()) return {0, -shape.half, shape.half};
         const double half = shape.half - rounding;
         if (!shape.is_cone()) return {shape.radius - rounding, -half, half};
-        // all of it is scaled about the middle of the largest ball inside
+        // scaled about the centre of the largest inscribed ball
         const double scale = 1 - rounding / inner_radius(shape);
         return {scale * shape.radius, -half, 2 * scale * shape.half - half, true};
     }
-    /// Radius of the largest ball inside a shape with a rim.
+    /// Radius of the largest inscribed ball of a shape with a rim.
     static double inner_radius(const Round& shape) {
         if (!shape.is_cone()) return std::min(shape.radius, shape.half);
         const double height = 2 * shape.half;
@@ -115,7 +115,7 @@ double rounding_of(const Round& shape) {
     return shape.has_rim() ? kShare * Core::inner_radius(shape) : 0;
 }
 
-/// The closest points of two convex sets, by projection onto one and the other in turn (Cheney and
+/// The closest points of two convex sets, by alternating projections (Cheney and
 /// Goldstein 1959), from a point of the first.
 template <class NearestOfA, class NearestOfB>
 std::pair<Vec3, Vec3> closest_by_turns(Vec3 p, int times, const NearestOfA& of_a,
@@ -143,8 +143,8 @@ void cap(const Placed& at, const Vec3& d, Polygon& out) {
     }
 }
 
-/// The feature of a shape that is farthest along d. With `whole`, a cap that faces along d is given
-/// with its rim.
+/// The feature of a shape that is farthest along d. With `whole`, a cap that faces along d is
+/// returned with its rim.
 void feature(const Placed& at, const Vec3& d, bool whole, Polygon& out) {
     const Round& shape = at.shape;
     out.count = 0;
@@ -169,11 +169,11 @@ void feature(const Placed& at, const Vec3& d, bool whole, Polygon& out) {
     }
 }
 
-/// Sets, for the nearest point of a patch, where its rim will touch in the middle of a step in
-/// which it turns by turn_W. The patch's normal points to it.
+/// Sets, for the nearest point of a patch, the point of its rim that will touch in the middle of a
+/// step in which it turns by turn_W. The patch's normal points to it.
 void look_ahead(const Placed& at, const Vec3& turn_W, ContactPatch& patch) {
-    constexpr double kRolls = 0.9;  // cosine of how far the point of the rim goes at most
-    constexpr double kLies = 1e-5;  // [m]: with its side, by a line that rolls along
+    constexpr double kRolls = 0.9;  // cosine of the largest angle of the rim's point
+    constexpr double kLies = 1e-5;  // [m]: on its side, by a line that rolls along
     if (!at.shape.has_rim() || patch.count == 0) return;
     if (patch.count == 2 && std::abs(patch.points[0].gap - patch.points[1].gap) < kLies) return;
     const Quat half_way = rotation_by(turn_W / 2);
@@ -257,7 +257,7 @@ void line_contact(Polygon& of_a, Polygon& of_b, double gap, double margin, Conta
     if (of_b.count == 1) return add(q - gap * n, gap);
     const Vec3 d = of_a.points[1] - p;
     const Vec3 e = of_b.points[1] - q;
-    // where they lie along each other
+    // where they overlap lengthwise
     const double s_q = d.dot(q - p) / d.squaredNorm();
     const double s_e = d.dot(e) / d.squaredNorm();
     const double low = std::max(0.0, std::min(s_q, s_q + s_e));
@@ -293,7 +293,7 @@ struct Best {
     }
 };
 
-/// By how much the nearest point of a face's patch is farther away than the closest feature along
+/// Excess distance of the nearest point of a face's patch over the closest feature along
 /// the face's normal, which may lie beyond the face's sides [m]; zero if the face meets it.
 double missed(const ContactPatch& patch, double separation) {
     double least = kInfinity;
@@ -302,21 +302,21 @@ double missed(const ContactPatch& patch, double separation) {
     return least - separation;
 }
 
-/// Whether a face's contact is that of the shapes. If they are apart or touch, no other axis then
-/// separates them better.
+/// Whether a face's contact is the contact between the shapes. If they are apart or touch, no other
+/// axis then separates them better.
 bool settles(const ContactPatch& patch, double separation) {
     constexpr double kTouching = -1e-6;  // [m]
     return separation > kTouching && missed(patch, separation) < 1e-9;
 }
 
-/// Whether the best line gives the distance of the shapes better than the best face does.
+/// Whether the best line gives the distance between the shapes better than the best face.
 bool is_line(const Best& best, const ContactPatch& patch) {
     if (best.kind == Best::line) return true;
     if (best.line_axis.isZero(0)) return false;
     return missed(patch, best.separation) > best.separation - best.line_separation;
 }
 
-/// The normals of the side of a cylinder or a cone: all around, and tilted up by the slope of the
+/// The normals of the side of a cylinder or a cone: around the axis, tilted up by the slope of the
 /// side.
 struct SideNormals {
     Vec3 first, second, up;
@@ -361,7 +361,7 @@ void walk_around(const Placed& of, double sign, const Separation& along, double 
     best.take(most, sign * normals.at(angle), Best::line);
 }
 
-/// Distance of two round shapes along the unit vector u.
+/// Distance between two round shapes along the unit vector u.
 double apart_along(const Placed& a, const Placed& b, const Vec3& u) {
     return u.dot(b.centre - a.centre) - a.extent(u) - b.extent(-u);
 }
@@ -385,7 +385,7 @@ void try_caps(const Placed& a, const Placed& b, Best::Kind kind, Best& best) {
     best.take(apart_along(a, b, u), u, kind);
 }
 
-/// Climbs from the best line's axis to the best one near it, by ever shorter strides in all
+/// Climbs from the best line's axis to the best one near it, by shrinking strides in all
 /// directions: the distance of convex shapes as a function of the axis has one peak, which may be a
 /// ridge. Shapes that are farther apart than the margin need no better axis.
 template <class Separation>
@@ -412,7 +412,7 @@ void climb(const Separation& along, double margin, Best& best) {
         }
         if (better == u) {
             stride /= 2;
-            turned += 1;  // so that no ridge lies between the same ways
+            turned += 1;  // so that no ridge is missed between repeated directions
         }
         u = better;
     }
@@ -494,7 +494,7 @@ void try_edges(const Corners& a, const Placed& b, double margin, Best& best) {
     const auto along = [&](const Vec3& u) {
         return u.dot(b.centre) - b.extent(-u) - a.furthest(u);
     };
-    // an edge that is within the core leaves the best axis so far to climb from
+    // for an edge within the core, climb from the best axis so far
     const Vec3 u = least > kTogether ? Vec3((on_b - on_a) / least) : best.axis;
     best.take(along(u), u, Best::line);
     if (core.radius > 0) climb(along, margin, best);
@@ -536,12 +536,12 @@ void try_lines(const Placed& a, const Placed& b, double margin, Best& best) {
             walk_around(b, -1, along, margin, best);
         }
     }
-    if (best.axis.isZero(0))  // one inside the other
+    if (best.axis.isZero(0))  // one is inside the other
         best.take(-a.extent(a.across) - b.extent(a.across), a.across, Best::line);
 }
 
-/// The best of the faces of `a` and of the caps of `b`, and in `flush` the face that `b` stands
-/// flush with, or -1.
+/// The best of the faces of `a` and of the caps of `b`, and in `flush` the face of `a` for `b`
+/// with which it is flush, or -1.
 Best best_face(const Corners& a, const Placed& b, double margin, const Vec3& way_W, int& flush) {
     Best best;
     flush = -1;
@@ -555,7 +555,7 @@ Best best_face(const Corners& a, const Placed& b, double margin, const Vec3& way
     }
     if (!b.shape.has_rim()) return best;
     for (const double sign : {1.0, -1.0}) {
-        if (b.shape.is_cone() && sign < 0) break;  // there is its tip
+        if (b.shape.is_cone() && sign < 0) break;  // the tip is there
         const Vec3 u = sign * b.axis;
         best.take(u.dot(b.centre) - b.shape.half - a.furthest(u), u, Best::cap_of_b);
     }

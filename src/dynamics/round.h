@@ -16,7 +16,7 @@ namespace dihaptic::dynamics {
 
 /// A sphere, capsule, cylinder or cone about the z axis of its frame.
 struct Round {
-    enum class Ends { round, flat, tip };  ///< tip: flat below, and a tip at the top of z
+    enum class Ends { round, flat, tip };  ///< tip: flat below, with a tip at the top of z
     double radius = 0;                     ///< [m]
     double half = 0;  ///< from the middle to a cap, a tip, or the centre of a round end [m]
     Ends ends = Ends::round;
@@ -25,14 +25,14 @@ struct Round {
     bool is_cone() const { return ends == Ends::tip; }
 };
 
-/// As collide() for polyhedra. `turn_W` is the rotation of B relative to A in the coming step
+/// Like collide() for polyhedra. `turn_W` is the rotation of B relative to A in the coming step
 /// [rad].
 ContactPatch collide(const Polyhedron& a, const Pose& X_WA, const Round& b, const Pose& X_WB,
                      double margin, const Vec3& way_W, const Vec3& turn_W = Vec3::Zero()) noexcept;
 ContactPatch collide(const Round& a, const Pose& X_WA, const Round& b, const Pose& X_WB,
                      double margin) noexcept;
 
-/// As collide_half_space() for a polyhedron.
+/// Like collide_half_space() for a polyhedron.
 ContactPatch collide_half_space(const Pose& X_WA, const Round& b, const Pose& X_WB, double margin,
                                 const Vec3& turn_W = Vec3::Zero()) noexcept;
 

@@ -1,10 +1,10 @@
 // Decides when bodies sleep. A body is quiet while it hardly moves. Bodies that touch each other
 // fall asleep together, once each of them has been quiet for a while and no finger touches any of
-// them. They wake together, in the step in which something awake touches one of them or a load is
+// them. They wake together, in the step in which an awake body touches one of them or a load is
 // applied.
 //
-// The limits are far below what a person sees or feels. A sliding block passes through them within
-// milliseconds, while falling asleep takes half a second, so nothing that slides is ever frozen.
+// The limits are far below human perception. A sliding block passes through them within
+// milliseconds, while falling asleep takes half a second, so a sliding body is never frozen.
 #pragma once
 
 #include <span>
@@ -23,7 +23,7 @@ class SleepKeeper {
   public:
     explicit SleepKeeper(size_t bodies) : quiet_(bodies, 0.0), group_quiet_(bodies, true) {}
 
-    /// Notes that a body is not quiet, whatever its speed.
+    /// Notes that a body is not quiet, at any speed.
     void stir(size_t body) noexcept { quiet_[body] = 0; }
     /// Counts one step of an awake body.
     void observe(size_t body, const Vec3& v, const Vec3& w, double h) noexcept {
@@ -31,7 +31,7 @@ class SleepKeeper {
                            w.squaredNorm() < kQuietAngularSpeed * kQuietAngularSpeed;
         quiet_[body] = quiet ? quiet_[body] + h : 0.0;
     }
-    /// Judges all groups; may_sleep() then gives the verdict for each awake body.
+    /// Checks all groups; may_sleep() then gives the result for each awake body.
     void judge(std::span<const size_t> awake, Groups& groups) noexcept {
         for (const size_t body : awake) group_quiet_[groups.of(body)] = true;
         for (const size_t body : awake) {

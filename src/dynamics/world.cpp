@@ -9,7 +9,7 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Gives a solid the mean of its moments about B for all axes, and makes B its mass frame.
+/// Gives a solid the mean of its moments about B for all axes, with B as its mass frame.
 void lump(scene::Solid& solid) {
     const double about_centre = solid.inertia.sum() / 3;
     solid.inertia.setConstant(about_centre + 2 * solid.mass / 3 * solid.X_BM.p.squaredNorm());
@@ -186,7 +186,7 @@ void World::activate() {
     w.collision->manifolds().reserve(manifolds);
     w.contacts_of_islands.reserve(manifolds);
     w.island_contacts.reserve(manifolds);
-    // points keep their records for two steps, and few are found late
+    // points keep their records for two steps, and few are added late
     w.carried_pool.reserve(MANIFOLD_CACHE_SIZE *
                            (static_cast<size_t>(w.collision->max_pairs()) +
                             Collision::kMostEntered +
@@ -333,7 +333,7 @@ void World::set_properties(BodyIndex body, const BodyProperties& properties) noe
     if (item.properties == properties) return;
     item.properties = properties;
     if (!impl_->surfaces.empty()) impl_->pair_surfaces(i);
-    if (!item.can_move) {  // what rests on it may slip now
+    if (!item.can_move) {  // bodies on it may slip now
         for (const size_t k : impl_->can_move) impl_->wake(k, states_);
         return;
     }
@@ -401,7 +401,7 @@ void World::carry(BodyIndex proxy, const Quat& R_WP, const Vec3& w_WP) noexcept 
 void World::set_pose(BodyIndex body, const Pose& X_WB) noexcept {
     const auto i = static_cast<size_t>(body.value);
     Impl::Item& item = impl_->items[i];
-    if (item.can_move && !impl_->is_awake(i)) {  // what lies on it falls now
+    if (item.can_move && !impl_->is_awake(i)) {  // bodies on it fall now
         for (const size_t k : impl_->can_move) impl_->wake(k, states_);
     }
     item.body->setWorldTransform(to_bullet(X_WB * item.X_BM));

@@ -1,12 +1,12 @@
 // World simulates rigid bodies under gravity, contact and friction. One step is
 //
-//     v <- v + h (g + f/m),  w <- w + h I^-1 torque      all loads but contacts, on the velocities
-//     find contacts; solve for contact impulses           velocities now obey contact and friction
-//     x <- x + h v,  R <- exp(h w) R                      semi-implicit Euler
+//     v <- v + h (g + f/m),  w <- w + h I^-1 torque      all loads except contacts, on the
+//     velocities find contacts; solve for contact impulses           velocities now obey contact
+//     and friction x <- x + h v,  R <- exp(h w) R                      semi-implicit Euler
 //
 // so that the solver's friction sees all loads of the step, including applied torques, which
-// Bullet's own order hides from it. Bodies that are at rest and touch nothing that moves sleep:
-// they cost nothing and stay exactly where they are (sleep.h).
+// Bullet's own order hides from it. Bodies at rest that touch no moving body sleep:
+// they cost nothing and do not move at all (sleep.h).
 //
 // Set-up may allocate and throw; after activate() a step does neither.
 #pragma once
@@ -34,29 +34,29 @@ struct BodyState {
     bool awake = true;         ///< false: asleep or fixed; the state does not change
 };
 
-/// State of a joint of the scene. A hinge or slider has a coordinate, that of its second body
-/// relative to the first, 0 at the start.
+/// State of a joint of the scene. A hinge or slider has a coordinate: its second body's
+/// position relative to the first, 0 at the start.
 struct JointState {
     scene::JointKind kind = scene::JointKind::hinge;
     double position = 0;           ///< [rad] or [m]
     double velocity = 0;           ///< [rad/s] or [m/s]
     Vec3 force_W = Vec3::Zero();   ///< of the first body on the second, at the joint [N]
-    Vec3 torque_W = Vec3::Zero();  ///< with those of spring, friction and stops [N*m]
+    Vec3 torque_W = Vec3::Zero();  ///< including spring, friction and stops [N*m]
 };
 
-/// Factors by which a body's properties differ from those of the scene. Of a pair's surface as the
-/// scene gives it, they change the friction only.
+/// Factors between a body's properties and the scene's. Of a pair's surface in the
+/// scene, they change only the friction.
 struct BodyProperties {
-    Vec3 mass = Vec3::Ones();  ///< of its inertia along the world's axes
+    Vec3 mass = Vec3::Ones();  ///< for its inertia along the world's axes
     double weight = 1;
-    double turning = 1;      ///< of its moments of inertia
-    double friction = 1;     ///< of its coefficients with all others
-    double stiffness = 1;    ///< of its own surface, with its damping
-    double restitution = 1;  ///< of its own surface, whose restitution stays at most 1
+    double turning = 1;      ///< for its moments of inertia
+    double friction = 1;     ///< for its coefficients with all other bodies
+    double stiffness = 1;    ///< for its own surface, with the damping
+    double restitution = 1;  ///< for its own surface, whose restitution stays at most 1
     bool operator==(const BodyProperties&) const = default;
 };
 
-/// Factors by which a joint's properties differ from those of the scene.
+/// Factors between a joint's properties and the scene's.
 struct JointProperties {
     double stiffness = 1;
     double damping = 1;
@@ -66,12 +66,12 @@ struct JointProperties {
 
 /// The action of a motor on a joint that has a coordinate.
 struct Motor {
-    std::optional<double> position;  ///< where the joint is to be at the end of the step
-    double most_force = 0;           ///< with which it gets there [N] or [N*m]
-    double push = 0;                 ///< of the first body on the second, besides [N] or [N*m]
+    std::optional<double> position;  ///< the joint's target at the end of the step
+    double most_force = 0;           ///< largest force of this motion [N] or [N*m]
+    double push = 0;  ///< additional force of the first body on the second [N] or [N*m]
 };
 
-/// Why a step could not do as asked.
+/// The reasons why a step was incomplete.
 enum class StepStatus : unsigned {
     ok = 0,
     contacts_full = 1u << 0,  ///< more contacts than reserved: memory was allocated, and contacts()
@@ -80,11 +80,11 @@ enum class StepStatus : unsigned {
                          ///< nothing until mend()
 };
 
-/// Nothing in an experiment is this far away or this fast: what falls for half a day is 1e10 m
-/// away. Beyond this limit, squares of squares overflow [m], [m/s], [rad/s].
+/// No object in an experiment is this far away or this fast: a free fall of half a day covers 1e10
+/// m. Beyond this limit, squares of squares overflow [m], [m/s], [rad/s].
 constexpr double kBeyond = 1e12;
 
-/// Largest number of contacts that a point may meet in one step.
+/// Largest number of contacts of a point in one step.
 constexpr size_t kMostPointContacts = 6;
 
 using contact::Solver;
@@ -104,7 +104,7 @@ class World {
     /// Adds a proxy that set_point() may make a point.
     BodyIndex add_changeable_proxy(const scene::Finger& finger, const Vec3& p_WP,
                                    bool turns = false);
-    /// Adds a finger whose proxy is a point. It meets only what meet() adds.
+    /// Adds a finger whose proxy is a point. It has only the contacts that meet() adds.
     BodyIndex add_point(const scene::Finger& finger, const Vec3& p_WP, bool turns = false);
     /// Reserves all memory that steps need.
     void activate();
@@ -118,7 +118,7 @@ class World {
     const std::string& name(BodyIndex body) const;
     /// Coefficient of friction between two bodies.
     double friction(BodyIndex a, BodyIndex b) const;
-    /// The same, including the textures of both, where b touches a face of a with the normal n_W at
+    /// The same, including the textures of both, if b touches a face of a with the normal n_W at
     /// p_W.
     double friction_at(BodyIndex a, BodyIndex b, const Vec3& p_W, const Vec3& n_W) const noexcept;
     /// The combined surface of two bodies, with the friction that the scene gives.
@@ -129,18 +129,18 @@ class World {
     const BodyState& state(BodyIndex body) const {
         return states_[static_cast<size_t>(body.value)];
     }
-    /// Bodies that took part in the last step, and fixed ones that were put elsewhere before it. No
+    /// Bodies that took part in the last step, and fixed bodies moved before it. No
     /// other body has moved.
     std::span<const size_t> stepped() const;
     /// Contacts of the last step, except those of sleeping bodies.
     std::span<const contact::Contact> contacts() const { return contacts_; }
-    /// Statistics of the last step, joined over its islands, which are solved separately.
+    /// Statistics of the last step, combined over its islands, which are solved separately.
     const contact::SolveStats& solve_stats() const { return stats_; }
-    /// The largest residual of the islands with a finger in the last step: 0 if there was none.
+    /// The largest residual of the islands with a finger in the last step: 0 without such islands.
     double held_residual() const noexcept;
     /// The books of the last step.
     const Balance& balance() const noexcept;
-    /// Whether a body moved less far in the last step than its velocity would take it, because it
+    /// Whether a body moved less far in the last step than by its velocity, because it
     /// would have entered another.
     bool held_back() const noexcept;
     /// Joints of the scene that are recorded, in its order, after the last step.
@@ -153,7 +153,7 @@ class World {
     /// Sets the mass of a body in the next steps [kg].
     void set_mass(BodyIndex body, double mass) noexcept;
     /// Sets the properties of a body of the scene from the next step on; it wakes if they change.
-    /// For a fixed body only the friction counts, and all others wake.
+    /// For a fixed body only the friction applies, and all other bodies wake.
     void set_properties(BodyIndex body, const BodyProperties& properties) noexcept;
     /// Multiplies every coefficient of friction from the next step on; all bodies wake.
     void set_friction_scale(double scale) noexcept;
@@ -161,24 +161,24 @@ class World {
     /// Sets the velocity of B's origin.
     void set_velocity(BodyIndex body, const Vec3& v_WB) noexcept;
     /// Sets the velocity of B's origin and the angular velocity of a body that is not fixed or
-    /// driven, as far as it can move.
+    /// driven, as far as its constraints allow.
     void set_motion(BodyIndex body, const Vec3& v_WB, const Vec3& w_WB) noexcept;
     /// For a proxy that turns: inertia about P [kg*m^2] and angular velocity [rad/s].
     void set_inertia(BodyIndex proxy, double inertia) noexcept;
     void set_angular_velocity(BodyIndex proxy, const Vec3& w_WP) noexcept;
     /// Turns a proxy that cannot turn by itself: sets its orientation, and the angular velocity at
-    /// which it keeps turning, whatever it touches. P keeps its velocity.
+    /// which it keeps turning in spite of contacts. P keeps its velocity.
     void carry(BodyIndex proxy, const Quat& R_WP, const Vec3& w_WP) noexcept;
-    /// Puts a body somewhere else, at rest. If it is fixed or asleep, all others wake.
+    /// Moves a body to another pose, at rest. If it is fixed or asleep, all other bodies wake.
     void set_pose(BodyIndex body, const Pose& X_WB) noexcept;
-    /// Moves a body that is not fixed to a pose within the next step, whatever presses on it; it
-    /// keeps the velocity that takes it there. A body that the scene declares as driven stays where
-    /// it is without such a call.
+    /// Moves a body that is not fixed to a pose within the next step, in spite of contacts; it
+    /// keeps the velocity that takes it there. A body declared as driven in the scene stays in
+    /// place without such a call.
     void drive(BodyIndex body, const Pose& X_WB) noexcept;
     /// Sets the properties of a joint from the next step on; its bodies wake if they change.
     void set_joint_properties(size_t joint, const JointProperties& properties) noexcept;
-    /// Drives a joint in the next step. A motor that goes to a position overcomes the joint's dry
-    /// friction by itself, and approaches no faster than half of its force can stop.
+    /// Drives a joint in the next step. A motor with a target position overcomes the joint's dry
+    /// friction by itself, and approaches no faster than half of its force could stop.
     void drive_joint(size_t joint, const Motor& motor) noexcept;
     /// Adds to the loads of the next step: a force at the centre of mass [N] and a torque [N*m].
     void apply(BodyIndex body, const Vec3& force_W, const Vec3& torque_W) noexcept;
@@ -187,7 +187,7 @@ class World {
     /// Sets the position and velocity of a point.
     void set_point(BodyIndex point, const Vec3& p_WP, const Vec3& v_WP) noexcept;
     /// A contact that a point may make in the next step: with a face of a body, `gap` [m] away; the
-    /// normal points out of the body at the point. Only a share of the pair's friction acts.
+    /// normal points out of the body at the point. Only a fraction of the pair's friction acts.
     struct PointContact {
         BodyIndex body;
         int part = 0;  ///< a contact with the same part and face starts from its last impulse
@@ -195,7 +195,7 @@ class World {
         Vec3 n_W = Vec3::UnitZ();
         double gap = 0;
         double friction_share = 1;
-        double compliance = 0;  ///< along the normal: how fast the point gives way [m/s per N*s]
+        double compliance = 0;  ///< along the normal: yielding velocity of the point [m/s per N*s]
     };
     /// Adds a contact of a point; up to kMostPointContacts in a step.
     void meet(BodyIndex point, const PointContact& contact) noexcept;
@@ -204,25 +204,25 @@ class World {
     void set_solver(contact::Solver solver) noexcept;
     contact::Solver solver() const noexcept;
 
-    /// Called with each problem, and the impulses that its solve starts from, before it is solved.
+    /// Called before each solve, with the problem and the initial impulses.
     /// For benchmarks: the call is part of the step, and must not throw.
     using ProblemWatcher = std::function<void(const contact::ContactProblem& problem,
                                               std::span<const contact::Impulse> start)>;
     void watch_problems(ProblemWatcher watcher);
 
-    /// Limits of the counted work of a step where there are fingers (contact/work.h): for all
+    /// Limits of the counted work of a step with fingers (contact/work.h): for all
     /// solves, about 12 ms, and for the search for bodies that enter each other, about 3 ms. The
-    /// minimum that each solve does comes on top.
+    /// minimum work of each solve is added to this.
     static constexpr int64_t kMostSolveWork = 400'000;
     static constexpr int64_t kMostSearchWork = 100'000;
 
     /// Steps by h [s].
     StepStatus step(double h) noexcept;
-    /// Whether a step, or a pose or velocity that was set, left the world with values that are not
+    /// Whether a step, or a set pose or velocity, left the world with values that are not
     /// numbers or are beyond kBeyond.
     bool diverged() const noexcept;
-    /// Call after divergence, between two steps: puts bodies that were lost back to where the scene
-    /// has them, at rest, and forgets the contacts' impulses.
+    /// To be called after divergence, between two steps: returns lost bodies to their poses in the
+    /// scene, at rest, and forgets the contacts' impulses.
     void mend() noexcept;
 
   private:

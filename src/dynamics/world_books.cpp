@@ -53,16 +53,16 @@ void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& p
     const Books::Meeting meeting = books.meet(exchange.a, exchange.b, exchange.p_W);
     const double normal = h * contact.normal_force;
     const double mean_work = normal * n_W.dot(meeting.v_mean);
-    // forces that press and rub neither separate bodies nor make them slide on
+    // pressure and friction neither separate bodies nor drive their sliding
     double pressing = normal * n_W.dot(meeting.v_after);
     const Vec3 friction_W = exchange.impulse_W - normal * n_W;
     const double twisting = exchange.moment_W.dot(meeting.w_after);
     double rubbing = friction_W.dot(meeting.v_after) + twisting;
-    if (rubbing > 0) {  // velocities are tangents of the arcs on which points go
+    if (rubbing > 0) {  // velocities are tangents of the points' arcs
         rubbing = friction_W.dot(books.way(exchange.a, exchange.b, exchange.p_W)) / h + twisting;
     }
     if (!ahead_of(point).isZero(0)) {
-        // a rim that rolls touches with this point in the middle of before and after
+        // a rolling rim touches with this point midway between before and after
         pressing = mean_work;
         rubbing = friction_W.dot(meeting.v_mean) + exchange.moment_W.dot(meeting.w_mean);
     }
@@ -76,7 +76,7 @@ void World::Impl::take(const contact::Contact& contact, const btManifoldPoint& p
         exchange.stored_after = stored(contact.gap + h / 2 * n_W.dot(meeting.v_after));
         pressing = mean_work + exchange.stored_after - exchange.stored_before;
     } else if (law.restitution > 0) {
-        // the moment of contact within the step is open, and so is the work of the loads until then
+        // the moment of contact within the step is unknown, and so is the loads' work until then
         pressing = mean_work - std::abs(loads_at(contact, point) * h);
     }
     if (law.stiffness == 0 && law.compliance == 0)

@@ -21,8 +21,8 @@ namespace dihaptic::dynamics {
 /// An item that belongs to an island: bodies that touch, directly or through others that can move.
 template <class T>
 struct OfIsland {
-    size_t island;  // by which islands are ordered: those with a finger first, then by lowest body
-    int order;      // among items of its kind: keeps sorting stable without memory
+    size_t island;  // order of islands: those with a finger first, then by lowest body
+    int order;      // among items of its kind, for stable sorting without memory
     T item;
     bool operator<(const OfIsland& other) const {
         return island != other.island ? island < other.island : order < other.order;
@@ -37,10 +37,10 @@ struct World::Impl {
         double torsion_radius = 0;
         bool is_proxy = false;
         bool is_point = false;
-        bool may_be_point = false;  // it has parts, which are hidden while it is a point
+        bool may_be_point = false;  // if so, its parts are hidden while it is a point
         bool can_move = false;
-        bool is_driven = false;        // in the scene: only drive() moves it
-        std::optional<Pose> drive_to;  // where the coming step takes it
+        bool is_driven = false;        // declared in the scene: only drive() moves it
+        std::optional<Pose> drive_to;  // target of the coming step
         Pose X_BM;
         Vec3 inertia = Vec3::Zero();
         double mass = 0;
@@ -53,19 +53,19 @@ struct World::Impl {
         Vec3 torque = Vec3::Zero();
         btVector3 v_last{0, 0, 0};  // before the step's loads
         btVector3 w_last{0, 0, 0};
-        btVector3 w_start{0, 0, 0};   // after them
-        btVector3 w_free{0, 0, 0};    // the mean over the step without what contacts and joints add
+        btVector3 w_start{0, 0, 0};   // after the loads
+        btVector3 w_free{0, 0, 0};    // mean over the step without contacts and joints
         Vec3 L_W = Vec3::Zero();      // angular momentum about its centre of mass, after the step
         btVector3 v_before{0, 0, 0};  // before contacts acted
         btVector3 w_before{0, 0, 0};
-        int stood = 0;                // steps for which it waited where it was
-        bool bounces = false;         // in this step
-        btVector3 v_leaves{0, 0, 0};  // if so: velocities after it
+        int stood = 0;                // steps for which it waited in place
+        bool bounces = false;         // whether it bounces in this step
+        btVector3 v_leaves{0, 0, 0};  // if so: velocities after the step
         btVector3 w_leaves{0, 0, 0};
-        /// Whether it follows its drive in this step, whatever it meets.
+        /// Whether it follows its drive in this step, in spite of contacts.
         bool is_led() const { return is_driven || drive_to; }
         /// Whether its angular velocity can change at constant angular momentum. A proxy cannot,
-        /// because it has the same inertia about all axes; nor can a body that is held to one axis.
+        /// because it has the same inertia about all axes; nor can a body restricted to one axis.
         bool turns_freely() const { return !is_proxy && turns == Vec3::Ones() && !is_led(); }
     };
 
@@ -74,14 +74,14 @@ struct World::Impl {
     std::vector<Item> items;
     std::vector<size_t> awake;  // bodies that take part in the step
     std::vector<size_t> can_move;
-    std::vector<size_t> placed;   // fixed bodies that were put elsewhere since the last step
-    std::vector<size_t> stepped;  // what took part in the last step, and was placed before it
+    std::vector<size_t> placed;   // fixed bodies moved since the last step
+    std::vector<size_t> stepped;  // bodies that took part in the last step or were placed before it
     std::vector<contact::Mat6> inverse_mass;  // of each body that is awake
     std::vector<contact::Vec6> by_loads;      // change of its velocities by the step's loads
     std::vector<OfIsland<btCollisionObject*>> bodies_of_islands;
     std::vector<OfIsland<btPersistentManifold*>> contacts_of_islands;
     std::vector<char> holds_finger;                 // by the body that represents an island
-    std::vector<btCollisionObject*> island_bodies;  // of the one that is solved
+    std::vector<btCollisionObject*> island_bodies;  // of the island being solved
     std::vector<btPersistentManifold*> island_contacts;
     std::vector<scene::PairSurface> surfaces;  // by pair of bodies, row-major
     double friction_scale = 1;
@@ -99,10 +99,10 @@ struct World::Impl {
     contact::ContactSolvers solvers;
     ProblemWatcher watcher;
     bool diverged = false;
-    bool held_back = false;  // whether anything was, in the last step
+    bool held_back = false;  // whether any body was, in the last step
     bool has_fingers = false;
-    double held_residual = 0;  // of the islands with a finger
-    contact::Work work;        // of the step's solves
+    double held_residual = 0;  // largest over islands with a finger
+    contact::Work work;        // work of the step's solves
     Books books;
 
     void add(const std::string& name, const scene::Shape& shape, double mass,
@@ -120,11 +120,11 @@ struct World::Impl {
         return surface_of(a, b).friction * items[a].properties.friction *
                items[b].properties.friction * friction_scale;
     }
-    /// A body's texture where its face with the normal n_W is touched at p_W; flat without one. The
+    /// A body's texture on a face with the normal n_W at p_W; flat without one. The
     /// slope is in W.
     scene::Relief relief_at(size_t i, const Vec3& p_W, const Vec3& n_W) const noexcept;
     void add(const scene::Joint& joint);
-    /// Bodies of one group do not touch each other.
+    /// Excludes contact between bodies of the same group.
     void part_groups();
     void reserve_bodies(size_t count);
     bool is_awake(size_t i) const { return items[i].body->getUserIndex2() == kAwake; }
@@ -136,7 +136,7 @@ struct World::Impl {
     /// contacts.
     void place_fixed(size_t i, std::vector<BodyState>& states);
     void collect_awake(std::vector<BodyState>& states);
-    /// Wakes what a joint joins to a body that is awake.
+    /// Wakes bodies joined to an awake body.
     void wake_joined(std::vector<BodyState>& states);
     /// Whether a body's position and velocity are numbers, and within kBeyond.
     bool is_sound(size_t i) const;
@@ -146,16 +146,16 @@ struct World::Impl {
     contact::Mat6 inverse_mass_of(const Item& item) const;
     void note_stepped();
     void integrate_loads(double h, const Vec3& gravity);
-    /// Gives a body the velocities that take it where it is driven in the step.
+    /// Gives a body the velocities that take it to its target in the step.
     void drive(Item& item, double h);
     void update_bounds(double h);
-    /// Gives new contacts the properties of their pair's surfaces, and their Carried record.
+    /// Gives new contacts the properties of their pair's surfaces, and their Carried records.
     void prepare_contacts(std::span<btPersistentManifold* const> manifolds, double h);
-    /// Adds the contacts of points to those that were found.
+    /// Adds the contacts of points to those found.
     void take_points(double h);
     bool has_texture(const btPersistentManifold& manifold) const;
-    /// Changes the friction of contacts on textured surfaces according to their place, and sets the
-    /// height and slope of the surfaces there.
+    /// Changes the friction of contacts on textured surfaces according to their position, and sets
+    /// the height and slope of the surfaces there.
     void let_feel(btPersistentManifold& manifold) const;
     /// Changes the friction of sliding contacts according to their surfaces, by the speeds and
     /// forces of the last step.
@@ -171,7 +171,7 @@ struct World::Impl {
     contact::SolveStats solve(double h);
     contact::SolveStats solve_with_entered(double h, const Vec3& gravity,
                                            std::vector<BodyState>& states);
-    /// Widens the bounds of bodies whose velocities were changed much by contacts.
+    /// Widens the bounds of bodies whose velocities contacts changed much.
     void widen_bounds(double h);
     /// Lets bodies that would still enter others wait in front of them.
     void hold_back(double h, contact::Work& search);
@@ -179,20 +179,20 @@ struct World::Impl {
     /// otherwise. False if nothing changed.
     bool wait_together();
     contact::SolveStats solve_island(double h, bool held);
-    /// Solves the island again for the velocities after the step, where something bounces.
+    /// Solves the island again for the velocities after the step, if a body bounces.
     void let_bounce(const contact::SolveSettings& how, double h, contact::SolveStats& stats);
     /// Velocity and angular velocity of a body after the step's loads, before contacts and joints
     /// act.
     contact::Vec6 velocity_before(size_t i) const;
-    /// Twice the kinetic energy that the island's bodies may have after the step [J]: what they
-    /// had, what the loads of this step and the next may add while a contact waits, and what
-    /// springs of joints and soft surfaces hold. Without a bound where a body or a joint is driven,
-    /// which gives what it takes, and where a soft fingertip presses.
+    /// Twice the kinetic energy that the island's bodies may have after the step [J]: their energy
+    /// before, the energy that loads of this step and the next may add while a contact waits, and
+    /// the energy in springs of joints and soft surfaces. Unbounded if a body or a joint is driven,
+    /// which supplies any energy, or if a soft fingertip presses.
     double most_energy() const;
-    /// Slows the island's bodies down where an answer that missed would give them energy.
+    /// Slows the island's bodies down if a missed answer would give them energy.
     void forbid_gain();
-    /// How much of the way from the first answer, after which nothing bounces, to that of the
-    /// bounces the island goes: all of it, unless this would give it energy. Newton's law treats
+    /// Fraction of the way from the first answer, without bounces, to the answer with
+    /// bounces that the island takes: 1, unless this would give it energy. Newton's law treats
     /// each contact by itself, so with friction and joints this is possible (Kane and Levinson
     /// 1985).
     double share_of_bounce() const;
@@ -204,10 +204,11 @@ struct World::Impl {
     static Vec3 momentum(const Item& item, const Vec3& w_W);
     /// Momentum, and angular momentum, at this velocity and angular velocity.
     static contact::Vec6 momentum(const Item& item, const contact::Vec6& v_W);
-    /// Mean angular velocity of a step that begins with w_start and is free (free_turn.h).
+    /// Mean angular velocity of a free step from w_start (free_turn.h).
     static Vec3 mean_velocity(const Item& item, const Vec3& w_start, double h);
-    /// Computes again how the island's bodies turn if contacts and joints change their velocities
-    /// by island_change at the beginning of the step. Returns the change of the guess [rad/s].
+    /// Recomputes the rotation of the island's bodies if contacts and joints change their
+    /// velocities by island_change at the start of the step. Returns the change of the guess
+    /// [rad/s].
     double guess_turns(double h);
     void integrate_positions(double h);
     /// Gives bodies the angular velocities that follow from their momentum at their new
@@ -221,7 +222,7 @@ struct World::Impl {
     /// Opens the books of all awake bodies, a second time for those that woke late in the step.
     void open_books(const Vec3& gravity, bool late);
     void close_books();
-    /// Lists the contacts of the step and enters each in the books. False if there is no room for
+    /// Lists the contacts of the step and enters each in the books. False without room for
     /// all.
     bool publish_contacts(double h, std::vector<contact::Contact>& out);
     void take(const contact::Contact& contact, const btManifoldPoint& point, double h);

@@ -1,33 +1,35 @@
 // One step of the world, in the order of World::step().
 //
 //   1 loads         v <- v + h M^-1 (m g + f): gravity, applied forces and torques, before any
-//                   contact, so that friction answers all loads of this very step. In Bullet's own
-//                   order it does not see torques, and a held block turns under them. A body that
-//                   is driven gets the velocity that takes it to its place instead.
+//                   contact, so that friction responds to all loads of this step. In Bullet's own
+//                   order it does not see torques, and a held block turns under them. A driven
+//                   body gets the velocity that takes it to its target instead.
 //   2 free turns    w becomes its mean over the step in which the body turns freely (free_turn.h):
-//                   contacts and joints ask where bodies get, and that is what this mean tells.
-//   3 contacts      are found ahead, by the velocities after the loads. A gap g lets two bodies
-//                   approach by g and no more, so that nothing overlaps and nothing has to be
+//                   contacts and joints need the final poses, which this mean gives.
+//   3 contacts      are found in advance, with the velocities after the loads. A gap g lets two
+//   bodies
+//                   approach by at most g, so that nothing overlaps and nothing has to be
 //                   pushed apart. Sleepers that are touched wake up, and join the step.
-//   4 islands       of bodies that touch or are joined are solved one after the other, those with a
+//   4 islands       of touching or joined bodies are solved one after the other, those with a
 //                   finger first: a heap that no finger touches must not keep the hand waiting.
 //   5 impulses      of contacts, friction and joints in one solve (src/contact). They are implicit:
-//                   contacts, joints and motors hold for the velocities and places at the END of
-//                   the step, and springs and soft faces are as implicit as their stiffness asks.
-//                   Joints and free turns are not linear there, and are guessed and solved again.
-//                   Bounces solve a second time, for how fast bodies leave, and may add no energy.
-//   6 missed        Pairs that would enter each other all the same, since they turned or were
+//                   contacts, joints and motors hold for the velocities and positions at the END of
+//                   the step, and springs and soft faces are as implicit as their stiffness
+//                   requires. Joints and free turns are not linear there, and are solved
+//                   iteratively. Bounces need a second solve, for velocities of separation, and
+//                   must add no energy.
+//   6 missed        Pairs that would still enter each other, because they turned or were
 //                   knocked, get contacts, and everything is solved again from the velocities
-//                   before it. What no contact can stop waits in front of what it would hit.
+//                   before it. A body that no contact can stop waits in front of its obstacle.
 //   7 positions     x <- x + h v, R <- exp(h w) R: semi-implicit Euler, by the new velocities.
 //                   Then w <- I^-1 L for the new orientation, with the momentum L of the step.
 //   8 published     are the bodies' states, contacts with their forces, joints with theirs, the
-//                   statistics of the solve, and what the books say of energy and momentum. Last,
+//                   statistics of the solve, and the books' energy and momentum. Last,
 //                   groups that have been quiet for long enough fall asleep.
 //
 // A step never throws, allocates or reads a clock: its work is counted and bounded instead, so that
-// a replay repeats it to the bit. A step that diverges has no contacts and says so, and later ones
-// do nothing until mend(). README.md of this room has the equations.
+// a replay repeats it to the bit. A step that diverges has no contacts and reports it, and later
+// steps do nothing until mend(). README.md of this room has the equations.
 #include <algorithm>
 #include <limits>
 #include <numbers>
@@ -38,14 +40,14 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Largest number of visits in the solve of an island without a finger, where a hand waits for the
-/// tick: enough for newton on stacks of ten; heaps are left to sweeps.
+/// Largest number of visits in the solve of an island without a finger, if a hand waits for the
+/// tick: enough for newton on stacks of ten; heaps are solved by sweeps.
 constexpr int kMostWork = 4000;
-/// How often a step may be solved again, with contacts that turned out to be missing.
+/// Limit of further solves of a step, with contacts that were missing.
 constexpr int kMostPasses = 4;
-/// Of an energy.
+/// No bound on an energy.
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
-/// A body that contacts move by more than this may meet things that its bounds did not foresee [m].
+/// A body that contacts move by more than this may meet bodies that its bounds did not foresee [m].
 constexpr double kKnocked = 1e-3;
 
 /// User indices of both.
@@ -67,7 +69,7 @@ ContactLaw law_of(const scene::PairSurface& surface, int sharing) {
 }
 
 /// Beyond an eighth of a turn in a step, a body's orientation no longer follows from its angular
-/// velocity, so it is slowed down to this.
+/// velocity, so the body is slowed to this.
 Vec3 limited(const Vec3& w, double h) {
     const double most = std::numbers::pi / (4 * h);
     return w.squaredNorm() > most * most ? Vec3(w * (most / w.norm())) : w;
@@ -94,7 +96,7 @@ StepStatus World::step(double h) noexcept {
     w.books.begin(h);
     w.open_books(gravity_, false);
     w.integrate_loads(h, gravity_);
-    if (!w.all_sound()) {  // before anything is looked up by its position
+    if (!w.all_sound()) {  // before any search by position
         for (const size_t i : w.awake) w.read_state(i, states_[i]);
         w.note_stepped();
         return diverge();
@@ -204,7 +206,7 @@ void World::Impl::collect_awake(std::vector<BodyState>& states) {
 contact::Mat6 World::Impl::inverse_mass_of(const Item& item) const {
     contact::Mat6 out = contact::Mat6::Zero();
     if (item.is_led()) return out;
-    // its inertia may differ by the world's axes
+    // its inertia may differ between the world's axes
     out.diagonal().head<3>() = item.properties.mass.cwiseInverse() * item.body->getInvMass();
     out.bottomRightCorner<3, 3>() = from_bullet(item.body->getInvInertiaTensorWorld());
     for (int i = 0; i < 3; ++i) {
@@ -276,7 +278,7 @@ void World::Impl::integrate_loads(double h, const Vec3& gravity) {
         if (item.turns_freely())
             body.setAngularVelocity(to_bullet(mean_velocity(item, from_bullet(item.w_start), h)));
         item.w_free = body.getAngularVelocity();
-        // contacts are searched ahead by these velocities
+        // contacts are searched in advance with these velocities
         body.setInterpolationLinearVelocity(body.getLinearVelocity());
         body.setInterpolationAngularVelocity(body.getAngularVelocity());
     }
@@ -355,7 +357,7 @@ void World::Impl::widen_bounds(double h) {
 }
 
 void World::Impl::hold_back(double h, contact::Work& search) {
-    constexpr int kMostRounds = 8;  // others may run into what waits
+    constexpr int kMostRounds = 8;  // others may run into waiting bodies
     widen_bounds(h);
     for (int round = 0; round < kMostRounds && all_sound(); ++round) {
         if (!collision->hold_back(h, search)) break;
@@ -363,7 +365,7 @@ void World::Impl::hold_back(double h, contact::Work& search) {
     }
     for (const size_t i : awake) {
         constexpr double kStands = 0.01;
-        constexpr int kMostStood = 2;  // [steps]: by then contacts had their chance
+        constexpr int kMostStood = 2;  // [steps]: contacts have acted by then
         Item& item = items[i];
         if (item.body->getHitFraction() < kStands && ++item.stood > kMostStood)
             item.body->setHitFraction(1);
@@ -397,7 +399,7 @@ void World::Impl::prepare_contacts(std::span<btPersistentManifold* const> manifo
             btManifoldPoint& point = manifold->getContactPoint(i);
             point.m_combinedFriction = friction_of(a, b);
             carried(point).law = law_of(surface, count);
-            // a finger does not bounce: what is held would drum on it
+            // a finger does not bounce: a held body would drum on it
             if (items[a].is_proxy || items[b].is_proxy) carried(point).law.restitution = 0;
         }
         if (has_texture(*manifold)) let_feel(*manifold);
@@ -529,7 +531,7 @@ void World::Impl::find_islands() {
 
 int64_t World::Impl::held_islands() const {
     int64_t count = 0;
-    size_t last = items.size();  // from here on islands are without a finger
+    size_t last = items.size();  // the following islands have no finger
     for (const auto& contact : contacts_of_islands) {
         if (contact.island >= items.size()) break;
         if (contact.island != last) ++count;
@@ -556,7 +558,7 @@ contact::SolveStats World::Impl::solve(double h) {
         take(joint, joints_of_islands.end(), island, island_joints);
         if (island_contacts.empty() && island_joints.empty()) continue;
         const bool held = island < items.size();
-        work.share(held ? left-- : 1);  // no island with a finger uses up what others need
+        work.share(held ? left-- : 1);  // no island with a finger uses up the others' share
         const contact::SolveStats one = solve_island(h, held);
         if (held) held_residual = std::max(held_residual, one.residual);
         stats.join(one);
@@ -604,7 +606,7 @@ void World::Impl::let_bounce(const contact::SolveSettings& how, double h,
     problem.store(island_contacts);
     for (size_t i = 0; i < island_bodies.size(); ++i) {
         const contact::Vec6 bounced = solvers.velocity_change(static_cast<int>(i));
-        // by its last digit bounced would not be first + (bounced - first)
+        // to the last digit, first + (bounced - first) would not be bounced
         island_change[i] =
             share == 1 ? bounced
                        : contact::Vec6(island_change[i] + share * (bounced - island_change[i]));
@@ -703,11 +705,11 @@ contact::Solver World::Impl::solver_of_island() const {
 
 contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& how, double h) {
     constexpr int kMostGuesses = 8;
-    /// Each guess of a free turn reduces the error by half of the angle turned in a step. More
-    /// guesses than these do not help where a stiff spring turns a body back within the step.
+    /// Each guess of a free rotation multiplies the error by half of the angle turned in a step.
+    /// More guesses do not help if a stiff spring turns a body back within the step.
     constexpr int kMostTurnGuesses = 3;
     constexpr double kSame = 1e-9;  // [m/s], [rad/s]
-    /// Guesses that are still this far apart will not converge: the joined bodies turn too fast for
+    /// Guesses that still differ by this will not converge: the joined bodies turn too fast for
     /// the step [m/s], [rad/s].
     constexpr double kLost = 1e-2;
     const contact::Solver solver = solver_of_island();
@@ -720,7 +722,7 @@ contact::SolveStats World::Impl::solve_guessing(const contact::SolveSettings& ho
         iterations = stats.iterations += iterations;
         work_before = stats.work += work_before;
         const bool is_last = guess > kMostGuesses || stats.route == contact::Route::out_of_work;
-        // its joints are off a little then
+        // its joints then have small errors
         stats.missed = stats.missed || (is_last && !island_joints.empty());
         if (is_last || stats.refused) return stats;
         island_change.clear();
@@ -804,7 +806,7 @@ void World::Impl::let_sleep(double h, std::vector<BodyState>& states) {
     if (!settings.sleeping) return;
     for (const size_t i : awake) {
         if (items[i].is_proxy) {
-            sleep->stir(i);  // nothing that a finger touches may sleep
+            sleep->stir(i);  // no body that a finger touches may sleep
         } else {
             sleep->observe(i, states[i].v_WB, states[i].w_WB, h);
         }

@@ -1,5 +1,5 @@
-// What a contact point carries from one step to the next, which starts from it. It is the user data
-// of Bullet's points, which Bullet passes on as long as it regards a point as the same.
+// The data that a contact point passes to the next step as a start. It is the user data
+// of Bullet's points, which Bullet passes on as long as it identifies the point.
 #pragma once
 
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
@@ -18,9 +18,9 @@ struct ContactLaw {
     double stiffness = 0;         ///< 0: rigid [N/m]
     double damping = 0;           ///< [N*s/m]
     int sharing = 1;              ///< number of contacts that share the stiffness of a face
-    double compliance = 0;        ///< of a point, whose owner knows it [m/s per N*s]
+    double compliance = 0;        ///< for a point proxy, from its owner [m/s per N*s]
     double height = 0;            ///< of textures above the faces [m]
-    Vec3 slope_W = Vec3::Zero();  ///< of that, along the face of Bullet's body 1
+    Vec3 slope_W = Vec3::Zero();  ///< gradient of that, along the face of Bullet's body 1
 };
 
 /// Impulses on Bullet's body 0, to which its normal points.
@@ -28,17 +28,17 @@ struct Carried {
     double normal = 0;               ///< [N*s]
     Vec3 friction_W = Vec3::Zero();  ///< [N*s]
     double moment = 0;               ///< about the normal [N*m*s]
-    Vec3 acts_at_W = Vec3::Zero();   ///< where the impulses act, between both surfaces
+    Vec3 acts_at_W = Vec3::Zero();   ///< point of action, between both surfaces
     ContactLaw law;
     bool in_use = false;
 };
 
-/// What a point carries; CarriedPool has given it to the point.
+/// A point's record, which CarriedPool has given to it.
 inline Carried& carried(const btManifoldPoint& point) {
     return *static_cast<Carried*>(point.m_userPersistentData);
 }
 
-/// The normal that body 0 meets, with the slope of textures.
+/// The normal for body 0, with the slope of textures.
 inline Vec3 normal_of(const btManifoldPoint& point) {
     const Vec3 n_W(point.m_normalWorldOnB.x(), point.m_normalWorldOnB.y(),
                    point.m_normalWorldOnB.z());
@@ -52,7 +52,7 @@ inline double gap_of(const btManifoldPoint& point) {
     return (point.getDistance() - law.height) / std::sqrt(1 + law.slope_W.squaredNorm());
 }
 
-/// For points of rolling rims: where they will touch (ContactPoint::ahead_W), in a field that
+/// For points on rolling rims: their future contact point (ContactPoint::ahead_W), in a field that
 /// Bullet's own points use for something else.
 constexpr int kRolls = 1 << 16;
 inline void roll_ahead(btManifoldPoint& point, const Vec3& ahead_W) {
@@ -107,7 +107,7 @@ class CarriedPool {
     }
 
   private:
-    std::deque<Carried> all_;  // stay where they are
+    std::deque<Carried> all_;  // addresses are stable
     std::vector<Carried*> free_;
 };
 

@@ -1,4 +1,4 @@
-// Collision runs Bullet's collision detection such that sleeping bodies cost nothing and nothing is
+// Collision runs Bullet's collision detection so that sleeping bodies cost nothing and no memory is
 // allocated: a sweep-and-prune broadphase of fixed size, and contact manifolds from pools in the
 // narrow phase.
 #pragma once
@@ -26,15 +26,15 @@ class Collision {
     Collision(int max_parts, int max_pairs);
     ~Collision();
 
-    /// Adds a part, which must outlive this object, as must its body. The body's user index
+    /// Adds a part. It and its body must outlive this object. The body's user index
     /// identifies it; its user index 2 is 1 while it is awake.
     void add(CollisionPart& part, bool can_move);
-    /// Call for each part of a body that moved or is about to move.
+    /// To be called for each part of a body that moved or is about to move.
     void update_bounds(CollisionPart& part, double h);
-    /// As update_bounds(), but the bounds only grow: within a step no pair may end whose contacts
-    /// are in manifolds().
+    /// Like update_bounds(), but the bounds only grow, because no pair may end within a step if its
+    /// contacts are in manifolds().
     void widen_bounds(CollisionPart& part, double h);
-    /// From the next find_contacts() on the part meets nothing, until show() is called and its
+    /// From the next find_contacts() on the part has no contacts until show() is called and its
     /// bounds are updated.
     void hide(CollisionPart& part);
     void show(CollisionPart& part) { part.hidden = false; }
@@ -45,21 +45,21 @@ class Collision {
     /// Finds the contacts of all pairs with an awake body. Sleeping bodies that an awake one
     /// touches wake: their user index 2 becomes 1, and their pairs are searched, too.
     void find_contacts(double h);
-    /// Searches along the way of all bodies in a step of h with their present velocities, and adds
-    /// contacts to manifolds() for those that would enter each other by more than `kEntered`
-    /// although the step's contacts hold; README.md derives these contacts. The share `recovery` of
-    /// a penetration is removed per step. False if there are none. Wakes bodies as find_contacts()
-    /// does. Strides along the way are counted in `work`; when it is used up, the search ends
-    /// (search_was_cut()).
+    /// Searches along the paths of all bodies in a step of h with their present velocities, and
+    /// adds contacts to manifolds() for those that would enter each other by more than `kEntered`
+    /// although the step's contacts are satisfied; README.md derives these contacts. The fraction
+    /// `recovery` of a penetration is removed per step. False if there are none. Wakes bodies as
+    /// find_contacts() does. Strides along the paths are counted in `work`; when it is used up, the
+    /// search ends (search_was_cut()).
     bool find_entered(double h, double recovery, contact::Work& work);
-    /// The last resort where find_entered() does not suffice: bodies that would still enter each
-    /// other go only a fraction of their way in the step, their hit fraction, which is 1 before the
-    /// first call. False if there are none.
+    /// The last resort if find_entered() does not suffice: bodies that would still enter each
+    /// other cover only a fraction of their path in the step, their hit fraction, which is 1 before
+    /// the first call. False if there are none.
     bool hold_back(double h, contact::Work& work);
-    /// Whether find_entered() may have left something since the last find_contacts(): it had no
+    /// Whether find_entered() may have missed contacts since the last find_contacts(): it had no
     /// room for more, or assumed that bodies already inside each other were leaving.
     bool is_unsure() const { return is_unsure_ || entered_count_ == kMostEntered; }
-    /// Whether find_entered() left out strides since the last find_contacts().
+    /// Whether find_entered() skipped strides since the last find_contacts().
     bool search_was_cut() const { return search_was_cut_; }
 
     /// Notes that bodies fell asleep or woke, so that other pairs must be searched.
@@ -82,7 +82,7 @@ class Collision {
     bool overflowed() const { return overflowed_; }
 
   private:
-    /// Is notified when pairs appear and disappear.
+    /// Receives notifications when pairs appear and disappear.
     class Pairs final : public btHashedOverlappingPairCache {
       public:
         btBroadphasePair* addOverlappingPair(btBroadphaseProxy* a, btBroadphaseProxy* b) override {
@@ -118,12 +118,12 @@ class Collision {
     void remove_inner();
     void list_live_pairs();
     bool look_at(btBroadphasePair& pair, const btDispatcherInfo& info);
-    /// Whether the work suffices for another stride; spends it, or notes that it did not.
+    /// Whether the work suffices for another stride; spends it, or notes the lack.
     bool affords(contact::Work& work, int64_t visits);
-    /// Follows two parts along their way in a step, from stride `first` on and as far as their
+    /// Follows two parts along their paths in a step, from stride `first` on and as far as their
     /// bodies' hit fractions allow. At each stride it puts their contacts into `out` and calls
     /// `visit` with the starting poses of both bodies and the time since [s]. Returns the fraction
-    /// of the way up to which `visit` did not return true.
+    /// of the path before `visit` first returned true.
     template <class Visit>
     double walk(btBroadphasePair& pair, double h, int first, btPersistentManifold& out,
                 contact::Work& work, const Visit& visit);
@@ -150,7 +150,7 @@ class Collision {
             if (manifold != nullptr) manifold->setContactBreakingThreshold(margin);
             return manifold;
         }
-        btScalar margin = 0;  ///< of the pair that is being examined [m]
+        btScalar margin = 0;  ///< of the pair under examination [m]
     } dispatcher_;
     double step_ = 1e-3;
     ContactAlgorithms algorithms_;
@@ -161,21 +161,21 @@ class Collision {
     std::vector<CollisionPart*> parts_;
     bool several_parts_ = false;  // whether any body has several
     struct OfBodies {
-        std::array<int, 3> key;  // both bodies, and the order in which they were found
+        std::array<int, 3> key;  // both bodies, and the order of detection
         OfParts of;
     };
     std::vector<OfBodies> sorting_;
-    std::vector<OfParts> found_;  // of manifolds_, in order
+    std::vector<OfParts> found_;  // for manifolds_, in order
     std::vector<btPersistentManifold*> manifolds_;
     btManifoldArray scratch_;
-    std::vector<std::unique_ptr<btPersistentManifold>> entered_;  // room for what is found late
+    std::vector<std::unique_ptr<btPersistentManifold>> entered_;  // room for late contacts
     size_t entered_count_ = 0;
     btPersistentManifold waiting_;            // of two bodies, in hold_back()
-    std::vector<btPersistentManifold*> new_;  // of the last find_entered()
+    std::vector<btPersistentManifold*> new_;  // from the last find_entered()
     std::vector<int> live_;                   // pairs with an awake body, by index into the cache
-    int64_t live_version_ = -1;               // of the pairs that live_ was made from
+    int64_t live_version_ = -1;               // version of the pairs in live_
     bool live_is_stale_ = true;
-    std::vector<char> looked_at_;  // by pair
+    std::vector<char> looked_at_;  // whether it was examined, by pair
     bool overflowed_ = false;
     bool search_was_cut_ = false;
     bool is_unsure_ = false;

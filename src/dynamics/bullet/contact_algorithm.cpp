@@ -124,7 +124,7 @@ class Algorithm final : public btActivatingCollisionAlgorithm {
             for (int j = 0; j < old_count; ++j) {
                 const double d =
                     (old[static_cast<size_t>(j)].m_localPointA - out.m_localPointA).length2();
-                // a single point remains the same one wherever a round body rolls
+                // a single point keeps its identity while a round body rolls
                 const bool only = old_count == 1 && patch.count == 1;
                 if (!taken[static_cast<size_t>(j)] && (d < distance || only)) {
                     distance = d;

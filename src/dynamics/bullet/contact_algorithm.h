@@ -13,8 +13,8 @@
 
 namespace dihaptic::dynamics {
 
-/// Hulls with more edges than this use Bullet's distance algorithm, as the number of edge pairs
-/// grows with the square.
+/// Hulls with more edges than this use Bullet's distance algorithm, because the number of edge
+/// pairs grows with the square of the edges.
 constexpr size_t kMostEdges = 64;
 
 /// Registers the algorithm. The user pointer of shapes is their CollisionPart.

@@ -14,11 +14,12 @@ namespace {
 using contact::ProblemJoint;
 using contact::Vec6;
 
-/// No joint is stiffer than steel. Otherwise a mechanism would be thrown when it passes a singular
-/// place, where its joints do not determine its motion, such as a parallelogram that lies flat.
+/// No joint is stiffer than steel. Otherwise a mechanism would be hurled apart when it passes a
+/// singular configuration, in which its joints do not determine its motion, such as a parallelogram
+/// that lies flat.
 constexpr double kStiffness = 1e9;      // [N/m]
 constexpr double kTurnStiffness = 1e7;  // [N*m/rad]
-/// A body that was put where its joint does not allow it is pulled back no faster than this.
+/// A body placed in violation of its joint is pulled back no faster than this.
 constexpr double kPull = 0.5;    // [m/s]
 constexpr double kTurnPull = 5;  // [rad/s]
 constexpr double kNone = std::numeric_limits<double>::infinity();
@@ -51,7 +52,7 @@ void turn(ProblemJoint& rows, int row, const Vec3& n) {
     rows.J_a.row(row).tail<3>() = -n.transpose();
 }
 
-/// A row without any effect.
+/// A row without effect.
 void close(ProblemJoint& rows, int row) {
     rows.low[row] = rows.high[row] = 0;
 }
@@ -79,7 +80,7 @@ double inside(const ProblemJoint& rows, int row, const Vec6& a, const Vec6& b) {
     return rows.J_a.row(row).dot(a) + rows.J_b.row(row).dot(b);
 }
 
-/// The inverse masses that the rows along and about the axes move, each separately.
+/// The inverse masses moved by the rows along and about the axes, each separately.
 Vec6 along_rows(const contact::ContactProblem& problem, std::span<const ProblemJoint> rows) {
     Vec6 out = Vec6::Zero();
     for (int k = 0; k < 6; ++k) {
@@ -94,7 +95,7 @@ Vec6 along_rows(const contact::ContactProblem& problem, std::span<const ProblemJ
     return out;
 }
 
-/// The inverse mass that the coordinate moves, where the joint's other rows hold.
+/// The inverse mass moved by the coordinate while the joint's other rows hold.
 double along_coordinate(const contact::ContactProblem& problem,
                         std::span<const ProblemJoint> rows) {
     constexpr int kHeld = 2 * ProblemJoint::kRows;
@@ -115,7 +116,7 @@ double along_coordinate(const contact::ContactProblem& problem,
         W += J * problem.bodies[static_cast<size_t>(body)].inverse_mass * J.transpose();
     }
     for (int k = 0; k < kHeld; ++k) {
-        if (W(k, k) <= 0) W(k, k) = 1;  // a row without any effect
+        if (W(k, k) <= 0) W(k, k) = 1;  // a row without effect
     }
     const auto held = W.topLeftCorner<kHeld, kHeld>();
     const Eigen::Matrix<double, kHeld, 1> across = W.topRightCorner<kHeld, 1>();
@@ -177,7 +178,7 @@ Joints::Gaps Joints::gaps(const Joint& joint, const Pose& X_WA, const Pose& X_WB
 
 Vec3 Joints::direction(const Joint& joint, const Pose& X_WA, const Pose& X_WB) noexcept {
     if (joint.spec.kind == scene::JointKind::slider) return X_WA.R * joint.X_AF.R * Vec3::UnitX();
-    constexpr double kTogether = 1e-9;  // coincident points: any direction will do
+    constexpr double kTogether = 1e-9;  // coincident points: any direction is valid
     const Vec3 between = X_WB * joint.X_BF.p - X_WA * joint.X_AF.p;
     const double distance = between.norm();
     return distance > kTogether ? Vec3(between / distance)
@@ -224,7 +225,7 @@ void Joints::fill(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
 
 namespace {
 
-/// A row for a spring and a damper whose stretch changed at the rate u before. At the end of a step
+/// A row for a spring and a damper, with u as the previous rate of stretch. At the end of a step
 /// without motion it would resist with `force`, and per unit of further stretch with `stiffness`
 /// more.
 void ask_of_spring(double force, double stiffness, double damping, double inverse_mass, double u,
@@ -313,7 +314,7 @@ void Joints::ask_of_coordinate(size_t i, double q, double h, ProblemJoint& row) 
     const scene::Joint& spec = joint.spec;
     scene::SpringCurve::Point at{spec.stiffness * (q - spec.rest), spec.stiffness};
     if (!spec.curve.is_empty()) at = spec.curve.at(q - spec.rest);
-    // where a curve falls, a step cannot hold it at its end
+    // where a curve falls, the end of a step cannot be stable
     ask_of_spring(at.resistance * joint.properties.stiffness,
                   std::max(0.0, at.stiffness) * joint.properties.stiffness,
                   spec.damping * joint.properties.damping, joint.inverse_mass, states_[i].velocity,
@@ -347,7 +348,7 @@ void Joints::ask_of_motor(const Joint& joint, double q, double h, int k,
     const double most = joint.motor->most_force;
     row.low[k] = -h * most;
     row.high[k] = h * most;
-    // half of its force stops it in time; what it follows moves by itself
+    // half of its force stops it in time, relative to the moving target
     const double led = joint.led_from ? std::abs(to - *joint.led_from) / h : 0;
     const double fastest = led + std::sqrt(most * joint.inverse_mass * std::abs(q - to));
     row.bias[k] = std::clamp((q - to) / h, -fastest, fastest);
@@ -408,8 +409,8 @@ void Joints::tell(const Joint& joint, contact::ContactProblem& problem) noexcept
     }
 }
 
-/// A guess of a body's velocities after the step: they change as in the last steps, unless the body
-/// turns so far in a step that what acts on it has another direction by then.
+/// A guess of a body's velocities after the step: changes continue as in the last steps, unless the
+/// body turns so far in a step that the forces on it change direction.
 Vec6 Joints::expected(const Side& side, const Change& change, double h) noexcept {
     constexpr double kFar = 0.1;  // [rad]
     const Vec6 v = velocity_of(side);
@@ -418,7 +419,7 @@ Vec6 Joints::expected(const Side& side, const Change& change, double h) noexcept
 
 void Joints::add_rows(std::span<const size_t> which, std::span<const int> index, double h,
                       contact::ContactProblem& problem, std::vector<Vec3>& start) noexcept {
-    // a little of what redundant joints share is forgotten in each step
+    // a little of the load shared by redundant joints is discarded in each step
     constexpr double kKept = 0.95;
     for (const size_t i : which) {
         Joint& joint = joints_[i];

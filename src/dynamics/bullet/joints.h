@@ -1,16 +1,16 @@
 // The joints of a world: their equations become rows of the contact problem (contact/problem.h).
 //
 // A joint has a frame F on each of its two bodies. Each kind keeps some functions C_i of their
-// relative pose at zero, and may have one coordinate q. The rows demand this at the end of the
-// step: with v' a guess of the velocities then, and J the derivative of C at the beginning,
+// relative pose at zero, and may have one coordinate q. The rows require this at the end of the
+// step: with v' a guess of the final velocities, and J the derivative of C at the start,
 //
 //     C(x moved by h v') + h J (v - v') = 0      bias = C(x moved by h v') / h - J v'
 //
 // which is linear in v, and exact once v' equals v: the step is solved again from its answer until
-// v' no longer changes. Impulses act along J of the beginning and constraints hold at the end: in a
+// v' no longer changes. Impulses act along J at the start and constraints hold at the end: in a
 // mechanism without contacts and springs this is the leapfrog method with constraints (SHAKE:
 // Ryckaert, Ciccotti and Berendsen 1977), which is of second order, and symplectic, with velocities
-// that are those of the middle of a step.
+// at the middle of a step.
 //
 // A spring's force is that of Newmark's method (1959) with numerical damping by its own stiffness:
 // with u the coordinate's speed, u' the one before the step, and s = h^2 k / m,
@@ -39,7 +39,8 @@ namespace dihaptic::dynamics {
 
 class Joints {
   public:
-    /// A body's pose is that of its mass frame; `fixed` bodies do not move. The world is one too.
+    /// A body's pose is that of its mass frame; `fixed` bodies do not move. The world is a body
+    /// too.
     struct Side {
         btRigidBody* body = nullptr;
         bool fixed = true;
@@ -49,7 +50,7 @@ class Joints {
     void add(const scene::Joint& joint, const Side& a, const Side& b);
 
     size_t size() const noexcept { return joints_.size(); }
-    /// Elements of rows that problems need.
+    /// Number of elements of rows that problems need.
     size_t elements() const noexcept { return kElements * joints_.size(); }
     const Side& a(size_t i) const noexcept { return joints_[i].a; }
     const Side& b(size_t i) const noexcept { return joints_[i].b; }
@@ -57,10 +58,10 @@ class Joints {
 
     /// Returns whether this changes anything.
     bool set(size_t i, const JointProperties& properties) noexcept;
-    /// In the coming step.
+    /// Drives a motor in the coming step.
     void drive(size_t i, const Motor& motor) noexcept;
     bool is_driven(size_t i) const noexcept { return joints_[i].motor.has_value(); }
-    /// Energy of a joint's springs where the step began [J].
+    /// Energy of a joint's springs at the start of the step [J].
     double stored(size_t i) const noexcept {
         return stored(joints_[i], 0, Vec3::Zero(), Vec3::Zero());
     }
@@ -73,31 +74,31 @@ class Joints {
     /// those of the last step, go to `start`.
     void add_rows(std::span<const size_t> which, std::span<const int> index, double h,
                   contact::ContactProblem& problem, std::vector<Vec3>& start) noexcept;
-    /// Makes a new guess: velocities change by `change`, by index of the problem. Returns the
+    /// Makes a new guess: velocities change by `change`, by index in the problem. Returns the
     /// largest change of a bias [m/s], [rad/s].
     double guess(std::span<const size_t> which, std::span<const int> index, double h,
                  std::span<const contact::Vec6> change, contact::ContactProblem& problem) noexcept;
-    /// Demands the joints' equations for the velocities only, and pulls errors of position back: a
-    /// first-order step, which adds no energy except by that pull.
+    /// Requires the joints' equations for the velocities only, and corrects errors of position: a
+    /// first-order step, which adds no energy except by that correction.
     void hold(std::span<const size_t> which, double h, contact::ContactProblem& problem) noexcept;
-    /// Keeps the impulses of a step of h, and its changes of velocities, by index of the problem.
+    /// Keeps the impulses of a step of h, and its changes of velocity, by index in the problem.
     void store(std::span<const size_t> which, std::span<const int> index,
                std::span<const contact::Vec6> change, std::span<const Vec3> impulses,
                double h) noexcept;
     /// Stops all motors until they are driven again.
     void end_step() noexcept;
-    /// Reads the coordinates, after a step or after bodies were put elsewhere.
+    /// Reads the coordinates, after a step or after bodies were moved.
     void read() noexcept;
-    /// Where a joint's force acts on both bodies in the step: the second body's point at its
-    /// beginning.
+    /// The point of action of a joint's force on both bodies in the step: the second body's point
+    /// at its start.
     const Vec3& acts_at(size_t i) const noexcept { return joints_[i].acts_at_W; }
-    /// The action of a joint in a step of h whose bodies move like this at acts_at().
+    /// The action of a joint in a step of h in which its bodies move like this at acts_at().
     Books::Exchange exchange(size_t i, double h, const Books::Meeting& meeting) const noexcept;
     /// Forgets the impulses.
     void forget() noexcept;
 
   private:
-    static constexpr size_t kElements = 3;  // linear rows, angular rows, those of the coordinate
+    static constexpr size_t kElements = 3;  // linear rows, angular rows, rows of the coordinate
     /// Changes of a body's velocities by contacts and joints in the last steps.
     struct Change {
         contact::Vec6 now = contact::Vec6::Zero();
@@ -126,14 +127,14 @@ class Joints {
         Change change_a = {};
         Change change_b = {};
         std::array<contact::ProblemJoint, kElements> rows = {};
-        std::array<int, kElements> row_at{-1, -1, -1};  // in the problem; -1: they ask for nothing
-        double inverse_mass = 0;                        // that the coordinate moves
-        contact::Vec6 inverse_masses = contact::Vec6::Zero();  // of a bushing, by axis
-        contact::Vec6 rates = contact::Vec6::Zero();           // of a bushing, before the step
+        std::array<int, kElements> row_at{-1, -1, -1};  // index in the problem; -1: no effect
+        double inverse_mass = 0;                        // moved by the coordinate
+        contact::Vec6 inverse_masses = contact::Vec6::Zero();  // for a bushing, by axis
+        contact::Vec6 rates = contact::Vec6::Zero();           // for a bushing, before the step
         JointProperties properties = {};
         std::optional<Motor> motor = {};      // in this step
-        std::optional<double> led_from = {};  // where the motor was to be in the step before
-        Gaps start = {};                      // as the step began
+        std::optional<double> led_from = {};  // the motor's target in the step before
+        Gaps start = {};                      // at the start of the step
         Vec3 acts_at_W = Vec3::Zero();
     };
     static Gaps gaps(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
@@ -146,18 +147,18 @@ class Joints {
     void ask_of_coordinate(size_t i, double q, double h, contact::ProblemJoint& row) const noexcept;
     /// Copies the rows of a joint to the problem.
     static void tell(const Joint& joint, contact::ContactProblem& problem) noexcept;
-    /// Rows of a bushing that gets to `then` at these velocities.
+    /// Rows of a bushing that reaches `then` at these velocities.
     static void ask_of_bushing(const Joint& joint, const Gaps& then, double h,
                                const contact::Vec6& v_a, const contact::Vec6& v_b,
                                std::span<contact::ProblemJoint> rows) noexcept;
-    /// Energy of its springs half a step away from where the step began, moved at these rates; h is
+    /// Energy of its springs half a step from the start of the step, moved at these rates; h is
     /// negative for the time before [J].
     static double stored(const Joint& joint, double h, const Vec3& v_W, const Vec3& w_W) noexcept;
     /// The row of a motor or, without one, of dry friction.
     static void ask_of_motor(const Joint& joint, double q, double h, int k,
                              contact::ProblemJoint& row) noexcept;
 
-    /// Along a slider's axis, or from the first body's point of a distance to the second one's.
+    /// Along a slider's axis, or from the first to the second point of a distance joint.
     static Vec3 direction(const Joint& joint, const Pose& X_WA, const Pose& X_WB) noexcept;
 
     std::vector<Joint> joints_;

@@ -1,5 +1,5 @@
 // PointContacts keeps the contacts of points, which collision detection does not find: the point's
-// owner states what it may meet in the coming step. They are kept as Bullet's manifolds, like all
+// owner lists possible contacts in the coming step. They are kept as Bullet's manifolds, like all
 // other contacts, so that solvers start from the last step's impulses.
 #pragma once
 
@@ -21,15 +21,16 @@ class PointContacts {
     struct Contact {
         const btCollisionObject* body = nullptr;
         const btCollisionObject* point = nullptr;
-        int part = 0;  ///< of the body
-        int face = 0;  ///< of the part; a contact with the same face starts from its last impulse
+        int part = 0;  ///< part of the body
+        int face =
+            0;  ///< face of the part; a contact with the same face starts from its last impulse
         Vec3 n_W = Vec3::UnitZ();
         double gap = 0;
         double friction = 0;
         double compliance = 0;  ///< [m/s per N*s]
     };
     static double compliance(const btManifoldPoint& point) noexcept {
-        return point.m_contactMotion1;  // Bullet's own solver has another use for it
+        return point.m_contactMotion1;  // only Bullet's own solver uses this field
     }
     /// Adds a contact for the next take(); it is left out if there is no room.
     void add(const Contact& contact) noexcept;
@@ -42,9 +43,9 @@ class PointContacts {
     void for_each_manifold(const Use& use) const {
         for (const Slot& slot : slots_) use(*slot.manifold);
     }
-    /// Call after bodies have moved by h [s]. What a turning body carries moves along an arc, but a
-    /// point's own step is along the tangent. Returns the difference, averaged over the bodies that
-    /// press on the point, weighted by pressure [m].
+    /// To be called after bodies have moved by h [s]. A point fixed in a turning body moves along
+    /// an arc, but a point proxy's own step is along the tangent. Returns the difference, averaged
+    /// over the bodies that press on the point, weighted by pressure [m].
     btVector3 bend(const btRigidBody& point, double h) const noexcept;
 
   private:

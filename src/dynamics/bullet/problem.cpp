@@ -12,11 +12,11 @@ namespace {
 
 using contact::kFixed;
 
-/// A contact that has not touched in a step may separate or approach at any speed after it [m/s].
+/// After the step, a contact that has not touched may separate or approach at any speed [m/s].
 constexpr double kFarApart = 1e6;
 
-/// A body that begins inside another is pushed out no faster than this [m/s], so that it is not
-/// thrown.
+/// A body that starts inside another is pushed out no faster than this [m/s], so that it is not
+/// hurled away.
 constexpr double kMostRecovery = 0.5;
 
 const contact::ProblemBody kRests;
@@ -72,8 +72,8 @@ const contact::ProblemBody& body_of(const contact::ContactProblem& problem, int 
     return i == kFixed ? kRests : problem.bodies[static_cast<size_t>(i)];
 }
 
-/// Difference between the separation of the points of both bodies in the step, on their arcs, and
-/// that given by their velocities [m/s].
+/// Difference between the separation of both bodies' points in the step along their arcs and
+/// the separation by their velocities [m/s].
 Vec3 on_arcs(const contact::ContactProblem& problem, const contact::ProblemContact& contact,
              double h) {
     const auto off = [&](const contact::ProblemBody& one, const Vec3& r) {
@@ -90,7 +90,7 @@ Vec3 on_arcs(const contact::ContactProblem& problem, const contact::ProblemConta
 /// for patches of contacts.
 Eigen::Vector2d along_arcs(const contact::ContactProblem& problem,
                            const contact::ProblemContact& contact, double h) {
-    constexpr double kRolls = 0.01;  // as a share of the angular velocity
+    constexpr double kRolls = 0.01;  // as a fraction of the angular velocity
     constexpr double kLeast = 1e-6;  // [m/s]
     const Vec3& w_A = body_of(problem, contact.a).w_W;
     const Vec3& w_B = body_of(problem, contact.b).w_W;
@@ -103,10 +103,10 @@ Eigen::Vector2d along_arcs(const contact::ContactProblem& problem,
     return (R.transpose() * on_arcs(problem, contact, h)).tail<2>();
 }
 
-/// A rim that rolls touches with another point in the middle of the step, where velocities are
+/// A rolling rim touches with another point in the middle of the step, where velocities are
 /// those that bring its body to the step's end. The impulse acts at the point of contact at the
-/// beginning, and has to let that point move as it does while the other one rests. This is that
-/// motion, in the contact's frame [m/s]. Without it, Euler's disc sinks in from step to step and
+/// beginning, and must allow the motion of that point while the other one rests. This is that
+/// motion, in the contact's frame [m/s]. Without it, Euler's disc sinks from step to step and
 /// gains energy.
 Vec3 by_rolling(const contact::ContactProblem& problem, const contact::ProblemContact& contact,
                 const btManifoldPoint& point) {
@@ -116,11 +116,11 @@ Vec3 by_rolling(const contact::ContactProblem& problem, const contact::ProblemCo
     return contact.R_WC.transpose() * turns.cross(ahead);
 }
 
-/// Velocity along the normal with which bodies leave, by Newton's law e u for the speed u at which
-/// they touch, at the share `when` of the step. `free` is the normal velocity without the contact,
-/// in the middle of the step; loads changed it by `loads`, and will in the next step. Velocities
-/// are those of the middle of steps, so it is half of that from there to the touch and from the
-/// touch to there. Zero for an impact so slow that they would be back in the next step.
+/// Normal velocity of separation, by Newton's law e u for the speed u at which
+/// they touch, at the fraction `when` of the step. `free` is the normal velocity without the
+/// contact, in the middle of the step; loads changed it by `loads`, and will again in the next
+/// step. Velocities are those of the middle of steps, so half of that acts between there and the
+/// touch. Zero for an impact so slow that they would be back in the next step.
 double rebound(double free, double when, double loads, double restitution) {
     const double leaves = restitution * (-free - loads * (when - 0.5));
     const double speed = leaves + std::clamp(loads, -leaves, leaves) / 2;
@@ -254,7 +254,7 @@ bool ManifoldProblem::bounce(std::span<btPersistentManifold*> manifolds,
                 const double when = std::clamp(contact.bias / -free, 0.0, 1.0);
                 const double speed = free < 0 ? rebound(free, when, loads, restitution) : 0;
                 bounces = bounces || speed > 0;
-                // bodies that met only because others pushed them obey the same law
+                // bodies that were pushed together by others obey the same law
                 leaves = free < 0 ? speed : -restitution * free;
             }
             leaves_.push_back(leaves);

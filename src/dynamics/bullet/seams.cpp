@@ -9,7 +9,7 @@ namespace {
 constexpr double kOnPart = 1e-6;
 /// A part counts as nearer than a point if it is nearer by more than rounding [m].
 constexpr double kNearer = 1e-8;
-/// Points with the same normal demand the same, and are not in each other's way.
+/// Points with the same normal have the same effect and do not conflict.
 constexpr double kSameNormal = 1 - 1e-8;
 
 bool has(const CollisionPart& part, const btVector3& p_W) {
@@ -27,7 +27,7 @@ double nearest(const btPersistentManifold& manifold) {
     return out;
 }
 
-/// Whether the parts of the other manifold, one of which is the same, are nearer and contain the
+/// Whether the parts of the other manifold, one of which is shared, are nearer and contain the
 /// point.
 bool is_inner(const btManifoldPoint& point, const OfParts& of, const OfParts& other) {
     const bool same_0 = of.part_0 == other.part_0;
@@ -43,7 +43,7 @@ bool is_inner(const btManifoldPoint& point, const OfParts& of, const OfParts& ot
 }  // namespace
 
 void remove_inner_contacts(std::span<OfParts> of_two_bodies) noexcept {
-    // all are judged before any is removed, because an inner point may reveal another one
+    // all are judged before any removal, because an inner point may reveal another
     for (OfParts& of : of_two_bodies) of.nearest = nearest(*of.manifold);
     for (OfParts& of : of_two_bodies) {
         for (int i = 0; i < of.manifold->getNumContacts(); ++i) {

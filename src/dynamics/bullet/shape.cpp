@@ -8,9 +8,9 @@ namespace dihaptic::dynamics {
 namespace {
 
 /// Hulls, cylinders and cones carry a thin skin, without which Bullet's distance algorithm loses
-/// the normal at zero depth. Cylinders and boxes are shrunk by as much and their edges rounded
-/// (Bullet's own skin would round a box by a tenth of its half edge); a sphere, a capsule or a
-/// cone meets a hull this far outside its surface.
+/// the normal at zero depth. Cylinders and boxes are shrunk by the same amount and their edges
+/// rounded (Bullet's own skin would round a box by a tenth of its half edge); a sphere, a capsule
+/// or a cone meets a hull this far outside its surface.
 constexpr double kSkin = 5e-5;  // [m]
 
 std::unique_ptr<btCollisionShape> bullet_hull(const scene::Hull& hull) {
@@ -104,7 +104,7 @@ double thickness_of(const btCollisionShape& shape, const Polyhedron* polyhedron)
 std::vector<Vec3> covered_faces(const std::vector<scene::ConvexPart>& parts, size_t of,
                                 const Polyhedron& polyhedron) {
     constexpr double kOutward = 1e-6;  // [m]
-    constexpr double kInward = 0.01;   // share of the way toward the middle of the face
+    constexpr double kInward = 0.01;   // fraction of the way toward the middle of the face
     std::vector<Vec3> out;
     const auto is_covered = [&](const Vec3& p_S) {
         const Vec3 p_B = parts[of].X_BS * p_S;

@@ -42,12 +42,12 @@ inline Vec3 factors(scene::Axes axes) {
 struct CollisionPart {
     btCollisionObject* body = nullptr;
     std::unique_ptr<btCollisionShape> shape;  // its user pointer is this part
-    std::unique_ptr<Polyhedron> polyhedron;   // null if round, flat, or of too many edges
+    std::unique_ptr<Polyhedron> polyhedron;   // null if round, flat, or with too many edges
     std::optional<Round> round;
     btTransform X_MS;
-    double thickness = 0;                 // the least extent of its bounds [m]; huge if a plane
+    double thickness = 0;                 // the smallest extent of its bounds [m]; huge if a plane
     bool moved = false;                   // X_MS is not the identity
-    bool hidden = false;                  // the part meets nothing
+    bool hidden = false;                  // the part has no contacts
     btBroadphaseProxy* bounds = nullptr;  // set once the part is added to a Collision
 
     btTransform X_WS() const {

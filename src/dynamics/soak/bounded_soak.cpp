@@ -1,6 +1,6 @@
 // Steps two thousand extreme scenes, with another solver twenty times a second: no step takes so
-// long that a device would switch its force off. Each scene runs twice, which has to give the same,
-// and the shorter time of a step counts: what other programs take is not the step's.
+// long that a device would switch its force off. Each scene runs twice, with identical results,
+// and the shorter time of a step counts: the time of other programs is excluded.
 #include <gtest/gtest.h>
 
 #include <time.h>

@@ -38,7 +38,7 @@ TEST_P(EnergySoak, NoStepRaisesItWithoutAnOverlap) {
             ++raised_from_overlap;
         }
     }
-    // bodies that spin into each other overlap now and then, and are pushed apart again
+    // bodies that spin into each other sometimes overlap and are pushed apart again
     EXPECT_LT(raised_from_overlap, kScenes * kSteps / 2000);
     std::printf("worst rise %.1e; from overlaps %d above %.0e, %.1e at worst\n", worst_clean,
                 raised_from_overlap, kRise, worst);

@@ -1,5 +1,5 @@
 // Tests a million steps of random mechanisms, pushed together, dropped and jammed: nothing
-// diverges, no miss of the solver goes unreported, joints hold, and no energy comes from nowhere.
+// diverges, no miss of the solver goes unreported, joints hold, and no energy is created.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -18,10 +18,10 @@ Vec3 random_vector(Random& random, double size) {
     return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
 }
 
-/// Bodies above a table, joined to a tree, and now and then to a loop; and two jaws.
+/// Bodies above a table, joined to a tree or sometimes a loop; and two jaws.
 struct Mechanism {
     scene::Scene scene;
-    size_t jaws = 0;  // index of the first
+    size_t jaws = 0;  // index of the first jaw
 
     explicit Mechanism(Random& random) {
         scene.bodies.push_back(table());
@@ -113,7 +113,7 @@ TEST_P(MechanismsSoak, AMillionStepsHarmNothing) {
         world.activate();
         const auto jaw = static_cast<int>(mechanism.jaws);
         const double squeeze = random.uniform(2, 20);
-        const double lift = random.uniform(1, 3);  // of their weight
+        const double lift = random.uniform(1, 3);  // in units of their weight
         for (int i = 0; i < kSteps; ++i) {
             // they close, lift, and let go
             const double close = i < 700 ? squeeze : -squeeze;
@@ -131,7 +131,7 @@ TEST_P(MechanismsSoak, AMillionStepsHarmNothing) {
             }
         }
     }
-    // 20 N take a jaw of 0.2 kg to 70 m/s in 0.7 s where nothing is in its way
+    // 20 N take a jaw of 0.2 kg to 70 m/s in 0.7 s without an obstacle
     EXPECT_LT(fastest, 70);
     EXPECT_LE(worst_unreported, 1.0001e-8);
     EXPECT_LT(missed, kScenes * kSteps / 100);

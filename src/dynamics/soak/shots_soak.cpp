@@ -1,4 +1,4 @@
-// Thousands of shots (test/shots.h): none passes through what it hits.
+// Thousands of shots (test/shots.h): none passes through its target.
 #include <cstdio>
 
 #include "dynamics/test/shots.h"

@@ -51,7 +51,7 @@ inline scene::Joint joint(scene::JointKind kind, std::vector<std::string> betwee
     return out;
 }
 
-/// A body as a scene file in scenes/ has it.
+/// A body from the text of a scene file in scenes/.
 inline scene::Body body_from(const std::string& yaml) {
     scene::Scene scene;
     Diagnostics diagnostics;

@@ -1,5 +1,5 @@
-// The books of a step: they balance in scenes of every kind, by closed forms where there are some,
-// and every fault that is planted in a step is told.
+// The books of a step: they balance in scenes of every kind, compared with closed forms if
+// available, and every fault planted in a step is reported.
 #include "dynamics/books.h"
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 namespace dihaptic::dynamics {
 
-/// Has a fault happen between the loads of a step and its solve.
+/// Plants a fault between the loads of a step and its solve.
 class Sabotage {
   public:
     using Problem = contact::ContactProblem;
@@ -20,7 +20,7 @@ class Sabotage {
     static void plant(World& world, Fault fault) {
         World::Impl& inside = *world.impl_;
         world.watch_problems([&inside, fault = std::move(fault)](const Problem& problem, auto) {
-            // the watcher is given what the step goes on with
+            // the watcher gets the state with which the step continues
             fault(const_cast<Problem&>(problem), *btRigidBody::upcast(inside.island_bodies[0]));
         });
     }
@@ -54,7 +54,7 @@ const std::string kTable =
     "  - {name: table, shape: box, size_mm: [2000, 2000, 100], position_mm: [0, 0, -50], fixed: "
     "yes, friction: 0.6}\n";
 
-/// In the first step.
+/// Acts in the first step.
 std::function<void(World&, int)> thrown(int body, const Vec3& v, const Vec3& w = Vec3::Zero()) {
     return [=](World& world, int step) {
         if (step == 0) world.set_motion({body}, v, w);
@@ -246,11 +246,11 @@ TEST(Books, OfAnImpactAreWhatRestitutionLeaves) {
     EXPECT_NEAR(taken / before, 0.75, 0.02);
 }
 
-/// A fault that moves something by this in half a second is told [m].
+/// A fault that moves a body by this in half a second is reported [m].
 constexpr double kMoved = 5e-3;
 constexpr int kFaultySteps = kSteps / 2;
 
-/// What a body under a fault does is off by this after a second [m].
+/// Deviation of a faulty body's motion after a second [m].
 double off(const World& world, const World& well) {
     double most = 0;
     for (size_t i = 0; i < world.states().size(); ++i)

@@ -1,4 +1,4 @@
-// Tests that counted work bounds every step that a hand waits for, and that the step says so.
+// Tests that counted work bounds every step that a hand waits for, and that the step reports it.
 #include <gtest/gtest.h>
 
 #include "base/number.h"
@@ -8,7 +8,7 @@
 namespace dihaptic::dynamics::bounded_test {
 namespace {
 
-/// What may come on top for each contact: assembly and the fewest sweeps, in each of five passes.
+/// Additional work allowed per contact: assembly and the fewest sweeps, in each of five passes.
 constexpr int64_t kOnTop = 200;
 
 TEST(Bounded, NoStepOfAnExtremeSceneDoesMoreThanItMay) {
@@ -76,8 +76,8 @@ TEST(Bounded, APlateOnARailThatIsInsideTheTableIsSolvedAllTheSame) {
     }
 }
 
-/// A block in the air between two pads; and, where it is so, a third pad on one that two walls
-/// crush, for which there is no answer.
+/// A block in the air between two pads; optionally, a third pad on a block that two walls
+/// crush, which has no solution.
 World two_hands(bool crushed) {
     scene::Scene scene;
     scene.bodies = {table(), box("crushed", Vec3::Constant(0.04), {0.5, 0, 0.02}, 0.1),

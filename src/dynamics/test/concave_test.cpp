@@ -68,7 +68,7 @@ TEST(Concave, AMugHangsOnAHookBelowWhereItsHandleRests) {
                         mug_body});
     run(world, 4 * kSeconds);
     const BodyState& mug = world.states()[1];
-    // over a second, the impulse that carries it is that of its weight plus its gain of momentum
+    // over a second, the supporting impulse equals that of its weight plus its gain of momentum
     Vec3 impulse = Vec3::Zero();
     const Vec3 centre(solid_of(mug_body.shape, 0.15).X_BM.p);
     const auto momentum = [&] {
@@ -135,7 +135,7 @@ TEST(Concave, RingsLieOnATableAsTheyFall) {
 }
 
 TEST(Concave, ABallInABowlLosesLessThanItsFacetsTake) {
-    // where pieces meet within the bowl's side nothing is felt
+    // seams between pieces in the bowl's side are not felt
     const std::string bowl =
         "{name: bowl, shape: mesh, file: ../meshes/bowl.obj, unit: mm, concave: yes, fixed: yes, "
         "friction: 0}";

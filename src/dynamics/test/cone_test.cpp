@@ -10,7 +10,9 @@ namespace {
 
 struct Size {
     double radius, height;
-    double lean() const { return std::atan(radius / height); }  ///< of its side, half its opening
+    double lean() const {
+        return std::atan(radius / height);
+    }  ///< of its side, half the opening angle
 };
 
 scene::Body cone(const Size& size, double friction = 0.8) {
@@ -42,7 +44,7 @@ struct Roll {
     double rate;  ///< W [rad/s]
     Vec3 turns{-rate / std::tan(size.lean()), 0, 0};
 
-    /// The W at which it lifts its tip. The moment of its weight and of what presses on it, at x
+    /// The W at which it lifts its tip. The moment of its weight and of the contact force, at x
     /// along the line of length h / cos(a), turns its angular momentum about the tip:
     /// m g (x - 3/4 h cos(a)) = W^2 cot(a) (I cos(a)^2 + J sin(a)^2), at most where x is at its
     /// base.
@@ -61,7 +63,7 @@ struct Roll {
         world.set_motion({1}, turns.cross(X.p), turns);
         return world;
     }
-    /// Of motion and height, per mass [J/kg].
+    /// Kinetic and potential energy per mass [J/kg].
     double energy(const BodyState& now) const {
         const double r = size.radius, h = size.height;
         const Vec3 arm = now.X_WB.R * Vec3(0, 0, -h / 4);
@@ -140,7 +142,7 @@ TEST(Cone, LiftsItsTipWhereItRollsFasterThanItsWeightHolds) {
     }
 }
 
-/// Forces of the ground on what stands on it.
+/// Forces of the ground on the bodies on it.
 double held_up(const World& world) {
     double out = 0;
     for (const contact::Contact& c : world.contacts()) out += std::abs(c.f_B_W.z());

@@ -15,9 +15,9 @@ constexpr double kHalf = kThickness / 2;
 const double kAcross = kRadius * kRadius / 4 + kThickness * kThickness / 12;  // per mass
 const double kAlong = kRadius * kRadius / 2;
 
-/// The W about the vertical of a disc tilted by `tilt` whose centre stands still while it rolls. It
-/// turns about the line through its centre and the point of its edge that it touches with, and its
-/// angular momentum L is turned by the moment of what holds it up there: W x L = c x m g. For a
+/// The W about the vertical of a rolling disc tilted by `tilt` with its centre at rest. It
+/// turns about the line through its centre and its contact point, and its
+/// angular momentum L is turned by the moment of the contact force: W x L = c x m g. For a
 /// thin disc L = m r^2 / 4 W sin(tilt) along its radius, and W^2 = 4 g / (r sin(tilt)) (Moffatt
 /// 2000).
 double steady(double tilt) {
@@ -46,7 +46,7 @@ double tilt_of(const BodyState& now) {
     return std::acos((now.X_WB.R * Vec3::UnitZ()).z());
 }
 
-/// Per mass [J/kg].
+/// Energy per mass [J/kg].
 double energy(const BodyState& now) {
     const Vec3 w = now.X_WB.R.conjugate() * now.w_WB;
     return now.v_WB.squaredNorm() / 2 + w.cwiseAbs2().dot(Vec3(kAcross, kAcross, kAlong)) / 2 +
@@ -55,9 +55,9 @@ double energy(const BodyState& now) {
 
 struct Spun {
     double rate = 0;    ///< mean angular velocity about the vertical, in units of steady()
-    double tilted = 0;  ///< most that its tilt changes, as a share
-    double gained = 0;  ///< of its energy
-    bool told = false;  ///< that its energy comes from nowhere
+    double tilted = 0;  ///< largest change of tilt, as a fraction
+    double gained = 0;  ///< gain of energy, as a fraction
+    bool told = false;  ///< whether unexplained energy is reported
 };
 
 Spun roll(double tilt, double time, double step) {
@@ -96,8 +96,8 @@ TEST(EulersDisc, RollsAroundTheFasterTheFlatterItLies) {
     }
 }
 
-/// The point that it touches with goes around its edge by up to a tenth of a radian in a step.
-/// Taken to stay, it would feed the disc by 6 % in a second.
+/// The contact point moves around its edge by up to a tenth of a radian in a step.
+/// If it were assumed fixed, the disc would gain 6 % in a second.
 TEST(EulersDisc, KeepsItsEnergy) {
     for (const double tilt : kTilts) {
         const Spun coarse = roll(tilt, 1, kStep);

@@ -1,5 +1,5 @@
-// Tests bodies that are driven: platforms that rise, shake and turn with what stands on them, and
-// bodies that are let go on their way.
+// Tests bodies that are driven: platforms that rise, shake and turn with bodies on them, and
+// bodies that are released in motion.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -24,7 +24,7 @@ World with_block() {
     return make({platform(), block({0, 0, 0.02}, 0.5)}, awake());
 }
 
-/// A swing of a platform along one axis about its place.
+/// Oscillation of a platform along one axis about its position.
 Vec3 swing(const Vec3& amplitude, double omega, double t) {
     return Vec3(0, 0, -0.02) + amplitude * (1 - std::cos(omega * t)) / 2;
 }
@@ -63,7 +63,7 @@ TEST(Driven, LiftsWhatStandsOnItWithItsWeightAndInertia) {
 }
 
 TEST(Driven, ThrowsWhatItLeavesBehind) {
-    // its acceleration downward passes g, from where on the block flies
+    // its downward acceleration exceeds g, and the block flies from then on
     World world = with_block();
     constexpr double kAmplitude = 0.02, kOmega = 40;
     double highest = 0;
@@ -75,7 +75,7 @@ TEST(Driven, ThrowsWhatItLeavesBehind) {
         highest = std::max(highest, world.state(kBlock).X_WB.p.z() - 0.02);
     }
     EXPECT_TRUE(flew);
-    // it leaves where A w^2 cos(w t) / 2 = -g, upward still
+    // it leaves where A w^2 cos(w t) / 2 = -g, still moving upward
     const double c = -2 * kGravity / (kAmplitude * kOmega * kOmega);
     const double z = kAmplitude * (1 - c) / 2;
     const double v = kAmplitude * kOmega * std::sqrt(1 - c * c) / 2;
@@ -131,7 +131,7 @@ TEST(Driven, CarriesRound) {
 }
 
 TEST(Driven, KeepsWhatLiesOnATurntableWhereItIs) {
-    // with another one on top, held by a sixth of the friction that there is
+    // with another block on top, held by a sixth of the available friction
     for (size_t i = 0; i < enum_names(contact::Solver{}).size(); ++i) {
         frame::DynamicsSettings settings = awake();
         settings.solver = static_cast<contact::Solver>(i);

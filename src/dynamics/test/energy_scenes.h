@@ -1,4 +1,4 @@
-// Random scenes for tests of the conservation of energy: boxes and balls thrown and spinning at a
+// Random scenes for tests of the conservation of energy: boxes and balls, spinning, thrown at a
 // table.
 #pragma once
 
@@ -44,7 +44,7 @@ class EnergyScene {
     }
 
     /// Steps, and returns the relative rise of the energy; negative if it fell. Potential energy is
-    /// measured from the table top, which no centre sinks to, so that the energy is never near
+    /// measured from the table top, which no centre reaches, so that the energy is never near
     /// zero.
     double step() {
         world_->step(kStep);
@@ -53,7 +53,7 @@ class EnergyScene {
         return (energy_ - before) / before;
     }
 
-    /// Whether the last step began with an overlap that rounding does not explain.
+    /// Whether the last step started with an overlap beyond rounding.
     bool overlapped() const {
         for (const contact::Contact& contact : world_->contacts()) {
             if (contact.gap < -1e-6) return true;

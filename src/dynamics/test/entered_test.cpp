@@ -1,5 +1,5 @@
-// Tests that fast bodies do not enter each other, whatever the contacts at the start of the step
-// foresee.
+// Tests that fast bodies do not enter each other, even if the contacts at the start of the step
+// do not foresee it.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EnteredTest,
                          [](const auto& test) { return std::string(enum_name(test.param)); });
 
 TEST_P(EnteredTest, ABoxThatSpinsPastABlockStaysOutsideOfItAndGainsNoEnergy) {
-    // by 0.4 rad per step: a corner that was beside a face swings into it
+    // by 0.4 rad per step: a corner beside a face swings into it
     const Vec3 half = Vec3::Constant(0.02);
     for (uint64_t i = 0; i < 20; ++i) {
         Random random(i, "spin");
@@ -73,7 +73,7 @@ TEST_P(EnteredTest, ABoxThatSpinsPastABlockStaysOutsideOfItAndGainsNoEnergy) {
 }
 
 TEST_P(EnteredTest, ABodyStoppedInFrontOfAnotherIsNotEntered) {
-    // both move alike, so nothing foresees that they meet; what holds the first holds the second
+    // both move alike, so their contact is unforeseen; the support of the first holds the second
     World world = weightless({slippery(box("wall", {0.1, 1, 1}, {0.05, 0, 0}, 0)),
                               slippery(block({-0.0210, 0, 0})), slippery(block({-0.0625, 0, 0}))});
     for (int i : {1, 2}) world.set_velocity({i}, {5, 0, 0});
@@ -87,7 +87,7 @@ TEST_P(EnteredTest, ABodyStoppedInFrontOfAnotherIsNotEntered) {
 }
 
 TEST_P(EnteredTest, ABallStoppedInFrontOfAnotherIsNotEntered) {
-    // as above, from further away than round shapes are looked for
+    // as above, from beyond the search distance for round shapes
     const auto ball = [](double x) {
         scene::Body body = slippery(block({x, 0, 0}));
         body.shape.kind = scene::ShapeKind::sphere;
@@ -129,7 +129,7 @@ TEST_P(EnteredTest, ACapsuleThatSlapsDownOnOneEndMeetsWithTheOtherInTime) {
 }
 
 TEST_P(EnteredTest, AFingerThatComesFreeGoesThroughNothing) {
-    // 70 mm in a step, at an angle, so that no face of the block is opposite to it at first
+    // 70 mm in a step, at an angle, so that initially no face of the block is opposite
     scene::Finger finger;
     finger.name = "finger";
     finger.shape = scene::Shape::box(Vec3::Constant(0.01));

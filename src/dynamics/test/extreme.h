@@ -1,5 +1,5 @@
-// Scenes that are as hard on the solvers as files can make them, for tests and soaks: fingers press
-// on bodies of any size and mass that are stacked, joined, on rails and deep inside each other.
+// Scenes as hard for the solvers as files permit, for tests and soaks: fingers press
+// on bodies of any size and mass, which are stacked, joined, on rails and deep inside each other.
 #pragma once
 
 #include "base/number.h"
@@ -8,7 +8,7 @@
 
 namespace dihaptic::dynamics {
 
-/// A world of such a scene, with two fingers that press on it from both sides.
+/// A world of such a scene, with two fingers pressing from both sides.
 class Extreme {
   public:
     explicit Extreme(uint64_t seed, const frame::DynamicsSettings& settings = awake())
@@ -34,7 +34,7 @@ class Extreme {
         }
         return world_.step(kStep);
     }
-    /// Whether a finger touches something.
+    /// Whether a finger touches a body.
     bool touched() const {
         for (const contact::Contact& contact : world_.contacts()) {
             for (const BodyIndex finger : fingers_) {

@@ -18,7 +18,7 @@ Vec3 moments(const Vec3& size, double mass) {
     return mass / 12 * (Vec3::Constant(squared.sum()) - squared);
 }
 
-/// Angular velocity in the body's axes after t of one that begins with (0, w, w_z) about axes of
+/// Angular velocity in the body's axes at t, starting with (0, w, w_z) about axes of
 /// ascending moments, by Jacobi's elliptic functions (Landau and Lifshitz, Mechanics, 37).
 Vec3 by_elliptic_functions(const Vec3& I, double w_y, double w_z, double t) {
     const double twice_energy = I.y() * w_y * w_y + I.z() * w_z * w_z;
@@ -29,7 +29,7 @@ Vec3 by_elliptic_functions(const Vec3& I, double w_y, double w_z, double t) {
     const double rate = std::sqrt((I.z() - I.y()) * below / (I.x() * I.y() * I.z()));
     const double k = std::sqrt((I.y() - I.x()) * above / ((I.z() - I.y()) * below));
     double cn, dn;
-    // it begins a quarter of a period on, where sn is 1
+    // it starts a quarter of a period later, where sn is 1
     const double quarter = std::comp_ellint_1(k);
     const double sn = boost::math::jacobi_elliptic(k, rate * t + quarter, &cn, &dn);
     return {std::sqrt(above / (I.x() * (I.z() - I.x()))) * cn,
@@ -37,7 +37,7 @@ Vec3 by_elliptic_functions(const Vec3& I, double w_y, double w_z, double t) {
             std::sqrt(below / (I.z() * (I.z() - I.x()))) * dn};
 }
 
-/// A brick in space, which begins to turn.
+/// A brick in space that starts to turn.
 World turning(const Vec3& size, const Vec3& w) {
     scene::Scene scene;
     scene.gravity = Vec3::Zero();
@@ -92,7 +92,7 @@ TEST(FreeTurn, KeepsMomentumAndEnergy) {
 }
 
 TEST(FreeTurn, GetsToTheSamePlaceWhateverTheStep) {
-    // the angle about the angular momentum too, which the velocities alone do not tell
+    // also the angle about the angular momentum, which does not follow from the velocities
     const Vec3 w(3, 20, -7);
     World coarse = turning(kBrick, w);
     World fine = turning(kBrick, w);
@@ -122,14 +122,14 @@ TEST(FreeTurn, OfEqualMomentsStaysAsItIs) {
               Vec3::Zero());
 }
 
-/// A disc on a light spindle that stands on its tip, and precesses steadily: tilt, how fast it
-/// precesses.
+/// A disc on a light spindle that stands on its tip, and precesses steadily: tilt and rate of
+/// precession.
 struct Top {
     static constexpr double kRadius = 0.03, kHeight = 0.01, kTilt = 0.35;
     double spin, arm;
     double turning = kMass * kRadius * kRadius / 2;
     double across = kMass * (3 * kRadius * kRadius + kHeight * kHeight) / 12 + kMass * arm * arm;
-    /// The slow one of (I_1 cos t) W^2 - I_3 s W + m g l = 0.
+    /// The slow root of (I_1 cos t) W^2 - I_3 s W + m g l = 0.
     double precession() const {
         const double a = across * std::cos(kTilt), b = turning * spin, c = kMass * kGravity * arm;
         return (b - std::sqrt(b * b - 4 * a * c)) / (2 * a);

@@ -1,5 +1,5 @@
-// Tests that bodies which do not touch are solved apart: what is in a finger's hand stays exact,
-// whatever else happens in the world.
+// Tests that bodies which do not touch are solved separately: a held body stays exact,
+// whatever happens elsewhere in the world.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -98,7 +98,7 @@ TEST(Islands, AreSolvedApartWithWorkAndIterationsSummed) {
 }
 
 TEST(Carried, ImpulsesOutliveManyMoreContactsThanAreReserved) {
-    // a block that rocks makes new points all the time: what ended points carried is given again
+    // a rocking block makes new points all the time: records of ended points are reused
     frame::DynamicsSettings settings = awake();
     settings.max_contacts = 16;
     World world = make({table(), block({0, 0, 0.02})}, settings);

@@ -1,5 +1,5 @@
 // Tests joints in a world against closed forms: pendulums, springs, reactions, stops, mechanisms
-// with more joints than they need.
+// with redundant joints.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ World make(std::vector<scene::Body> bodies, std::vector<scene::Joint> joints,
 constexpr double kSide = 0.04, kMass = 0.1, kArm = 0.25;
 constexpr double kInertia = kMass * kSide * kSide / 6;
 
-/// A cube that hangs from the origin by a hinge about y, turned by `angle` from its rest.
+/// A cube that hangs from the origin by a hinge about y, turned by `angle` from its rest position.
 World pendulum(double angle, double friction = 0) {
     scene::Body bob =
         box("bob", Vec3::Constant(kSide), kArm * Vec3(std::sin(angle), 0, -std::cos(angle)), kMass);
@@ -122,7 +122,8 @@ TEST(Pendulum, OfTwoArmsMovesAsItsEquationsSay) {
     for (int half = 0; half < 2; ++half) {
         const double h = half ? kStep / 2 : kStep;
         Eigen::Vector4d s(90 * kDegree, 60 * kDegree, 0, 0);
-        // a step's velocities are those of its middle: who starts at rest was so half a step before
+        // a step's velocities are those of its middle: a body that starts at rest was at rest half
+        // a step before
         s.tail<2>() = h / 2 * accelerations(s).tail<2>();
         const auto at = [&](double a, double b) -> std::pair<Vec3, Vec3> {
             const Vec3 first = l * Vec3(std::sin(a), 0, -std::cos(a));
@@ -245,7 +246,7 @@ TEST(SpringWithACurve, SwingsAsItsClosedFormSays) {
 }
 
 TEST(SpringWithACurve, GivesWayBeyondItsPeakAndHoldsBeforeIt) {
-    // as a key that clicks: 2 N at 5 mm, 0.5 N at 6 mm, 3 N at 16 mm
+    // like a clicking key: 2 N at 5 mm, 0.5 N at 6 mm, 3 N at 16 mm
     const scene::SpringCurve key{{0, 0.005, 0.006, 0.016}, {0, 2, 0.5, 3}};
     for (const auto& [force, rests_at] : {std::pair{1.9, 0.00475}, {2.1, 0.0124}, {0.4, 0.001}}) {
         World world = on_a_curve(key, 0, 30);
@@ -303,7 +304,7 @@ TEST(Hinge, StopsAndRubs) {
                 1e-5);
 }
 
-/// A ball that hangs at `place` from the origin by a joint that keeps its distance.
+/// A ball that hangs at `place` from the origin by a distance joint.
 World hanging(const Vec3& place, const std::function<void(scene::Joint&)>& change = {}) {
     scene::Body ball;
     ball.name = "ball";
@@ -317,13 +318,13 @@ World hanging(const Vec3& place, const std::function<void(scene::Joint&)>& chang
     return make({ball}, {string});
 }
 
-/// A conical pendulum: at w^2 = g / (l cos theta) it stays at its height, and the rod carries
+/// A conical pendulum: at w^2 = g / (l cos theta) it keeps its height, and the rod carries
 /// m g / cos theta.
 TEST(Distance, IsARodThatABallCirclesOn) {
     const double theta = 30 * kDegree;
     const double omega = std::sqrt(kGravity / (kArm * std::cos(theta)));
     World world = hanging(kArm * Vec3(std::sin(theta), 0, -std::cos(theta)));
-    // velocities are those of the middle of a step: here of the one before
+    // velocities are those of the middle of a step: here of the step before
     const double before = omega * kStep;
     world.set_velocity(
         {0}, kArm * std::sin(theta) / kStep * Vec3(1 - std::cos(before), std::sin(before), 0));
@@ -380,7 +381,7 @@ TEST(Distance, IsAnElasticBandOfItsOwnFrequency) {
     EXPECT_NEAR(period / (2 * std::numbers::pi * std::sqrt(kMass / kBand)), 1, 1e-3);
 }
 
-/// Two balls on a rod spin about their middle, which stays where it is: nothing holds them but each
+/// Two balls on a rod spin about their midpoint, which stays in place: they are held only by each
 /// other.
 TEST(Distance, JoinsTwoThatFly) {
     std::vector<scene::Body> balls;
@@ -479,7 +480,7 @@ TEST(Joints, SleepAndWakeWithWhatTheyJoin) {
 }
 
 TEST(Joints, TakeBodiesThatSpinFasterThanAStepCanFollow) {
-    // a light arm on a ball joint is spun up without end
+    // a light arm on a ball joint is accelerated endlessly
     scene::Body arm = box("arm", {0.05, 0.005, 0.005}, {0.025, 0, 0}, 1e-3);
     World world = make({arm}, {joint(JointKind::ball, {"arm"}, Vec3::Zero())});
     const double fastest = std::numbers::pi / 4 / kStep;
@@ -505,7 +506,7 @@ TEST(Distance, WithAStiffSpringOnALightBodyThatSpinsGivesItNoEnergy) {
     scene.joints = {band};
     World world(scene, awake());
     world.activate();
-    const double fastest = 0.04 * std::numbers::pi / 4 / kStep;  // of any place of the bead
+    const double fastest = 0.04 * std::numbers::pi / 4 / kStep;  // of any point of the bead
     for (int i = 0; i < 3000; ++i) {
         if (i < 500) world.apply({0}, Vec3::Zero(), {2e-3, 3e-3, 2.5e-3});
         ASSERT_EQ(world.step(kStep), StepStatus::ok) << i;

@@ -43,8 +43,8 @@ World make(const scene::Lattice& lattice, std::vector<scene::Body> bodies = {},
     return world;
 }
 
-/// Where the end of the rod is after it has come to rest under a force there and a torque on the
-/// last block, against where it was: in the rod's axes, which are turned by R.
+/// Displacement of the rod's end after it has come to rest under a force there and a torque on the
+/// last block, in the rod's axes, which are turned by R.
 Pose end_under(const Vec3& force, const Vec3& torque, const Quat& R = Quat::Identity()) {
     scene::Lattice lattice = rod();
     if (!R.isApprox(Quat::Identity())) lattice.rotation = {0.3, -0.4, 0.5};
@@ -73,7 +73,7 @@ TEST(Lattice, BendsAsABeam) {
     constexpr double kForce = 0.01;
     const double expected = kForce * std::pow(kLength, 3) / (3 * kYoung * kSecondMoment);
     EXPECT_NEAR(end_under({0, 0, -kForce}, Vec3::Zero()).p.z() / -expected, 1, 0.01);
-    // across its broad side it is stiffer as the square of the sides
+    // across its broad side it is stiffer by the square of the sides
     const double stiffer = kWide * kWide / kHigh / kHigh;
     EXPECT_NEAR(end_under({0, kForce * stiffer, 0}, Vec3::Zero()).p.y() / expected, 1, 0.01);
 }
@@ -100,7 +100,7 @@ TEST(Lattice, SwingsAtTheFrequencyOfABeam) {
     World world = make(lattice);
     constexpr int kLast = kBlocks - 1;
     const auto z = [&] { return world.states()[kLast].X_WB.p.z(); };
-    for (int i = 0; i < 300; ++i) {  // pushed slowly, let go
+    for (int i = 0; i < 300; ++i) {  // pushed slowly, then released
         world.apply({kLast}, {0, 0, 0.01 * std::min(1.0, i / 250.0)}, Vec3::Zero());
         world.step(kStep);
     }
@@ -114,7 +114,7 @@ TEST(Lattice, SwingsAtTheFrequencyOfABeam) {
     }
     ASSERT_GT(times.size(), 10u);
     const double hertz = static_cast<double>(times.size() - 1) / (times.back() - times.front());
-    const double root = 1.8751;  // the first of cos x cosh x = -1
+    const double root = 1.8751;  // the first root of cos x cosh x = -1
     const double expected = root * root / (2 * std::numbers::pi) *
                             std::sqrt(kYoung * kSecondMoment / (0.05 * std::pow(kLength, 3)));
     EXPECT_NEAR(hertz / expected, 1, 0.02);
@@ -187,7 +187,7 @@ struct Squeezed {
 
 TEST(Lattice, IsSqueezedFromOutsideAsABlockOfItsMaterial) {
     Squeezed squeezed(Vec3::Zero());
-    // without gravity, what holds the jaws' weight lifts them
+    // without gravity, the force that holds the jaws' weight lifts them
     for (int i = 0; i < 2000; ++i) {
         squeezed.world.apply({1}, {1, 0, 0}, Vec3::Zero());
         squeezed.world.apply({2}, {-1, 0, 0}, Vec3::Zero());

@@ -1,4 +1,4 @@
-// Whatever overlaps, however deep, has a contact, and the contact is as deep as the overlap.
+// Overlapping bodies, however deep, have a contact as deep as the overlap.
 #include "dynamics/bullet/shape.h"
 #include "dynamics/test/shots.h"
 

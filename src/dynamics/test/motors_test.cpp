@@ -1,5 +1,5 @@
-// Tests motors of joints against closed forms: what they push, where they go, how hard they press
-// on what is in their way, and how they arrive.
+// Tests motors of joints against closed forms: their push, their target, their force
+// on obstacles, and their arrival.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -41,7 +41,7 @@ TEST(Motor, PushesBothBodiesOfASliderOppositely) {
     }
     EXPECT_NEAR(world.states()[0].v_WB.x(), -kPush / kMass * 0.1, 1e-9);
     EXPECT_NEAR(world.states()[1].v_WB.x(), kPush / 0.3 * 0.1, 1e-9);
-    // a motor rests unless it is driven anew
+    // a motor rests unless driven again
     const double before = world.joints()[0].velocity;
     world.step(kStep);
     EXPECT_NEAR(world.joints()[0].velocity, before, 1e-12);
@@ -87,7 +87,7 @@ TEST(Motor, FollowsAPathAgainstFrictionAndLoads) {
         world.apply({0}, {2, 0, 0}, Vec3::Zero());
         world.step(kStep);
         ASSERT_NEAR(world.joints()[0].position, to, 1e-7) << t;
-        // the motor's force is what the path takes less what pushes
+        // the motor's force is that of the path less the push
         if (i > 2) {
             const double acceleration = 0.03 * 100 * std::cos(10 * (t - kStep));
             ASSERT_NEAR(world.joints()[0].force_W.x(), kMass * acceleration - 2, 0.01) << t;
@@ -108,7 +108,7 @@ TEST(Motor, PressesNoHarderThanItCan) {
     EXPECT_NEAR(world.joints()[0].position, 0.02, 1e-6);
 }
 
-/// How far the block goes beyond its end on a way of 10 cm, and where it is in the end.
+/// Overshoot of the block on a path of 10 cm, and its final position.
 std::pair<double, double> arrives(double most, double load, bool tells_early) {
     World world = make({block({0, 0, 0.2})}, rail());
     double beyond = 0;
@@ -126,7 +126,7 @@ TEST(Motor, ThatIsFarFromItsEndStopsThere) {
     for (const double most : {0.01, 0.1, 1.0, 10.0, 1000.0}) {
         for (const bool tells_early : {true, false}) {
             const auto [beyond, end] = arrives(most, 0, tells_early);
-            // an end that is not foretold at 0.1 m/s takes v^2 / 2 a
+            // an unforeseen end at 0.1 m/s takes v^2 / 2 a
             const double foreseen = tells_early ? 0 : 0.01 / (2 * most / kMass);
             EXPECT_LT(beyond, foreseen + 1e-3) << most << " " << tells_early;
             EXPECT_NEAR(end, 0.1, most < 0.1 ? 5e-3 : 1e-6) << most << " " << tells_early;
@@ -157,7 +157,7 @@ TEST(JointProperties, ChangeSpringDamperAndFriction) {
     EXPECT_NEAR(settled({}), -sag, 1e-6);
     EXPECT_NEAR(settled({.stiffness = 0.5}), -2 * sag, 1e-6);
     EXPECT_NEAR(settled({.stiffness = 2}), -sag / 2, 1e-6);
-    // without a spring it falls at the speed at which the damper carries it
+    // without a spring it falls at the speed at which the damper supports it
     world.set_joint_properties(0, {.stiffness = 0, .damping = 3});
     for (int i = 0; i < 1000; ++i) world.step(kStep);
     EXPECT_NEAR(world.joints()[0].velocity, -kMass * kGravity / 15, 1e-6);

@@ -1,5 +1,5 @@
-// Contacts of round shapes: how far apart shapes are against a search over all directions, and what
-// rolls, lies and slides against closed forms.
+// Contacts of round shapes: distances compared with a search over all directions, and
+// rolling, lying and sliding bodies compared with closed forms.
 #include "dynamics/round.h"
 
 #include <gtest/gtest.h>
@@ -38,8 +38,8 @@ double extent(const Polyhedron& shape, const Pose& X_W, const Vec3& u) {
     return out;
 }
 
-/// How far apart convex shapes are: the most that they are apart along any direction. Found by
-/// random steps from the best of many directions, or from the one given, that get smaller.
+/// Distance between convex shapes: the largest separation along any direction, found by
+/// random steps from the best of many directions, or from the one given, that shrink.
 template <class A, class B>
 double apart(const A& a, const Pose& X_WA, const B& b, const Pose& X_WB, std::mt19937& random,
              const Vec3& start = Vec3::Zero()) {
@@ -72,7 +72,7 @@ double gap(const ContactPatch& patch) {
 }
 
 /// Moves B towards A or away until they are apart by some tenths of a millimetre, as in each step.
-/// `off` is what contacts may be off [m].
+/// `off` is the tolerance of contacts [m].
 template <class A, class B>
 void compare(const A& a, const B& b, double off, std::mt19937& random) {
     std::normal_distribution<> normal;
@@ -86,7 +86,7 @@ void compare(const A& a, const B& b, double off, std::mt19937& random) {
     for (int i = 0; i < 6; ++i) X_WB.p -= (apart(a, X_WA, b, X_WB, random) - wanted) * way;
     const double right = apart(a, X_WA, b, X_WB, random);
     const double margin = 1e-3;
-    if (right > margin) return;  // it went past
+    if (right > margin) return;  // it has passed
     ContactPatch patch;
     if constexpr (std::is_same_v<A, Polyhedron>) {
         patch = collide(a, X_WA, b, X_WB, margin, -way);
@@ -108,7 +108,7 @@ TEST(Round, ShapesAreAsFarApartAsAlongTheBestOfAllDirections) {
     std::mt19937 random(1);
     for (const Round& a : kRounds) {
         for (const Round& b : kRounds) {
-            // rims of cylinders have kinks on which a better direction is not always found
+            // rims of cylinders have kinks where the search does not always find a better direction
             const double off = a.has_rim() || b.has_rim() ? 3e-4 : 2e-5;
             for (int i = 0; i < 20; ++i) compare(a, b, off, random);
         }

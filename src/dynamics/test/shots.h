@@ -1,6 +1,6 @@
 // Shots of all convex shapes at thin plates, into cups and at each other, up to 100 m/s, and a
-// judge of whether they pass that uses nothing of the World's: points that are spread over a body
-// tell how deep it is in another.
+// test of passage independent of the World: points spread over a body
+// give its depth in another.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -15,12 +15,12 @@
 
 namespace dihaptic::dynamics {
 
-/// Of any length up to that of a cube's corner.
+/// A vector of any length up to that of a cube's corner.
 inline Vec3 any_direction(Random& random) {
     return {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
 }
 
-/// How deep the point p_B is in a shape, from its surface [m]; negative outside.
+/// Depth of the point p_B below a shape's surface [m]; negative outside.
 inline double depth_in(const scene::Shape& shape, const Vec3& p_B) {
     const double across = std::hypot(p_B.x(), p_B.y());
     const double half = shape.length / 2;
@@ -57,7 +57,7 @@ inline std::vector<Vec3> points_of(const scene::Shape& shape, Random& random) {
         const Vec3 p = any_direction(random);
         const Vec3 inside = p.cwiseProduct(bounds);
         if (depth_in(shape, inside) < 0) continue;
-        // as far out as it stays inside
+        // as far out as possible inside
         double low = 1, high = 100;
         for (int i = 0; i < 40; ++i) {
             const double middle = (low + high) / 2;
@@ -69,7 +69,7 @@ inline std::vector<Vec3> points_of(const scene::Shape& shape, Random& random) {
     return out;
 }
 
-/// A body of any convex shape, thin ones among them, some 2 to 40 mm large.
+/// A body of any convex shape, including thin ones, some 2 to 40 mm large.
 inline scene::Body any_body(const std::string& name, Random& random) {
     scene::Body body;
     body.name = name;
@@ -112,7 +112,7 @@ inline scene::Body any_body(const std::string& name, Random& random) {
     return body;
 }
 
-/// How deep the points of one body are in the other, at most, or how far outside [m].
+/// Largest depth of one body's points in the other, or distance if outside [m].
 inline double overlap_of(const scene::Body& a, const Pose& X_WA, const std::vector<Vec3>& of_a,
                          const scene::Body& b, const Pose& X_WB, const std::vector<Vec3>& of_b) {
     double out = -1;
@@ -129,13 +129,13 @@ struct Shot {
     scene::ShapeKind shape = scene::ShapeKind::box;
     double speed = 0;  ///< [m/s]
     bool passed = false;
-    bool silent = false;  ///< held back, without a word
+    bool silent = false;  ///< held back without a report
     double deepest = 0;   ///< at the ends of steps [m]
 };
 
 struct Shots {
     int passed = 0;
-    int deep = 0;        ///< those deeper than 0.5 mm in what they hit, at the end of a step
+    int deep = 0;        ///< shots deeper than 0.5 mm in their target at the end of a step
     double deepest = 0;  ///< [m]
 };
 
@@ -171,8 +171,9 @@ class Shooting {
         world.activate();
         return world;
     }
-    /// What is not where its velocity says has been held back. That of what bounces is the next
-    /// one, and that of a cone is of another point than it turns about.
+    /// A body that is not at the position given by its velocity was held back. The velocity of a
+    /// bouncing body is the next one, and that of a cone belongs to a point other than its centre
+    /// of rotation.
     void step(World& world) {
         const std::vector<BodyState> before(world.states().begin(), world.states().end());
         world.step(kStep);
@@ -245,7 +246,7 @@ class Shooting {
         world.set_velocity({0}, share * v);
         world.set_velocity({1}, (share - 1) * v);
         const double ideal = deepest_on(body, other, of_other, v);
-        // by then the middle of one is beyond that of the other
+        // by then the centre of one is beyond that of the other
         const double passed = (thickness(points_) + thickness(of_other)) / 2;
         bool met = false;
         for (int i = 0; i < static_cast<int>(0.25 / (shot_.speed * kStep)) + 10; ++i) {
@@ -259,7 +260,7 @@ class Shooting {
         }
         shot_.passed = shot_.passed || (!met && ideal > 5e-4);
     }
-    /// Of the body that these points are spread over, along the axes of its frame [m].
+    /// Extent of the body with these points, along the axes of its frame [m].
     static double thickness(const std::vector<Vec3>& points) {
         Vec3 half = Vec3::Zero();
         for (const Vec3& p : points) half = half.cwiseMax(p.cwiseAbs());
@@ -270,7 +271,7 @@ class Shooting {
         for (const Vec3& p : points_) out = std::max(out, p.norm());
         return out;
     }
-    /// How deep they would be in each other if nothing held them up.
+    /// Their depth in each other if they were not stopped.
     double deepest_on(const scene::Body& a, const scene::Body& b, const std::vector<Vec3>& of_b,
                       const Vec3& v) const {
         double out = -1;
@@ -289,7 +290,7 @@ class Shooting {
     std::vector<Vec3> points_;
 };
 
-/// Shots with these seeds, by one solver after the other.
+/// Shots with these seeds, by each solver in turn.
 inline Shots shots(Shot::At at, uint64_t from, uint64_t count) {
     Shots out;
     for (uint64_t seed = from; seed < from + count; ++seed) {

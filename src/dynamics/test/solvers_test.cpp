@@ -33,7 +33,7 @@ TEST_P(EachSolver, SlidesAsFarAsCoulombSays) {
     world.set_velocity({1}, {0.6, 0.3, 0});
     const double speed = std::hypot(0.6, 0.3);
     for (int i = 0; i < 400; ++i) world.step(kStep);
-    // semi-implicit Euler stops short by half a step's way
+    // semi-implicit Euler stops half a step's path short
     const double distance = speed * speed / (2 * 0.5 * kGravity);
     EXPECT_NEAR(world.states()[1].X_WB.p.head<2>().norm(), distance, 0.6 * speed * kStep);
     EXPECT_LT(world.states()[1].v_WB.norm(), 1e-8);

@@ -54,7 +54,7 @@ TEST_P(OfEach, AreAsSoftAsTheySay) {
 }
 
 TEST(SoftSurfaces, SwingAtTheirFrequencyAndLoseLittle) {
-    // a block pressed into a surface by less than its weight presses it swings like on a spring
+    // a block pressed into a surface by less than its weight swings like on a spring
     constexpr double kMass = 0.2;
     for (const double hz : {3.0, 8.0, 15.0}) {
         const double omega = 2 * std::numbers::pi * hz;
@@ -85,7 +85,7 @@ TEST(SoftSurfaces, SwingAtTheirFrequencyAndLoseLittle) {
 }
 
 TEST(SoftSurfaces, DampAsTheySay) {
-    // x = e^(-d t) cos(w t) with d = c / 2m, once the step's own share is small
+    // x = e^(-d t) cos(w t) with d = c / 2m, once the step's own contribution is small
     constexpr double kMass = 0.2, k = 400, c = 1.5;
     const double sunk = kMass * kGravity / k;
     OnTable on(box("block", {0.05, 0.05, 0.2}, {0, 0, 0.1 - 0.6 * sunk}, kMass));
@@ -159,7 +159,7 @@ TEST(BouncingSurfaces, ComeToRestAndNeverGainHeight) {
     EXPECT_NEAR(world.state(kBody).v_WB.z(), 0, 1e-9);
 }
 
-/// A ball without friction on ridges of 0.2 mm, a centimetre apart, that begins between two of
+/// A ball without friction on ridges of 0.2 mm, a centimetre apart, that starts between two of
 /// them.
 World on_ridges(double speed) {
     scene::Body table = box("table", {2, 0.4, 0.1}, {0, 0, -0.05}, 0);
@@ -352,7 +352,7 @@ TEST_P(OfEach, KeepTheEnergyOfARowOfBallsWhateverItsGaps) {
             }
             EXPECT_NEAR(momentum, 1, 1e-3) << gap << " " << i;
         }
-        // one after another they pass on all that they have
+        // one after another they pass on all their momentum
         if (gap >= 5e-4) {
             EXPECT_NEAR(world.state({4}).v_WB.x(), speed, 0.01 * speed) << gap;
         }
@@ -360,7 +360,7 @@ TEST_P(OfEach, KeepTheEnergyOfARowOfBallsWhateverItsGaps) {
 }
 
 TEST(BouncingSurfaces, AreFeltByTheJointsOfWhatIsHit) {
-    // a ball that comes back as fast as it came leaves twice its momentum in the joint
+    // a ball that returns at its initial speed leaves twice its momentum in the joint
     scene::Scene scene;
     scene.gravity.setZero();
     scene.bodies = {ball(0, 1), ball(0, 1)};
@@ -381,7 +381,7 @@ TEST(BouncingSurfaces, AreFeltByTheJointsOfWhatIsHit) {
     EXPECT_NEAR(std::abs(impulse.x()), 2 * scene::mass(scene.bodies[1]) * speed, 1e-3);
 }
 
-/// Where a block on a table is after some time, pushed by a force along x [N], and how fast.
+/// Position and speed of a block on a table after some time, pushed by a force along x [N].
 struct Slid {
     double x = 0;
     double v = 0;
@@ -399,7 +399,7 @@ Slid slides(const OnTable& on, double speed, double force, double duration) {
 }
 
 /// The same by its equation of motion, in steps of 10 us. In the world the speed at the start is
-/// that of half a step later.
+/// the speed half a step later.
 Slid slides(const scene::PairSurface& surface, double mass, double speed, double force,
             double duration) {
     constexpr double kFine = 1e-5;

@@ -1,4 +1,4 @@
-// A tippe top: a ball whose centre of mass is below its middle, and which turns over if it spins
+// A tippe top: a ball with its centre of mass below its middle, which turns over if it spins
 // fast enough.
 #include <gtest/gtest.h>
 
@@ -23,10 +23,10 @@ scene::Body top() {
     return out;
 }
 
-/// What the top has, per mass.
+/// The top's quantities, per mass.
 struct Has {
     double up;       ///< cosine of its tilt
-    double jellett;  ///< - L . c / r, with c from the centre of mass to where it touches [m^2/s]
+    double jellett;  ///< - L . c / r, with c from the centre of mass to the contact point [m^2/s]
     double energy;   ///< [J/kg]
 };
 
@@ -50,8 +50,8 @@ World spinning(double rate, contact::Solver solver) {
     return world;
 }
 
-/// Whatever friction does at the point where a ball touches, - L . c stays (Jellett 1872): the top
-/// gets upside down with C w (1 - a) = C w' (1 + a), where a is how far its centre of mass is off,
+/// For any friction at the contact point of a ball, - L . c is constant (Jellett 1872): the top
+/// turns upside down with C w (1 - a) = C w' (1 + a), where a is the offset of its centre of mass
 /// in radii.
 TEST(TippeTop, TurnsOverAndKeepsJellettsInvariant) {
     for (const contact::Solver solver :

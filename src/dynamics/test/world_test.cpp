@@ -62,7 +62,7 @@ TEST(World, FallsOntoTheTableWithoutPassingOrBouncing) {
 }
 
 TEST(World, StepChangesMomentumByLoadsAndContactForces) {
-    // the force read from the contacts is the force that acted
+    // the force from the contacts is the acting force
     World world = make({table(0.3), block({0, 0, 0.02}, 0.3)}, awake());
     for (int i = 0; i < 200; ++i) {
         const Vec3 before = 0.1 * world.states()[1].v_WB;
@@ -122,7 +122,7 @@ TEST(World, BodiesMoveOnlyAlongTheirFreeAxes) {
 
 TEST(World, ABodyOnAHingeTurnsByItsInertiaAboutIt) {
     scene::Body bar = box("bar", {0.1, 0.02, 0.03}, {0, 0, 0.2}, 0.2);
-    bar.rotation = {0.4, 0.3, 0.2};  // oblique to its own axes
+    bar.rotation = {0.4, 0.3, 0.2};  // not along the world's axes
     bar.moves = scene::Axes::none;
     bar.turns = scene::Axes::z;
     World world = make({bar});
@@ -285,7 +285,7 @@ TEST(World, AFixedBodyThatIsPutElsewhereNoLongerCarriesAndLaterDoes) {
                     1e-9);
     }
     EXPECT_EQ(noted(), 0);
-    // in the way of the fall, it carries again
+    // in the path of the fall, it supports again
     world.set_pose({1}, {Quat::Identity(), {0, 0, 0.13}});
     run(world, 0.5);
     EXPECT_NEAR(world.states()[2].X_WB.p.z(), 0.16, 1e-5);
@@ -319,7 +319,8 @@ TEST(Sleep, WhatFallsOnASleeperWakesItInTheSameStep) {
 }
 
 TEST(Sleep, NeverFreezesAnythingThatSlides) {
-    // friction just below what would stop the block: it creeps down at a few mm/s for seconds
+    // friction just below the value that would stop the block: it creeps down at a few mm/s for
+    // seconds
     const double slope = 26.6 * kDegree;  // tan = 0.5008
     const Quat R = rotation_xyz({0, slope, 0});
     scene::Body plane = box("slope", {5, 1, 0.1}, R * Vec3(0, 0, -0.05), 0, 0.5);
@@ -419,7 +420,7 @@ TEST(World, StepsWithoutAllocatingWithRoundShapesToo) {
 TEST(World, TheAllocationGuardSeesWhatAStepWouldAllocate) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     frame::DynamicsSettings settings;
-    settings.max_contacts = 4;  // far too few: the step has to allocate, and reports it
+    settings.max_contacts = 4;  // far too few: the step must allocate, and reports it
     std::vector<scene::Body> bodies{table()};
     for (int i = 0; i < 80; ++i) {
         bodies.push_back(block({0.05 * (i % 10) - 0.25, 0.05 * (i / 10) - 0.2, 0.02}));
