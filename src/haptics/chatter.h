@@ -4,7 +4,7 @@
 //     d = |f - 2 f_old + f_older| / 4
 //
 // is the amplitude of the alternating part; a step of f has it for two ticks, a slope never. The
-// force chatters when d has been above kChatter for more than the share kChattering of the last
+// force chatters when d has been above kChatter for more than the fraction kChattering of the last
 // kChatterTime (by a first-order low-pass filter).
 #pragma once
 
@@ -18,7 +18,7 @@ namespace dihaptic::haptics {
 /// half of it.
 constexpr double kChatter = 0.25;
 constexpr double kChatterTime = 0.03;  // [s]
-constexpr double kChattering = 0.8;    // reached 48 ms after the chatter begins
+constexpr double kChattering = 0.8;    // reached 48 ms after the chatter starts
 
 class Chatter {
   public:

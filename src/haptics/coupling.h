@@ -13,7 +13,7 @@ using dynamics::World;
 
 /// All contacts of a proxy in the last step, combined.
 struct ProxyTouch {
-    bool touching = false;    ///< something pressed against the proxy
+    bool touching = false;    ///< whether a body pressed against the proxy
     Vec3 n_W = Vec3::Zero();  ///< direction of the summed normal force on the proxy; unit, or zero
     double normal_force = 0;  ///< magnitude of that sum [N]
     double friction = 0;      ///< coefficient of friction, weighted by normal force
@@ -26,13 +26,13 @@ struct Pull {
     double stored = 0;          ///< [J]
 };
 
-/// Force on the handle from a proxy that is a body: a spring and a damper, while the proxy touches
-/// something. The couplings below differ in how they move the body.
+/// Force on the handle from a rigid proxy: a spring and a damper, while the proxy touches
+/// a body. The couplings below differ in how they move the proxy.
 class BodyCoupling {
   public:
-    /// The force now: zero in free space, where the spring only moves the proxy's own mass. When
-    /// the handle moves on between steps of the world, the force stays within the friction cone of
-    /// the step's contact, and only the part of the stretch that acts counts as stored energy.
+    /// The present force: zero in free space, where the spring only moves the proxy's own mass.
+    /// When the handle moves between steps of the world, the force stays within the friction cone
+    /// of the step's contact, and only the acting part of the stretch counts as stored energy.
     Pull pull(const World& world, BodyIndex proxy, const ProxyTouch& touch,
               const frame::Handle& handle) const noexcept;
     Onset& onset() noexcept { return onset_; }
@@ -41,7 +41,7 @@ class BodyCoupling {
   protected:
     BodyCoupling(const frame::CouplingSettings& settings, double mass)
         : settings_(settings), mass_(mass), onset_(settings.onset) {}
-    /// Starts the coming step of the world, of h [s].
+    /// Prepares the coming step of the world, of h [s].
     void begin_step(const frame::Handle& handle, double h) noexcept;
 
     frame::CouplingSettings settings_;
@@ -50,25 +50,25 @@ class BodyCoupling {
     double damping_ = 0;  // c [N*s/m]
 
   private:
-    frame::Handle handle_;  // of the last step
+    frame::Handle handle_;  // at the last step
 };
 
-/// The spring acts as it will at the end of the step (backward Euler); the contact solver does the
-/// rest.
+/// The spring acts with its state at the end of the step (backward Euler); the contact solver
+/// solves the rest.
 class ImplicitCoupling : public BodyCoupling {
   public:
     /// `mass`: the proxy's own [kg].
     ImplicitCoupling(const frame::CouplingSettings& settings, double mass)
         : BodyCoupling(settings, mass) {}
 
-    /// Folds spring and damper into the proxy's mass and velocity. `h`: duration of the coming step
-    /// of the world [s].
+    /// Includes spring and damper in the proxy's mass and velocity. `h`: duration of the coming
+    /// step of the world [s].
     void before_step(World& world, BodyIndex proxy, const frame::Handle& handle, double h) noexcept;
 };
 
-/// Before each step the proxy gets the velocity that takes it to the handle within the step, by a
+/// Before each step the proxy gets the velocity that leads to the handle within the step, by a
 /// bounded impulse: in free space the bound is the largest force that the hand may feel, in touch
-/// what spring and damper give. Proposed in the report of 2012.
+/// the force of spring and damper. Proposed in the report of 2012.
 class VelocityImpulse : public BodyCoupling {
   public:
     /// `mass`: the proxy's own [kg]; `max_force`: the largest that the hand may feel [N].
@@ -98,7 +98,7 @@ class DualSpring {
         const Vec3 stretch = world.state(proxy).X_WB.p - handle.p_WH;
         return {f_H_W_, onset_.share() * settings_.stiffness / 2 * stretch.squaredNorm()};
     }
-    /// Starts with the proxy at the handle, where the spring is not stretched.
+    /// Starts with the proxy at the handle, with an unstretched spring.
     void place() noexcept { f_H_W_.setZero(); }
     Onset& onset() noexcept { return onset_; }
     void retune(const frame::CouplingSettings& settings) noexcept { settings_ = settings; }

@@ -6,18 +6,18 @@
 namespace dihaptic::haptics {
 namespace {
 
-/// Work of a torque that is held while something turns from A to B [J].
+/// Work of a torque that is held while a body turns from A to B [J].
 double work(const Vec3& torque_W, const Quat& R_WA, const Quat& R_WB) noexcept {
     if (torque_W == Vec3::Zero()) return 0;
     return torque_W.dot(rotation_vector(R_WB * R_WA.conjugate()));
 }
 
-/// Work of a force and a torque that are held while something moves from A to B [J].
+/// Work of a force and a torque that are held while a body moves from A to B [J].
 double work(const Wrench& on_it_W, const Pose& X_WA, const Pose& X_WB) noexcept {
     return on_it_W.force.dot(X_WB.p - X_WA.p) + work(on_it_W.torque, X_WA.R, X_WB.R);
 }
 
-/// Force against a velocity, or torque against an angular velocity, that takes up an excess of
+/// Force against a velocity, or torque against an angular velocity, that absorbs an excess of
 /// energy within h, with a damper no stronger than `strongest`.
 Vec3 braking(const Vec3& velocity, double excess, double h, double strongest) noexcept {
     const double speed2 = velocity.squaredNorm();
@@ -27,7 +27,7 @@ Vec3 braking(const Vec3& velocity, double excess, double h, double strongest) no
 
 }  // namespace
 
-/// Ends a window at the first step of the world after kActiveWindow: nothing is judged before a
+/// Ends a window at the first step of the world after kActiveWindow: there is no check before a
 /// step.
 void EnergyGuard::count_windows(bool stepped, double h) noexcept {
     window_ += h;
@@ -47,8 +47,8 @@ Wrench EnergyGuard::watch(const frame::Handle& handle, const Pose& X_WP, const W
     const double to_hand = (asked_.force + damper_.force).dot(handle.p_WH - X_WH_.p) +
                            work(asked_.torque + damper_.torque, X_WH_.R, handle.R_WH);
     const bool slack = asked_W.is_zero();
-    // a coupling that does not act gets no energy, and while stretched it keeps what it did not
-    // give
+    // an inactive coupling gets no energy, and while stretched it keeps the energy that it did not
+    // release
     if (slack) stored = std::clamp(stored_ - to_hand, 0.0, stored);
     if (stepped) {
         for (size_t i = 0; i < generated_.size(); ++i) {
@@ -61,7 +61,7 @@ Wrench EnergyGuard::watch(const frame::Handle& handle, const Pose& X_WP, const W
     if (started_) {
         const bool was_slack = asked_.is_zero();
         double at_end = work(asked_W, X_WP_, X_WP);
-        // a proxy that comes into touch moved without work until then, unless it was hit
+        // a proxy that makes contact moved without work until then, unless it was hit
         if (was_slack) at_end = std::max(0.0, at_end);
         const double held = was_slack || slack ? at_end : work(asked_, X_WP_, X_WP);
         const double rest = stored - stored_ + to_hand;
@@ -75,7 +75,7 @@ Wrench EnergyGuard::watch(const frame::Handle& handle, const Pose& X_WP, const W
     asked_ = asked_W;
     stored_ = stored;
     damper_ = {};
-    if (mode_ == frame::EnergyGuardMode::off) generated_ = {};  // feeding() counts on
+    if (mode_ == frame::EnergyGuardMode::off) generated_ = {};  // feeding() continues to count
     const double excess = generated() - budget_;
     if (excess <= 0) return damper_;
     status |= kEnergyGenerated;

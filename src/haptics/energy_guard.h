@@ -11,10 +11,10 @@
 
 namespace dihaptic::haptics {
 
-/// Energy that a coupling may generate before it counts as active [J]: that of a handle of 75 g at
-/// 0.5 m/s. Touching, letting go and encoder steps generate up to half of it.
+/// Energy that a coupling may generate before it counts as active [J]: the energy of a handle of 75
+/// g at 0.5 m/s. Touching, letting go and encoder steps generate up to half of it.
 constexpr double kEnergyBudget = 0.01;
-/// Time constant with which generated energy is forgotten [s].
+/// Time constant of the decay of generated energy [s].
 constexpr double kEnergyWindow = 1;
 /// Largest damping of the controller, which a Premium renders calmly [N*s/m].
 constexpr double kMostEnergyDamping = 5;
@@ -22,7 +22,7 @@ constexpr double kMostEnergyDamping = 5;
 constexpr double kMostEnergyTurnDamping = 0.004;
 
 /// A coupling that generates kEnergyBudget in each of this many windows in a row is active,
-/// whatever the guard's mode: 1 W for 50 ms is more than a hand takes without being shaken.
+/// in any mode of the guard: 1 W for 50 ms is more than a hand absorbs without being shaken.
 constexpr double kActiveWindow = 0.01;  // [s]
 constexpr int kActiveWindows = 5;
 
@@ -32,18 +32,18 @@ class EnergyGuard {
     explicit EnergyGuard(frame::EnergyGuardMode mode, double budget = kEnergyBudget)
         : mode_(mode), budget_(budget) {}
 
-    /// Called once in a tick of h [s] with the handle, the proxy after the tick's step, the wrench
-    /// that the coupling wants to exert on the handle from now on, and the energy of its springs at
-    /// that time, acting or not [J]. `stepped`: whether the world stepped in this tick; what
-    /// happens between two steps is judged as a whole. Returns the wrench to add, and adds to
+    /// Called once per tick of h [s] with the handle, the proxy after the tick's step, the wrench
+    /// that the coupling requests on the handle from now on, and the energy of its springs at
+    /// that time, acting or not [J]. `stepped`: whether the world stepped in this tick; the time
+    /// between two steps is judged as a whole. Returns the wrench to add, and adds to
     /// `status`.
     Wrench watch(const frame::Handle& handle, const Pose& X_WP, const Wrench& asked_W,
                  double stored, bool stepped, double h, uint32_t& status) noexcept;
 
-    /// Energy that the coupling generated in the last windows if it exceeded the budget in at least
-    /// kActiveWindows in a row, else 0 [J].
+    /// Energy that the coupling generated in the last windows if this exceeded the budget in at
+    /// least kActiveWindows in a row, else 0 [J].
     double feeding() const { return windows_ >= kActiveWindows ? fed_ : 0; }
-    /// Forgets everything seen so far, because the hand may be elsewhere next.
+    /// Forgets all earlier states, because the hand may move meanwhile.
     void restart() noexcept { *this = EnergyGuard(mode_, budget_); }
 
     /// Energy generated within the window and not dissipated since [J].
@@ -57,10 +57,10 @@ class EnergyGuard {
     bool started_ = false;
     Pose X_WH_;          // at the last tick
     Pose X_WP_;          // at the last tick
-    Wrench asked_;       // by the coupling since then
-    Wrench damper_;      // added to it
+    Wrench asked_;       // requested by the coupling since then
+    Wrench damper_;      // added to this
     double stored_ = 0;  // in the spring
-    // generated [J], with the proxy's work by the force at the end of the tick, and by the force
+    // generated [J], with the proxy's work by the force at the end of the tick, or by the force
     // held
     std::array<double, 2> since_step_{};
     std::array<double, 2> generated_{};

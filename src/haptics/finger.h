@@ -1,4 +1,4 @@
-// Finger is one finger in the world: its proxy, and the coupling that ties the proxy to the handle.
+// Finger is one finger in the world: its proxy, and the coupling between the proxy and the handle.
 // Every force passes a ForceGuard on its way to the device.
 #pragma once
 
@@ -27,15 +27,15 @@ class Finger {
 
     BodyIndex proxy() const { return proxy_; }
     const ProxyTouch& touch() const { return touch_; }
-    /// Contacts that are not in the world: those of a point proxy whose friction is "apart", at the
+    /// Contacts outside the world: those of a point proxy whose friction is "apart", at the
     /// last force().
     std::span<const contact::Contact> contacts() const noexcept;
 
-    /// Sets the coupling from the coming tick on. Its kind applies to bodies only: a point has its
-    /// own.
+    /// Sets the coupling from the coming tick on. Its kind applies to rigid proxies only: a point
+    /// has its own coupling.
     void retune(const frame::CouplingSettings& coupling) noexcept;
 
-    /// Puts the proxy at the handle: before the first tick, and wherever it must start anew.
+    /// Puts the proxy at the handle: before the first tick, and at each restart.
     void place(World& world, const frame::Handle& handle) noexcept;
 
     /// Turns a proxy that does not follow its handle's orientation along with the workspaces: by
@@ -48,10 +48,10 @@ class Finger {
     void before_step(World& world, const frame::Handle& handle, double step) noexcept;
     void after_step(World& world, const frame::Handle& handle) noexcept;
 
-    /// Last call in every tick: the force that the coupling wants the handle to feel as it is now
+    /// Last call in every tick: the force that the coupling requests for the present handle
     /// [N]. `tick`: its duration [s].
     Vec3 force(World& world, const frame::Handle& handle, double tick) noexcept;
-    /// Torque that goes with the last force() [N*m].
+    /// Torque to the last force() [N*m].
     const Vec3& torque() const noexcept { return torque_; }
     /// Energy in the coupling's springs at the last force() [J].
     double stored() const noexcept { return stored_; }
@@ -65,9 +65,9 @@ class Finger {
     std::variant<ImplicitCoupling, DualSpring, VelocityImpulse, PointProxy, SolvedPoint> coupling_;
     frame::CouplingKind kind_ = frame::CouplingKind::implicit;
     double mass_ = 0;       // of the proxy if it is a body [kg]
-    double max_force_ = 0;  // that the hand may feel from a body [N]
+    double max_force_ = 0;  // that the hand may feel from a rigid proxy [N]
     std::optional<RotationalCoupling> turn_;
-    Quat R_TP_ = Quat::Identity();  // orientation in which it was placed
+    Quat R_TP_ = Quat::Identity();  // initial orientation
     ProxyTouch touch_;
     Vec3 torque_ = Vec3::Zero();
     double stored_ = 0;

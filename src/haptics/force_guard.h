@@ -1,10 +1,10 @@
-// ForceGuard stands between the force that a finger's coupling wants and the force that its device
-// is sent, in every tick:
+// ForceGuard acts, in every tick, between the force requested by a finger's coupling and the force
+// sent to its device:
 //
-//     energy guard -> workspace wall -> share of soft start and dead-man switch -> Limiter
+//     energy guard -> workspace wall -> fraction of soft start and dead-man switch -> Limiter
 //
-// The energy guard acts in the world; the others act in axes that are fixed to the device: where
-// the workspace turns (servo/workspace_turn.h), in those of the world without the turn.
+// The energy guard acts in the world; the others act in axes fixed to the device: if
+// the workspace turns (servo/workspace_turn.h), in the world's axes before the turn.
 #pragma once
 
 #include "frame/device_info.h"
@@ -18,11 +18,11 @@ namespace dihaptic::haptics {
 /// Each intervention is added to `status`.
 class ForceGuard {
   public:
-    /// `box`: that the handle is kept in; `tick`: duration of a tick [s].
+    /// `box`: in which the handle is kept; `tick`: duration of a tick [s].
     ForceGuard(const frame::SafetySettings& settings, const frame::DeviceInfo& device,
                const std::optional<WorkspaceBox>& box, double tick);
 
-    /// Wrench that the handle should feel from its coupling, which asks for `asked_W`. `X_WP`: its
+    /// Wrench on the handle from its coupling, which requests `asked_W`. `X_WP`: its
     /// proxy after the tick's step; `stored`: energy in the coupling's springs [J]; `stepped`:
     /// whether the world stepped in this tick. The torque is zero if the device renders none.
     Wrench shape(const Wrench& asked_W, const frame::Handle& handle, const Pose& X_WP,
@@ -30,15 +30,15 @@ class ForceGuard {
     /// Force of the workspace wall on the handle [N].
     Vec3 push(const frame::Handle& handle, uint32_t& status) const noexcept;
     /// The part of their sum that may be sent to the device. `allowed`: whether the dead-man switch
-    /// is held, otherwise it is zero at once; `share`: that of SoftStart.
+    /// is held, otherwise zero at once; `share`: the fraction from SoftStart.
     Wrench limit(const Wrench& felt, bool allowed, double share, uint32_t& status) noexcept;
     /// Notes that zero was sent instead of the result of limit(): force rises again from there.
     void drop() noexcept;
-    /// Starts again after a pause: force begins at zero, and energy generated before is forgotten.
+    /// Starts again after a pause: force starts at zero, and energy generated before is forgotten.
     void restart() noexcept;
     /// Energy that the coupling keeps feeding into the hand: EnergyGuard::feeding() [J].
     double feeding() const { return energy_.feeding(); }
-    /// Amplitude of a force that alternates from tick to tick: Chatter::amplitude() [N].
+    /// Amplitude of a force alternating from tick to tick: Chatter::amplitude() [N].
     double chatter() const { return chatter_.amplitude(); }
     /// Energy that the coupling generated, by EnergyGuard::generated() [J].
     double generated() const { return energy_.generated(); }
@@ -48,7 +48,7 @@ class ForceGuard {
     EnergyGuard energy_;
     WorkspaceWall wall_;
     Limiter limiter_;
-    std::optional<Limiter> torque_limiter_;  // of a device that renders torque
+    std::optional<Limiter> torque_limiter_;  // for a device that renders torque
     Chatter chatter_;
 };
 

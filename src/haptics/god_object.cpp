@@ -6,15 +6,15 @@
 namespace dihaptic::haptics {
 namespace {
 
-/// A point this near to a surface is on it; leaves room for solvers' errors [m].
+/// A point this near to a surface is on it; larger than solvers' errors [m].
 constexpr double kTouching = 1e-6;
 /// After a step, a point is not moved out of surfaces by more than this many times its depth in
 /// them: it would slip out between two bodies that pinch it.
 constexpr double kMostSlip = 10;
 /// A path shorter than this is ignored [m].
 constexpr double kNoWay = 1e-10;
-/// Moves in a tick. A few are usual, some dozens where a round body is pressed nearly to its
-/// centre; the rest of the way is left to the next tick.
+/// Moves in a tick. A few are usual, some dozens if a round body is pressed nearly to its
+/// centre; the rest of the path follows in the next tick.
 constexpr int kMostMoves = 64;
 
 }  // namespace
@@ -56,7 +56,7 @@ void GodObject::follow(const Vec3& p_WH, std::span<const dynamics::BodyState> bo
     leave_insides();
 }
 
-/// The point has left a body once it is outside of all its parts.
+/// The point has left a body once it is outside all its parts.
 void GodObject::leave_insides() noexcept {
     for (size_t i = 0; i < parts_.size();) {
         const size_t body = parts_[i].body;
@@ -89,7 +89,7 @@ std::span<const Obstacle> GodObject::obstacles(const Vec3& p_W,
         if (surface.separation(p_S) <= kTouching) note(i, surface.shallowest(p_S));
     }
     const size_t on = met_count_;
-    // the other obstacles are found by going there and coming back
+    // the other obstacles are found by going there and returning
     const Vec3 p = p_;
     push_out(p, coming_);
     count_ = 0;
@@ -104,7 +104,7 @@ std::span<const Obstacle> GodObject::obstacles(const Vec3& p_W,
         const Vec3 p_S = in_surface(out.surface, p_);
         out.n_W = X_WS_[out.surface].R * surface.normal(out.face, p_S);
         out.gap = surface.distance(out.face, p_S);
-        // a point that is behind a face and not on it meets it later, on a way around
+        // a point behind a face but not on it meets the face later, on a path around
         if (i < on || out.gap >= -kTouching) met_[kept++] = out;
     }
     met_count_ = kept;
@@ -157,8 +157,8 @@ Vec3 GodObject::carried(std::span<const dynamics::BodyState> bodies) const noexc
     Vec3 sum = Vec3::Zero();
     double weight = 0;
     for (const PointContact& c : contacts()) {
-        // without friction a body does not carry the point along; it may still push it, which comes
-        // next
+        // without friction a body does not carry the point along; it may still push it, which is
+        // done next
         const double w = friction(c.body) * c.depth;
         sum += w * (pose(c.surface, bodies) * in_surface(c.surface, p_) - p_);
         weight += w;
@@ -167,13 +167,13 @@ Vec3 GodObject::carried(std::span<const dynamics::BodyState> bodies) const noexc
 }
 
 /// Moves the surfaces from the last tick's poses to this tick's, and the point out of them. Returns
-/// the point's depth in what it was pushed out of [m].
+/// the point's depth in the bodies that pushed it [m].
 double GodObject::push_out(const Vec3& start,
                            std::span<const dynamics::BodyState> bodies) noexcept {
     const Vec3 carried_to = p_;
     HalfSpaces walls;
     std::array<size_t, kMostHalfSpaces> surface_of{};
-    // a surface whose face the point obeys cannot be entered again: each adds at most one
+    // a surface with an active face cannot be entered again: each adds at most one
     // constraint
     for (bool found = true; found && walls.count < kMostHalfSpaces;) {
         found = false;
@@ -197,7 +197,7 @@ double GodObject::push_out(const Vec3& start,
             }
             if (face < 0) continue;
             const Vec3 n = surface.normal(face, at);
-            // the tangent plane at the entry, relative to where the point was carried
+            // the tangent plane at the entry, relative to the carried point
             const double below = surface.distance(face, at) + n.dot(after - at);
             const Vec3 n_W = X_WS.R * n;
             walls.add(n_W, -below + n_W.dot(p_ - carried_to));
@@ -214,7 +214,7 @@ double GodObject::push_out(const Vec3& start,
                : *std::max_element(bounds, bounds + static_cast<std::ptrdiff_t>(walls.count));
 }
 
-/// Collects the surfaces within reach: no path leads further from the handle than it starts.
+/// Collects the surfaces within reach: no path leads further from the handle than its start.
 void GodObject::gather(const Vec3& p_WH) noexcept {
     near_.clear();
     const double radius = (p_WH - p_).norm() + kOnSurface;
@@ -243,8 +243,8 @@ void GodObject::refresh_normals() noexcept {
     }
 }
 
-/// The way toward the handle that the contacts leave free; sets each contact's depth to what it
-/// blocks.
+/// The path toward the handle that the contacts leave free; sets each contact's depth to the part
+/// that it blocks.
 Vec3 GodObject::way_to(const Vec3& p_WH) noexcept {
     refresh_normals();
     HalfSpaces walls;
@@ -285,7 +285,7 @@ void GodObject::pull(const Vec3& p_WH, bool rubs) noexcept {
         const double grip = rubs ? friction_depth() : 0;
         // sliding starts beyond static friction and ends where dynamic friction holds
         const double rest = (sliding_ ? sliding_ratio_ : 1.0) * grip;
-        // out of moves, the point must still come down on what it was lifted off
+        // after the last move, the point must still return to the surface below
         const bool tired = move >= kMostMoves && (count_ > 0 || move >= kMostMoves + 8);
         if (size <= rest + kNoWay || tired) break;
         Vec3 way = left;
@@ -310,7 +310,7 @@ void GodObject::leave_unpressed() noexcept {
     }
 }
 
-/// The first body in the way, or the first edge of a face that the way lies in.
+/// The first body in the path, or the first edge of the face that contains the path.
 GodObject::Event GodObject::first_event(const Vec3& way) const noexcept {
     Event out;
     for (const size_t i : near_) {
@@ -325,7 +325,7 @@ GodObject::Event GodObject::first_event(const Vec3& way) const noexcept {
     }
     for (size_t i = 0; i < count_; ++i) {
         const PointContact& c = contacts_[i];
-        if (c.depth <= 0) continue;  // it does not guide the way
+        if (c.depth <= 0) continue;  // it does not guide the path
         const auto crossing = parts_[c.surface].surface.cross(c.face, in_surface(c.surface, p_),
                                                               X_WS_[c.surface].R.conjugate() * way);
         if (crossing.face < 0 || crossing.share > out.share) continue;

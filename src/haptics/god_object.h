@@ -1,22 +1,23 @@
 // GodObject computes the position of a point proxy: a point that follows the handle and cannot
-// enter any body. It is where the point would go if it were pulled to the handle and rubbed against
-// what it touches.
+// enter any body. It is the position to which a point would move if it were pulled to the handle
+// and rubbed against the touched bodies.
 //
 // In each tick the bodies move first, then the point:
 //
-//   carry   bodies that it touches with friction take it along (mean by how hard each is pressed)
-//   push    in each body's frame the point's own straight path of the tick is followed; where it
-//           enters, the face that it came through becomes a constraint, and the nearest position
+//   carry   bodies touched with friction carry it along (mean weighted by pressure)
+//   push    in each body's frame the point's own straight path in the tick is followed; where it
+//           enters, the face crossed becomes a constraint, and the nearest position
 //           that satisfies all constraints is taken (half_spaces.h)
-//   pull    straight toward the handle, to the first body in the way; then along it, and so on with
-//           up to three bodies at once, until friction holds it or it can get no nearer
+//   pull    straight toward the handle, to the first body in its path; then along it, and so on
+//   with
+//           up to three bodies at once, until friction holds it or it cannot get nearer
 //
-// Each part is a path outside all bodies, so there is no tunnelling, and the face that was entered
-// remains the one that is felt, even past a thin wedge's edge.
+// Each part is a path outside all bodies, so there is no tunnelling, and the face of entry
+// remains the one felt, even past a thin wedge's edge.
 //
-// Friction (Harwin and Melder 2002): with d the way left along the surfaces and l_i the depth of
-// the handle behind each, the point rests while |d| <= sum mu_i l_i; otherwise it slides until |d|
-// = r sum mu_i l_i. r < 1 makes it stick and slip.
+// Friction (Harwin and Melder 2002): with d the remaining path along the surfaces and l_i the depth
+// of the handle behind each, the point rests while |d| <= sum mu_i l_i; otherwise it slides until
+// |d| = r sum mu_i l_i. r < 1 makes it stick and slip.
 //
 // Sources: Zilles and Salisbury 1995 (active constraints); Ruspini, Kolarov and Khatib 1997 (paths
 // and pushing by moving bodies).
@@ -42,10 +43,10 @@ struct PointContact {
     size_t surface = 0;  ///< index among the parts of all bodies
     int face = 0;
     Vec3 n_W = Vec3::UnitZ();  ///< out of the body, unit
-    double depth = 0;          ///< the handle's share behind it, l [m]
+    double depth = 0;          ///< the handle's depth behind it, l [m]
 };
 
-/// A face that the point may come up against.
+/// A face that the point may meet.
 struct Obstacle {
     size_t body = 0;
     size_t surface = 0;  ///< index among the parts of all bodies
@@ -61,24 +62,24 @@ class GodObject {
     GodObject(std::span<const scene::Body> bodies, std::vector<double> friction, double sliding,
               double skin = kSkin);
 
-    /// Puts the point somewhere. Bodies around it are not felt until it has left them.
+    /// Places the point. Bodies around it are not felt until it has left them.
     void place(const Vec3& p_W, std::span<const dynamics::BodyState> bodies) noexcept;
-    /// Does one tick, with the bodies where `bodies` says and the handle at p_WH.
+    /// Does one tick, with the bodies at `bodies` and the handle at p_WH.
     void follow(const Vec3& p_WH, std::span<const dynamics::BodyState> bodies) noexcept;
 
-    /// Makes a body unfelt until the point, which goes on to the handle, has left it.
+    /// Makes a body unfelt until the point, which continues to the handle, has left it.
     void pop_through(size_t body, const Vec3& p_WH) noexcept;
 
     // The following functions are for points whose position is computed elsewhere, by friction and
-    // by bodies that give way.
+    // by yielding bodies.
 
-    /// The faces that the point may come up against while it is pulled to `p_W` and bodies move on
-    /// for h [s]: those that it is on, and those that it would meet without friction; one per part.
+    /// The faces that the point may meet while it is pulled to `p_W` and bodies move
+    /// for h [s]: the touched faces, and those met in a motion without friction; one per part.
     std::span<const Obstacle> obstacles(const Vec3& p_W,
                                         std::span<const dynamics::BodyState> bodies,
                                         double h) noexcept;
-    /// Does one tick, with the bodies where `bodies` says: the point goes straight to `p_W`, where
-    /// a step of the world put it, unless something is in the way.
+    /// Does one tick, with the bodies at `bodies`: the point goes straight to `p_W`, the result of
+    /// a step of the world, unless a body is in its path.
     void move(const Vec3& p_W, std::span<const dynamics::BodyState> bodies) noexcept;
     /// Moves toward the handle, along surfaces without friction, among bodies that stay in place.
     void slide(const Vec3& p_WH) noexcept;
@@ -89,7 +90,7 @@ class GodObject {
     std::span<const PointContact> contacts() const noexcept { return {contacts_.data(), count_}; }
     double friction(size_t body) const noexcept { return friction_[body]; }
     void set_friction(size_t body, double friction) noexcept { friction_[body] = friction; }
-    /// The way left to the handle along the surfaces, which friction withholds [m].
+    /// The remaining path to the handle along the surfaces, which friction prevents [m].
     const Vec3& held() const noexcept { return held_; }
     /// Whether the point slid in the last tick, so that dynamic friction applies.
     bool sliding() const noexcept { return sliding_; }
@@ -101,9 +102,9 @@ class GodObject {
     void pull(const Vec3& p_WH, bool rubs) noexcept;
     /// What ends a straight path: at most one of `meets` and `crosses`.
     struct Event {
-        double share = 1;                     ///< of the way covered by then
-        std::optional<PointContact> meets;    ///< a body in the way
-        std::optional<PointContact> crosses;  ///< an edge, beyond which is this face
+        double share = 1;                     ///< of the path covered by then
+        std::optional<PointContact> meets;    ///< a body in the path
+        std::optional<PointContact> crosses;  ///< an edge, with the face beyond
     };
     Event first_event(const Vec3& way) const noexcept;
     void leave_behind(const Event& event) noexcept;
@@ -120,7 +121,7 @@ class GodObject {
     Vec3 straightened(const Vec3& way) const noexcept;
     /// A point in the frame of a surface, as of the last push_out().
     Vec3 in_surface(size_t surface, const Vec3& p_W) const noexcept;
-    /// Pose X_WS of a surface, with its body where `bodies` says.
+    /// Pose X_WS of a surface, with its body at `bodies`.
     Pose pose(size_t surface, std::span<const dynamics::BodyState> bodies) const noexcept;
 
     /// A convex part with its surface S.

@@ -1,4 +1,4 @@
-// HalfSpaces finds the point nearest to v that satisfies a few constraints n_i . x >= b_i:
+// HalfSpaces finds the point nearest to v that satisfies some constraints n_i . x >= b_i:
 //
 //     minimise |x - v|^2 / 2    subject to    n_i . x >= b_i
 //
@@ -17,7 +17,7 @@ namespace dihaptic::haptics {
 
 constexpr size_t kMostHalfSpaces = 6;
 
-/// Up to three of the half-spaces, in rising order.
+/// Up to three of the half-spaces, in ascending order.
 struct HalfSpaceSet {
     std::array<size_t, 3> index{};
     size_t size = 0;

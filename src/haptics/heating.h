@@ -1,17 +1,17 @@
-// Heating limits how long a device may be asked for more force than it can hold for ever.
+// Heating limits the time for which a device may be asked for more than its continuous force.
 //
 // Motors warm with the square of their current, which is proportional to the force, and cool toward
 // room temperature with a time constant tau. In units of force squared,
 //
 //     tau dq/dt = |f|^2 - q,        q = 0 when cold,
 //
-// and q = f_c^2 is the temperature that the continuous force f_c keeps up. The largest force
+// and q = f_c^2 is the temperature that the continuous force f_c maintains. The largest force
 // allowed falls as q rises, from the peak force f_p when cold:
 //
 //     f_max^2 = f_c^2 + (f_p^2 - f_c^2) max(0, 1 - q / f_c^2)
 //
 // Therefore q never exceeds f_c^2: with the largest force, tau dq/dt = (f_c^2 - q) f_p^2 / f_c^2,
-// which tends to that value. The force falls smoothly, and a force below f_c is never cut.
+// which tends to this limit. The force falls smoothly, and a force below f_c is never cut.
 #pragma once
 
 #include "base/geometry.h"
@@ -20,15 +20,15 @@ namespace dihaptic::haptics {
 
 class Heating {
   public:
-    /// A device that can hold its peak force for ever.
+    /// A device that can sustain its peak force.
     Heating() = default;
-    /// Peak and continuous force [N], time constant [s]. A continuous force that is not below the
+    /// Peak and continuous force [N], time constant [s]. A continuous force not below the
     /// peak, or is not finite, limits nothing.
     Heating(double peak, double continuous, double time);
 
-    /// The largest force allowed now; infinite if nothing is limited [N].
+    /// The largest force allowed now; infinite if unlimited [N].
     double most_force() const noexcept;
-    /// Adds a force that is held for h [s].
+    /// Adds a force held for h [s].
     void add(const Vec3& force, double h) noexcept;
     /// q [N^2].
     double mean_square() const { return mean_square_; }

@@ -5,7 +5,7 @@
 namespace dihaptic::haptics {
 namespace {
 
-// A damper of more than m / T takes away more than a handle's momentum in a period T. As a multiple
+// A damper of more than m / T removes more than a handle's momentum in a period T. As a multiple
 // of the stiffness held, its limit is m / (2 kHeldShare b), with 75 g and 3 N*s/m, and likewise
 // with a gimbal's inertia.
 constexpr double kDamperTime = 0.075 / (2 * kHeldShare * 3);

@@ -1,16 +1,16 @@
-// Limits what a loop with late ticks may render: how stiff a coupling, and how fast a rise of
-// force.
+// Limits the rendering of a loop with late ticks: the stiffness of a coupling, and the rate of rise
+// of force.
 //
 // A spring k and its damper k h / 2, held from one tick to the next a time T_i later while the
 // handle moves at v, give the handle energy that nobody put in, k v^2 T_i (T_i - h) / 2: the damper
-// makes up for the hold of a punctual tick, h, but not for lateness. A handle and a hand of damping
-// b absorb b v^2 T_i. On average the loop therefore generates no energy as long as
+// compensates for the hold of a punctual tick, h, but not for lateness. A handle and a hand of
+// damping b absorb b v^2 T_i. On average the loop therefore generates no energy as long as
 //
 //     k <= 2 b / L,        L = sum T_i (T_i - h) / sum T_i,
 //
 // where L is the mean lateness, each interval weighted by its duration (servo/lateness.h measures
-// it). README.md compares this with where a sampled loop really begins to shake, which is why only
-// kHeldShare of it is used.
+// it). README.md compares this with the limit at which a sampled loop really starts to shake;
+// therefore only the fraction kHeldShare is used.
 #pragma once
 
 #include <limits>
@@ -20,11 +20,11 @@
 
 namespace dihaptic::haptics {
 
-/// Damping of handle and hand if nothing better is known: of a hand that holds loosely [N*s/m].
+/// Damping of handle and hand if unknown: a loose hand's [N*s/m].
 constexpr double kLooseDamping = 1;
-/// Share of 2 b / L that is used: loops with the mass of a handle do not quite hold all of it.
+/// Fraction of 2 b / L used: loops with a handle's mass become unstable slightly below the limit.
 constexpr double kHeldShare = 0.7;
-/// If a loop can hold only less than this, rendering is no longer worth its force [N/m].
+/// If a loop can hold only less than this, force is switched off [N/m].
 constexpr double kLeastHeld = 100;
 
 /// Stiffness that a loop with mean lateness L [s] can hold, with damping b of handle and hand
@@ -34,19 +34,19 @@ inline double held_stiffness(double b, double lateness) noexcept {
                         : std::numeric_limits<double>::infinity();
 }
 
-/// The settings reduced to what the loop can hold; values within that are unchanged, so that
+/// The settings reduced to the loop's limits; values within them are unchanged, so that
 /// softening twice is the same as once. `tick` [s].
 frame::CouplingSettings softened(frame::CouplingSettings asked, double b, double lateness,
                                  double tick) noexcept;
 
-/// The part of a force that may follow on `last` after the handle `moved`: it may rise as that of a
-/// spring of stiffness k would, plus `creep`, and may fall freely. A stiffer spring would go on
-/// rising in late ticks, each force further from the one before; a force held at rest stays as it
-/// is. Also for a torque and a rotation.
+/// The part of a force that may follow `last` after the handle `moved`: it may rise like that of a
+/// spring of stiffness k, plus `creep`, and may fall freely. A stiffer spring would continue
+/// rising in late ticks, each force further from the last; a force held at rest does not
+/// change. Also for a torque and a rotation.
 Vec3 bound_rise(const Vec3& asked, const Vec3& last, const Vec3& moved, double k,
                 double creep) noexcept;
 
-/// For bound_rise(): speed at which the spring's other end may follow; if it were faster, it would
+/// For bound_rise(): speed at which the spring's other end may follow; a faster end would
 /// feed a swinging hand [m/s], and for rotations [rad/s].
 constexpr double kCreep = 0.2e-3;
 constexpr double kTurnCreep = 4e-3;

@@ -1,6 +1,6 @@
 // Limiter is the last step before a force, or a torque, goes to a device: it keeps the force
-// finite, no larger and changing no faster than allowed, and within what the device's motors can
-// bear.
+// finite, no larger and changing no faster than allowed, and within the thermal limit of the
+// device's motors.
 #pragma once
 
 #include "base/status.h"
@@ -11,7 +11,7 @@ namespace dihaptic::haptics {
 class Limiter {
   public:
     /// Largest magnitude [N] and largest change [N/s]; for a torque [N*m], [N*m/s]. A falling force
-    /// may change faster, so that it is gone within kLongestFall.
+    /// may change faster, so that it reaches zero within kLongestFall.
     Limiter(double max_force, double max_rate, const Heating& heating = {})
         : max_force_(max_force), max_rate_(max_rate), heating_(heating) {}
 

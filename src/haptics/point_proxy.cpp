@@ -58,13 +58,13 @@ Pull PointProxy::render(World& world, const frame::Handle& handle, double h, dou
     return {f_H_W, stored(handle)};
 }
 
-/// Energy of the spring to the point where it is now [J].
+/// Energy of the spring to the present point [J].
 double PointProxy::stored(const frame::Handle& handle) const noexcept {
     return share_ * onset_.share() * coupling_.stiffness / 2 *
            (point_.position() - handle.p_WH).squaredNorm();
 }
 
-/// Velocity at the point of the surfaces that it rests on, weighted by depth.
+/// Velocity, at the point, of its supporting surfaces, weighted by depth.
 Vec3 PointProxy::surface_velocity(const World& world) const noexcept {
     Vec3 sum = Vec3::Zero();
     double weight = 0;
@@ -80,14 +80,14 @@ Vec3 PointProxy::surface_velocity(const World& world) const noexcept {
 void PointProxy::resolve(const Vec3& f_W) noexcept {
     HalfSpaces walls;
     for (const PointContact& c : point_.contacts()) walls.add(c.n_W);
-    // what the surfaces cannot take of the handle's pull is left to friction
+    // the part of the handle's pull that the surfaces cannot bear is left to friction
     Vec3 along = -walls.nearest(-f_W);
     double grip = 0;
     const auto touched = point_.contacts();
     for (size_t i = 0; i < touched.size(); ++i)
         grip += point_.friction(touched[i].body) * walls.multiplier[i];
     if (point_.sliding()) {
-        // Coulomb's law: the size is that of friction, whatever spring and damper give
+        // Coulomb's law: the magnitude is that of friction, for any force of spring and damper
         const double size = point_.held().norm();
         along = size > 0 ? Vec3(-point_.sliding_ratio() * grip / size * point_.held())
                          : Vec3(Vec3::Zero());

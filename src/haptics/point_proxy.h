@@ -1,14 +1,14 @@
 // PointProxy is a point kept on surfaces (god_object.h), with a spring and a damper from the handle
-// to it, and the reaction on what it touches. It renders as OpenHaptics' HL did, friction included:
-// outside the dynamics, which feel the reaction in their next step.
+// to it, and the reaction on touched bodies. It renders like OpenHaptics' HL, including friction,
+// outside the dynamics, which receive the reaction in their next step.
 //
 //     f = k (p_P - p_H) + c (v_S - v_H)      v_S: of the surfaces at P, weighted by pressure
 //
-// is resolved into what each surface can give: N_i along its normal, at least 0, and the rest T
+// is resolved into the surfaces' forces: N_i along its normal, at least 0, and the rest T
 // along the surfaces. While the point rests, T is at most sum mu_i N_i; while it slides, T is r
-// times that, toward where the point stayed behind. Damping acts only on the approach to surfaces
+// times that, toward the point's lag. Damping acts only on the approach to surfaces
 // and on sticking: it neither pulls nor makes a smooth surface viscous. A soft surface of stiffness
-// k_s gives the share k_s / (k + k_s) of N_i: the spring is in series with k, though the point
+// k_s gives the fraction k_s / (k + k_s) of N_i: the spring is in series with k, though the point
 // stays on the surface.
 #pragma once
 
@@ -23,7 +23,7 @@ class PointProxy {
     PointProxy(const scene::Scene& scene, BodyIndex body, const frame::CouplingSettings& coupling,
                const frame::ProxySettings& settings);
 
-    /// Puts the point somewhere, before the first tick.
+    /// Places the point, before the first tick.
     void place(World& world, const Vec3& p_WP) noexcept;
     /// Does one tick of h [s] in a world with a time step of `step` [s]: moves the point, applies
     /// to each body that it touches its share of the reaction in the coming step, and returns the
@@ -47,7 +47,7 @@ class PointProxy {
 
     frame::CouplingSettings coupling_;
     std::vector<double> shares_;  // by body, of the spring's force
-    double share_ = 1;            // of what is touched now
+    double share_ = 1;            // for the touched surfaces
     double popthrough_;           // [N]
     BodyIndex body_;
     GodObject point_;

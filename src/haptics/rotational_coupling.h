@@ -1,5 +1,5 @@
-// RotationalCoupling is the rotational spring and damper between a handle whose orientation is
-// measured and its proxy, in addition to any coupling of their positions. README.md derives it.
+// RotationalCoupling is the rotational spring and damper between a handle with measured orientation
+// and its proxy, in addition to any coupling of their positions. README.md derives it.
 #pragma once
 
 #include "haptics/coupling.h"
@@ -9,23 +9,23 @@ namespace dihaptic::haptics {
 class RotationalCoupling {
   public:
     /// `inertia`: the proxy's own, about P [kg*m^2]; `R_HP`: the proxy's canonical orientation,
-    /// which it has while the device is in its neutral one.
+    /// at the device's neutral orientation.
     RotationalCoupling(const frame::CouplingSettings& settings, double inertia, const Quat& R_HP)
         : settings_(settings), inertia_(inertia), R_HP_(R_HP) {}
 
     void retune(const frame::CouplingSettings& settings) noexcept { settings_ = settings; }
-    /// R_WP of a proxy that follows without lag.
+    /// R_WP of a proxy without lag.
     Quat wanted(const frame::Handle& handle) const noexcept { return handle.R_WH * R_HP_; }
-    /// Folds spring and damper into the proxy's inertia and angular velocity. `share`: that of
+    /// Includes spring and damper in the proxy's inertia and angular velocity. `share`: from
     /// Onset; `h`: duration of the coming step of the world [s].
     void before_step(World& world, BodyIndex proxy, const frame::Handle& handle, double share,
                      double h) noexcept;
-    /// Torque on the handle now [N*m]: that of the spring at the end of the step while the proxy
-    /// touches something, and zero in free space. When the handle turns on between steps of the
-    /// world, the torque stays along that of the step, and never changes its sign.
+    /// Present torque on the handle [N*m]: the spring's torque at the end of the step while the
+    /// proxy touches a body, and zero in free space. When the handle turns between steps of the
+    /// world, the torque stays along the step's torque, and never changes its sign.
     Vec3 torque(const World& world, BodyIndex proxy, bool touching, const frame::Handle& handle,
                 double share) noexcept;
-    /// Energy of the spring; in touch, only the part that acted in the last torque() [J].
+    /// Energy of the spring; in contact, only the part acting in the last torque() [J].
     double stored() const noexcept { return stored_; }
 
   private:

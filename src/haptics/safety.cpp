@@ -9,15 +9,15 @@
 namespace dihaptic::haptics {
 namespace {
 
-/// Whether all values are numbers, and the orientation is one.
+/// Whether all values are numbers, and the orientation is a unit quaternion.
 bool is_sound(const frame::Handle& read) noexcept {
     constexpr double kUnit = 1e-3;
     return read.p_WH.allFinite() && read.v_WH.allFinite() && read.w_WH.allFinite() &&
            std::abs(read.R_WH.squaredNorm() - 1) < kUnit;
 }
 
-/// Judges a reading of a handle that was at `last` a time `elapsed` ago [s]; 0: it was not seen
-/// before.
+/// Judges a reading of a handle that was at `last` a time `elapsed` ago [s]; 0: no earlier
+/// reading.
 void judge_motion(const frame::Handle& read, const frame::Handle& last, double elapsed,
                   double max_speed, Fault& fault) noexcept {
     double speed = read.v_WH.norm();
@@ -39,7 +39,7 @@ void judge_motion(const frame::Handle& read, const frame::Handle& last, double e
     }
 }
 
-constexpr FaultText kClockWentBack{FaultKind::late, "the clock went back by {back_ms:.3g} ms",
+constexpr FaultText kClockWentBack{FaultKind::late, "the clock moved back by {back_ms:.3g} ms",
                                    "report it as a bug, with the session's folder"};
 
 FaultText text_of(const Fault& fault) {

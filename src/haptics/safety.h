@@ -1,8 +1,8 @@
 // Detects faults that switch force off: on every device at once, without regard to the slew limit,
-// and until the session is explicitly resumed. A person who was let go must not be seized again
-// unawares.
+// and until the session is explicitly resumed. A released hand must not be seized again
+// unexpectedly.
 //
-// A tick asks its HandleGuards first, before anything is computed from a reading that may be wrong.
+// A tick calls its HandleGuards first, before any computation with a reading that may be wrong.
 #pragma once
 
 #include <string>
@@ -15,22 +15,22 @@ namespace dihaptic::haptics {
 
 using dihaptic::FaultKind;
 
-/// The first fault of a session: what, which device, when.
+/// The first fault of a session: its kind, device and time.
 struct Fault {
     FaultKind kind = FaultKind::none;
     int device = -1;   ///< -1: all devices
-    Time time{0};      ///< of the tick, since activation
-    double value = 0;  ///< measured, in the unit that describe() gives
-    double limit = 0;  ///< beyond which it is a fault; for keeps_late a stiffness [N/m]
+    Time time{0};      ///< time of the tick, since activation
+    double value = 0;  ///< measured, in the unit used by describe()
+    double limit = 0;  ///< limit of that value; for keeps_late a stiffness [N/m]
 
     explicit operator bool() const { return kind != FaultKind::none; }
 };
 
-/// Describes a fault in one sentence, with a remedy for its cause; the caller adds how the session
-/// continues. `finger` held the device, which is a `model`.
+/// Describes a fault in one sentence, with a remedy for its cause; the caller adds the
+/// session's continuation. `finger` held the device of type `model`.
 std::string describe(const Fault& fault, const std::string& finger, const std::string& model);
 
-/// Keeps the first fault: later ones are its consequences.
+/// Keeps the first fault; later ones are its consequences.
 class FaultLatch {
   public:
     void trip(const Fault& fault) noexcept {
@@ -50,8 +50,8 @@ constexpr double kMostTurning = 100;
 ///
 ///     |v_WH| <= max_speed   and   |p_WH - p_WH,old| <= max_speed * (t - t_old)
 ///
-/// and likewise for rotations, with kMostTurning. The second condition finds a position that jumps,
-/// whatever velocity comes with it. A device that failed once is not trusted again: its handle
+/// and likewise for rotations, with kMostTurning. The second condition detects a jump in position,
+/// for any reported velocity. A device that failed once is not trusted again: its handle
 /// stays at rest where it last was, so that neither NaN nor a blow reaches the world being
 /// recorded.
 class HandleGuard {
@@ -59,7 +59,7 @@ class HandleGuard {
     /// Largest plausible speed of a hand [m/s].
     explicit HandleGuard(double max_speed) : max_speed_(max_speed) {}
 
-    /// The handle to work with. `read` is as measured, `reported` the fault that the device itself
+    /// The usable handle. `read` is as measured, `reported` the fault that the device itself
     /// reports, `elapsed` the time since the last call [s]. If the reading cannot be used, `fault`
     /// is set to the reason.
     frame::Handle accept(const frame::Handle& read, FaultKind reported, double elapsed,

@@ -1,11 +1,11 @@
-// SoftStart lets force come on gently: after activation and a pause, and when a dead-man switch is
+// SoftStart raises force gently: after activation and a pause, and when a dead-man switch is
 // pressed again.
 //
-// Anything that a hand is inside of at that moment (an object, a wall, a field) would strike it.
-// The share of the force that is sent therefore rises from 0 to 1 in the time T, on all devices
-// alike. If no device is asked for a force, nothing can strike, and the rise is over at once: what
-// is touched later is felt as it is. If that were ramped as well, a hand would sink into a wall,
-// which would then throw it out.
+// Anything around a hand at that moment (an object, a wall, a field) would strike it.
+// The fraction of the force that is sent therefore rises from 0 to 1 in the time T, on all devices
+// alike. If no force is requested from any device, nothing can strike, and the rise ends at once:
+// objects touched later are felt with full force. If that were ramped as well, a hand would sink
+// into a wall, which would then throw it out.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ class SoftStart {
     /// `duration`: T [s].
     explicit SoftStart(double duration) : duration_(duration) {}
 
-    /// The share of this tick's force that may be sent. `allowed`: by the dead-man switch; `asked`:
-    /// whether some device is asked for a force; `h`: duration of the tick [s].
+    /// The fraction of this tick's force that may be sent. `allowed`: by the dead-man switch;
+    /// `asked`: whether a force is requested from any device; `h`: duration of the tick [s].
     double share(bool allowed, bool asked, double h) noexcept {
         if (!allowed) {
             elapsed_ = 0;

@@ -1,8 +1,8 @@
 // SolvedPoint is a point proxy whose friction is solved together with the dynamics: a body without
 // mass, shape or rotation of its own, which the implicit coupling pulls to the handle (README.md).
-// What it may meet in a step is found as for any point on surfaces (god_object.h) and becomes
+// Its possible contacts in a step are found as for any point on surfaces (god_object.h) and become
 // contacts of the step, with Coulomb's cone and, for a soft finger, torsion, among all other
-// contacts of what it touches. The handle feels the contact forces, so no momentum is gained or
+// contacts of touched bodies. The handle feels the contact forces, so no momentum is gained or
 // lost between hand and bodies.
 #pragma once
 
@@ -17,15 +17,15 @@ class SolvedPoint {
     SolvedPoint(const scene::Scene& scene, BodyIndex body, const frame::CouplingSettings& coupling,
                 const frame::ProxySettings& settings);
 
-    /// Puts the point somewhere, before the first tick.
+    /// Places the point, before the first tick.
     void place(World& world, const Vec3& p_WP) noexcept;
     /// Called before and after a step of the world of h [s].
     void before_step(World& world, const frame::Handle& handle, double h) noexcept;
     void after_step(World& world, const frame::Handle& handle) noexcept;
-    /// The force on the handle now: that of the step's contacts. In a tick of h [s] without a step,
-    /// it is what the spring demands of those contacts now. A surface that is first touched in this
+    /// The present force on the handle: that of the step's contacts. In a tick of h [s] without a
+    /// step, it is the spring's present force on those contacts. A surface first touched in this
     /// tick is felt at once, and its body gets the reaction in the next step. Between steps, only
-    /// the part of the spring that acts counts as stored energy.
+    /// the acting part of the spring counts as stored energy.
     Pull pull(World& world, const frame::Handle& handle, double h) noexcept;
 
     Onset& onset() noexcept { return onset_; }
@@ -35,10 +35,10 @@ class SolvedPoint {
     struct Press {
         Vec3 n_W;  ///< out of the body
         double friction;
-        double share;  ///< of the spring's force that a soft surface gives
+        double share;  ///< fraction of the spring's force that a soft surface gives
     };
 
-    /// The share of the spring's force that a body's surface gives, which is in series with it.
+    /// The fraction of the spring's force that a body's surface, in series with it, gives.
     double share_of(const World& world, BodyIndex body) const noexcept;
     Vec3 in_cones(const Vec3& spring) const noexcept;
     double energy(const Vec3& stretch) const noexcept;
@@ -52,11 +52,11 @@ class SolvedPoint {
     double popthrough_;                                        // [N]
     std::array<Press, dynamics::kMostPointContacts> presses_;  // in the last step
     size_t press_count_ = 0;
-    double share_ = 1;  // of all that is pressed
+    double share_ = 1;  // over all pressed surfaces
     bool sliding_ = false;
     bool just_stepped_ = false;
     double step_ = 0;  // of the world [s]
-    double mass_ = 0;  // that the point had in the last step [kg]
+    double mass_ = 0;  // of the point in the last step [kg]
     Vec3 v_WP_ = Vec3::Zero();
     Vec3 f_P_W_ = Vec3::Zero();  // of the last step's contacts [N]
 };

@@ -13,7 +13,7 @@ using scene::ShapeKind;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Roots of |p + s d| = r for p outside and d toward the origin, in as many dimensions as the
-/// vectors have. The form of the first avoids the difference of nearly equal numbers.
+/// vectors have. The formula for the first avoids the difference of nearly equal numbers.
 struct Roots {
     double first = kInfinity;
     double last = -kInfinity;
@@ -31,7 +31,7 @@ Roots ball_roots(const Vector& p, const Vector& d, double r) {
     return {(-b - root) / a, root + b > 0 ? -c / (b + root) : 0.0};
 }
 
-/// The part of a straight path inside a cone that extends without end below its tip: where the
+/// The part of a straight path inside a cone that extends infinitely below its tip: where the
 /// length of q + s e is at most l - s k. Either root may be infinite.
 Roots cone_roots(const Eigen::Vector2d& q, const Eigen::Vector2d& e, double l, double k) {
     const double a = e.squaredNorm() - k * k;
@@ -55,7 +55,7 @@ Roots cone_roots(const Eigen::Vector2d& q, const Eigen::Vector2d& e, double l, d
     return l + b / a * k < 0 ? Roots{} : Roots{first, last};
 }
 
-/// The part of p + s d inside of c r + s z = radius, with r the distance from the z axis; a
+/// The part of p + s d inside c r + s z = radius, with r the distance from the z axis; a
 /// cylinder has s = 0.
 Roots side_roots(const Vec3& p, const Vec3& d, double c, double s, double radius) {
     const Eigen::Vector2d q = p.head<2>();
@@ -145,7 +145,7 @@ Vec3 Surface::normal(int face, const Vec3& p) const noexcept {
     if (is_flat(face)) return flats_[static_cast<size_t>(face)].n;
     const Vec3 from_axis = has_side() ? Vec3(p.x(), p.y(), 0) : Vec3(p - axis_point(p));
     const double size = from_axis.norm();
-    // on the axis any direction is as good
+    // on the axis any direction is valid
     const Vec3 away = size > 0 ? Vec3(from_axis / size) : Vec3(Vec3::UnitX());
     return is_cone() ? Vec3(lean_.c * away + lean_.s * Vec3::UnitZ()) : away;
 }
@@ -175,9 +175,9 @@ std::optional<Surface::Entry> Surface::enter(const Vec3& p, const Vec3& d) const
     if (apart > d.norm() + kOnSurface) return {};
     if (apart > kOnSurface && flats_.empty()) return enter_ball(p, d);
     if (apart > kOnSurface) return over_seams(enter_faces(p, d), p, d);
-    // Faces through p: a convex solid lies below each of them, so a path that is not blocked by one
-    // of them never enters. Of faces that block, the least blocking is the one that p slides along
-    // first.
+    // Faces through p: a convex solid lies below each of them, so a path not blocked by one
+    // of them never enters. Among blocking faces, p first slides along the least blocking
+    // one.
     Entry least{0, -1};
     double fastest = -kInfinity;
     for (int face = 0; face < std::max(1, faces()); ++face) {
@@ -245,7 +245,7 @@ std::optional<Surface::Entry> Surface::over_seams(std::optional<Entry> entry, co
     for (int face = 0; face < static_cast<int>(flats_.size()); ++face) {
         const Flat& flat = flats_[static_cast<size_t>(face)];
         if (face == entry->face || flat.n.dot(at) - flat.offset < -kSeam) continue;
-        // along that face or away from it: the path does not enter the part at all
+        // along that face or away from it: the path does not enter the part
         if (flat.n.dot(p + d) - flat.offset >= -kSeam) return {};
         entry->face = face;
         return entry;

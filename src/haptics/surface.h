@@ -1,5 +1,5 @@
-// Surface is the surface of a convex shape as a point feels it: where a straight path enters the
-// solid, which face keeps the point out there, and where a path along that face leaves it.
+// Surface is the surface of a convex shape for a point proxy: the entry of a straight path into the
+// solid, the face that keeps the point out there, and the exit of a path along that face.
 //
 // A polyhedron has the faces of its hull; a cylinder has its side and two ends, and a cone its side
 // and its base; sphere, capsule and plane have one face. Everything is in the frame of the shape's
@@ -13,7 +13,7 @@
 
 namespace dihaptic::haptics {
 
-/// A point no farther than this from a surface is on it: the accuracy of positions [m]. A stiffness
+/// A point within this distance of a surface is on it: the accuracy of positions [m]. A stiffness
 /// of 10 000 N/m turns it into 10 uN.
 constexpr double kOnSurface = 1e-9;
 
@@ -33,13 +33,13 @@ class Surface {
 
     struct Entry {
         double share = 0;  ///< of the path covered at the entry
-        int face = -1;     ///< through which it enters
+        int face = -1;     ///< face of entry
     };
     /// Where the straight path p + s d, 0 <= s <= 1, enters the solid; nullopt if it does not. A
     /// point on or below the surface enters at once unless d leads along a face there or away from
     /// it.
     std::optional<Entry> enter(const Vec3& p_B, const Vec3& d_B) const noexcept;
-    /// The face nearest to p, as seen from inside.
+    /// The face nearest to p from inside.
     int shallowest(const Vec3& p_B) const noexcept;
     /// Outward unit normal at the point of a face that is nearest to p.
     Vec3 normal(int face, const Vec3& p_B) const noexcept;
@@ -47,10 +47,10 @@ class Surface {
     double distance(int face, const Vec3& p_B) const noexcept;
 
     struct Crossing {
-        double share = 1;  ///< of the path covered where it ends or leaves the face
-        int face = -1;     ///< that lies beyond the edge; -1: the path stays on the face
+        double share = 1;  ///< of the path covered at its end or exit from the face
+        int face = -1;     ///< face beyond the edge; -1: the path stays on the face
     };
-    /// How far a path along a face stays over it.
+    /// The part of a path along a face that stays over it.
     Crossing cross(int face, const Vec3& p_B, const Vec3& d_B) const noexcept;
 
     /// The part of a tangent d along which a face is curved at p; zero where it is flat.
@@ -68,8 +68,8 @@ class Surface {
         Vec3 n;         // outward, unit
         double offset;  // n . x on the face [m]
     };
-    /// The side of a cylinder or a cone is where c r + s z = radius_, with r the distance from the
-    /// axis, and c and s cosine and sine of the angle by which the side leans: 0 of a cylinder.
+    /// The side of a cylinder or a cone has c r + s z = radius_, with r the distance from the
+    /// axis, and c and s cosine and sine of the side's angle of inclination: 0 for a cylinder.
     struct Lean {
         double c = 1, s = 0;
     };

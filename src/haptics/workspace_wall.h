@@ -1,6 +1,6 @@
-// WorkspaceWall is a soft wall at the end of a device's reach, so that a hand does not run into its
-// mechanical stops. Along each axis of its box B, with edge length e, and only while the handle is
-// outside,
+// WorkspaceWall is a soft wall at the limit of a device's reach, so that a hand does not run into
+// its mechanical stops. Along each axis of its box B, with edge length e, and only while the handle
+// is outside,
 //
 //     f = -sign(p) max(0, k (|p| - e / 2) + c sign(p) v)
 //
@@ -15,7 +15,7 @@ namespace dihaptic::haptics {
 
 /// A box B in which a handle is kept.
 struct WorkspaceBox {
-    Pose X_WB;                  ///< of its centre
+    Pose X_WB;                  ///< pose of its centre
     Vec3 edges = Vec3::Zero();  ///< [m]
 };
 

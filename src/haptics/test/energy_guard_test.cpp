@@ -13,7 +13,7 @@ namespace {
 constexpr double kTick = 1e-3;
 constexpr double kStiffness = 1000;  // [N/m]
 
-/// Does one tick along x; returns what the guard adds [N].
+/// Does one tick along x; returns the guard's added force [N].
 double watch(EnergyGuard& guard, double p_H, double v_H, double p_P, double force,
              unsigned& flags) {
     const double stored = kStiffness / 2 * (p_P - p_H) * (p_P - p_H);
@@ -49,7 +49,7 @@ struct Motion {
 };
 
 TEST(EnergyGuard, SeesWhatTheHoldOfASampleGenerates) {
-    // kStiffness / 2 times the square of each step (README.md), as no damper takes it
+    // kStiffness / 2 times the square of each step (README.md), as no damper absorbs it
     Motion run;
     const double squares = run.press(0, 0.004, 1);
     EXPECT_NEAR(run.guard.generated(), kStiffness / 2 * squares, 0.06 * kStiffness / 2 * squares);
@@ -75,7 +75,7 @@ TEST(EnergyGuard, LetsAHandRestHoldAndCarry) {
 }
 
 TEST(EnergyGuard, LetsBodiesGiveWhatTheyHave) {
-    // a heavy body carries the hand along at 1 m/s against a force of 4 N: 4 J, all the body's own
+    // a heavy body carries the hand along at 1 m/s against a force of 4 N: 4 J, all from the body
     Motion run;
     for (int i = 0; i < 1000; ++i) run.tick(i * kTick, 1, i * kTick + 0.004, 4);
     EXPECT_LT(run.guard.generated(), 1e-12);
@@ -105,7 +105,7 @@ TEST(EnergyGuard, LetsCoulombFrictionHoldASpringThatWasStretched) {
 }
 
 TEST(EnergyGuard, LetsAHandStrainAtWhatItDrivesAlong) {
-    // the proxy slides at 1 m/s, the hand follows at 2 m/s: friction takes the harder push a tick
+    // the proxy slides at 1 m/s, the hand follows at 2 m/s: friction absorbs the harder push a tick
     // before the hand feels it, 20 mJ in 20 ticks, and keeps that energy
     const auto strain = [](Motion& run, double c) {
         for (int i = 0; i <= 20; ++i) {
@@ -130,7 +130,7 @@ TEST(EnergyGuard, LetsASpringThatCameFreeCatchAgainWithWhatItKept) {
     for (int i = 0; i < 3; ++i) run.tick(0.001, 0, 0.04, 39);
     EXPECT_LT(run.guard.generated(), 1e-12);
     EXPECT_EQ(run.flags, 0u);
-    // it may not have energy that it did not keep: it relaxes, and is stretched again without any
+    // it must not have energy that it did not store: it relaxes, and is stretched again without any
     // work
     run.tick(0.001, 0, 0.001, 0);
     run.tick(0.021, 0, 0.001, 0);
@@ -148,8 +148,8 @@ TEST(EnergyGuard, LetsABodyHitARestingProxy) {
 }
 
 TEST(EnergyGuard, IsNotLulledByWhatWasDissipatedBefore) {
-    // 5 N*s/m take up energy for a second; then as much negative damping gives it. With v the mean
-    // square of the speed while in touch, half of the time, that is c v / 2 per second.
+    // 5 N*s/m absorb energy for a second; then the same negative damping releases it. With v the
+    // mean square of the speed while in touch, half of the time, that is c v / 2 per second.
     Motion run;
     const double depth = 0.002;
     run.press(5, depth, 20);

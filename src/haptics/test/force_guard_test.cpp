@@ -21,7 +21,7 @@ frame::DeviceInfo device(double continuous_force) {
 }
 
 TEST(Heating, FallsFromThePeakToTheContinuousForceAsTheClosedFormSays) {
-    // with all that is allowed asked for, f^2 - f_c^2 decays with tau f_c^2 / f_p^2
+    // at the largest allowed force, f^2 - f_c^2 decays with tau f_c^2 / f_p^2
     const double peak = 8.5, continuous = 1.4, tau = 10;
     Heating heating(peak, continuous, tau);
     double last = peak;
@@ -76,7 +76,7 @@ TEST(WorkspaceWall, PushesInwardInProportionToTheDepth) {
     // damping k h / 2
     EXPECT_NEAR(wall.force({0.102, 0, 0}, {0.4, 0, 0}).x(), -1.1, 1e-12);
     EXPECT_NEAR(wall.force({-0.102, 0, 0}, {-0.4, 0, 0}).x(), 1.1, 1e-12);
-    // never outward, however fast the handle comes back
+    // never outward, however fast the handle returns
     EXPECT_EQ(wall.force({0.102, 0, 0}, {-50, 0, 0}).x(), 0);
 }
 

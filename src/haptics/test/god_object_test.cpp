@@ -13,7 +13,7 @@
 namespace dihaptic::haptics::god_object_test {
 namespace {
 
-/// Bodies that are fixed or moved by the test, and one point among them.
+/// Bodies, fixed or moved by the test, and one point among them.
 struct Room {
     std::vector<scene::Body> bodies;
     std::vector<dynamics::BodyState> states;
@@ -37,7 +37,7 @@ struct Room {
         point->follow(p_WH, states);
         return point->position();
     }
-    /// Goes straight there, in steps of 0.1 mm.
+    /// Goes straight to the target, in steps of 0.1 mm.
     void go(const Vec3& from, const Vec3& to) {
         const int steps = std::max(1, static_cast<int>((to - from).norm() / 1e-4));
         for (int i = 1; i <= steps; ++i) follow(from + (to - from) * i / steps);
@@ -55,10 +55,10 @@ struct Room {
 
 class EveryShape : public ::testing::TestWithParam<int> {};
 
-/// Takes the handle ten thousand straight ways through a shape, from outside, in strides of up to 8
-/// mm. The point stays outside; what holds it back points out of the shape; and while the handle's
-/// foot on the face that the point came through is on that face, the point is there, however thin
-/// the shape.
+/// Moves the handle along ten thousand straight paths through a shape, from outside, in strides of
+/// up to 8 mm. The point stays outside; the force that holds it back points out of the shape; and
+/// while the handle's foot on the face of entry is within that face, the point is there, however
+/// thin the shape.
 TEST_P(EveryShape, PressesAreFeltOutOfTheFaceThatWasEntered) {
     Random random(4, "presses");
     Room room;
@@ -129,15 +129,15 @@ TEST(GodObject, FollowsTheHandleExactlyInFreeSpace) {
 }
 
 TEST(GodObject, NearABoxsCornerTheEnteredFaceIsKept) {
-    // the handle is 1 mm from the edge; at 5 mm depth the side is nearer, but it came through the
-    // top
+    // the handle is 1 mm from the edge; at 5 mm depth the side is nearer, but it entered through
+    // the top
     Room room;
     room.add(scene::Shape::box({0.04, 0.04, 0.04}));
     room.start({0.019, 0, 0.025});
     room.go({0.019, 0, 0.025}, {0.019, 0, 0.010});
     EXPECT_LT((room.point->position() - Vec3(0.019, 0, 0.02)).norm(), 1e-9);
     EXPECT_LT((room.point->contacts()[0].n_W - Vec3::UnitZ()).norm(), 1e-12);
-    // over the edge it comes free, and on the way back in it is the side that is felt
+    // beyond the edge it is free, and on re-entry the side is felt
     room.go({0.019, 0, 0.010}, {0.022, 0, 0.010});
     EXPECT_TRUE(room.point->contacts().empty());
     room.go({0.022, 0, 0.010}, {0.012, 0, 0.010});
@@ -245,7 +245,7 @@ TEST(GodObject, ATurningBodyCarriesItAtFullFriction) {
 }
 
 TEST(GodObject, TwoBodiesThatMoveTogetherCarryIt) {
-    // in the corner of a box and a plate that fly off together, turning on the way
+    // in the corner of a box and a plate that fly off together while turning
     Room room;
     room.skin = kSkin;
     room.add(scene::Shape::box({0.1, 0.1, 0.02}), {Quat::Identity(), {0, 0, -0.01}});
@@ -407,7 +407,7 @@ TEST(GodObject, SlidesOverTheSeamBetweenTwoParts) {
         for (const double step : {0.0, 4e-9, -4e-9, 5e-8}) {
             {
                 Room room;
-                room.skin = kSkin;  // otherwise the seam is a crack that a point falls into
+                room.skin = kSkin;  // otherwise a point would fall into the seam
                 room.add(two_boards(angle, step), {rotation_xyz({0.2, 0.1, 0}), {0.1, 0.2, 0.3}});
                 const auto at = [&](double x, double z) {
                     return Vec3(room.states[0].X_WB *

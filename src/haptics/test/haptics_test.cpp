@@ -154,7 +154,7 @@ TEST(ImplicitCoupling, BetweenStepsTheForceFollowsTheHandWithinTheCone) {
         s.tick(finger, {{std::min(-0.05 + 0.1 * i * kStep, 0.0075), 0, 0}, Vec3::Zero()});
     EXPECT_NEAR(finger.force(s.world, {{0.0085, 0, 0}, Vec3::Zero()}, kStep).x(), -11, 0.01);
     EXPECT_EQ(finger.force(s.world, {{-0.01, 0, 0}, Vec3::Zero()}, kStep).norm(),
-              0);  // it does not pull
+              0);  // it must not pull
     const Vec3 across = finger.force(s.world, {{0.0075, 0.05, 0}, Vec3::Zero()}, kStep);
     EXPECT_NEAR(across.y(), -0.5 * -across.x(), 1e-9);  // it slides
 }
@@ -240,7 +240,7 @@ TEST(VelocityImpulse, PressesAWallWithStiffnessTimesDepthAndGivesItTheSame) {
     }
 }
 
-/// A handle that runs into the wall, stays, leaves, comes back within the onset, stays, and leaves.
+/// A handle that runs into the wall, stays, leaves, returns within the onset, stays, and leaves.
 frame::Handle there_and_back(int tick) {
     const std::array<std::pair<int, double>, 7> way{{{0, -0.05},
                                                      {100, 0.0075},
@@ -299,7 +299,7 @@ TEST_P(Onsets, SoftenTouchingAndTouchingAgainWithoutAStepAndKeepTheEquilibrium) 
         if ((i > 200 && i < 300) || i > 700) {
             EXPECT_NEAR(f.x() / f_hard.x(), 1, 1e-9);
         } else if (ticks > 2 && !dual) {
-            // once the proxy stands still, the wall gets what the handle feels: the mass is shared,
+            // once the proxy stands still, the wall gets the handle's force: the mass is scaled,
             // too
             EXPECT_NEAR(soft.touch().normal_force, -f.x(), 1e-6) << i;
         }

@@ -102,13 +102,13 @@ TEST(BoundRise, FollowsTheSpringThatIsHeldAndFallsFreely) {
     EXPECT_EQ(bounded(2.1), -2.1);
     EXPECT_EQ(bounded(0.3), -0.3);
     EXPECT_EQ(bound_rise(Vec3::Zero(), last, deeper, k, 0.01), Vec3::Zero());
-    // on the way out the bound falls as the same spring does, and so gives no more than it took
+    // on the way out the bound falls like the same spring, and so releases no more than it absorbed
     EXPECT_DOUBLE_EQ(bound_rise({-9, 0, 0}, last, -deeper, k, 0.01).x(), -(2 - 0.2 + 0.01));
     EXPECT_DOUBLE_EQ(bound_rise({-9, 0, 0}, last, -50 * deeper, k, 0.01).x(), -0.01);
 }
 
 TEST(BoundRise, IsForTheWayInWhichTheForceActs) {
-    // a force that acted the other way, or across, is no force to go on from
+    // a force in the opposite or a transverse direction is not a valid start
     EXPECT_DOUBLE_EQ(bound_rise({3, 0, 0}, {-2, 0, 0}, Vec3::Zero(), 200, 0.01).x(), 0.01);
     EXPECT_DOUBLE_EQ(bound_rise({0, 3, 0}, {-2, 0, 0}, {0, -1e-3, 0}, 200, 0.01).y(), 0.21);
     const Vec3 turned = bound_rise({0, 2, 2}, {0, 2, 0}, Vec3::Zero(), 200, 0);

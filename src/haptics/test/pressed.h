@@ -1,4 +1,4 @@
-// A finger that presses on a fixed block, for tests of what each kind of proxy feels there.
+// A finger that presses on a fixed block, for tests of the force with each kind of proxy.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -56,7 +56,7 @@ class Pressed {
         finger_->place(*world_, handle_);
     }
 
-    /// Moves the handle there at 50 mm/s, waits, and returns the force that it feels.
+    /// Moves the handle to its target at 50 mm/s, waits, and returns the force on it.
     Vec3 go(const Vec3& p, int wait = 500) {
         const Vec3 to = p + Vec3(0, 0, lift_);
         const Vec3 from = handle_.p_WH;
@@ -66,7 +66,7 @@ class Pressed {
             f = tick(from + std::min(1.0, double(i) / ticks) * (to - from));
         return f;
     }
-    /// Moves the handle to p above the block's top within a tick; returns the force that it feels.
+    /// Moves the handle to p above the block's top within a tick; returns the force on it.
     Vec3 move(const Vec3& p) { return tick(p + Vec3(0, 0, lift_)); }
     const Vec3& proxy() const { return world_->state(body_).X_WB.p; }
     const Finger& finger() const { return *finger_; }
@@ -92,7 +92,7 @@ class Pressed {
     std::unique_ptr<Finger> finger_;
     BodyIndex body_;
     frame::Handle handle_;
-    double lift_ = 0;  // of the handle over what touches the block [m]
+    double lift_ = 0;  // of the handle above the point that touches the block [m]
     int every_;
     int ticks_ = 0;
 };

@@ -64,7 +64,7 @@ TEST(RotationVector, IsTheInverseOfRotationBy) {
         const Vec3 r = angle * Vec3(1, -2, 0.5).normalized();
         EXPECT_LT((rotation_vector(rotation_by(r)) - r).norm(), 1e-15 + 1e-9 * angle) << angle;
     }
-    // of the two ways around, the shorter one
+    // the shorter of the two rotations
     EXPECT_LT(
         (rotation_vector(rotation_by({0, 0, 4})) - Vec3(0, 0, 4 - 2 * std::numbers::pi)).norm(),
         1e-12);
@@ -125,7 +125,7 @@ TEST(RotationalCoupling, TurnsAgainstStopsWithStiffnessTimesAngle) {
         EXPECT_NEAR(torque.y() / (-k * 0.1), 1, 1e-3) << k;
         EXPECT_LT(std::hypot(torque.x(), torque.z()), 1e-5);
         EXPECT_LT(bar.force.norm(), 1e-4);  // a pure couple
-        // once released, it feels nothing
+        // once released, the handle feels nothing
         for (int i = 0; i < 100; ++i) torque = bar.tick(turned({0, -0.1, 0}));
         EXPECT_EQ(torque, Vec3::Zero());
     }
@@ -140,7 +140,7 @@ TEST(RotationalCoupling, CarriesWeightTimesDistance) {
     block.mass = 0.1;
     scene.bodies = {block};
     frame::CouplingSettings settings;
-    settings.damping = 10;  // otherwise the block swings: no hand calms it
+    settings.damping = 10;  // otherwise the block swings, as no hand damps it
     settings.turn_damping = 0.05;
     Bar bar(scene, settings);
     Vec3 torque;

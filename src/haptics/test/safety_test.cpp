@@ -48,8 +48,7 @@ TEST_P(BadReading, FaultsAndLeavesTheHandleWhereItWasForGood) {
     EXPECT_EQ(handle.p_WH, moving(9).p_WH);
     EXPECT_EQ(handle.v_WH, Vec3::Zero());
     Fault again;
-    handle =
-        guard.accept(moving(11), FaultKind::none, kTick, again);  // good once more, but too late
+    handle = guard.accept(moving(11), FaultKind::none, kTick, again);  // valid again, but too late
     EXPECT_FALSE(again);
     EXPECT_EQ(handle.p_WH, moving(9).p_WH);
     EXPECT_EQ(handle.v_WH, Vec3::Zero());
@@ -85,7 +84,7 @@ INSTANTIATE_TEST_SUITE_P(
             FaultKind::device_fault}));
 
 TEST(HandleGuard, AllowsTheDistanceOfTheTimeThatPassed) {
-    // pauses are judged elsewhere: after 30 ms at 1 m/s the handle is 30 mm further
+    // pauses are checked elsewhere: after 30 ms at 1 m/s the handle is 30 mm further
     HandleGuard guard(2);
     Fault fault;
     guard.accept(moving(0), FaultKind::none, 0, fault);

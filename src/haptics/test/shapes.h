@@ -1,4 +1,4 @@
-// Shapes that tests press points against.
+// Shapes for tests of point proxies.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ inline Vec3 random_vector(Random& random) {
     return {random.normal(), random.normal(), random.normal()};
 }
 
-/// A straight way of a handle through a shape, in strides of up to 8 mm.
+/// A straight path of a handle through a shape, in strides of up to 8 mm.
 struct Press {
     Vec3 from, way, stride;  ///< [m]
 };

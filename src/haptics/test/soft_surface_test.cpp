@@ -1,5 +1,5 @@
-// Tests how soft surfaces feel to each kind of proxy: as a spring in series with the coupling, and
-// with the friction that goes with what is felt.
+// Tests soft surfaces with each kind of proxy: as a spring in series with the coupling, and
+// with the friction that belongs to the felt force.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -49,7 +49,7 @@ TEST_P(SoftSurface, HasTheFrictionOfWhatIsFelt) {
     Pressed pressed(GetParam(), soft(k), kFriction);
     const double normal = in_series(k) * kDepth;
     pressed.go({0, 0, -kDepth});
-    // it holds as a spring, up to the cone
+    // it holds like a spring, up to the cone
     const Vec3 held = pressed.go({0.0005, 0, -kDepth});
     EXPECT_NEAR(held.x(), -kCoupling * 0.0005, 0.02 * kCoupling * 0.0005);
     const Vec3 slid = pressed.go({0.02, 0, -kDepth}, 0);

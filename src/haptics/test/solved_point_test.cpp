@@ -1,4 +1,4 @@
-// Tests a point whose friction is solved with the dynamics: what god_object_test.cpp tests for
+// Tests a point whose friction is solved with the dynamics: the cases of god_object_test.cpp for
 // points on surfaces, and mechanics.
 #include "haptics/solved_point.h"
 #include "base/number.h"
@@ -103,8 +103,8 @@ struct Room {
 class EveryShapeSolved : public ::testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Surfaces, EveryShapeSolved, ::testing::Range(0, kShapes), shape_name);
 
-/// As EveryShape in god_object_test.cpp: takes the handle ten thousand straight ways through a
-/// shape, in strides of up to 8 mm.
+/// As EveryShape in god_object_test.cpp: moves the handle along ten thousand straight paths through
+/// a shape, in strides of up to 8 mm.
 TEST_P(EveryShapeSolved, PressesAreFeltOutOfTheFaceThatWasEntered) {
     Random random(4, "presses");
     Room room;
@@ -171,7 +171,7 @@ TEST(SolvedPoint, NearABoxsCornerTheEnteredFaceIsKept) {
     const double depth = 0.01 + kSkin;
     EXPECT_LT((room.wait() - Vec3(0, 0, 1000 * depth)).norm(), 1e-6);
     EXPECT_LT((room.position() - Vec3(0.019, 0, 0.02 + kSkin)).norm(), 1e-8);
-    // over the edge it comes free, and on the way back in it is the side that is felt
+    // beyond the edge it is free, and on re-entry the side is felt
     room.go({0.022, 0, 0.010});
     EXPECT_EQ(room.wait(), Vec3::Zero());
     room.go({0.012, 0, 0.010});

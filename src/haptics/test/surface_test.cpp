@@ -1,4 +1,4 @@
-// Where straight paths enter a cone, against a search along them.
+// Entries of straight paths into a cone, compared with a search along them.
 #include "haptics/surface.h"
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 namespace dihaptic::haptics::surface_test {
 namespace {
 
-/// Where p + s d is deepest in a convex shape, by thirds.
+/// The s at which p + s d is deepest in a convex shape, by ternary search.
 double deepest(const scene::Shape& shape, const Vec3& p, const Vec3& d) {
     double low = 0, high = 1;
     for (int i = 0; i < 120; ++i) {

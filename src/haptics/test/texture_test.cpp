@@ -1,4 +1,4 @@
-// Tests textures: friction and heights that are felt to rise and fall along a surface.
+// Tests textures: variation of friction and height along a surface.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -25,7 +25,7 @@ scene::Texture grating() {
     return out;
 }
 
-/// Friction over normal force while a finger is drawn over a block at 20 mm/s, by where it is.
+/// Friction over normal force while a finger is drawn over a block at 20 mm/s, by position.
 std::vector<std::pair<Vec3, double>> drawn(Proxy proxy, const scene::Texture& texture,
                                            const Vec3& direction) {
     scene::Surface surface;
@@ -75,7 +75,7 @@ class High : public ::testing::TestWithParam<Proxy> {};
 INSTANTIATE_TEST_SUITE_P(Haptics, High, ::testing::Values(Proxy::rigid, Proxy::point_solved),
                          name_of_proxy);
 
-/// Ridges of 0.2 mm without friction: the proxy rides on them, and the force is at right angles to
+/// Ridges of 0.2 mm without friction: the proxy rides on them, and the force is perpendicular to
 /// their slope.
 TEST_P(High, RidgesLiftAndPushBackAsTheirSlopeSays) {
     scene::Texture ridges = grating();
