@@ -13,8 +13,8 @@ namespace dihaptic::hand {
 
 struct Columns {
     std::vector<std::string> keys;  ///< names for messages
-    int time = -1;                  ///< -1: lines are counted
-    double time_unit = 1;           ///< of a cell's number, or of a line [s]
+    int time = -1;                  ///< -1: derived from the line count
+    double time_unit = 1;           ///< of a number in a cell, or of a line [s]
     int occluded = -1;
     struct Finger {
         std::string name;
@@ -23,15 +23,16 @@ struct Columns {
         std::array<int, 3> axis{-1, -1, -1};
     };
     std::vector<Finger> fingers;
-    bool exported = false;  ///< written by a tracker's own program, which may add further cells
+    bool exported =
+        false;  ///< whether a tracker's own program wrote it, which may add further cells
 
     const std::string& key(int column) const { return keys[static_cast<size_t>(column)]; }
 };
 
-/// The columns of a file as a tracker's own program exports it: Motive and Nexus (CSV), or Qualisys
-/// (TSV). Each marker is a finger of its name, without the asset's name before a colon. `first` is
-/// the file's first line; `table` is left at the line that follows the head. nullopt if it is none
-/// of these. Throws Error when the head does not define the numbers.
+/// The columns of a file exported by a tracker's own program: Motive and Nexus (CSV), or Qualisys
+/// (TSV). Each marker is the finger of the same name, without the asset's name before a colon.
+/// `first` is the file's first line; `table` is left at the line after the header. nullopt if the
+/// file is none of these. Throws Error if the header does not define the numbers.
 std::optional<Columns> read_export(const std::vector<std::string>& first, GivenTable& table);
 
 }  // namespace dihaptic::hand

@@ -1,5 +1,5 @@
-// Driver is the interface between the hand's mechanics and whatever decides where its fingers
-// should be: a script, a recorded movement or the mouse.
+// Driver is the interface between the hand's mechanics and the source of its fingers' targets:
+// a script, a recorded movement or the mouse.
 #pragma once
 
 #include <string>
@@ -21,11 +21,11 @@ class Driver {
   public:
     virtual ~Driver() = default;
 
-    /// Where the finger should be. It is called in the tick, and must neither allocate nor throw.
+    /// The finger's target. Called in the tick, so it must neither allocate nor throw.
     FingerTarget target(int finger, double t) const noexcept { return do_target(finger, t); }
     /// Time for which the driver moves the fingers [s].
     virtual double duration() const = 0;
-    /// A section of the movement, named for summaries and trial tables.
+    /// A section of the movement, with a name for summaries and trial tables.
     struct Phase {
         std::string name;
         double start = 0;  ///< [s]

@@ -7,8 +7,8 @@
 //     t = k_r r + c_r (w_target - w)
 //
 // where x is the position of the handle that the finger holds. |f_felt| follows the device's force
-// with the time constant kFeelTime, as muscle does, so that stiffening adds no fast loop of its
-// own.
+// with the time constant kFeelTime, like muscle, so that stiffening adds no fast
+// loop.
 #pragma once
 
 #include <vector>
@@ -23,7 +23,7 @@ class Finger {
   public:
     explicit Finger(const Impedance& impedance) : impedance_(impedance) {}
 
-    /// Force of the finger on the handle [N] over h seconds, during which the device pushes with
+    /// Force of the finger on the handle [N] over h seconds, while the device pushes with
     /// f_device [N].
     Vec3 pull(const FingerTarget& target, const Vec3& p_WH, const Vec3& v_WH,
               const Vec3& f_device_W, double h) noexcept {

@@ -5,11 +5,10 @@
 namespace dihaptic::hand {
 namespace {
 
-constexpr size_t kStretch = 300;    // samples of 1 ms
-constexpr double kFarShare = 0.93;  // of the largest distance from the start
-constexpr double kBridgedPenalty =
-    0.02;                          // movement that a stretch counts as if none of it was seen [m]
-constexpr double kOpening = 0.01;  // by which the fingers must have closed before [m]
+constexpr size_t kStretch = 300;          // samples of 1 ms
+constexpr double kFarShare = 0.93;        // of the largest distance from the start
+constexpr double kBridgedPenalty = 0.02;  // movement assigned to a stretch that was not seen [m]
+constexpr double kOpening = 0.01;  // by which the fingers must have closed before the grasp [m]
 
 GraspSite site_at(const Path& path, size_t first) {
     const std::vector<Vec3>& thumb = path.p_WH[0];

@@ -1,5 +1,5 @@
-// Finds where a recorded hand closed on its object: the 0.3 s in which thumb and index moved least,
-// far from where the hand started and after the fingers had been open wider.
+// Finds the position at which a recorded hand closed on its object: the 0.3 s in which thumb and
+// index moved least, far from the hand's start and after the fingers had been wider open.
 #pragma once
 
 #include <optional>
@@ -18,7 +18,7 @@ struct GraspSite {
 };
 
 /// Finds the grasp; returns nullopt if the fingers never open and close away from the start. If
-/// `at` [s] is given, the grasp is taken to be the stretch around that time.
+/// `at` [s] is given, the stretch around that time is taken as the grasp.
 std::optional<GraspSite> find_grasp(const Path& path, std::optional<double> at = std::nullopt);
 
 }  // namespace dihaptic::hand

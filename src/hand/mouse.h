@@ -1,9 +1,9 @@
-// MouseDriver moves a hand by mouse, for setups without devices. The goal changes in jumps, as
+// MouseDriver moves a hand by mouse, for set-ups without devices. The goal changes in jumps, as
 // input events arrive; the hand follows it, critically damped with the time constant kFollow:
 //
 //     x(t) = g + (e + (v + w e) s) exp(-w s),    e = x(t0) - g,  s = t - t0,  w = 1 / kFollow
 //
-// for each coordinate x of the posture, where g is the goal that was set at t0.
+// for each coordinate x of the posture, where g is the goal set at t0.
 #pragma once
 
 #include "base/latest.h"
@@ -12,7 +12,7 @@
 
 namespace dihaptic::hand {
 
-/// Where a hand is and how far it is open.
+/// Position, orientation and aperture of a hand.
 struct Posture {
     Vec3 centre = Vec3::Zero();  ///< in world axes [m]
     double aperture = 0;         ///< twice each finger's distance from the centre [m]
@@ -23,21 +23,21 @@ struct Posture {
 class MouseDriver final : public Driver {
   public:
     static constexpr double kFollow = 0.04;  // [s]
-    /// Smallest aperture [m]; it is negative because hands are soft: to squeeze hard, fingers aim
-    /// at places behind each other.
+    /// Smallest aperture [m]; negative, because hands are soft: to squeeze hard, fingers aim
+    /// at points beyond each other.
     static constexpr double kTightest = -0.06;
 
-    /// Starts as a script of `spec` would. Fingers with a centre or an aperture of their own keep
+    /// Starts like a script of `spec`. Fingers with a centre or an aperture of their own keep
     /// the difference from the hand's. Throws Error as finger_places() does.
     MouseDriver(const HandSpec& spec, const std::vector<std::string>& fingers);
 
-    /// Makes the hand go to `goal` from time `t` on. Call it from one thread only, not the servo's.
+    /// Moves the hand to `goal` from time `t` on. Call it from one thread only, not the servo's.
     /// `t` is the time of the newest Frame that the caller knows; the targets that the servo has
     /// computed since then hardly change.
     void follow(const Posture& goal, double t) noexcept;
     const Posture& goal() const { return goal_; }
 
-    /// The session goes on until it is stopped, but needs an end: this is the longest duration of a
+    /// The session continues until stopped, but needs a duration: that of the longest
     /// script.
     double duration() const override { return kLongestScript; }
     const std::vector<Phase>& phases() const override { return phases_; }
@@ -62,7 +62,7 @@ class MouseDriver final : public Driver {
     std::vector<Phase> phases_;
     Posture start_;
     Posture goal_;
-    Way way_;                  // as follow() set it
+    Way way_;                  // as set by follow()
     mutable Latest<Way> now_;  // read by the servo, in the tick
 };
 

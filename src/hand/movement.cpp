@@ -43,9 +43,9 @@ std::optional<double> unit_of(const std::string& suffix, Quantity quantity) {
 
 constexpr const char* kHeaderRemedy =
     "The first line names the columns: time_ms, then thumb_x_mm, thumb_y_mm, thumb_z_mm, the same "
-    "for each other finger, and occluded if the tracker tells.";
+    "for each other finger, and occluded if the tracker reports it.";
 
-/// What a column's name says about it.
+/// The information in a column's name.
 struct Heading {
     enum class Kind { unknown, occluded, time, position };
     Kind kind = Kind::unknown;
@@ -78,7 +78,7 @@ Heading heading_of(const std::string& key) {
     return out;
 }
 
-/// Adds a column that holds a finger's position along an axis.
+/// Adds a column with a finger's position along an axis.
 void add_position(Columns& columns, const Heading& heading, int column, const Place& place,
                   Diagnostics& diagnostics) {
     const std::string name = heading.stem.substr(0, heading.stem.size() - 2);
@@ -90,7 +90,7 @@ void add_position(Columns& columns, const Heading& heading, int column, const Pl
     }
     if (finger->unit_name != heading.unit_name) {
         diagnostics.error(place, columns.key(column),
-                          "has another unit than the finger's other axes", "Use one unit.");
+                          "has a unit other than that of the finger's other axes", "Use one unit.");
     }
     finger->axis[static_cast<size_t>(heading.stem.back() - 'x')] = column;
 }
@@ -112,7 +112,7 @@ void check_complete(const Columns& columns, const Place& place, Diagnostics& dia
 
 Columns read_header(const Place& place, std::vector<std::string> header, Diagnostics& diagnostics) {
     if (header[0].starts_with('#'))
-        throw Error(place, "", "begins with a comment (#), not with the columns' names",
+        throw Error(place, "", "starts with a comment (#), not with the columns' names",
                     "Delete this line.");
     Columns columns;
     columns.keys = std::move(header);
@@ -144,7 +144,7 @@ Columns read_header(const Place& place, std::vector<std::string> header, Diagnos
                           key.empty() ? "a column has no name" : "is not a column of a movement",
                           kHeaderRemedy);
     }
-    // a repeated column was probably meant to be the missing one: only one of the two is reported
+    // a repeated column was probably meant as the missing one: only one of the two is reported
     if (!diagnostics.has_errors()) check_complete(columns, place, diagnostics);
     return columns;
 }
@@ -177,7 +177,7 @@ bool read_frame(const Columns& columns, const std::vector<std::string>& cells, R
         const double occluded = cell(columns.occluded);
         if (!std::isnan(occluded) && occluded != 0 && occluded != 1) {
             problems.error(place, "occluded", fmt::format("must be 0 or 1, is {:.6g}", occluded),
-                           "Write 1 where the tracker had lost a marker, 0 elsewhere.");
+                           "Write 1 if the tracker had lost a marker, otherwise 0.");
             readable = false;
         }
         frame.occluded = occluded == 1;
@@ -203,8 +203,8 @@ void name_columns(Movement& movement, const Columns& columns, RecordingAxes axes
     }
 }
 
-/// Whether a line has as many cells as it should; else an error. Trackers' programs may add empty
-/// ones at its end.
+/// Whether a line has the right number of cells; otherwise an error. Trackers' programs may add
+/// empty cells at its end.
 bool check_count(const Columns& columns, const std::vector<std::string>& cells,
                  const GivenTable& table, Diagnostics& problems) {
     const size_t wanted = columns.keys.size();
@@ -212,15 +212,15 @@ bool check_count(const Columns& columns, const std::vector<std::string>& cells,
     if (enough) return true;
     const bool commas = table.separator() == ',' && cells.size() + 1 >= 2 * wanted;
     problems.error(table.place(), "",
-                   fmt::format("has {} where the first line names {}", counted_of(cells, "value"),
+                   fmt::format("has {}, but the first line names {}", counted_of(cells, "value"),
                                counted_of(columns.keys, "column")),
-                   commas ? "Have its numbers decimal commas? Export them with points, or with "
+                   commas ? "Do its numbers have decimal commas? Export them with points, or with "
                             "semicolons between the values."
                           : "Complete the line, or delete it: missing frames are bridged.");
     return false;
 }
 
-/// The lines below the head.
+/// The lines below the header.
 void read_frames(const Columns& columns, GivenTable& table, RecordingAxes axes, Movement& movement,
                  Diagnostics& problems) {
     while (problems.problems().size() < kMostErrors) {
@@ -235,7 +235,7 @@ void read_frames(const Columns& columns, GivenTable& table, RecordingAxes axes, 
     }
 }
 
-/// Where the movement begins in a text: an export of Nexus may have force plates before it.
+/// Start of the movement in a text: an export of Nexus may have force plates before it.
 size_t begin_of(std::string_view text) {
     for (const std::string_view line : {"\nTrajectories\n", "\nTrajectories\r", "\nTrajectories,",
                                         "\nTrajectories;", "\nTrajectories\t"}) {
@@ -244,7 +244,7 @@ size_t begin_of(std::string_view text) {
     return 0;
 }
 
-/// Leaves out the markers of an export that are not fingers, if the fingers are known, with a
+/// Leaves out an export's markers that are not fingers, if the fingers are known, with a
 /// warning.
 void choose_markers(Columns& columns, const std::vector<std::string>& fingers, const Place& place,
                     Diagnostics& problems) {
@@ -258,12 +258,13 @@ void choose_markers(Columns& columns, const std::vector<std::string>& fingers, c
     const std::string names = shortened(fmt::format("{}", fmt::join(others, ", ")));
     const std::string wanted = fmt::format("{}", fmt::join(fingers, ", "));
     if (others.size() == columns.fingers.size()) {
-        problems.error(place, names, "are the markers, and no finger of the scene is called so",
-                       fmt::format("Name the markers as the scene names its fingers: {}.", wanted));
+        problems.error(
+            place, names, "are the markers, but no finger of the scene has such a name",
+            fmt::format("Give the markers the names of the scene's fingers: {}.", wanted));
         return;
     }
     problems.warning(place, names,
-                     fmt::format("{} left out: no finger of the scene is called so",
+                     fmt::format("{} left out: no finger of the scene has such a name",
                                  others.size() == 1 ? "is" : "are"),
                      fmt::format("The scene has {}.", wanted));
     std::erase_if(columns.fingers, [&](const Columns::Finger& marker) {
@@ -277,7 +278,7 @@ void read_lines(const std::string& text, RecordingAxes axes, const std::vector<s
     auto first = table.next();
     if (!first)
         throw Error({movement.file, 1}, "", "is empty",
-                    "A movement starts with a line of column names, then a line a frame.");
+                    "A movement has a line of column names, then one line per frame.");
     auto found = read_export(*first, table);
     if (found) choose_markers(*found, wanted, table.place(), problems);
     const Columns columns =
@@ -325,7 +326,7 @@ void choose_fingers(Movement& movement, const std::vector<std::string>& fingers,
             diagnostics.error(place, finger,
                               fmt::format("the movement has no such finger, but {}",
                                           fmt::join(movement.fingers, ", ")),
-                              "Name the columns as the scene names its fingers.");
+                              "Give the columns the names of the scene's fingers.");
         } else {
             chosen.push_back(static_cast<size_t>(found - movement.fingers.begin()));
         }
@@ -333,7 +334,7 @@ void choose_fingers(Movement& movement, const std::vector<std::string>& fingers,
     if (chosen.size() < fingers.size()) return;
     for (const std::string& finger : movement.fingers) {
         if (std::find(fingers.begin(), fingers.end(), finger) == fingers.end()) {
-            diagnostics.warning(place, finger, "is no finger of the scene, and is left out",
+            diagnostics.warning(place, finger, "is not a finger of the scene, and is left out",
                                 fmt::format("The scene has {}.", fmt::join(fingers, ", ")));
         }
     }

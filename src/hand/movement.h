@@ -1,4 +1,4 @@
-// Reads recorded finger movements (CSV) as a tracker exported them; docs/files/movement.md
+// Reads recorded finger movements (CSV) as exported by a tracker; docs/files/movement.md
 // describes the format.
 #pragma once
 
@@ -13,8 +13,8 @@ namespace dihaptic::hand {
 
 /// Directions of a recording's axes.
 enum class RecordingAxes {
-    world,  ///< x right, y away from the person, z up, as everywhere in Dihaptic
-    y_up,   ///< x right, y up, z toward the person, as in many motion trackers
+    world,  ///< x right, y away from the person, z up, the convention of Dihaptic
+    y_up,   ///< x right, y up, z toward the person, the convention of many motion trackers
 };
 constexpr auto enum_names(RecordingAxes) {
     return std::array{"world", "y_up"};
@@ -22,15 +22,15 @@ constexpr auto enum_names(RecordingAxes) {
 
 struct Movement {
     std::string file;
-    std::string checksum;  ///< of its text, as it was read (base/checksum.h)
+    std::string checksum;  ///< of its text, as read (base/checksum.h)
     std::vector<std::string> fingers;
-    /// Column names as in the file, for messages; those of positions by finger and world axis.
+    /// Column names as in the file, for messages; position columns by finger and world axis.
     std::string time_column;
     std::vector<std::array<std::string, 3>> columns;
     struct Frame {
         double time = 0;         ///< on the file's clock [s]
-        int line = 0;            ///< of the file
-        bool occluded = false;   ///< the tracker reported that it had lost a marker
+        int line = 0;            ///< line in the file
+        bool occluded = false;   ///< whether the tracker reported a lost marker
         std::vector<Vec3> p_WH;  ///< by finger, world axes; NaN where the file has no value [m]
     };
     std::vector<Frame> frames;
@@ -46,14 +46,14 @@ constexpr double kSlowestTracker = 10;    // [Hz]
 constexpr double kFastestTracker = 5000;  // [Hz]
 
 /// Reads a recording. Lines that cannot be read are errors in `diagnostics`, each with its line
-/// number and remedy; values that the file marks as missing are kept as NaN, for repair(). A file
-/// that a tracker's own program exported may have other markers than the `fingers`, if these are
+/// number and remedy; values marked as missing are kept as NaN, for repair(). A file
+/// exported by a tracker's own program may have markers other than the `fingers`, if these are
 /// known.
 Movement read_movement(const std::string& file, RecordingAxes axes, Diagnostics& diagnostics,
                        const std::vector<std::string>& fingers = {});
 
-/// Keeps the named fingers, in that order. Each one that the movement lacks is an error in
-/// `diagnostics`; each one of the movement that is not named is a warning.
+/// Keeps the named fingers, in that order. Each finger that the movement lacks is an error in
+/// `diagnostics`; each further finger of the movement is a warning.
 void choose_fingers(Movement& movement, const std::vector<std::string>& fingers,
                     Diagnostics& diagnostics);
 

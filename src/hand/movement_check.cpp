@@ -14,7 +14,8 @@ std::string unit_of(const std::string& column) {
     return column.substr(column.rfind('_') + 1);
 }
 
-/// How far a finger moves along any axis, ignoring the few extreme positions, which may be wild.
+/// Largest extent of a finger's movement along any axis, without the few extreme, possibly wild,
+/// positions.
 double typical_extent(const Movement& movement, size_t finger) {
     double extent = 0;
     for (int axis = 0; axis < 3; ++axis) {
@@ -30,19 +31,18 @@ double typical_extent(const Movement& movement, size_t finger) {
     return extent;
 }
 
-/// Reports an error and returns false if no tracker records at the movement's rate.
+/// Reports an error and returns false if the movement's rate is not that of any tracker.
 bool check_rate(const Movement& movement, Diagnostics& problems) {
     const std::string& key = movement.time_column;
     const std::string unit = unit_of(key);
     const double step = movement.frame_time();
     if (step > 1 / kSlowestTracker) {
         problems.error({movement.file, 1}, key,
-                       fmt::format("the lines are {:.6g} s apart, where at least {:g} frames a "
+                       fmt::format("the lines are {:.6g} s apart, but at least {:g} frames a "
                                    "second are needed",
                                    step, kSlowestTracker),
-                       unit == "s"
-                           ? "If the times are in milliseconds, name the column so: time_ms."
-                           : "Record at a higher rate.");
+                       unit == "s" ? "If the times are in milliseconds, name the column time_ms."
+                                   : "Record at a higher rate.");
         return false;
     }
     if (step > 0 && step < 1 / kFastestTracker) {
@@ -50,13 +50,13 @@ bool check_rate(const Movement& movement, Diagnostics& problems) {
                        fmt::format("the lines are {:.3g} s apart: more than {:g} frames a second",
                                    step, kFastestTracker),
                        unit == "s" ? "Check the times' unit, or export at a lower rate."
-                                   : "If the times are in seconds, name the column so: time_s.");
+                                   : "If the times are in seconds, name the column time_s.");
         return false;
     }
     return true;
 }
 
-/// Checks that each line's time is after that of the line before, and not long after.
+/// Checks that each line's time is later than that of the line before, but not much later.
 void check_steps(const Movement& movement, Diagnostics& problems) {
     const auto& frames = movement.frames;
     const std::string& key = movement.time_column;
@@ -70,7 +70,7 @@ void check_steps(const Movement& movement, Diagnostics& problems) {
         const Movement::Frame& b = frames[i];
         const Place place{movement.file, b.line};
         if (b.time == a.time) {
-            problems.error(place, key, fmt::format("twice the same time, {}", shown(b)),
+            problems.error(place, key, fmt::format("the same time twice, {}", shown(b)),
                            kLineRemedy);
         } else if (b.time < a.time) {
             problems.error(place, key,
@@ -81,9 +81,9 @@ void check_steps(const Movement& movement, Diagnostics& problems) {
                 place, key,
                 fmt::format("time jumps from {} (line {}) to {}: a gap may last {:g} s at most",
                             shown(a), a.line, shown(b), kLongestGap),
-                "Correct the wrong one of the two, or delete its line: missing frames are "
+                "Correct the wrong time, or delete its line: missing frames are "
                 "bridged.");
-            return;  // the next lines would only repeat it
+            return;  // the next lines would only repeat this error
         }
     }
 }
@@ -97,9 +97,9 @@ void check_times(const Movement& movement, Diagnostics& problems) {
     const double duration = frames.back().time - frames.front().time;
     if (problems.has_errors() || duration <= kLongestMovement) return;
     problems.error({movement.file, frames.back().line}, movement.time_column,
-                   fmt::format("the recording lasts {:.0f} s, where {:.0f} s are the most",
+                   fmt::format("the recording lasts {:.0f} s, but at most {:.0f} s are allowed",
                                duration, kLongestMovement),
-                   "Cut it into movements, a file each.");
+                   "Cut it into movements, one file each.");
 }
 
 void check_plausible(const Movement& movement, Diagnostics& problems) {
@@ -120,17 +120,17 @@ void check_plausible(const Movement& movement, Diagnostics& problems) {
             problems.error(place, name, "never moves: its marker was frozen throughout",
                            "Record this movement again, or delete the finger's columns.");
         } else if (extent < kLeast) {
-            problems.error(place, name, fmt::format("moves by only {:.3g} mm in all", extent * 1e3),
-                           unit == "m"
-                               ? "Was its marker tracked? Record this movement again."
-                               : fmt::format("If the values are in metres, name the columns so: "
-                                             "{}_x_m.",
-                                             name));
+            problems.error(
+                place, name, fmt::format("moves by only {:.3g} mm in total", extent * 1e3),
+                unit == "m" ? "Was its marker tracked? Record this movement again."
+                            : fmt::format("If the values are in metres, name the columns "
+                                          "{}_x_m.",
+                                          name));
         } else if (extent > kMost) {
             problems.error(place, name, fmt::format("moves by {:.3g} m", extent),
                            unit == "mm" ? "Check the values, and their unit."
                                         : fmt::format("If the values are in millimetres, name the "
-                                                      "columns so: {}_x_mm.",
+                                                      "columns {}_x_mm.",
                                                       name));
         }
         for (size_t g = 0; g < f; ++g) {
@@ -140,15 +140,15 @@ void check_plausible(const Movement& movement, Diagnostics& problems) {
                 [&](const Movement::Frame& frame) { return frame.p_WH[f] == frame.p_WH[g]; });
             if (same <= static_cast<std::ptrdiff_t>(frames.size() / 2)) continue;
             problems.error(place, name,
-                           fmt::format("is where {} is, in {} of {} lines", movement.fingers[g],
+                           fmt::format("coincides with {} in {} of {} lines", movement.fingers[g],
                                        same, frames.size()),
                            "Give each finger the columns of its own marker.");
         }
     }
     if (!problems.has_errors() && most < kUnusual) {
         problems.warning(place, "",
-                         fmt::format("the fingers move by only {:.3g} mm in all", most * 1e3),
-                         "Check the unit that the columns name.");
+                         fmt::format("the fingers move by only {:.3g} mm in total", most * 1e3),
+                         "Check the unit in the columns' names.");
     }
 }
 

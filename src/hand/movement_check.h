@@ -1,5 +1,5 @@
 // Checks the units and the markers of a recorded movement by its values. Faults that can be bridged
-// are judged frame by frame in repair.h.
+// are handled frame by frame in repair.h.
 #pragma once
 
 #include "hand/movement.h"
@@ -11,11 +11,11 @@ constexpr size_t kMostErrors = 20;
 
 constexpr const char* kLineRemedy = "Correct it, or delete the line: missing frames are bridged.";
 
-/// Checks that times rise, and at a tracker's rate. A wrong unit is reported once, before its
+/// Checks that times ascend, at a tracker's rate. A wrong unit is reported once, before its
 /// consequences.
 void check_times(const Movement& movement, Diagnostics& problems);
 
-/// Checks that the movement is plausible: a hand that reaches and grasps moves by centimetres to
+/// Checks that the movement is plausible: a reaching and grasping hand moves by centimetres to
 /// decimetres, and its fingers are apart.
 void check_plausible(const Movement& movement, Diagnostics& problems);
 

@@ -43,7 +43,7 @@ std::vector<FingerPlace> finger_places(const HandSpec& spec,
         }
         if (fingers.size() > 1 && place.side.norm() == 0) {
             throw Error(place.place, "side", fmt::format("'{}' has no direction", place.name),
-                        "Write where it is from the hand's centre, e.g. side: [-1, 0, 0].");
+                        "Write its direction from the hand's centre, e.g. side: [-1, 0, 0].");
         }
         *found = place;
         if (found->side.norm() > 0) found->side.normalize();

@@ -21,7 +21,7 @@ RecordedDriver::RecordedDriver(Path path, const GraspSite& site, const Vec3& shi
         const auto found = std::find(path_.fingers.begin(), path_.fingers.end(), finger);
         if (found == path_.fingers.end()) {
             throw Error(fmt::format("the movement has no finger '{}'", finger),
-                        fmt::format("It has {}: name the scene's fingers so.",
+                        fmt::format("It has {}: give these names to the scene's fingers.",
                                     fmt::join(path_.fingers, ", ")));
         }
         column_.push_back(static_cast<size_t>(found - path_.fingers.begin()));

@@ -21,7 +21,7 @@ class RecordedDriver final : public Driver {
 
     Path path_;
     Vec3 shift_;
-    std::vector<size_t> column_;  // of the path, by finger
+    std::vector<size_t> column_;  // column of the path, by finger
     std::vector<Phase> phases_;
 };
 

@@ -13,12 +13,13 @@
 namespace dihaptic::hand {
 namespace {
 
-constexpr double kGap = 1.75;     // frame times; if two frames are further apart, some are missing
-constexpr size_t kFrozenRun = 5;  // equal positions in a row, then a step: a frozen marker
+constexpr double kGap =
+    1.75;  // in frame times; if two frames are further apart, frames are missing
+constexpr size_t kFrozenRun = 5;  // equal positions in a row, then a step, mean a frozen marker
 constexpr double kFrozenStep = 0.003;  // [m]
 constexpr size_t kWildRun = 5;         // longest run of wild positions [frames]
 
-/// Judges one finger's positions frame by frame.
+/// Checks one finger's positions frame by frame.
 class FingerRepair {
   public:
     FingerRepair(const Movement& movement, int finger, double frame)
@@ -29,7 +30,7 @@ class FingerRepair {
 
     void run(std::vector<Fault>& faults) {
         drop_missing(faults);
-        // wild positions first: a step to one is no sign that the marker was frozen before it
+        // wild positions first: a step to one does not mean that the marker was frozen before
         drop_wild(faults);
         drop_frozen(faults);
         widen_jumps(faults);
@@ -90,8 +91,8 @@ class FingerRepair {
     }
 
     /// Many programs write 0, 0, 0 for a marker that was lost. But a finger may really be there,
-    /// for instance if positions are relative to the first one. The marker counts as lost if the
-    /// adjacent frames could not be reached from there.
+    /// for instance if positions are relative to the first position. The marker counts as lost if
+    /// the adjacent frames could not be reached from there.
     void drop_zeros() {
         const auto is_zero = [&](size_t i) { return valid_[i] && at(i).isZero(0); };
         for (size_t i = next_valid_from(0); i < valid_.size(); i = next_valid(i)) {
@@ -129,8 +130,8 @@ class FingerRepair {
     }
 
     /// Drops positions that no hand could have reached and from which the next frames return. At
-    /// either end of the recording only one side can be compared: a few frames are wild there if
-    /// all others go on elsewhere.
+    /// either end of the recording only one side can be compared: a few frames count as wild there
+    /// if all others continue elsewhere.
     void drop_wild(std::vector<Fault>& faults) {
         const size_t n = valid_.size();
         for (size_t i = next_valid(next_valid_from(0)); i < n; i = next_valid(i)) {
@@ -148,12 +149,12 @@ class FingerRepair {
             }
         }
     }
-    /// The frame after i at which a hand from `before` could go on, or the end if there is none.
+    /// The first frame after i that a hand from `before` could reach, or the end if there is none.
     size_t taken_back(size_t before, size_t i) const {
         size_t last = i;
         size_t back = next_valid(i);
         for (size_t n = 0; n < kWildRun && back < valid_.size(); ++n) {
-            // it must jump back, too: a movement that goes on from the new place is a jump
+            // it must also jump back: a movement that continues from the new position is a jump
             if (!plausible(last, back) && plausible(before, back)) return back;
             last = back;
             back = next_valid(back);
@@ -168,8 +169,8 @@ class FingerRepair {
                                               valid_.begin() + static_cast<std::ptrdiff_t>(end),
                                               char{1}));
     }
-    /// Number of frames from i on without an implausible step between them, counted no further than
-    /// matters.
+    /// Number of frames from i on without an implausible step between them, counted only as far as
+    /// necessary.
     size_t together(size_t i) const {
         size_t count = 1;
         for (size_t next = next_valid(i);
@@ -188,7 +189,7 @@ class FingerRepair {
         report(faults, FaultKind::wild_position, first, end, thousandth);
     }
 
-    /// Gives a step from one place to another more time, by dropping frames on both sides of it.
+    /// Gives a step from one position to another more time, by dropping frames on both sides of it.
     void widen_jumps(std::vector<Fault>& faults) {
         for (size_t i = next_valid(0); i < valid_.size(); i = next_valid(i)) {
             size_t before = last_valid(i);
@@ -338,12 +339,14 @@ std::string describe(const Fault& fault, const std::vector<std::string>& fingers
     std::string text = fmt::format("{:.3f} to {:.3f} s: {}{}, {:.0f} ms", fault.start, fault.end,
                                    who, enum_name(fault.kind), (fault.end - fault.start) * 1e3);
     if (!fault.column.empty() && std::isfinite(fault.value)) {
-        text += fmt::format(", {} is off by {:.5g} mm", fault.column, fault.value * 1e3);
+        text += fmt::format(", {} deviates by {:.5g} mm", fault.column, fault.value * 1e3);
     }
     if (std::isfinite(fault.distance))
         text += fmt::format(", {:.1f} mm apart", fault.distance * 1e3);
     if (fault.wrong_unit)
-        text += "; its values are a thousandth of their neighbours': metres? multiply them by 1000";
+        text +=
+            "; its values are a thousandth of their neighbours': if in metres, multiply them by "
+            "1000";
     return text;
 }
 

@@ -1,5 +1,5 @@
-// Finds and bridges what a tracker lost: missing frames, markers that froze where they were last
-// seen, single wild positions, jumps. The result is a smooth path at 1 kHz that a hand could
+// Finds and bridges gaps and errors of a tracker: missing frames, markers frozen at their last
+// positions, single wild positions, jumps. The result is a smooth path at 1 kHz that a hand could
 // follow.
 #pragma once
 
@@ -18,17 +18,20 @@ constexpr auto enum_names(FaultKind) {
 
 struct Fault {
     FaultKind kind = FaultKind::missing_frames;
-    int finger = -1;   ///< -1: all fingers
-    double start = 0;  ///< on the file's clock: the last good frame before it, or its own first [s]
-    double end = 0;    ///< on the file's clock: the first good frame after it, or its own last [s]
-    int line = 0;      ///< of the file, where the fault begins
-    double distance = 0;      ///< between the good frames on both sides; NaN at an end [m]
-    std::string column;       ///< of a wild position: the file's column with the largest error
-    double value = 0;         ///< by how much it is off there [m]
-    bool wrong_unit = false;  ///< the position is a thousandth of its neighbours': likely in metres
+    int finger = -1;  ///< -1: all fingers
+    double start =
+        0;  ///< on the file's clock: the last good frame before the fault, or the fault's first [s]
+    double end =
+        0;  ///< on the file's clock: the first good frame after the fault, or the fault's last [s]
+    int line = 0;         ///< line in the file at which the fault starts
+    double distance = 0;  ///< between the good frames on both sides; NaN at an end [m]
+    std::string column;   ///< for a wild position: the file's column with the largest error
+    double value = 0;     ///< error in that column [m]
+    bool wrong_unit =
+        false;  ///< whether the position is a thousandth of its neighbours', so probably in metres
 };
 
-/// The repaired movement, in the place where it was recorded, with time from 0.
+/// The repaired movement, at its recorded position, with time from 0.
 struct Path {
     static constexpr double kRate = 1000;  ///< samples per second [Hz]
     std::vector<std::string> fingers;
@@ -42,13 +45,14 @@ struct Path {
 
 /// Thresholds for faults. A reaching hand is slower than kMaxSpeed between any two frames, with one
 /// frame of slack for a tracker whose time stamps are late.
-constexpr double kMaxSpeed = 1.5;     // [m/s]
-constexpr double kBridgeSpeed = 1.0;  // a bridge is widened until it is crossed no faster [m/s]
-constexpr double kSmoothing = 12.0;   // zero-phase low-pass of the repaired path [Hz]
+constexpr double kMaxSpeed = 1.5;  // [m/s]
+constexpr double kBridgeSpeed =
+    1.0;                             // bridges are widened until they are no faster than this [m/s]
+constexpr double kSmoothing = 12.0;  // zero-phase low-pass of the repaired path [Hz]
 
 Path repair(const Movement& movement);
 
-/// A movement with a larger bridged share than this is more guesswork than measurement, and gets a
+/// A movement with a larger bridged fraction than this is more guess than measurement, and gets a
 /// warning.
 constexpr double kMuchBridged = 0.5;
 

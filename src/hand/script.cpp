@@ -28,9 +28,10 @@ ScriptDriver::ScriptDriver(const HandSpec& spec, const std::vector<std::string>&
     for (const ScriptStep& step : spec.script) add(step, fingers);
     const double time = phases_.empty() ? 0 : phases_.back().end;
     if (time > kLongestScript) {
-        throw Error(spec.place, "script",
-                    fmt::format("lasts {:.6g} s, where {:g} s are the most", time, kLongestScript),
-                    "Make it several experiments.");
+        throw Error(
+            spec.place, "script",
+            fmt::format("lasts {:.6g} s, but at most {:g} s are allowed", time, kLongestScript),
+            "Split it into several experiments.");
     }
     if (spec.script.empty()) {
         segments_.front().duration = 1;
@@ -40,7 +41,7 @@ ScriptDriver::ScriptDriver(const HandSpec& spec, const std::vector<std::string>&
     }
 }
 
-/// Appends a step, which goes on from where the last segment ends.
+/// Appends a step, which starts at the end of the last segment.
 void ScriptDriver::add(const ScriptStep& step, const std::vector<std::string>& fingers) {
     const Segment& last = segments_.back();
     Segment segment;
@@ -49,15 +50,15 @@ void ScriptDriver::add(const ScriptStep& step, const std::vector<std::string>& f
     segment.steady = step.steady;
     if (step.steady && !step.end_velocity.isZero()) {
         throw Error(step.place, "end_velocity",
-                    fmt::format("'{}' is steady: it has one speed throughout", step.name),
+                    fmt::format("'{}' is steady, so its speed is constant", step.name),
                     "Leave out one of the two.");
     }
     for (const std::string& name : step.fingers) {
         if (std::find(fingers.begin(), fingers.end(), name) != fingers.end()) continue;
-        throw Error(step.place, "fingers",
-                    fmt::format("'{}' is to move '{}', which is not among the scene's fingers",
-                                step.name, name),
-                    fmt::format("Known: {}.", fmt::join(fingers, ", ")));
+        throw Error(
+            step.place, "fingers",
+            fmt::format("'{}' moves '{}', which is not among the scene's fingers", step.name, name),
+            fmt::format("Known: {}.", fmt::join(fingers, ", ")));
     }
     for (size_t i = 0; i < fingers.size(); ++i) {
         const Way& before = last.ways[i];
@@ -88,7 +89,7 @@ FingerTarget ScriptDriver::do_target(int finger, double t) const noexcept {
     const Way& way = segment->ways[static_cast<size_t>(finger)];
     const double T = segment->duration;
     const double s = (t - segment->start) / T;
-    // a motion that does not start or end at rest has its speed only inside the segment
+    // a motion that does not start or end at rest has this speed only inside the segment
     const bool inside = segment->steady ? s > 0 && s < 1 : s >= 0 && s < 1;
     const model::MinimumJerk step =
         segment->steady ? model::MinimumJerk{std::clamp(s, 0.0, 1.0), 1.0} : model::minimum_jerk(s);

@@ -3,8 +3,8 @@
 //
 //     p_WT = c + R (offset + a / 2 side),    R_WT = R
 //
-// Each finger has a centre c, an aperture a and a turn R of its own. A step changes those of all
-// the fingers that it moves alike: fingers with equal c, a and R are one hand, and a scene may have
+// Each finger has a centre c, an aperture a and a turn R of its own. A step changes these alike for
+// all fingers that it moves: fingers with equal c, a and R form one hand, and a scene may have
 // several.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace dihaptic::hand {
 
 class ScriptDriver final : public Driver {
   public:
-    /// `fingers` are the names of the scene's fingers, in order. Throws Error when the script names
+    /// `fingers` are the names of the scene's fingers, in order. Throws Error if the script names
     /// others.
     ScriptDriver(const HandSpec& spec, const std::vector<std::string>& fingers);
 

@@ -1,4 +1,4 @@
-// Describes the simulated hand as it is given in scene and experiment files.
+// Describes the simulated hand, as given in scene and experiment files.
 #pragma once
 
 #include <string>
@@ -15,15 +15,15 @@ constexpr double kFastest = 20;          // [m/s]
 constexpr double kMostTurn = 100;        // [rad]
 
 /// Mechanics of one finger: a mass that a spring and a damper pull to its equilibrium point. The
-/// spring stiffens with the force that the finger feels, as muscle does.
+/// spring stiffens with the force that the finger feels, like muscle.
 struct Impedance {
     double mass = 0;                 ///< added to the mass of the device [kg]
     double stiffness = 300;          ///< [N/m]
     double damping = 3;              ///< [N*s/m]
     double stiffness_per_force = 0;  ///< rise of the stiffness per newton of force felt [1/m]
-    double turn_stiffness = 1;   ///< against turning a handle; of the order of a wrist's [N*m/rad]
-    double turn_damping = 0.02;  ///< critical for the inertia of a stylus [N*m*s/rad]
-    Place place{};               ///< where the file gives it; likewise below
+    double turn_stiffness = 1;   ///< rotational, on a handle; of the order of a wrist's [N*m/rad]
+    double turn_damping = 0.02;  ///< rotational; critical for the inertia of a stylus [N*m*s/rad]
+    Place place{};               ///< position in the file; likewise below
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -40,16 +40,14 @@ struct Impedance {
         v("stiffness_per_force", stiffness_per_force,
           Field::of(Quantity::stiffness_per_force)
               .within(0, 1e5)
-              .says("By how much the stiffness rises with the force that the finger feels, as a "
-                    "share of it."));
+              .says("Rise of the stiffness with the force that the finger feels, as a "
+                    "fraction of the stiffness per newton."));
         v("turn_stiffness", turn_stiffness,
           Field::of(Quantity::turn_stiffness)
               .within(1e-4, 1000)
-              .says("Stiffness against turning a handle."));
+              .says("Rotational stiffness on a handle."));
         v("turn_damping", turn_damping,
-          Field::of(Quantity::turn_damping)
-              .within(0, 10)
-              .says("Damping against turning a handle."));
+          Field::of(Quantity::turn_damping).within(0, 10).says("Rotational damping on a handle."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -69,23 +67,24 @@ struct TremorSpec {
           Field::of(Quantity::frequency)
               .positive()
               .at_most(500)
-              .says("Least frequency of the tremor."));
+              .says("Lowest frequency of the tremor."));
         v("high", high,
           Field::of(Quantity::frequency)
               .positive()
               .at_most(500)
-              .says("Greatest frequency of the tremor."));
+              .says("Highest frequency of the tremor."));
     }
 };
 
-/// Where a finger is in the hand: on which side of the hand's centre, and how far off.
+/// Position of a finger in the hand: its side of the hand's centre, and its offset.
 struct FingerPlace {
     std::string name;
     Vec3 side = Vec3::Zero();    ///< unit direction from the centre; zero: the finger is the centre
     Vec3 offset = Vec3::Zero();  ///< added to the position, in world axes; turns with the hand [m]
     Place place{};
-    std::optional<Vec3> centre{};      ///< centre at the start, of a finger of another hand [m]
-    std::optional<double> aperture{};  ///< aperture of that hand at the start [m]
+    std::optional<Vec3>
+        centre{};  ///< initial centre of another hand, to which the finger belongs [m]
+    std::optional<double> aperture{};  ///< initial aperture of that hand [m]
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -93,23 +92,23 @@ struct FingerPlace {
         v("side", side,
           Field::number()
               .within(-kFarthest, kFarthest)
-              .says("Direction from the hand's centre in which the finger is; zero is at the "
+              .says("Direction from the hand's centre to the finger; zero: at the "
                     "centre."));
         v("offset", offset,
           Field::length()
               .within(-kFarthest, kFarthest)
-              .says("Further displacement, which turns with the hand."));
+              .says("Additional displacement, which turns with the hand."));
         v("centre", centre,
           Field::length()
               .within(-kFarthest, kFarthest)
-              .says("Centre of another hand at the start, which the finger belongs to."));
+              .says("Initial centre of another hand, to which the finger belongs."));
         v("aperture", aperture,
-          Field::length().within(0, kFarthest).says("Aperture of that hand at the start."));
+          Field::length().within(0, kFarthest).says("Initial aperture of that hand."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
-/// One step of a script: fingers move, by minimum jerk, from where the last step left them.
+/// One step of a script: fingers move, by minimum jerk, from the end of the last step.
 struct ScriptStep {
     std::string name;
     double duration = 0;  ///< [s]
@@ -117,7 +116,7 @@ struct ScriptStep {
         aperture;              ///< at the end: twice each finger's distance from the centre [m]
     Vec3 move = Vec3::Zero();  ///< of the centre [m]
     bool steady = false;       ///< constant speed instead of minimum jerk
-    Vec3 turn = Vec3::Zero();  ///< of the hand about its centre, with the handles that it holds:
+    Vec3 turn = Vec3::Zero();  ///< of the hand about its centre, with its handles:
                                ///< world axis times angle [rad]
     Vec3 end_velocity = Vec3::Zero();    ///< of the centre; the next step starts with it [m/s]
     std::vector<std::string> fingers{};  ///< only these move; empty: all
@@ -126,31 +125,33 @@ struct ScriptStep {
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name,
-          Field::text().required().says("Name of the step, which is the phase's in recordings."));
+          Field::text().required().says("Name of the step, and of its phase in recordings."));
         v("duration", duration,
           Field::of(Quantity::time)
               .positive()
               .at_most(kLongestScript)
               .required()
-              .says("How long it lasts."));
+              .says("Duration of the step."));
         v("aperture", aperture,
           Field::length()
               .within(0, kFarthest)
-              .says("Aperture at its end: twice each finger's distance from the centre; left out, "
-                    "it stays."));
+              .says(
+                  "Aperture at its end: twice each finger's distance from the centre; if left out, "
+                  "unchanged."));
         v("move", move,
-          Field::length().within(-kFarthest, kFarthest).says("How far the centre goes."));
-        v("steady", steady, says("Whether it goes at constant speed, in place of minimum jerk."));
+          Field::length().within(-kFarthest, kFarthest).says("Displacement of the centre."));
+        v("steady", steady, says("Whether the step has constant speed, in place of minimum jerk."));
         v("turn", turn,
           Field::of(Quantity::angle)
               .within(-kMostTurn, kMostTurn)
-              .says("Turn of the hand about its centre, with its handles: a world axis times the "
-                    "angle."));
+              .says(
+                  "Rotation of the hand about its centre, with its handles: a world axis times the "
+                  "angle."));
         v("end_velocity", end_velocity,
           Field::of(Quantity::speed)
               .within(-kFastest, kFastest)
               .says("Velocity of the centre at the end, with which the next step starts."));
-        v("fingers", fingers, says("Fingers that take part; left out, all."));
+        v("fingers", fingers, says("Fingers that take part; if left out, all."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -175,9 +176,9 @@ struct HandSpec {
               .within(0, kFarthest)
               .says("Twice each finger's distance from the centre at the start."));
         v("fingers", fingers,
-          says("Where the fingers are in the hand; left out, the thumb is on the "
-               "side of -x and the index on that of +x."));
-        v("script", script, says("Steps that the hand makes, one after the other."));
+          says("Positions of the fingers in the hand; if left out, the thumb is on the "
+               "-x side and the index on the +x side."));
+        v("script", script, says("Steps of the hand, one after the other."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

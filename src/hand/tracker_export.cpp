@@ -30,7 +30,7 @@ Error unreadable(const GivenTable& table, const std::string& what) {
 
 Cells next_line(GivenTable& table) {
     if (auto cells = table.next()) return *cells;
-    throw unreadable(table, "ends within its head");
+    throw unreadable(table, "ends within its header");
 }
 
 double unit_of(const std::string& name, const GivenTable& table) {
@@ -47,7 +47,7 @@ double unit_of(const std::string& name, const GivenTable& table) {
 double period_of(const std::string& rate, GivenTable& table) {
     const auto frames = table.number(rate);
     if (frames && *frames > 0) return 1 / *frames;
-    throw unreadable(table, fmt::format("its frames a second are '{}'", shortened(rate)));
+    throw unreadable(table, fmt::format("its frame rate is '{}'", shortened(rate)));
 }
 
 void add_marker(Columns& columns, const std::string& name, size_t x, double unit) {
@@ -64,7 +64,7 @@ bool has(const Columns& columns, const std::string& name) {
 void add_once(Columns& columns, const std::string& name, size_t x, double unit,
               const GivenTable& table) {
     if (has(columns, name))
-        throw unreadable(table, fmt::format("two markers are called {}", shortened(name)));
+        throw unreadable(table, fmt::format("two markers have the name {}", shortened(name)));
     add_marker(columns, name, x, unit);
 }
 
@@ -77,9 +77,9 @@ Cells line_of(const std::vector<Cells>& head, const char* label, size_t from_end
     return head.size() >= from_end ? head[head.size() - from_end] : Cells();
 }
 
-/// Motive: settings in a line; then lines of each column's type, name, identifier and property;
-/// then Frame, Time (Seconds) and the axes. Besides markers there are rigid bodies, and where the
-/// program expected their markers; a marker that was measured comes first.
+/// Motive: settings in one line; then lines with each column's type, name, identifier and property;
+/// then Frame, Time (Seconds) and the axes. Besides markers there are rigid bodies, and the
+/// expected positions of their markers; a measured marker comes first.
 Columns read_motive(const Cells& settings, GivenTable& table) {
     const auto key = std::find(settings.begin(), settings.end(), "Length Units");
     const double unit = unit_of(key < settings.end() - 1 ? key[1] : "", table);
@@ -103,8 +103,8 @@ Columns read_motive(const Cells& settings, GivenTable& table) {
     return columns;
 }
 
-/// Nexus: the word Trajectories; frames a second; a marker's name above its x; Frame, Sub Frame and
-/// the axes; units.
+/// Nexus: the word Trajectories; frames per second; a marker's name above its x; Frame, Sub Frame
+/// and the axes; units.
 Columns read_nexus(GivenTable& table) {
     Columns columns;
     columns.time = 0;
@@ -113,7 +113,7 @@ Columns read_nexus(GivenTable& table) {
     const Cells axes = next_line(table);
     const Cells units = next_line(table);
     if (axes[0] != "Frame")
-        throw unreadable(table, "the fourth line of its head does not begin with Frame");
+        throw unreadable(table, "the fourth line of its header does not start with Frame");
     for (size_t i = 2; i + 2 < axes.size(); ++i) {
         if (cell(names, i).empty() || axes[i] != "X") continue;
         add_once(columns, marker_of(names[i]), i, unit_of(cell(units, i), table), table);
@@ -121,7 +121,7 @@ Columns read_nexus(GivenTable& table) {
     return columns;
 }
 
-/// Takes lines that name Qualisys' columns, or the markers' types. Whether a frame and a time stand
+/// Reads the lines with Qualisys' column names or marker types. Whether a frame and a time stand
 /// before the markers.
 bool take_column_names(GivenTable& table) {
     bool named = false;
@@ -145,7 +145,7 @@ Columns read_qualisys(const Cells& first, GivenTable& table) {
     for (; cells[0] != "MARKER_NAMES"; cells = next_line(table)) {
         if (cells[0] == "FREQUENCY") period = period_of(cell(cells, 1), table);
     }
-    if (period == 0) throw unreadable(table, "its head does not say FREQUENCY");
+    if (period == 0) throw unreadable(table, "its header does not contain FREQUENCY");
     const Cells markers(cells.begin() + 1, std::find(cells.begin() + 1, cells.end(), ""));
     const bool named = take_column_names(table);
     const auto row = table.peek();
@@ -160,7 +160,7 @@ Columns read_qualisys(const Cells& first, GivenTable& table) {
     return columns;
 }
 
-/// Names for messages, as a file in our own format would have them.
+/// Names for messages, as in a file in our own format.
 void name_keys(Columns& columns) {
     for (const Columns::Finger& finger : columns.fingers) {
         for (size_t k = 0; k < 3; ++k) {
@@ -186,7 +186,7 @@ std::optional<Columns> read_export(const Cells& first, GivenTable& table) {
         return std::nullopt;
     }
     columns.exported = true;
-    if (columns.fingers.empty()) throw unreadable(table, "its head names no marker");
+    if (columns.fingers.empty()) throw unreadable(table, "its header names no marker");
     name_keys(columns);
     return columns;
 }

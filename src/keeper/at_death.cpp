@@ -25,8 +25,8 @@ void on_error(int signal) {
         const char* const name = sigabbrev_np(signal);
         say(name == nullptr ? "?" : name);
         say(off ? "). Force is off."
-                : "). Force could not be taken away: switch the devices off at their power.");
-        say(" What a session had recorded stays: dihaptic recover SESSION. Please report this, with"
+                : "). Force could not be taken away: switch off the devices' power.");
+        say(" A session's data so far are kept: dihaptic recover SESSION. Please report this, with"
             " the session's folder.\n");
     }
     std::signal(signal, SIG_DFL);
@@ -36,7 +36,7 @@ void on_error(int signal) {
 }  // namespace
 
 void take_force_away_at_death() {
-    // the handler needs its own stack: an overflow of the main thread's leaves none to run on
+    // the handler needs its own stack: an overflow of the main thread's stack leaves no space
     static std::array<char, 65536> stack;
     stack_t own{};
     own.ss_sp = stack.data();

@@ -8,23 +8,23 @@
 
 namespace dihaptic::keeper {
 
-/// Signals by which a process dies of its own error.
+/// Signals by which a process dies from its own error.
 inline constexpr std::array kErrors{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGSYS, SIGTRAP, SIGABRT};
 
-/// How long a dying program waits to hear that force is off.
+/// Longest wait of a dying program for the report that force is off.
 constexpr Time kLastWait = std::chrono::milliseconds(2);
 
-/// Tells every keeper of this program to take force away, and waits for kLastWait at most until
-/// they report that they have. Returns false if one has not, in which case only its devices' own
+/// Tells every keeper of this program to take force away, and waits for at most kLastWait until
+/// they confirm this. Returns false if one has not, in which case only its devices' own
 /// guards are left. Returns true if there is no keeper. Async-signal-safe, from any thread.
 bool force_off_now() noexcept;
 
-/// Whether a keeper that was told by end_force() at `since` (of monotonic()) reports that force is
-/// off; waits until kLastWait after `since` at most. Async-signal-safe.
+/// Whether a keeper notified by end_force() at `since` (of monotonic()) reports that force is
+/// off; waits at most until kLastWait after `since`. Async-signal-safe.
 bool await_off(const SharedPage& page, int64_t since) noexcept;
 
-/// Adds a keeper's page to those that force_off_now() tells, and removes it: while devices are
-/// active.
+/// Adds a keeper's page to the list for force_off_now(), and removes it; for the time while devices
+/// are active.
 void watch_over(SharedPage* page) noexcept;
 void forget(SharedPage* page) noexcept;
 

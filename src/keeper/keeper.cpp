@@ -24,8 +24,8 @@ json fail(const std::string& what) {
 
 std::atomic<Server*> at_stake{nullptr};
 
-/// Most likely the maker's library failed. Unless it can still be asked to stop the devices, only
-/// their own guards are left.
+/// Most likely the manufacturer's library failed. Unless it can still be asked to stop the devices,
+/// only their own guards are left.
 void on_own_error(int signal) {
     constexpr itimerval kLastWait{{0, 0}, {0, 20'000}};
     std::signal(SIGALRM, SIG_DFL);
@@ -35,7 +35,7 @@ void on_own_error(int signal) {
     raise(signal);
 }
 
-/// Answers what the program asks outside the cycle.
+/// Answers the program's requests outside the cycle.
 class Control {
   public:
     Control(SharedPage& page, const InRealTime& in_real_time)
@@ -79,7 +79,7 @@ int keep(const InRealTime& in_real_time) {
         mmap(nullptr, sizeof(SharedPage), PROT_READ | PROT_WRITE, MAP_SHARED, kMemory, 0);
     if (at == MAP_FAILED) return EXIT_FAILURE;
     auto& page = *static_cast<SharedPage*>(at);
-    // the keeper ends with the program or with the machine, but not by the terminal's keys
+    // the keeper ends with the program or with the machine, but not through the terminal's keys
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP, SIGTTIN, SIGTTOU})
         std::signal(signal, SIG_IGN);
     for (const int signal : kErrors) std::signal(signal, on_own_error);
@@ -88,7 +88,7 @@ int keep(const InRealTime& in_real_time) {
         send(kSocket, control.answer(*message));
 
     // the program is gone: force ends first, then the devices are shut down in an orderly way,
-    // unless the maker's library takes longer than kOrderly
+    // unless the manufacturer's library takes longer than kOrderly
     end_force(page);
     std::thread([] {
         constexpr auto kOrderly = std::chrono::seconds(1);

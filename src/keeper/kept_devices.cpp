@@ -22,8 +22,8 @@ namespace {
 
 using nlohmann::json;
 
-/// A keeper is given up when it is silent for this much longer than the silence that it tolerates
-/// of the program.
+/// A keeper is abandoned when its silence exceeds the program's tolerated silence
+/// by this time.
 constexpr Time kPatience = std::chrono::milliseconds(20);
 /// Limit for making and activating devices: opening and calibrating them takes long.
 constexpr Time kSetUp = std::chrono::seconds(60);
@@ -33,10 +33,10 @@ constexpr Time kSetDown = std::chrono::seconds(2);
 constexpr Time kBeginning = std::chrono::seconds(3);
 /// Least limit for each later tick of devices that pace, whose own clock may pause.
 constexpr Time kSilence = std::chrono::milliseconds(200);
-/// Time for which an answer is awaited without sleeping: most arrive sooner than a wake-up would.
+/// Time for which an answer is awaited without sleeping: most arrive sooner than a wake-up.
 constexpr Time kHope = std::chrono::microseconds(20);
 
-/// A keeper's process, its socket and the page that is shared with it.
+/// A keeper's process, its socket and the page shared with it.
 class Process {
   public:
     explicit Process(const std::string& program) {
@@ -63,25 +63,25 @@ class Process {
     Process& operator=(const Process&) = delete;
 
     SharedPage& page() { return *page_; }
-    /// Remains false once an answer has failed to come.
+    /// Remains false after a missing answer.
     bool answers() const { return answers_; }
 
-    /// Sends a message and waits for the answer. Throws Error with the problems that the keeper
-    /// reports, or when it does not answer within `most`, or until `given_up` says true.
+    /// Sends a message and waits for the answer. Throws Error with the keeper's
+    /// problems, or if it does not answer within `most` or before `given_up` returns true.
     json ask(const json& message, Time most, const std::function<bool()>& given_up = {}) {
         std::optional<json> answer;
         if (answers_) {
             send(socket_, message);
             answer = receive(socket_, most, given_up);
         }
-        // a late answer would be mistaken for the next one
+        // a late answer would be mistaken for the next answer
         answers_ = answer.has_value();
         if (!answers_ && given_up && given_up()) {
-            throw Error("interrupted while the program that keeps the devices did not answer",
+            throw Error("interrupted while the program that owns the devices did not answer",
                         "Start again; if it never answers, switch the devices off and on first.");
         }
         if (!answers_) {
-            throw Error("the program that keeps the devices does not answer",
+            throw Error("the program that owns the devices does not answer",
                         "Switch the devices off and on, and start again.");
         }
         if (answer->contains("problems")) throw error_of(*answer);
@@ -90,7 +90,7 @@ class Process {
 
   private:
     static Error failure() {
-        return {std::string("the program that keeps the devices cannot be started: ") +
+        return {std::string("the program that owns the devices cannot be started: ") +
                     std::strerror(errno),
                 "Close other programs, and start again."};
     }
@@ -159,7 +159,7 @@ class KeptDevices final : public devices::DeviceGroup {
     bool can_stop() const override { return true; }
 
     std::string explain(int device) const override {
-        if (lost_) return "The program that keeps the devices does not answer.";
+        if (lost_) return "The program that owns the devices does not answer.";
         try {
             return process_->ask({{"do", "explain"}, {"device", device}}, kSetDown)["said"];
         } catch (const Error&) {
@@ -170,7 +170,7 @@ class KeptDevices final : public devices::DeviceGroup {
   private:
     void do_activate() override {
         if (process_ == nullptr || !process_->answers()) {
-            // kept only once its devices are made: otherwise the next try starts another keeper
+            // stored only once its devices are made: otherwise the next try starts another keeper
             process_.reset();
             auto fresh = std::make_unique<Process>(order_.keeping.program);
             fresh->ask(to_json(order_), kSetUp, order_.keeping.given_up);
@@ -196,7 +196,7 @@ class KeptDevices final : public devices::DeviceGroup {
         if (lost_) process_.reset();
     }
 
-    /// Waits until the keeper has answered all requests. Once that takes longer than `most`, this
+    /// Waits until the keeper has answered all requests. After a wait longer than `most`, this
     /// remains false.
     bool await_answer(Time most) noexcept {
         SharedPage& page = process_->page();
@@ -210,7 +210,7 @@ class KeptDevices final : public devices::DeviceGroup {
         return !lost_;
     }
 
-    /// Sends a request. `fill` writes its data into the page, once the last request was answered.
+    /// Sends a request. `fill` writes its data into the page, after the last answer.
     template <class Fill>
     bool ask(Request request, const Fill& fill) noexcept {
         if (lost_ || !await_answer(limit_)) return false;
@@ -256,13 +256,13 @@ class KeptDevices final : public devices::DeviceGroup {
             if (ask(Request::pace, [](SharedPage&) {}) && !take_turns(before, tick)) return;
         }
         lost_ = true;
-        // for an orderly end the servo goes on ticking and recording until it ends the session; it
-        // finds that no device answers
+        // for an orderly end the servo continues ticking and recording until it ends the session;
+        // it finds that no device answers
         while (tick()) std::this_thread::sleep_for(std::chrono::duration<double>(order_.tick));
     }
 
-    /// Calls `tick` for each turn that the keeper offers, until `tick` returns false; returns true
-    /// when the keeper falls silent first.
+    /// Calls `tick` for each turn offered by the keeper, until `tick` returns false; returns true
+    /// if the keeper falls silent first.
     bool take_turns(uint32_t seen, const std::function<bool()>& tick) {
         SharedPage& page = process_->page();
         Time most = kBeginning;
@@ -290,9 +290,9 @@ class KeptDevices final : public devices::DeviceGroup {
     Order order_;
     bool paces_;
     Time limit_;
-    std::unique_ptr<Process> process_;  // null: it was given up
+    std::unique_ptr<Process> process_;  // null: it was abandoned
     bool in_turn_ = false;              // the keeper offered a turn, and waits for its forces
-    bool lost_ = false;                 // the keeper does not answer any more
+    bool lost_ = false;                 // the keeper no longer answers
 };
 
 }  // namespace
@@ -302,7 +302,7 @@ std::string program() {
     std::string out = companion(kProgram);
     if (out.empty()) {
         throw Error(
-            std::string("the program ") + kProgram + ", which keeps real devices, is missing",
+            std::string("the program ") + kProgram + ", which owns real devices, is missing",
             kCompanionMissing);
     }
     return out;

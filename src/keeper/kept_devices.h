@@ -1,8 +1,8 @@
-// The program's side of real devices that another process, the keeper, owns.
+// The program's side of real devices owned by another process, the keeper.
 //
 // The keeper (keeper.h) is a small program in which nothing else runs. It takes force away when
-// this program dies, stops or hangs, whatever the cause. README.md says what passes between the
-// two, and how long it takes.
+// this program dies, stops or hangs, for any cause. README.md describes the communication between
+// the two, and its times.
 #pragma once
 
 #include <memory>
@@ -12,10 +12,10 @@
 
 namespace dihaptic::keeper {
 
-/// Path of the keeper's program, which lies beside this one. Throws Error when it is not there.
+/// Path of the keeper's program, which is beside this one. Throws Error if it is missing.
 std::string program();
 
-/// Starts a keeper that makes the devices of `order`. Throws Error with what their backend says.
+/// Starts a keeper that makes the devices of `order`. Throws Error with their backend's message.
 std::unique_ptr<devices::DeviceGroup> keep_devices(const Order& order);
 
 }  // namespace dihaptic::keeper

@@ -27,7 +27,7 @@ Place place_of(const json& at) {
     return {at.at(0).get<std::string>(), at.at(1).get<int>()};
 }
 
-/// The node with the place of each value in its file, for messages about it.
+/// The node with the place of each value in its file, for messages.
 json tree(const Node& node) {
     json out{{"at", place(node.place)}};
     if (node.kind == Node::Kind::scalar) out["scalar"] = node.scalar;
@@ -62,9 +62,9 @@ Node node_of(const json& in) {
     return node;
 }
 
-/// Whether there is a message, within `most`; false soon after `given_up` says true.
+/// Whether a message arrives within `most`; false soon after `given_up` returns true.
 bool await_message(int socket, Time most, const std::function<bool()>& given_up) {
-    constexpr int64_t kLook = 20;  // between looks at `given_up` [ms]
+    constexpr int64_t kLook = 20;  // between checks of `given_up` [ms]
     const auto end = std::chrono::steady_clock::now() + most;
     pollfd readable{socket, POLLIN, 0};
     while (true) {
@@ -73,7 +73,7 @@ bool await_message(int socket, Time most, const std::function<bool()>& given_up)
         const int64_t wait = std::clamp<int64_t>(left.count(), 0, kLook);
         const int ready = poll(&readable, 1, static_cast<int>(wait));
         if (ready > 0) return true;
-        // a signal that is handled, such as Ctrl-C, interrupts it too
+        // a handled signal, such as Ctrl-C, also interrupts it
         if ((ready < 0 && errno != EINTR) || left.count() <= 0) return false;
         if (given_up && given_up()) return false;
     }
@@ -157,7 +157,7 @@ Error error_of(const json& in) {
 }
 
 void send(int socket, const json& message) {
-    // a maker's library may report errors in any encoding
+    // a manufacturer's library may report errors in any encoding
     const std::string text = message.dump(-1, ' ', false, json::error_handler_t::replace);
     ::send(socket, text.data(), text.size(), MSG_NOSIGNAL);
 }

@@ -1,5 +1,5 @@
-// The messages between the program and the keeper outside the cycle, as JSON: which devices to
-// make, what they are, and what went wrong.
+// The messages between the program and the keeper outside the cycle, as JSON: the devices to
+// make, their properties, and errors.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -18,10 +18,10 @@ std::vector<frame::DeviceInfo> infos_of(const nlohmann::json& json);
 nlohmann::json to_json(const Error& error);
 Error error_of(const nlohmann::json& json);
 
-/// `socket`: one that keeps messages apart (SOCK_SEQPACKET).
+/// `socket`: of a type that separates messages (SOCK_SEQPACKET).
 void send(int socket, const nlohmann::json& message);
-/// Receives the next message. Returns nullopt when the other side is gone, has sent nothing for
-/// `most` (0: waits for ever), or has sent something that is not JSON, and soon after `given_up`
+/// Receives the next message. Returns nullopt when the other side is gone, sends nothing for
+/// `most` (0: waits for ever), or sends text that is not JSON, and soon after `given_up`
 /// returns true.
 std::optional<nlohmann::json> receive(int socket, Time most = Time(0),
                                       const std::function<bool()>& given_up = {});

@@ -1,4 +1,4 @@
-// What the program orders from a keeper: which devices to make, and how to keep them.
+// The program's order to a keeper: the devices to make, and the rules for owning them.
 #pragma once
 
 #include <functional>
@@ -9,17 +9,17 @@
 
 namespace dihaptic::keeper {
 
-/// How a keeper works.
+/// The settings of a keeper.
 struct Keeping {
     std::string program;            ///< the keeper's path: program() of kept_devices.h
-    double longest_silence = 0.04;  ///< of the program; then force is set to zero [s]
-    int priority = 80;              ///< SCHED_FIFO's, of the thread that serves the ticks
-    /// Returns true when a keeper that does not answer should no longer be waited for, as after
+    double longest_silence = 0.04;  ///< of the program, after which force is set to zero [s]
+    int priority = 80;              ///< for SCHED_FIFO, of the thread that serves the ticks
+    /// Returns true to end the wait for a keeper that does not answer, e.g. after
     /// Ctrl-C. May be empty.
     std::function<bool()> given_up = {};
 };
 
-/// Which devices to make.
+/// The devices to make.
 struct Order {
     std::string backend;
     std::vector<devices::DeviceConfig> configs;

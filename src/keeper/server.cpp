@@ -6,11 +6,11 @@
 namespace dihaptic::keeper {
 namespace {
 
-/// Time between the watcher's looks when nothing wakes it.
+/// Time between the watcher's checks if nothing wakes it.
 constexpr Time kLook = std::chrono::milliseconds(5);
-/// Time that the serving thread has to take force away itself, before the watcher does.
+/// Time for the serving thread to take force away, before the watcher does.
 constexpr Time kOwnWay = std::chrono::milliseconds(1);
-/// An idle serving thread wakes up this often all the same.
+/// Interval at which an idle serving thread wakes up.
 constexpr Time kIdle = std::chrono::seconds(1);
 
 }  // namespace
@@ -93,7 +93,7 @@ void Server::serve_all() noexcept {
             wait_on(page_.bell, bell, holding_ ? left : kIdle);
             continue;
         }
-        // a keeper that was stopped finds requests that have waited meanwhile
+        // after being stopped, a keeper finds requests that have waited meanwhile
         heard = page_.asked_at.load(std::memory_order_relaxed);
         const Request request = page_.request.load(std::memory_order_relaxed);
         if (request == Request::quit) return;
@@ -140,7 +140,7 @@ void Server::write() noexcept {
     std::copy_n(page_.wrenches, wrenches_.size(), wrenches_.begin());
     const bool some = std::any_of(wrenches_.begin(), wrenches_.end(),
                                   [](const Wrench& wrench) { return !wrench.is_zero(); });
-    holding_ = holding_ || some;  // during the call, either the old force or the new may act
+    holding_ = holding_ || some;  // during the call, either the old or the new force may act
     const Call call(*this);
     devices_->write(wrenches_);
     holding_ = some;
@@ -159,7 +159,7 @@ void Server::take_force_away() noexcept {
     switch_off();
 }
 
-/// For devices without stop(), writing zero is the only way.
+/// For devices without stop(), writing zero is the only means.
 void Server::switch_off() noexcept {
     if (!devices_->can_stop() || devices_->stop()) page_.off.store(1);
 }
@@ -197,12 +197,12 @@ bool Server::take_turn() noexcept {
 }
 
 /// Whether this process was stopped meanwhile, or did not get the processor: the acting force is
-/// then older than any may be.
+/// then older than allowed.
 bool Server::overslept_since(int64_t time) const noexcept {
     return monotonic() - time > longest_silence_.count();
 }
 
-/// Writes what the program replied, or zero. Returns whether another turn may follow.
+/// Writes the program's reply, or zero. Returns whether another turn may follow.
 bool Server::end_turn(bool replied) noexcept {
     if (replied && !ended()) {
         write();
@@ -214,8 +214,8 @@ bool Server::end_turn(bool replied) noexcept {
     return page_.closing.load() == 0;
 }
 
-/// Stops the devices when the program ended force, or when a call to the maker's library hangs and
-/// so blocks the serving thread.
+/// Stops the devices when the program ended force, or when a call to the manufacturer's library
+/// hangs and so blocks the serving thread.
 void Server::watch() noexcept {
     bool stopped = false;
     while (watching_.load()) {

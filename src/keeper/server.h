@@ -1,8 +1,8 @@
 // The keeper's server: it serves the ticks of the keeper's devices, and takes their force away.
 //
-// It has two threads. One does what the program asks in the cycle; only it reads and writes the
-// devices then. The other watches the first, and stops the devices when a call to the maker's
-// library hangs.
+// It has two threads. One serves the program's requests in the cycle; only it reads and writes the
+// devices then. The other watches the first, and stops the devices when a call to the
+// manufacturer's library hangs.
 #pragma once
 
 #include <atomic>
@@ -18,20 +18,20 @@ namespace dihaptic::keeper {
 
 class Server {
   public:
-    /// Makes the devices. Throws Error with what their backend says.
+    /// Makes the devices. Throws Error with their backend's message.
     Server(SharedPage& page, const Order& order, const InRealTime& in_real_time);
     ~Server();
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;
 
     const devices::DeviceGroup& devices() const { return *devices_; }
-    /// Switches the devices on and begins to serve. Throws Error when they refuse.
+    /// Switches the devices on and starts serving. Throws Error if they refuse.
     void activate();
     /// Ends the threads and switches the devices off, force first.
     void deactivate();
     std::string explain(int device) const { return devices_->explain(device); }
-    /// Stops the devices when the keeper itself is about to die. Whether a maker's library can be
-    /// called from a signal handler is unknown, but nothing else is left to try.
+    /// Stops the devices when the keeper itself is about to die. Whether a manufacturer's library
+    /// can be called from a signal handler is unknown, but there is no other means.
     void stop_at_death() noexcept {
         if (devices_->active() && devices_->can_stop()) devices_->stop();
     }
@@ -59,17 +59,17 @@ class Server {
     Time tick_;
     int priority_;
     std::string backend_;
-    std::vector<Place> places_;  // of the devices, by device
+    std::vector<Place> places_;  // by device
     std::unique_ptr<devices::DeviceGroup> devices_;
     std::vector<devices::DeviceClaim> claims_;  // while the devices are active
     std::vector<devices::Reading> readings_;
     std::vector<Wrench> wrenches_;
-    std::atomic<bool> holding_{false};    // the devices may hold a force that is not zero
-    uint32_t replied_ = 0;                // SharedPage::replied at the beginning of this turn
-    bool behind_ = false;                 // the program missed the last turn
+    std::atomic<bool> holding_{false};    // whether the devices may hold a nonzero force
+    uint32_t replied_ = 0;                // SharedPage::replied at the start of this turn
+    bool behind_ = false;                 // whether the program missed the last turn
     Time turn_time_{0};                   // time of this turn, counted in ticks
     int64_t turned_ = 0;                  // end of the last turn, monotonic()
-    std::atomic<int64_t> busy_since_{0};  // begin of a call to the devices, monotonic(); 0: no call
+    std::atomic<int64_t> busy_since_{0};  // start of a call to the devices, monotonic(); 0: no call
     std::atomic<bool> watching_{false};
     std::thread serving_;
     std::thread watcher_;

@@ -45,7 +45,7 @@ std::optional<HeadPose> head_pose(const TrackedHead& head, std::span<const float
         R_ST = head.quaternion == StreamRotation::wxyz
                    ? Quat(value(3), value(4), value(5), value(6))
                    : Quat(value(6), value(3), value(4), value(5));
-        constexpr double kOff = 0.1;  // from length 1: it is no rotation
+        constexpr double kOff = 0.1;  // deviation from length 1 of an invalid rotation
         if (std::abs(R_ST.norm() - 1) > kOff) return std::nullopt;
         R_ST.normalize();
     }
@@ -94,9 +94,11 @@ void HeadTracker::receive() {
     while (!done_) {
         if (!inlet.find(kSearch)) {
             if (!std::exchange(told, true))
-                tell(fmt::format("No stream '{}' of a tracker is in the network: until it comes, "
-                                 "eyes are where {}.",
-                                 head_.stream, last_ ? "they were seen last" : "the rig says"),
+                tell(fmt::format(
+                         "The network has no stream '{}' from a tracker: until it appears, "
+                         "eyes are {}.",
+                         head_.stream,
+                         last_ ? "at their last position" : "at their position in the rig file"),
                      true);
             continue;
         }
@@ -131,7 +133,7 @@ void HeadTracker::follow(lsl::Inlet& inlet) {
             newest_.publish(last_ = pose);
             heard = now;
         } else if (Seconds(now - heard).count() > kSilence && lose()) {
-            tell("The tracker does not see the head: eyes are where they were seen last.", true);
+            tell("The tracker does not see the head: eyes are at their last position.", true);
         }
     }
 }

@@ -1,8 +1,8 @@
 // The interface to a lab's other recording equipment: event codes are sent to outlets, and triggers
 // come in from them.
 //
-// An outlet is made before a session begins; making it may allocate, and throw an Error that names
-// the remedy. After that only the Station's thread calls it, never the servo's.
+// An outlet is made before a session starts; its construction may allocate and throw an Error with
+// a remedy. After that only the Station's thread calls it, never the servo's.
 #pragma once
 
 #include <chrono>
@@ -22,10 +22,10 @@ namespace dihaptic::outlets {
 
 using Clock = std::chrono::steady_clock;
 
-/// An outlet, as the rig file describes it.
+/// An outlet, as described in the rig file.
 struct OutletConfig {
     std::string kind;
-    Node options;  ///< read by the kind
+    Node options;  ///< read by the kind's own code
     Place place;
 
     template <class Visitor>
@@ -36,13 +36,13 @@ struct OutletConfig {
     }
 };
 
-/// A value that is sampled in each tick.
+/// A value sampled in each tick.
 struct Channel {
     std::string label;
     std::string unit;
 };
 
-/// What outlets know about the session.
+/// Outlets' information about the session.
 struct About {
     std::string session;  ///< name of its folder
     double rate = 0;      ///< of samples [Hz]
@@ -53,12 +53,12 @@ class Outlet {
   public:
     virtual ~Outlet() = default;
 
-    /// Sends an event code, 1 to 255, of the tick at `at`. Throws Error when it cannot be sent.
+    /// Sends an event code, 1 to 255, from the tick at `at`. Throws Error when it cannot be sent.
     virtual void mark(int code, Clock::time_point at) = 0;
     /// Sends a value for each of About::channels. Throws Error when they cannot be sent.
     virtual void sample(std::span<const float>, Clock::time_point) {}
-    /// Called about every millisecond. Returns the trigger that came in since, 1 to 255; 0: none.
-    /// Throws Error when no trigger can come in any more.
+    /// Called about every millisecond. Returns the trigger received since, 1 to 255; 0: none.
+    /// Throws Error when no trigger can be received any more.
     virtual int tend(Clock::time_point) { return 0; }
 };
 
@@ -68,9 +68,9 @@ struct Kind {
     /// Checks the options, without opening anything.
     void (*check)(const OutletConfig& config, Diagnostics& diagnostics);
     std::unique_ptr<Outlet> (*make)(const OutletConfig& config, const About& about);
-    bool samples;   ///< whether it takes samples
-    bool triggers;  ///< whether triggers can come from it
-    /// Tells the schema of rig files of its options (base/json_schema.h).
+    bool samples;   ///< whether it accepts samples
+    bool triggers;  ///< whether it can receive triggers
+    /// Adds its options to the schema of rig files (base/json_schema.h).
     void (*options)(JsonSchema& schema);
 };
 

@@ -8,7 +8,7 @@
 namespace dihaptic::outlets {
 namespace {
 
-/// What precedes a tick's values in the ring.
+/// The header of a tick's values in the ring.
 struct Head {
     Clock::rep at;
     int32_t code;
@@ -55,7 +55,7 @@ void Station::call(Line& line, const Call& call) {
         call(*line.outlet);
     } catch (const Error& e) {
         failures_.push_back(
-            fmt::format("{}: {} From here on nothing went to it or came from it; all event codes "
+            fmt::format("{}: {} From here on no data were exchanged with it; all event codes "
                         "are in events.csv.",
                         line.kind, e.what()));
         line.outlet.reset();

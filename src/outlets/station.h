@@ -1,5 +1,5 @@
 // The station passes event codes and samples from the servo to the outlets: the servo's thread
-// pushes them into a ring and goes on, the station's own thread calls the outlets. A code is sent
+// pushes them into a ring and continues; the station's own thread calls the outlets. A code is sent
 // within a millisecond, and outlets that accept a time get that of its tick.
 #pragma once
 
@@ -23,24 +23,24 @@ class Station {
     /// Called in the tick: sends its event code (0: none) and a value for each channel. Neither
     /// waits nor allocates.
     void send(int code, std::span<const float> values) noexcept;
-    /// Called in the tick: the trigger that came in since the last call, 1 to 255; 0: none.
+    /// Called in the tick: the trigger received since the last call, 1 to 255; 0: none.
     int take_trigger() noexcept { return trigger_.exchange(0, std::memory_order_relaxed); }
-    /// Whether any outlet takes samples; if not, `values` may be empty.
+    /// Whether any outlet accepts samples; if not, `values` may be empty.
     bool wants_samples() const { return samples_; }
 
-    /// Sends what is left, and closes the outlets. Returns what went wrong, in words: an entry for
+    /// Sends remaining data, and closes the outlets. Returns the failures, in words: an entry for
     /// each outlet that failed, and one if ticks were lost.
     std::vector<std::string> finish();
 
   private:
     struct Line {
         std::string kind;
-        std::unique_ptr<Outlet> outlet;  // null once it has failed
+        std::unique_ptr<Outlet> outlet;  // null after a failure
         bool samples;
     };
     void run();
     void drain();
-    /// Calls an outlet; one that throws is not called again.
+    /// Calls an outlet; an outlet that throws is not called again.
     template <class Call>
     void call(Line& line, const Call& call);
 

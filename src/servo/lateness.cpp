@@ -8,7 +8,7 @@ namespace {
 constexpr Time kWindow = std::chrono::seconds(1);
 constexpr double kEase = 0.1;     // time constant of the low-pass filter [s]
 constexpr double kExpect = 0.02;  // time constant with which expected() falls after a late tick [s]
-constexpr double kWell = 1e-3;    // lateness below this share of a period counts as in time
+constexpr double kWell = 1e-3;    // lateness below this fraction of a period counts as in time
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void Lateness::restart() noexcept {
 
 void Lateness::tick(Time now, Time elapsed) noexcept {
     const bool late = 2 * elapsed > 3 * period_;
-    // a clock that went back is judged by the caller
+    // the caller handles a clock that moved back
     const double t = std::max(0.0, seconds(elapsed));
     while (count_ > 0 && (now - late_[first_].at >= kWindow || count_ == late_.size())) {
         first_ = (first_ + 1) % late_.size();
@@ -54,7 +54,7 @@ double Lateness::mean() const noexcept {
         longest = std::max(longest, t);
     }
     const double rest = seconds(kWindow) - longest;
-    // a single late interval is forgiven, even where rounding leaves a trace of it
+    // a single late interval is forgiven, even if rounding leaves a residue
     if (count_ < 2 || rest <= 0) return 0;
     return std::max(0.0, sum - longest * (longest - h)) / rest;
 }

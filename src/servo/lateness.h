@@ -1,13 +1,13 @@
-// Measures how late the loop's ticks come, from the ticks' times alone. These are recorded, so a
-// replay finds the same.
+// Measures the lateness of the loop's ticks from the ticks' times alone. These are recorded, so a
+// replay gives the same value.
 //
 //     L = sum T_i (T_i - h) / sum T_i
 //
 // over the last second, where h is the period and T_i the time from each tick to the next; an
-// interval of up to 3 h / 2 counts as in time. L determines the stiffness that the loop can hold
+// interval of up to 3 h / 2 counts as in time. L determines the stiffness allowed for the loop
 // (haptics/late_loop.h). The longest interval is left out, because a single pause is either a fault
-// (if too long) or forgiven. L reaches the coupling through a low-pass filter, so that nothing
-// changes abruptly under the hand.
+// (if too long) or forgiven. L reaches the coupling through a low-pass filter, so that there is no
+// abrupt change under the hand.
 #pragma once
 
 #include <vector>
@@ -27,7 +27,7 @@ class Lateness {
 
     /// L after the low-pass filter; exactly 0 when the loop keeps time [s].
     double sustained() const noexcept { return sustained_; }
-    /// How late the next tick must be expected to be: as late as this one, or one shortly before
+    /// Expected lateness of the next tick: that of this tick, or of one shortly before
     /// it. Exactly 0 when the loop keeps time [s].
     double expected() const noexcept { return expected_; }
 

@@ -30,8 +30,8 @@ int ask_priority(int priority) {
 }
 
 int ask_memory() {
-    // Under a limit, lock only the memory in use: with MCL_FUTURE, memory that other threads ask
-    // for later would be refused altogether.
+    // Under a limit, lock only the memory in use: with MCL_FUTURE, memory requested by other
+    // threads later would be refused altogether.
     rlimit limit{};
     const bool free = getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY;
     return mlockall(free ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT) == 0 ? 0 : errno;
@@ -39,7 +39,7 @@ int ask_memory() {
 
 int ask_awake(int& file) {
     file = open(kAwake, O_WRONLY | O_CLOEXEC);
-    // the file is absent where the kernel does not manage sleep, as in a container or virtual
+    // the file is absent if the kernel does not manage sleep, as in a container or virtual
     // machine
     if (file < 0) return errno == ENOENT ? 0 : errno;
     const int32_t most_us = 0;
@@ -94,8 +94,8 @@ std::string describe(const RealTime::Refusals& refusals, int priority, bool root
     if (refused.empty()) return "";
     return fmt::format("real time: Linux refused {}, so ticks may come late; dihaptic doctor {}",
                        fmt::join(refused, ", "),
-                       root ? "says how a container that may has to be started"
-                            : "has the commands that allow it");
+                       root ? "explains how to start a container with these permissions"
+                            : "gives the commands that allow it");
 }
 
 std::string describe(const RealTime::Refusals& refusals, int priority) {

@@ -1,8 +1,8 @@
-// RealTime asks Linux for what a thread needs to keep time: to run before ordinary programs
+// RealTime requests the resources that a thread needs to keep time: to run before ordinary programs
 // (SCHED_FIFO), memory that is never fetched from disk or created on first touch, and processors
 // that do not enter a sleep that takes long to wake from. Each needs a permission that ordinary
-// users lack. What is refused is reported together with how to allow it, and the thread runs
-// without it.
+// users lack. Refusals are reported together with the way to allow them, and the thread runs
+// without.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@ namespace dihaptic::servo {
 
 class RealTime {
   public:
-    /// Asks for the calling thread, which must have reserved its memory: later memory may not be
-    /// locked. `priority` is that of SCHED_FIFO, from 1 to 99.
+    /// Requests them for the calling thread, which must have reserved its memory: later memory may
+    /// not be locked. `priority` is for SCHED_FIFO, from 1 to 99.
     explicit RealTime(int priority);
-    /// Gives back what was granted. Must be called by the same thread.
+    /// Returns the granted resources. Must be called by the same thread.
     ~RealTime();
     RealTime(const RealTime&) = delete;
     RealTime& operator=(const RealTime&) = delete;
@@ -25,7 +25,7 @@ class RealTime {
     struct Refusals {
         int priority = 0;
         int memory = 0;
-        int awake = 0;  ///< keeping the processors from deep sleep
+        int awake = 0;  ///< for keeping the processors from deep sleep
 
         bool any() const { return priority != 0 || memory != 0 || awake != 0; }
     };
@@ -36,24 +36,24 @@ class RealTime {
     int awake_ = -1;  // while this file is open, the processors stay awake
 };
 
-/// Describes in one line what was refused and how to allow it; "" if nothing was. `root` says that
-/// the process runs as root and was refused all the same, as in a container.
+/// Describes in one line the refusals and how to allow them; "" without refusals. `root`: whether
+/// the process runs as root and was nevertheless refused, as in a container.
 std::string describe(const RealTime::Refusals& refusals, int priority, bool root);
-/// As above, for the user who runs this process.
+/// The same, for the user who runs this process.
 std::string describe(const RealTime::Refusals& refusals, int priority);
 
-/// What a thread of this process would be refused now.
+/// The refusals that a thread of this process would get now.
 RealTime::Refusals try_real_time(int priority);
 
 /// Deadlines one period apart that keep their phase. A tick that ends after the next deadline is an
-/// overrun, and the tick after it begins at the first deadline to come. Missed deadlines are left
-/// out, not made up for: a burst of late ticks would move the world faster than the hand.
+/// overrun, and the tick after it starts at the next deadline. Missed deadlines are skipped
+/// and not made up for: a burst of late ticks would move the world faster than the hand.
 struct Pace {
     Time period{0};
     Time due{0};  ///< deadline of the coming tick
     int64_t overruns = 0;
 
-    /// Notes that the tick that was due has ended.
+    /// Notes that the due tick has ended.
     void end_tick(Time now) noexcept {
         due += period;
         late = now > due;

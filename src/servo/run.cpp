@@ -19,7 +19,7 @@ namespace {
 using Steady = std::chrono::steady_clock;
 
 /// Before their first tick, devices that pace start a thread or a scheduler of their own. No force
-/// is on them then, so the watchdog waits longer than any of them needs before it gives up.
+/// is on them then, so the watchdog waits longer than any of them needs.
 constexpr Time kDevicesBegin = std::chrono::seconds(4);
 /// After their last tick, in which force went off, they end that thread or scheduler.
 constexpr Time kDevicesEnd = std::chrono::seconds(2);
@@ -54,8 +54,8 @@ std::string describe(const Timing& timing) {
 std::string describe_pauses(const Timing& timing) {
     if (timing.pauses == 0) return "";
     return fmt::format(
-        "the simulated devices were kept waiting for longer than allowed {}, for {:.0f} ms at "
-        "worst: real ones would have been switched off",
+        "the simulated devices waited longer than allowed {}, {:.0f} ms at "
+        "worst: real devices would have been switched off",
         timing.pauses == 1 ? "once" : fmt::format("{} times", timing.pauses),
         timing.longest_pause * 1e3);
 }
@@ -104,7 +104,7 @@ struct RealLoop {
     bool overrun = false;
     Suspension suspension{Suspension::read()};
 
-    /// Does the tick of time `now`, which was due at `due`. Returns whether another is to follow.
+    /// Does the tick with time `now`, which was due at `due`. Returns whether another one follows.
     bool tick(Time due, Time now, Steady::time_point begin) noexcept {
         const double lateness = seconds(begin - (start + due));
         servo.note_timing(lateness, last_tick, overrun);
@@ -116,7 +116,7 @@ struct RealLoop {
                 std::max({timing.longest_pause, seconds(now - timing.reached), lateness});
         }
         const auto end = Steady::now();
-        // after the last tick force is off, and devices may take their time to end
+        // after the last tick force is off, and devices may need some time to end
         watchdog.end_tick(servo.stopped() ? end + kDevicesEnd : end);
         last_tick = seconds(end - begin);
         timing.ticks.add(last_tick);
@@ -125,8 +125,8 @@ struct RealLoop {
         return !servo.stopped();
     }
 
-    /// Makes time include a suspension of the machine, in whole periods: its clock stands still
-    /// then.
+    /// Includes a suspension of the machine in time, in whole periods, as the machine's clock
+    /// stands still then.
     Time add_suspension() noexcept {
         const Time asleep = suspension.since(Suspension::read());
         const Time added = (asleep / servo.period()) * servo.period();
@@ -146,9 +146,9 @@ struct RealLoop {
         timing.overruns += pace.overruns;
     }
 
-    /// Time is measured here, as the devices' period is near the servo's but their own. An overrun
-    /// is a tick that took longer than a period, or one that the devices called more than half a
-    /// period late: either way the last force was held longer than intended.
+    /// Time is measured here, because the devices' period is their own, although near the servo's.
+    /// An overrun is a tick that took longer than a period, or one that the devices called more
+    /// than half a period late: either way the last force was held longer than intended.
     void run_by_devices(Time first, Time last) {
         Time due = first;
         bool begun = false;
@@ -180,9 +180,9 @@ void run_real(Servo& servo, const frame::Director& director, const frame::FrameS
         // one tick longer than the servo allows: if the watchdog stops the devices, the next tick
         // is late by the servo's own clock too, which is recorded. The first tick is an exception.
         const Time pause = from_seconds(servo.settings().safety.max_pause) + servo.period();
-        // simulated devices hold no person's hand; only a stuck loop matters
+        // simulated devices have no person's hand; only a stuck loop matters
         const Time limit = servo.real() ? pause : Watchdog::kStuck;
-        std::optional<Timing::Stall> stall;  // the watchdog's thread's until that has ended
+        std::optional<Timing::Stall> stall;  // owned by the watchdog's thread until that has ended
         auto watchdog = std::make_unique<Watchdog>(
             limit,
             [&] {
@@ -192,9 +192,9 @@ void run_real(Servo& servo, const frame::Director& director, const frame::FrameS
             [&] {
                 if (stuck) stuck(*stall);
             });
-        // only now: starting a thread may take longer than a tick
+        // only now, because starting a thread may take longer than a tick
         start = Steady::now() + servo.period() - first;
-        // devices that pace may take their time to begin
+        // devices that pace may need some time to start
         const bool paced = servo.devices().paces();
         watchdog->end_tick(Steady::now() + (paced ? kDevicesBegin : Time(0)));
         RealLoop loop{servo, director, sink, stop, timing, *watchdog, start};

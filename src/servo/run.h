@@ -11,7 +11,8 @@
 
 namespace dihaptic::servo {
 
-/// Durations, one for each tick. Reserve before a real-time run: once full, it drops further ones.
+/// Durations, one for each tick. To be reserved before a real-time run; once full, it drops further
+/// values.
 class TickTimes {
   public:
     void reserve(size_t ticks) { us_.reserve(ticks); }
@@ -20,27 +21,27 @@ class TickTimes {
     }
     size_t count() const { return us_.size(); }
     std::span<const float> us() const { return us_; }
-    /// The share-quantile, e.g. 0.5 for the median [us]; NaN without ticks.
+    /// The quantile at `share`, e.g. 0.5 for the median [us]; NaN without ticks.
     double quantile(double share) const;
 
   private:
     std::vector<float> us_;
 };
 
-/// How a run kept time. On the virtual clock, which is never late, only `ticks` is filled in.
+/// The punctuality of a run. On the virtual clock, which is never late, only `ticks` is filled in.
 struct Timing {
     TickTimes ticks;
-    TickTimes lateness;  ///< of each tick's wake-up
+    TickTimes lateness;  ///< lateness of each tick's wake-up
     Time reached{0};     ///< time of the last tick
     int64_t overruns = 0;
-    /// What the watchdog found when ticks no longer ended.
+    /// The watchdog's finding when ticks no longer ended.
     struct Stall {
         Time at{0};            ///< since activation
         Time pause{0};         ///< since the end of the last tick
-        bool stopped = false;  ///< whether the devices could be stopped; not all can be
+        bool stopped = false;  ///< whether the devices could be stopped; not all devices can
     };
     std::optional<Stall> stall;
-    /// Number of ticks that came later than allowed while all devices are simulated; only reported.
+    /// Number of ticks later than allowed while all devices are simulated; only reported.
     int64_t pauses = 0;
     double longest_pause = 0;  ///< [s]
     RealTime::Refusals refusals;
@@ -57,7 +58,7 @@ std::string describe(const Timing& timing);
 /// Describes the pauses in a sentence; "" without pauses.
 std::string describe_pauses(const Timing& timing);
 
-/// Describes in a sentence what the watchdog did.
+/// Describes the watchdog's action in a sentence.
 std::string describe(const Timing::Stall& stall);
 
 /// Runs ticks on the virtual clock until the director stops, `stop` becomes true, or time `most`
@@ -66,12 +67,12 @@ std::string describe(const Timing::Stall& stall);
 Time run_virtual(Servo& servo, const frame::Director& director, const frame::FrameSink& sink,
                  Time most, const std::atomic<bool>& stop, TickTimes* times = nullptr);
 
-/// Runs ticks in real time, from `first` to `last`, in a thread of its own with what RealTime is
-/// granted: one at each deadline of Pace, on the monotonic clock plus the time for which the
-/// machine was suspended; devices that pace call them instead. A Watchdog stops real devices when
-/// no tick has ended for longer than `max_pause`; if the loop then goes on, the next tick finds
-/// itself late. If it never does, `stuck` is called from the watchdog's thread: this function can
-/// no longer return, and the program should end.
+/// Runs ticks in real time, from `first` to `last`, in a thread of its own with the permissions
+/// that RealTime got: one at each deadline of Pace, on the monotonic clock plus the time for which
+/// the machine was suspended; devices that pace call them instead. A Watchdog stops real devices
+/// when no tick has ended for longer than `max_pause`; if the loop then continues, the next tick
+/// finds itself late. If it does not, `stuck` is called from the watchdog's thread: this function
+/// can no longer return, and the program should end.
 void run_real(Servo& servo, const frame::Director& director, const frame::FrameSink& sink,
               Time first, Time last, const std::atomic<bool>& stop, Timing& timing,
               const std::function<void(const Timing::Stall&)>& stuck = {});

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kElsewhere = 5e-3;  // a handle that moved this far in a pause resets its proxy [m]
 
-/// The fault that a device reports.
+/// The fault reported by a device.
 FaultKind reported_by(const devices::Reading& reading) {
     FaultKind reported = FaultKind::none;
     for_each_status(reading.status, [&](Status bit) {
@@ -20,7 +20,7 @@ FaultKind reported_by(const devices::Reading& reading) {
     return reported;
 }
 
-/// The box that a hand is kept in: the wall or, without one, the device's workspace if it is
+/// The box in which a hand is kept: the wall or, without one, the device's workspace if
 /// stated.
 std::optional<haptics::WorkspaceBox> box_of(const frame::DeviceInfo& info, const Pose& X_0D,
                                             const std::optional<Eigen::AlignedBox3d>& wall) {
@@ -109,7 +109,7 @@ Servo::~Servo() {
     deactivate();
 }
 
-/// An "apart" point has nothing through which it could turn a body.
+/// An "apart" point has no means of turning a body.
 bool Servo::turns_with_handle(scene::ProxyKind kind) const noexcept {
     return kind == scene::ProxyKind::rigid ||
            settings_.proxy.friction == frame::PointFriction::together;
@@ -280,7 +280,7 @@ void Servo::measure(Time now) noexcept {
         frame::Handle read{X_0D_[i] * readings_[i].p_DH, X_0D_[i].R * readings_[i].v_DH};
         const bool orientation = devices_->info(static_cast<int>(i)).measures_orientation;
         if (orientation) {
-            // the same turn, expressed about the world's axes
+            // the same turn, expressed in the world's axes
             const Quat& R_0D = X_0D_[i].R;
             read.R_WH = R_0D * readings_[i].R_DH * R_0D.conjugate();
             read.w_WH = R_0D * readings_[i].w_DH;
@@ -295,13 +295,13 @@ void Servo::measure(Time now) noexcept {
         device_faults_[i] = fault.kind;
         faults_.trip(fault);
         handles_[i] = turn_.turned(unturned_[i], orientation);
-        // a hand that moved in a pause must not throw about what lies between
+        // a hand that moved in a pause must not hurl objects in between
         const bool elsewhere =
             resumed_ && (handles_[i].p_WH - frame_.fingers[i].p_WH).norm() > kElsewhere;
         if (frame_.sequence < 0 || elsewhere || anew_) fingers_[i].place(world_, handles_[i]);
     }
     anew_ = false;
-    // last: what a device reports says more than the pause that it caused
+    // last: a device's report is more informative than the pause that it caused
     if (real_) faults_.trip(lateness_fault_);
 }
 
@@ -319,7 +319,7 @@ void Servo::turn_workspaces(double rate) noexcept {
 void Servo::make_forces(Time now) noexcept {
     bool asked = false;
     const bool stepped = steps_now();
-    // a simulated hand that shakes because the loop is late shakes nobody
+    // a simulated hand that shakes because of a late loop harms nobody
     const bool waits = !real_ && late_.sustained() > 0;
     const auto judge_shaking = [&](haptics::FaultKind kind, size_t i, double by) {
         if (by > 0 && !waits) faults_.trip({kind, static_cast<int>(i), now, by});
@@ -342,7 +342,7 @@ void Servo::make_forces(Time now) noexcept {
         asked = asked || !force.felt_0.is_zero();
     }
     const bool held = switch_held();
-    // a device that drops its force leaves half a grasp: the others wait, and all come back softly
+    // a device that drops its force leaves half a grasp: the others wait, and all return gently
     const bool allowed = held && !any_force_dropped(readings_) && !commands_.rest;
     const double rising = soft_start_.share(allowed, asked, settings_.tick());
     const double share = resumed_ ? 0 : rising;  // zero after a pause, even without a soft start
@@ -355,7 +355,7 @@ void Servo::make_forces(Time now) noexcept {
         if (force.status & kNotFinite)
             faults_.trip({haptics::FaultKind::not_finite, static_cast<int>(i), now});
     }
-    // one finger's fault counts for all: half a grasp would throw the hand aside
+    // one finger's fault applies to all: half a grasp would throw the hand aside
     for (size_t i = 0; i < fingers_.size(); ++i) {
         if (faults_.tripped()) {
             forces_[i].sent_0 = {};
@@ -369,7 +369,7 @@ void Servo::make_forces(Time now) noexcept {
 
 namespace {
 
-/// Calls `act` with what was ordered of something in the last tick, and no longer is.
+/// Calls `act` for each object with orders in the last tick but no longer.
 template <class Order, class Act>
 void for_each_lapsed(const std::vector<Order>& before, const std::vector<Order>& now,
                      int32_t Order::*of, const Act& act) {

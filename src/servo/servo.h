@@ -4,7 +4,7 @@
 //   read the devices -> director -> fold the couplings -> step the world -> forces -> limits ->
 //   write -> Frame
 //
-// The force that is written belongs to the positions that were read in the same tick.
+// The written force belongs to the positions read in the same tick.
 #pragma once
 
 #include <atomic>
@@ -26,14 +26,14 @@
 
 namespace dihaptic::servo {
 
-/// Time for which a run goes on after a fault, without force, to record what happens to the
+/// Time for which a run continues after a fault, without force, to record the motion of the
 /// objects.
 constexpr Time kGrace = std::chrono::seconds(1);
 
 class Servo {
   public:
-    /// `X_WD` and the devices are in the order of the scene's fingers. `wall` is the box that hands
-    /// are kept in; without one it is each device's workspace, if the device states that.
+    /// `X_WD` and the devices are in the order of the scene's fingers. `wall` is the box in which
+    /// hands are kept in; without one it is each device's workspace, if stated.
     Servo(const scene::Scene& scene, const frame::Settings& settings,
           std::unique_ptr<devices::DeviceGroup> devices, std::vector<Pose> X_WD,
           const std::optional<Eigen::AlignedBox3d>& wall = {});
@@ -43,13 +43,13 @@ class Servo {
     void activate();
     /// Sends zero force and switches the devices off.
     void deactivate();
-    /// Sends zero force between two ticks, for a pause. Time goes on from where it was, and force
-    /// comes back softly.
+    /// Sends zero force between two ticks, for a pause. Time continues without a gap, and force
+    /// returns gently.
     void rest() noexcept;
-    /// Call after rest(), before the next tick: hands may have moved in the meantime. Force comes
-    /// back softly, from zero in the next tick. After a fault the devices are activated again and
-    /// the fault is cleared; in a world that diverged, lost bodies are put back to their places in
-    /// the scene. Throws Error when the devices cannot be activated.
+    /// To be called after rest(), before the next tick: hands may have moved in the meantime. Force
+    /// returns gently, from zero in the next tick. After a fault the devices are activated again
+    /// and the fault is cleared; in a world that diverged, lost bodies are returned to their poses
+    /// in the scene. Throws Error when the devices cannot be activated.
     void resume();
     /// Reserves memory in `frame` for any Frame of this servo, so that copying one into it
     /// allocates nothing.
@@ -57,29 +57,30 @@ class Servo {
 
     /// One tick at `now`; returns its Frame, valid until the next tick.
     const frame::Frame& tick(Time now, const frame::Director& director) noexcept;
-    /// Whether the last tick was the final one: its director asked to stop or to rest, a recording
-    /// ended, the operator switched force off, or the grace after a fault is over.
+    /// Whether the last tick was the final one: its director requested a stop or a rest, a
+    /// recording ended, the operator switched force off, or the grace after a fault is over.
     bool stopped() const { return stopped_; }
-    /// Whether the last tick's director asked only for a rest.
+    /// Whether the last tick's director requested only a rest.
     bool resting() const { return resting_; }
-    /// Why force is off, if it is.
+    /// The reason why force is off, if it is.
     const haptics::Fault& fault() const { return faults_.fault(); }
-    /// Has the devices call `tick` as devices::DeviceGroup::pace() says.
+    /// Makes the devices call `tick` as described for devices::DeviceGroup::pace().
     void pace(const std::function<bool()>& tick) { devices_->pace(tick); }
-    /// Switches force off on all devices at once, from any thread; false if they cannot do that.
+    /// Switches force off on all devices at once, from any thread; false if they do not support
+    /// this.
     bool stop_devices() noexcept;
-    /// Energy that a finger's coupling generated, as haptics::EnergyGuard counts it [J].
+    /// Energy that a finger's coupling generated, as counted by haptics::EnergyGuard [J].
     double generated(int finger) const {
         return force_guards_[static_cast<size_t>(finger)].generated();
     }
     /// Called by loops that keep real time: the values go into the next Frame, and `max_late` is
-    /// judged by the lateness.
+    /// compared with the lateness.
     void note_timing(double lateness, double last_tick, bool overrun) noexcept;
-    /// Whether devices hold a person's hand, so that a late tick may be a fault. Otherwise lateness
-    /// is only reported.
+    /// Whether a person's hand holds devices, so that a late tick may be a fault. Otherwise
+    /// lateness is only reported.
     bool real() const { return real_; }
-    /// Damping of handle and hand, from which the stiffness that a late loop can hold follows: the
-    /// least that any device states, unless it is set by safety.hand_damping [N*s/m].
+    /// Damping of handle and hand, which determines the stiffness allowed for a late loop: the
+    /// smallest value stated by any device, unless set by safety.hand_damping [N*s/m].
     double damping() const { return damping_; }
 
     Time period() const { return period_; }
@@ -93,13 +94,13 @@ class Servo {
   private:
     void measure(Time now) noexcept;
     void judge_lateness(Time now, double elapsed) noexcept;
-    /// Sets the couplings as requested, but no stiffer than the loop can hold.
+    /// Sets the couplings as requested, but no stiffer than the loop allows.
     void retune() noexcept;
     void bound_rise(size_t finger, double share) noexcept;
     /// Sets bodies as ordered, pulls proxies to their handles, and steps the world if it is time
     /// to.
     dynamics::StepStatus advance_world() noexcept;
-    /// Applies the knobs, each as far as is possible in this tick.
+    /// Applies the knobs, each as far as possible in this tick.
     void turn_knobs() noexcept;
     void turn_workspaces(double rate) noexcept;
     void make_forces(Time now) noexcept;
@@ -107,15 +108,15 @@ class Servo {
                                 scene::ProxyKind kind) const;
     void change_proxies(scene::ProxyKind kind) noexcept;
     bool turns_with_handle(scene::ProxyKind kind) const noexcept;
-    /// Puts bodies where they are ordered to be, and sets their ordered properties.
+    /// Sets the ordered poses and properties of bodies.
     void order_bodies() noexcept;
     void order_joints() noexcept;
     /// Applies the loads on bodies, and of motors, to the coming step.
     void apply_loads() noexcept;
-    /// Adds the loads on a handle to what it feels.
+    /// Adds the loads on a handle to its force.
     void add_loads(size_t finger, Wrench& felt_W) const noexcept;
     bool switch_held() const noexcept;
-    /// Whether the world steps in this tick; valid before the tick's Frame is made.
+    /// Whether the world steps in this tick; valid before the tick's Frame is filled.
     bool steps_now() const noexcept {
         return (frame_.sequence + 1) % settings_.dynamics.every == 0;
     }
@@ -128,7 +129,8 @@ class Servo {
     Time period_;
     dynamics::World world_;
     std::vector<haptics::Finger> fingers_;
-    std::vector<std::optional<haptics::Finger>> spares_;  // of the other kind, if changeable
+    std::vector<std::optional<haptics::Finger>>
+        spares_;                   // fingers of the other kind, if changeable
     std::vector<size_t> turning_;  // fingers whose devices measure orientation
     std::unique_ptr<devices::DeviceGroup> devices_;
     std::vector<Pose> X_0D_;  // in the world before the workspaces' turn
@@ -155,12 +157,12 @@ class Servo {
     haptics::SoftStart soft_start_;
     int dead_man_ = -1;  // device with the switch; -1: none
     struct Force {
-        Wrench asked_W;  // by the coupling
-        Wrench felt_W;   // with what the guard adds
+        Wrench asked_W;  // requested by the coupling
+        Wrench felt_W;   // with the guard's addition
         Wrench felt_0;   // felt_W before the workspaces' turn, with the wall
         Wrench sent_0;
         Wrench sent_W;
-        Wrench last_0;        // what was sent in the last tick
+        Wrench last_0;        // wrench sent in the last tick
         uint32_t status = 0;  // of the force alone
     };
     std::vector<Force> forces_;
@@ -170,8 +172,8 @@ class Servo {
     double lateness_ = kUnmeasured;
     double last_tick_ = kUnmeasured;
     bool overrun_ = false;
-    bool resumed_ = false;  // the next tick is the first after resume()
-    bool anew_ = false;     // in the next tick all proxies are placed at their handles
+    bool resumed_ = false;  // whether the next tick is the first after resume()
+    bool anew_ = false;     // whether all proxies are placed at their handles in the next tick
     bool active_ = false;
     bool stopped_ = false;
     std::atomic<bool> stopped_from_outside_{false};  // by the watchdog, since activation

@@ -120,7 +120,7 @@ void Servo::make_frame(Time now, const frame::Commands& commands,
     if (faults_.fault().time == now) frame_.status |= fault_status(faults_.fault().kind);
     if (!real_) frame_.status |= fault_status(lateness_fault_.kind);
     if (in_force_.stiffness < commands.knobs.stiffness) frame_.status |= kSoftened;
-    static_cast<frame::Knobs&>(frame_) = commands.knobs;  // but for those that are not in force yet
+    static_cast<frame::Knobs&>(frame_) = commands.knobs;  // except those that are not in effect yet
     frame_.set_coupling(in_force_);
     note_solver(world_, frame_);
     note_balance(world_.balance(), frame_);

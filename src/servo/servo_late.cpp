@@ -1,4 +1,4 @@
-// Handles late ticks: faults, softer couplings, and a bound on how fast forces rise.
+// Handles late ticks: faults, softer couplings, and a bound on the rise of forces.
 // haptics/late_loop.h has the equations.
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 
 namespace dihaptic::servo {
 
-/// With simulated devices only, the lateness is no fault, but it is still reported.
+/// With simulated devices only, lateness is not a fault but is still reported.
 void Servo::judge_lateness(Time now, double elapsed) noexcept {
     late_.tick(now, from_seconds(elapsed));
     elapsed_ = elapsed;
@@ -16,7 +16,7 @@ void Servo::judge_lateness(Time now, double elapsed) noexcept {
     const double overdue = std::max(elapsed - settings_.tick(), lateness_);
     const double pause = settings_.safety.max_pause;
     const std::optional<double>& most = settings_.safety.max_late;
-    // a clock that goes back does not tell how long the last force was held
+    // a clock that moves back does not reveal how long the last force was held
     if (elapsed > pause || elapsed < 0) {
         lateness_fault_ = {haptics::FaultKind::late, -1, now, elapsed, pause};
     } else if (frame_.sequence >= 0 && most && overdue > *most) {
@@ -35,10 +35,10 @@ void Servo::retune() noexcept {
     for (haptics::Finger& finger : fingers_) finger.retune(in_force_);
 }
 
-/// Bounds how far force may rise in a tick that may be late. Lateness that has just begun has not
-/// yet softened the couplings, and never softens the wall or the fields. Force may rise from the
-/// last tick's only as a spring that the loop can hold would raise it, and by the creep, which lets
-/// it come back; but never as a spring stiffer than the coupling would.
+/// Bounds the rise of force in a tick that may be late. Lateness that has just started has not
+/// yet softened the couplings, and never softens the wall or force fields. Force may rise from the
+/// last tick's only like that of a spring allowed for the loop, and by the creep, which lets
+/// it return; but never like that of a spring stiffer than the coupling.
 void Servo::bound_rise(size_t finger, double share) noexcept {
     if (!real_ || late_.expected() <= 0 || share <= 0) return;
     Force& force = forces_[finger];

@@ -1,5 +1,5 @@
-// Suspension measures for how long the machine was suspended. The monotonic clock stands still
-// meanwhile; according to it, a tick after hours of sleep would be in time, although the hands have
+// Suspension measures the duration of a suspension of the machine. The monotonic clock stands still
+// meanwhile; by this clock, a tick after hours of sleep would be in time, although the hands have
 // long let go.
 #pragma once
 
@@ -9,7 +9,7 @@ namespace dihaptic::servo {
 
 class Suspension {
   public:
-    /// The clock that goes on in a suspension (boot), read between two readings of the one that
+    /// The clock that runs during a suspension (boot), read between two readings of the one that
     /// does not.
     struct Clocks {
         Time before{0};
@@ -20,7 +20,7 @@ class Suspension {
 
     explicit Suspension(const Clocks& clocks) : offset_(clocks.boot - clocks.before) {}
 
-    /// Time suspended since the last call, or since construction; 0 if there was none. A thread
+    /// Time suspended since the last call, or since construction; 0 if none. A thread
     /// that has to wait between two readings does not mistake the wait for a suspension.
     Time since(const Clocks& clocks) noexcept {
         const Time least = clocks.boot - clocks.after - offset_;
@@ -31,7 +31,7 @@ class Suspension {
 
   private:
     static constexpr Time kLeast = std::chrono::milliseconds(1);
-    Time offset_;  // lower bound of how far the boot clock is ahead
+    Time offset_;  // lower bound of the boot clock's lead
 };
 
 }  // namespace dihaptic::servo

@@ -9,14 +9,14 @@ namespace dihaptic::servo {
 namespace {
 
 /// Without the higher priority, a servo that does not sleep would starve the watchdog on a shared
-/// processor. The servo's thread raises it: the watchdog's might never come to run.
+/// processor. The servo's thread raises it: the watchdog's might never run.
 void raise_above_this(std::thread& thread) {
     int policy = 0;
     sched_param priority{};
     if (pthread_getschedparam(pthread_self(), &policy, &priority) != 0 || policy != SCHED_FIFO)
         return;
     ++priority.sched_priority;
-    // if refused, it watches as well as it can
+    // if refused, it watches without
     pthread_setschedparam(thread.native_handle(), policy, &priority);
 }
 
@@ -55,7 +55,8 @@ void Watchdog::run() {
     lock.unlock();
     stop_();
     lock.lock();
-    // after the whole program stood still, this thread may go on before the servo's: give that time
+    // after the whole program stood still, this thread may resume before the servo's, which needs
+    // some time
     if (!no_tick_for(kStuck, Clock::now())) return;
     lock.unlock();
     stuck_();

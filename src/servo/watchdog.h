@@ -1,10 +1,10 @@
 // Watchdog switches force off when the loop stalls. When a call to a device blocks, or the system
-// keeps the servo's thread waiting, devices hold the last force until somebody takes it away. The
-// watchdog has a thread of its own and calls nothing but a stop that may be called from any thread;
-// it does not touch what the servo computes.
+// keeps the servo's thread waiting, devices hold the last force until it is taken away. The
+// watchdog has a thread of its own and calls only a stop function that may be called from any
+// thread; it does not touch the servo's data.
 //
 // Started from the servo's thread, it gets that thread's priority plus one. It sleeps from deadline
-// to deadline, so it costs the ticks nothing.
+// to deadline, without cost to the ticks.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@ namespace dihaptic::servo {
 class Watchdog {
   public:
     using Clock = std::chrono::steady_clock;
-    /// If a tick has not ended for this long after the stop, it never will.
+    /// A tick that has not ended for this time after the stop never will.
     static constexpr Time kStuck = std::chrono::seconds(2);
 
     /// Calls `stop` once when no tick has ended for `limit`, and `stuck` once when none has ended

@@ -1,18 +1,18 @@
 // WorkspaceTurn turns the workspaces of all devices together, so that the hand's right stays right
-// in a picture whose camera goes around the scene. For a turn by the angle a about the vertical z
+// in a picture whose camera moves around the scene. For a turn by the angle a about the vertical z
 // through C,
 //
 //     p_WH = c + T (p_0H - c)               T: rotation by a about z
 //     v_WH = T v_0H + a' z x (p_WH - c)     and so for orientation and angular velocity
 //     f_0H = T^-1 f_WH
 //
-// where 0 denotes the world without the turn. Whatever is fixed to the devices and judged there
+// where 0 denotes the world without the turn. All checks in axes fixed to the devices
 // (speeds, walls, limits) is independent of the turn. The power f_WH . (v_WH - a' z x (p_WH - c))
 // equals f_0H . v_0H; the rest of f_WH . v_WH is the work of the turn.
 //
-// C is the mean of the devices' origins: their reach stays where it is, nothing in it moves faster
-// than necessary, and C does not depend on a camera, which a replay lacks. The rate a' of the angle
-// changes by at most kMostAcceleration, so that neither force nor velocity steps.
+// C is the mean of the devices' origins: their reach keeps its position, no point in it moves
+// faster than necessary, and C does not depend on a camera, which a replay lacks. The rate a' of
+// the angle changes by at most kMostAcceleration, so that neither force nor velocity steps.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,7 @@ class WorkspaceTurn {
   public:
     /// At 0.2 m from the axis a handle at rest moves at 0.2 m/s, the speed of a calm hand and 2 %
     /// of the speed that switches force off; and a force of 8.5 N changes by 8.5 N/s in the
-    /// device's axes, 0.3 % of what is allowed.
+    /// device's axes, 0.3 % of the limit.
     static constexpr double kMostRate = 1;          // [rad/s]
     static constexpr double kMostAcceleration = 4;  // [rad/s^2]
 
@@ -44,20 +44,21 @@ class WorkspaceTurn {
         angle_ = angle;
         R_ = Quat(std::cos(angle / 2), 0, 0, std::sin(angle / 2));
     }
-    /// Goes on to the next tick, `elapsed` [s] after the last.
+    /// Advances to the next tick, `elapsed` [s] after the last.
     void advance(double elapsed) noexcept {
         if (rate_ != 0) set_angle(angle_ + rate_ * elapsed);
     }
     /// Sets the rate from this tick on, within the bounds. `elapsed` [s]: since the last order, or
-    /// a tick's length if that is longer; where ticks come late, the turn could not slow down in
-    /// time if it were less.
+    /// a tick's length if that is longer; with late ticks, the turn could not slow down in
+    /// time otherwise.
     void order(double rate, double elapsed) noexcept {
         const double change = kMostAcceleration * elapsed;
         rate_ = std::clamp(std::clamp(rate, -kMostRate, kMostRate), rate_ - change, rate_ + change);
     }
     void stop() noexcept { rate_ = 0; }
     /// The rate to order at `angle` for the shortest way to `goal` [rad]: kMostRate, and near the
-    /// goal in proportion to the way left, so that it slows down by at most kMostAcceleration.
+    /// goal in proportion to the remaining angle, so that it slows down by at most
+    /// kMostAcceleration.
     static double rate_toward(double goal, double angle) noexcept {
         constexpr double kThere = 1e-6;  // [rad]
         const double way = std::remainder(goal - angle, 2 * std::numbers::pi);

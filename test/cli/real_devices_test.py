@@ -95,7 +95,7 @@ class RealDevices(unittest.TestCase):
             time.sleep(0.01)
         process.send_signal(signal.SIGINT)
         _, stderr = process.communicate(timeout=patient(20))
-        self.assertIn("interrupted while the program that keeps the devices did not answer", stderr)
+        self.assertIn("interrupted while the program that owns the devices did not answer", stderr)
         self.assertEqual(process.returncode, 1)
 
     def test_calibrate_ends_in_the_middle_of_a_line(self):

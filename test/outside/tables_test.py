@@ -129,7 +129,7 @@ class Movements(unittest.TestCase):
     def test_commas_without_quotes_are_told(self):
         found, said = self.hand(joined([HEAD, *with_commas(ROWS)]))
         self.assertIsNone(found)
-        self.assertIn("movement.csv:2: error: has 14 values where the first line names 7 columns. Have its numbers decimal commas?", said)
+        self.assertIn("movement.csv:2: error: has 14 values, but the first line names 7 columns. Do its numbers have decimal commas?", said)
 
     def test_quotes_that_are_not_closed_are_told(self):
         found, said = self.hand(joined([HEAD, *ROWS]).replace("\n", '\n"', 1))
@@ -160,7 +160,7 @@ class Movements(unittest.TestCase):
                            (joined([[*row, "0"] if row is not HEAD else [*row, "thumb_x_m"] for row in [HEAD, *ROWS]]),
                             "movement.csv:1: error: thumb_x_m: column 8 repeats an earlier one"),
                            (joined([HEAD, *midnight]), "error: time_ms: time goes from 86399999."),
-                           (joined([HEAD, *ROWS[:50], ROWS[49], *ROWS[50:]]), "movement.csv:52: error: time_ms: twice the same time")):
+                           (joined([HEAD, *ROWS[:50], ROWS[49], *ROWS[50:]]), "movement.csv:52: error: time_ms: the same time twice")):
             with self.subTest(said):
                 found, told = self.hand(text)
                 self.assertIsNone(found)
@@ -171,7 +171,7 @@ class Movements(unittest.TestCase):
             with self.subTest(unit):
                 self.assert_moves_as(self.usual, self.hand(motive(unit, scale)), 0.01)
         self.assert_moves_as(self.usual, self.hand(motive(extra=False)), 0.01)
-        self.assertIn("board: is left out: no finger of the scene is called so", self.hand(motive())[1])
+        self.assertIn("board: is left out: no finger of the scene has such a name", self.hand(motive())[1])
         found, said = self.hand(motive("Inches"))
         self.assertIsNone(found)
         self.assertIn("the unit of its positions is 'Inches'", said)
@@ -187,12 +187,12 @@ class Movements(unittest.TestCase):
                 self.assert_moves_as(self.even, self.hand(qualisys(named)), 0.1)
         found, said = self.hand(qualisys().replace("FREQUENCY", "frequency"))
         self.assertIsNone(found)
-        self.assertIn("its head does not say FREQUENCY", said)
+        self.assertIn("its header does not contain FREQUENCY", said)
 
     def test_whose_markers_are_no_fingers_are_told(self):
         found, said = self.hand(motive().replace("hand:thumb", "hand:a").replace("hand:index", "hand:b"))
         self.assertIsNone(found)
-        self.assertIn("no finger of the scene is called so. Name the markers as the scene names its fingers", said)
+        self.assertIn("no finger of the scene has such a name. Give the markers the names of the scene's fingers", said)
 
 
 GOOD = "time_s,z_mm\n0,0\n0.4,30\n"

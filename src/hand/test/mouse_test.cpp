@@ -25,8 +25,8 @@ TEST(MouseDriver, RestsWhereTheSpecSaysUntilItIsMoved) {
     }
 }
 
-/// Checks the closed form: after one time constant a share (1 + 1) / e of the way is left, and
-/// nothing overshoots.
+/// Checks the closed form: after one time constant a fraction (1 + 1) / e of the path is left, and
+/// there is no overshoot.
 TEST(MouseDriver, FollowsCriticallyDamped) {
     MouseDriver driver(spec(), kPair);
     Posture goal = driver.goal();

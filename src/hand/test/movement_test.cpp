@@ -34,7 +34,7 @@ TEST(Movement, TurnsAxesThatHaveYUp) {
     EXPECT_LT((m.frames[0].p_WH[0] - Vec3(p.x(), -p.z(), p.y())).norm(), 1e-6);
 }
 
-// one way in which a line of a file may be damaged, and what is reported of it
+// a way of damaging a line in a file, and the resulting report
 struct Damage {
     const char* what;
     std::vector<std::string> (*apply)(std::vector<std::string> lines);
@@ -60,7 +60,7 @@ const std::vector<Damage> kDamages{
          l[57] = l[57].substr(0, l[57].rfind(','));
          return l;
      },
-     "m.csv:58: error: has 7 values where the first line names 8 columns. Complete the line, or "
+     "m.csv:58: error: has 7 values, but the first line names 8 columns. Complete the line, or "
      "delete it"},
     {"a missing column",
      [](std::vector<std::string> l) {
@@ -110,14 +110,14 @@ const std::vector<Damage> kDamages{
          }
          return l;
      },
-     "If the values are in metres, name the columns so: thumb_x_m"},
+     "If the values are in metres, name the columns thumb_x_m"},
     {"millimetres called metres",
      [](std::vector<std::string> l) {
          for (size_t at = 0; (at = l[0].find("_mm", at)) != std::string::npos;)
              l[0].replace(at, 3, "_m");
          return l;
      },
-     "If the values are in millimetres, name the columns so: thumb_x_mm"},
+     "If the values are in millimetres, name the columns thumb_x_mm"},
     {"millimetres called centimetres",
      [](std::vector<std::string> l) {
          for (size_t at = 0; (at = l[0].find("x_mm", at)) != std::string::npos;)
@@ -128,7 +128,7 @@ const std::vector<Damage> kDamages{
              l[0].replace(at, 4, "z_cm");
          return l;
      },
-     "If the values are in millimetres, name the columns so: thumb_x_mm"},
+     "If the values are in millimetres, name the columns thumb_x_mm"},
     {"an absurd time at the end",
      [](std::vector<std::string> l) {
          set_cell(l.back(), 0, "1e303");
@@ -147,21 +147,21 @@ const std::vector<Damage> kDamages{
          set_cell(l[58], 0, cell(l[57], 0));
          return l;
      },
-     "m.csv:59: error: time_ms: twice the same time, 658.824 ms"},
+     "m.csv:59: error: time_ms: the same time twice, 658.824 ms"},
     {"milliseconds called seconds",
      [](std::vector<std::string> l) {
          l[0].replace(0, 7, "time_s");
          return l;
      },
-     "m.csv:1: error: time_s: the lines are 11.765 s apart, where at least 10 frames a second are "
-     "needed. If the times are in milliseconds, name the column so: time_ms."},
+     "m.csv:1: error: time_s: the lines are 11.765 s apart, but at least 10 frames a second are "
+     "needed. If the times are in milliseconds, name the column time_ms."},
     {"seconds called milliseconds",
      [](std::vector<std::string> l) {
          for (size_t i = 1; i < l.size(); ++i)
              set_cell(l[i], 0, fmt::format("{:.6f}", finite_number(cell(l[i], 0)).value() / 1000));
          return l;
      },
-     "If the times are in seconds, name the column so: time_s."},
+     "If the times are in seconds, name the column time_s."},
     {"a recording of an hour",
      [](std::vector<std::string> l) {
          for (int i = 0; i < 2000; ++i) {
@@ -180,7 +180,7 @@ const std::vector<Damage> kDamages{
          }
          return l;
      },
-     "m.csv:449: error: time_ms: the recording lasts 678 s, where 600 s are the most"},
+     "m.csv:449: error: time_ms: the recording lasts 678 s, but at most 600 s are allowed"},
     {"an occlusion of 2",
      [](std::vector<std::string> l) {
          l[57].back() = '2';
@@ -213,11 +213,11 @@ const std::vector<Damage> kDamages{
              for (int c = 4; c <= 6; ++c) set_cell(l[i], c, cell(l[i], c - 3));
          return l;
      },
-     "m.csv:1: error: index: is where thumb is, in 298 of 298 lines"},
+     "m.csv:1: error: index: coincides with thumb in 298 of 298 lines"},
 };
 INSTANTIATE_TEST_SUITE_P(Movement, DamagedMovement, ::testing::ValuesIn(kDamages));
 
-/// Files that are no table of a movement at all: a single message says so.
+/// Files that are not movement tables: a single message reports this.
 class NoMovement : public ::testing::TestWithParam<std::pair<std::string, std::string>> {};
 TEST_P(NoMovement, IsRefusedInOneMessage) {
     const auto& [text, says] = GetParam();
@@ -292,7 +292,7 @@ TEST(Movement, GivesTheFingersThatAreAskedForInTheirOrder) {
                   "error: middle: the movement has no such finger, but index, thumb"),
               std::string::npos);
     choose_fingers(movement, {"thumb"}, diagnostics);
-    EXPECT_NE(diagnostics.problems()[1].text().find("warning: index: is no finger of the scene"),
+    EXPECT_NE(diagnostics.problems()[1].text().find("warning: index: is not a finger of the scene"),
               std::string::npos);
 }
 

@@ -13,7 +13,7 @@ namespace dihaptic::hand {
 
 constexpr double kFrame = 1.0 / 85;
 
-/// Thumb and index move 30 cm out, open to 80 mm, close to 40 mm, wait, and come back.
+/// Thumb and index move 30 cm out, open to 80 mm, close to 40 mm, wait, and return.
 struct Reach {
     static Vec3 at(int finger, double t) {
         const double there =

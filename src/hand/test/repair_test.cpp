@@ -1,4 +1,4 @@
-// Tests of recorded movements as they are repaired, searched for their grasp, and followed.
+// Tests of repairing and following recorded movements, and of finding their grasp.
 #include "hand/repair.h"
 #include "base/number.h"
 
@@ -118,7 +118,7 @@ TEST(Repair, DropsAnAbsurdCellAndNamesItsLineAndColumn) {
             EXPECT_EQ(path.faults[0].line, static_cast<int>(line) + 1);
             const std::string said = describe(path.faults[0], path.fingers);
             EXPECT_NE(said.find("index: wild position"), std::string::npos) << said;
-            EXPECT_NE(said.find("index_y_mm is off by"), std::string::npos) << said;
+            EXPECT_NE(said.find("index_y_mm deviates by"), std::string::npos) << said;
             EXPECT_EQ(said.find("nan"), std::string::npos) << said;
             EXPECT_LT(error_of(path), 2e-3) << absurd << line;
         }
@@ -168,7 +168,7 @@ TEST(Repair, SuspectsALineInMetres) {
     for (const Fault& fault : path.faults) {
         EXPECT_TRUE(fault.wrong_unit);
         EXPECT_EQ(fault.line, 61);
-        EXPECT_NE(describe(fault, path.fingers).find("metres? multiply them by 1000"),
+        EXPECT_NE(describe(fault, path.fingers).find("if in metres, multiply them by 1000"),
                   std::string::npos);
     }
     EXPECT_LT(error_of(path), 2e-3);

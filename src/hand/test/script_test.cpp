@@ -39,7 +39,8 @@ TEST(Script, VelocityIsTheDerivativeOfPosition) {
     }
 }
 
-/// A throw: up, reaching 1.2 m/s, and on while the hand opens and turns; then the index alone.
+/// A throw: upward, reaching 1.2 m/s, and further while the hand opens and turns; then the index
+/// alone.
 HandSpec throwing() {
     HandSpec hand = spec();
     ScriptStep up;

@@ -1,5 +1,5 @@
-// Tests the keeper from its program's side, on the makers' fake libraries, which it loads in its
-// own process. test/force_test.py tests the whole program.
+// Tests the keeper from its program's side, on fakes of the manufacturers' libraries, which it
+// loads in its own process. test/force_test.py tests the whole program.
 #include <gtest/gtest.h>
 
 #include <sys/wait.h>
@@ -44,7 +44,7 @@ Order order_on(const std::string& backend) {
     return order;
 }
 
-/// What the fake libraries show of their devices.
+/// The state of the devices in the fake libraries.
 class Felt {
   public:
     Felt() : file_(folder_.write("felt", std::string(sizeof(devices::Felt) * 8, '\0'))) {
@@ -230,7 +230,7 @@ pid_t keeper_pid() {
 }
 
 TEST_P(Kept, DevicesOfAKeeperThatWasStoppedLoseTheirForceAtOnceWhenItGoesOn) {
-    // the firmware's watchdog would do so by itself
+    // the firmware's watchdog would do this by itself
     if (!hd) {
         for (devices::DeviceConfig& config : order.configs)
             config.options.set("watchdog", Node::plain_word("no"));
@@ -250,16 +250,16 @@ TEST_P(Kept, DevicesOfAKeeperThatWasStoppedLoseTheirForceAtOnceWhenItGoesOn) {
             kill(keeper, SIGSTOP);
             waitpid(keeper, nullptr, WUNTRACED);
         }
-        kept->write(kPush);  // what it finds when it goes on is old
+        kept->write(kPush);  // the request that it finds when resumed is old
         if (!last) return true;
-        // longer than any force may last without a word, and than HD's callbacks that were missed
+        // longer than any force may last without a request, and than HD's missed callbacks
         std::this_thread::sleep_for(milliseconds(150));
         const int64_t begin = monotonic();
         kill(keeper, SIGCONT);
         gone = felt.gone_after(begin);
         return false;
     });
-    // the half of what the force would be held once more, on a machine that is not busy
+    // half of the further holding time of the force, on an idle machine
     EXPECT_LT(gone, order.keeping.longest_silence / 2);
 }
 
@@ -298,7 +298,7 @@ TEST_P(Kept, DevicesHaveOneOwnerAtATime) {
     }
     first->deactivate();
     second->activate();
-    // the kernel gives back what a keeper had that is killed
+    // the kernel releases the claims of a killed keeper
     kill(keeper_pid(), SIGKILL);
     first->activate();
 }

@@ -7,7 +7,7 @@
 namespace dihaptic::outlets::lsl {
 namespace {
 
-/// The part of liblsl's C interface that is used; its pointers are opaque there too.
+/// The used part of liblsl's C interface, in which pointers are opaque too.
 struct Receiving {
     Library file;
     int32_t (*resolve)(void** infos, uint32_t most, const char* property, const char* value,
@@ -29,7 +29,7 @@ struct Receiving {
     }
 };
 
-constexpr int32_t kBuffered = 1;  // what is older is of no use [s]
+constexpr int32_t kBuffered = 1;  // older data are of no use [s]
 
 }  // namespace
 
@@ -54,11 +54,11 @@ bool Inlet::find(std::chrono::duration<double> patience) {
         return false;
     const std::unique_ptr<void, void (*)(void*)> info(found, library.destroy_info);
     parts_->channels = library.channel_count(info.get());
-    // not recovered by liblsl: another stream of that name may have other channels
+    // not recovered by liblsl: another stream with that name may have other channels
     parts_->inlet.reset(library.create_inlet(info.get(), kBuffered, 1, 0));
     if (!parts_->inlet)
         throw Error(fmt::format("liblsl cannot open the stream '{}'", parts_->stream),
-                    "What it wrote to the terminal says why.");
+                    "See its messages in the terminal.");
     return true;
 }
 
@@ -73,8 +73,8 @@ bool Inlet::pull(std::span<float> values, std::chrono::duration<double> patience
                              static_cast<int32_t>(values.size()), patience.count(), &error);
     if (error != 0 && error != kTimedOut)
         throw Error(
-            fmt::format("the stream '{}' gives no sample: {}", parts_->stream, describe(error)),
-            "Look whether the program that sends it still runs.");
+            fmt::format("the stream '{}' sends no sample: {}", parts_->stream, describe(error)),
+            "Check that the program that sends it is still running.");
     return time != 0;
 }
 

@@ -1,4 +1,4 @@
-// Inlet receives a stream of numbers of the Lab Streaming Layer, such as that of a tracker.
+// Inlet receives a stream of numbers of the Lab Streaming Layer, e.g. from a tracker.
 #pragma once
 
 #include <chrono>
@@ -13,18 +13,18 @@ namespace dihaptic::outlets::lsl {
 
 class Inlet {
   public:
-    /// `library`: path of liblsl; empty: where the system finds it. Throws Error for `place`
+    /// `library`: path of liblsl; empty: found by the system. Throws Error for `place`
     /// without it.
     Inlet(const std::string& stream, const std::string& library, const Place& place);
     ~Inlet();
 
     /// Looks for the stream, for the given time; returns whether it exists. It may reappear after
-    /// it was lost. Throws Error when liblsl does not open it.
+    /// a loss. Throws Error if liblsl cannot open it.
     bool find(std::chrono::duration<double> patience);
-    /// Number of values in a sample of the stream that was found.
+    /// Number of values in a sample of the stream found.
     int channels() const;
-    /// Waits for a sample of that many values, for the given time; returns whether one came. Throws
-    /// Error when the stream is lost.
+    /// Waits for a sample with that number of values, for the given time; returns whether one
+    /// arrived. Throws Error when the stream is lost.
     bool pull(std::span<float> values, std::chrono::duration<double> patience);
 
   private:

@@ -10,12 +10,12 @@ namespace dihaptic::outlets::lsl {
 namespace {
 
 struct Options {
-    std::string name = "Dihaptic";  ///< beginning of the streams' names
-    std::string library;            ///< path of liblsl; empty: where the system finds it
+    std::string name = "Dihaptic";  ///< start of the streams' names
+    std::string library;            ///< path of liblsl; empty: found by the system
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("name", name, says("Beginning of the streams' names."));
+        v("name", name, says("Start of the streams' names."));
         v("library", library, says("Path of liblsl, if it is not found automatically."));
     }
 };
@@ -26,7 +26,7 @@ Options read_options(const OutletConfig& config, Diagnostics& diagnostics) {
     return options;
 }
 
-/// The part of liblsl's C interface that is used; its pointers are opaque there too.
+/// The used part of liblsl's C interface, in which pointers are opaque too.
 struct Interface {
     Library file;
     void* (*create_streaminfo)(const char* name, const char* type, int32_t channels, double rate,
@@ -57,7 +57,7 @@ struct Interface {
 
 constexpr int kFloat = 1;         // cft_float32
 constexpr int kString = 3;        // cft_string
-constexpr int32_t kBuffer = 360;  // time that a reader may be away, liblsl's default [s]
+constexpr int32_t kBuffer = 360;  // time for which a reader may be absent, liblsl's default [s]
 
 class Lsl final : public Outlet {
   public:
@@ -82,7 +82,7 @@ class Lsl final : public Outlet {
     }
 
   private:
-    /// An object that liblsl made, with the function that destroys it.
+    /// An object made by liblsl, with the function that destroys it.
     using Made = std::unique_ptr<void, void (*)(void*)>;
 
     double time(Clock::time_point at) const {
@@ -91,8 +91,8 @@ class Lsl final : public Outlet {
     static void must(int32_t result, const char* what) {
         if (result != 0)
             throw Error(
-                fmt::format("liblsl did not take {}: {} ({})", what, describe(result), result),
-                "What it wrote to the terminal says more.");
+                fmt::format("liblsl did not accept {}: {} ({})", what, describe(result), result),
+                "See its messages in the terminal.");
     }
     Made open(const std::string& name, const char* type, const std::vector<Channel>& channels,
               double rate, int format, const std::string& source) const {
@@ -102,7 +102,7 @@ class Lsl final : public Outlet {
             library_.destroy_streaminfo);
         if (!info)
             throw Error(place_, "name", fmt::format("liblsl cannot describe the stream '{}'", name),
-                        "What it wrote to the terminal says why; or remove the outlet.");
+                        "See its messages in the terminal, or remove the outlet.");
         void* list = library_.append_child(library_.get_desc(info.get()), "channels");
         for (const Channel& channel : channels) {
             void* one = library_.append_child(list, "channel");

@@ -5,7 +5,7 @@
 
 namespace dihaptic::outlets::lsl {
 
-/// `path`: of its file; empty: where the system finds it. Throws Error for `place`.
+/// `path`: its file; empty: found by the system. Throws Error for `place`.
 inline Library load(const std::string& path, const Place& place) {
     return {{"liblsl",
              {"liblsl.so.2", "liblsl.so"},
@@ -19,7 +19,7 @@ inline Library load(const std::string& path, const Place& place) {
 
 constexpr int kTimedOut = -1;  // lsl_timeout_error
 
-/// `error`: the lsl_error_code_t that a call returned.
+/// `error`: the lsl_error_code_t returned by a call.
 inline const char* describe(int32_t error) {
     switch (error) {
         case kTimedOut:
@@ -27,9 +27,9 @@ inline const char* describe(int32_t error) {
         case -2:
             return "the stream was lost";
         case -3:
-            return "it takes no such sample";
+            return "it does not accept such a sample";
         default:
-            return "an error inside it";
+            return "an internal error";
     }
 }
 

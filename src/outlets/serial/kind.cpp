@@ -35,17 +35,18 @@ speed_t speed_of(int baud) {
 struct Options {
     std::string port;  ///< e.g. /dev/ttyUSB0
     int baud = 115200;
-    double hold = 0;  ///< time after which code 0 follows; 0: it does not [s]
+    double hold = 0;  ///< time after which code 0 follows; 0: never [s]
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("port", port,
           Field::text().required().says("Device file of the line, e.g. /dev/ttyUSB0."));
-        v("baud", baud, Field::number().within(50, 4e6).says("Its speed, one of the usual ones."));
+        v("baud", baud,
+          Field::number().within(50, 4e6).says("Speed of the line, one of the usual ones."));
         v("hold", hold,
           Field::of(Quantity::time)
               .within(0, 1)
-              .says("Time after which code 0 follows a code; 0: none follows."));
+              .says("Time after which code 0 follows a code; 0: never."));
     }
 };
 
@@ -59,7 +60,7 @@ Options read_options(const OutletConfig& config, Diagnostics& diagnostics) {
     read_fields(options, config.options, diagnostics);
     if (speed_of(options.baud) == B0) {
         diagnostics.error(config.place, "baud",
-                          fmt::format("{} is no speed of a serial line", options.baud),
+                          fmt::format("{} is not a speed of serial lines", options.baud),
                           "Use 9600, 19200, 38400, 57600, 115200, 230400, 460800 or 921600.");
     }
     return options;
@@ -68,7 +69,7 @@ Options read_options(const OutletConfig& config, Diagnostics& diagnostics) {
 class Serial final : public Outlet {
   public:
     Serial(const Options& options, const Place& place) : options_(options) {
-        // does not wait for the other side, and does not make the line this process's terminal
+        // without waiting for the other side, and without making the line this process's terminal
         file_ = open(options.port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
         if (file_ < 0) {
             const int why = errno;
@@ -77,12 +78,12 @@ class Serial final : public Outlet {
                         why == EACCES ? "Join the group dialout (sudo usermod -aG dialout $USER) "
                                         "and log in again."
                                       : "Plug the line in; ls /dev/tty* /dev/serial/by-id lists "
-                                        "those that there are.");
+                                        "the existing ones.");
         }
         termios raw{};
         if (tcgetattr(file_, &raw) != 0) {
             close(file_);
-            throw Error(place, "port", fmt::format("'{}' is no serial line", options.port),
+            throw Error(place, "port", fmt::format("'{}' is not a serial line", options.port),
                         "Name one, e.g. /dev/ttyUSB0.");
         }
         cfmakeraw(&raw);
@@ -91,8 +92,8 @@ class Serial final : public Outlet {
         if (tcsetattr(file_, TCSANOW, &raw) != 0) {
             close(file_);
             throw Error(place, "baud",
-                        fmt::format("'{}' does not take {} baud", options.port, options.baud),
-                        "Use the speed that its manual has.");
+                        fmt::format("'{}' does not support {} baud", options.port, options.baud),
+                        "Use a speed from its manual.");
         }
         tcflush(file_, TCIOFLUSH);
     }
@@ -121,7 +122,7 @@ class Serial final : public Outlet {
             if (count < 0 && (errno == EAGAIN || errno == EINTR)) break;
             if (count <= 0) {  // 0: hung up; a line with nothing to read gives EAGAIN
                 throw Error(fmt::format("{} cannot be read: {}", options_.port,
-                                        count < 0 ? strerror(errno) : "it was pulled"),
+                                        count < 0 ? strerror(errno) : "it was unplugged"),
                             "Check the line.");
             }
             for (ssize_t i = 0; i < count && code == 0; ++i)

@@ -1,5 +1,5 @@
-// Tests that every kind of outlet keeps the contract of outlet.h: a failure is reported, and holds
-// nothing up.
+// Tests that every kind of outlet keeps the contract of outlet.h: a failure is reported and delays
+// nothing.
 #include <gtest/gtest.h>
 
 #include <array>

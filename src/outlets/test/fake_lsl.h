@@ -11,7 +11,7 @@ namespace dihaptic::outlets {
 
 enum class FakeLslFails { nothing, describing, opening, every_push, codes_only };
 
-/// Sets what fails, for all streams in this program from now on.
+/// Sets the failures for all streams in this program from now on.
 inline void fake_lsl_fails(FakeLslFails what) {
     void* const library = dlopen(DIHAPTIC_FAKE_LSL, RTLD_LAZY | RTLD_LOCAL);
     if (library == nullptr) throw std::runtime_error(dlerror());

@@ -1,5 +1,5 @@
-// Tests where eyes are found by a tracker's samples, against cases worked out by hand, and what is
-// told as the stream comes and goes.
+// Tests the eye positions from a tracker's samples against cases worked out by hand, and the
+// messages as the stream appears and disappears.
 #include "outlets/head_tracker.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,7 @@ TEST(HeadPose, IsNoneOfABodyThatIsNotSeen) {
     EXPECT_TRUE(head_pose(head, std::array<float, 7>{0, 0, 0, 1, 0, 0, 0}));
 }
 
-/// A stream of a tracker that the fake liblsl has.
+/// A tracker's stream in the fake liblsl.
 class Stream : public ::testing::Test {
   protected:
     Stream() {
@@ -73,7 +73,7 @@ class Stream : public ::testing::Test {
         std::ofstream(file() + ".new") << about << "\n" << sample << "\n";
         std::filesystem::rename(file() + ".new", file());  // never half of it
     }
-    /// Waits until it holds; returns whether it came to hold.
+    /// Waits for a condition; returns whether it became true.
     static bool comes(const std::function<bool()>& holds) {
         for (int i = 0; i < 1000; ++i) {
             if (holds()) return true;

@@ -150,7 +150,8 @@ TEST(Lsl, OneStreamThatFailsIsEnough) {
     const std::vector<std::string> failures = station.finish();
     fake_lsl_fails(FakeLslFails::nothing);
     ASSERT_EQ(failures.size(), 1u);
-    EXPECT_NE(failures[0].find("did not take a code: the stream was lost (-2)"), std::string::npos)
+    EXPECT_NE(failures[0].find("did not accept a code: the stream was lost (-2)"),
+              std::string::npos)
         << failures[0];
     EXPECT_EQ(records.read("sample").size(), 1u);
 }

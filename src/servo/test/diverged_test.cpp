@@ -1,4 +1,4 @@
-// Tests that force is zero on all fingers in the very tick in which any part of the loop computes
+// Tests that force is zero on all fingers in the tick in which any part of the loop computes
 // with a value that is not a number, and that the reason is reported.
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ const Vec3 kEast = Vec3::UnitX();
 /// A change planted in one tick of a grasp.
 struct Planted {
     const char* name;
-    haptics::FaultKind kind;  ///< none: whichever comes first, or none without an effect
+    haptics::FaultKind kind;  ///< none: any fault, or no fault if there is no effect
     std::function<void(PlantedGrasp&, double)> change;    ///< made before the tick
     std::function<void(frame::Commands&, double)> order;  ///< ordered by the director in the tick
 };
@@ -212,7 +212,7 @@ TEST(HugeNumbers, DivergeBeforeTheyOverflow) {
             EXPECT_EQ(grasp.servo->fault().kind, haptics::FaultKind::diverged) << x;
             EXPECT_EQ(grasp.told(), 0);
         }
-        // a value that is merely absurd is computed with
+        // a merely absurd value is used
         PlantedGrasp grasp(settings_of(setting));
         grasp.grasp();
         grasp.servo->world().set_velocity({kBlock}, 1e8 * kEast);

@@ -14,7 +14,7 @@ using devices::haply::Mischief;
 using std::chrono::milliseconds;
 
 constexpr int kMessage = 150;  // the fingers have closed
-constexpr int kAfter = 30;     // ticks to look at after a fault
+constexpr int kAfter = 30;     // ticks to check after a fault
 
 struct Case {
     Mischief what;
@@ -25,7 +25,7 @@ struct Case {
 
 /// The outcome of one run.
 struct Outcome {
-    int mischief_tick = -1;  ///< tick at which the service failed; -1: the run had ended before
+    int mischief_tick = -1;  ///< tick at which the service failed; -1: the run ended earlier
     std::vector<FakeService::Forces> felt;
     haptics::Fault fault;
     int after_fault = 0;  ///< number of Frames from the fault on
@@ -35,7 +35,7 @@ struct Outcome {
 Outcome grasp(const Case& c) {
     const scene::Scene scene = block_on_table();
     hand::HandSpec hand = lifting_hand();
-    hand.script.front().duration = 0.1;  // short, so that less can come between
+    hand.script.front().duration = 0.1;  // short, to avoid disturbances
     const auto fingers = scene::finger_names(scene);
     const hand::ScriptDriver driver(hand, fingers);
     devices::Context context;

@@ -1,5 +1,5 @@
 // Tests ticks that come late again and again, in the whole servo: the force on the hand while the
-// coupling is softened, and its end when the loop can hold no useful stiffness.
+// coupling is softened, and its end when the loop allows no useful stiffness.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -37,7 +37,7 @@ struct Hold {
     double softest = std::numeric_limits<double>::infinity();
 
     enum class What { wall, block };
-    /// `backend`: "real" or "simulated" for simulated devices that pass for real or for simulated
+    /// `backend`: "real" or "simulated" for simulated devices that count as real or as simulated
     /// ones, or the name of a manufacturer's backend.
     explicit Hold(What what, const std::string& backend = "real", frame::Settings settings = {}) {
         scene::Scene scene = block_on_table();
@@ -119,7 +119,7 @@ struct Case {
     const char* backend;
     Hold::What what;
     int late;  ///< lateness of each tick [ms]
-    int from;  ///< when the late ticks begin [ms]
+    int from;  ///< start of the late ticks [ms]
 };
 void PrintTo(const Case& c, std::ostream* out) {
     *out << c.backend << (c.what == Hold::What::wall ? " wall " : " block ") << c.late
@@ -167,7 +167,7 @@ std::vector<Case> cases() {
     for (const char* backend : {"real", "openhaptics", "forcedimension"}) {
         for (const Hold::What what : {Hold::What::wall, Hold::What::block}) {
             for (const int late : {2, 5, 10, 20, 38}) {
-                // late while the block is held, in the middle of closing, and from the beginning
+                // late while the block is held, in the middle of closing, and from the start
                 for (const int from : {2000, 750, 0}) out.push_back({backend, what, late, from});
             }
         }
@@ -180,7 +180,7 @@ using What = Hold::What;
 constexpr Time kHeld = milliseconds(2000);  // the hand came to rest long before
 
 TEST(Late, NoneChangesABit) {
-    // ticks exactly one period apart, on devices that pass for real and for simulated ones
+    // ticks exactly one period apart, on devices that count as real and as simulated
     Hold real(What::block);
     Hold simulated(What::block, "simulated");
     for (int i = 0; i < 2000; ++i, real.now += milliseconds(1), simulated.now += milliseconds(1)) {
@@ -227,7 +227,7 @@ TEST(Late, TheCouplingComesBackWithoutAStepInForce) {
 }
 
 TEST(Late, AReplayThatAsksForWhatWasInForceIsTheSame) {
-    // provided that its ticks come at the same times
+    // provided that its ticks have the same times
     frame::Settings settings;
     settings.coupling.damping = 2;
     Hold hold(What::block, "real", settings);
@@ -269,7 +269,7 @@ TEST(Late, OnSimulatedDevicesIsToldAndNoFault) {
     EXPECT_EQ(hold.softest, 1000);
     EXPECT_NE(hold.status & kLate, 0u);
     EXPECT_EQ(hold.status & (kForceOff | kSoftened), 0u);
-    // late below max_pause is no fault either
+    // lateness below max_pause is not a fault either
     frame::Settings settings;
     settings.safety.hand_damping = 1;
     Hold often(What::wall, "simulated", settings);
@@ -295,7 +295,7 @@ TEST(Late, MoreThanMaxLateEndsForceInTheNextTick) {
     EXPECT_EQ(hold.servo->fault().kind, haptics::FaultKind::late);
     EXPECT_NEAR(hold.servo->fault().value, 4e-3, 1e-9);
     EXPECT_EQ(hold.servo->fault().limit, 3e-3);
-    // a late wake-up of a tick whose time is the one at which it was due
+    // a late wake-up of a tick whose time is its due time
     Hold woken(What::wall, "real", settings);
     woken.run(kHeld, milliseconds(1), kHeld);
     woken.servo->note_timing(2.9e-3, 1e-5, false);

@@ -1,5 +1,5 @@
 // Tests faults of real devices in the whole servo, on fakes of their manufacturers' libraries: no
-// force on any device in the tick that learns of the fault, and what the person is told.
+// force on any device in the tick that detects the fault, and the message for the person.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -45,7 +45,7 @@ struct Grasp {
                                         rig::poses(rig::simulated_rig(fingers), fingers));
         servo->activate();
     }
-    /// The force that pushes a finger now [N].
+    /// The present force on a finger [N].
     double acting(size_t device) const {
         return hd != nullptr ? hd->devices[device].acting.norm()
                              : dhd->devices[device].acting.norm();
@@ -86,7 +86,7 @@ TEST_P(MakersFaults, TakeAllForceAwayInTheTickThatLearnsOfThem) {
             }
             if (last.sequence <= kTick) return;
             EXPECT_EQ(grasp.acting(0), 0) << last.sequence;
-            // a device that receives nothing is stopped only by its own watchdog
+            // a device without requests is stopped only by its own watchdog
             const bool deaf = grasp.dhd != nullptr && grasp.dhd->devices[1].silent;
             if (deaf && last.sequence < kTick + 32) return;
             EXPECT_EQ(grasp.acting(1), 0) << last.sequence;
@@ -141,7 +141,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"DHD broken", "forcedimension", [](Grasp& g) { g.dhd->devices[0].broken = true; },
              FaultKind::device_fault, kDeviceFault, "reports a fault of its own. Let it cool"}));
 
-/// Tests a device that cuts its own force: the others wait for it, and all come back softly.
+/// Tests a device that cuts its own force: the others wait for it, and all return gently.
 class ForceCut : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(ForceCut, LeavesNoHalfGraspAndComesBackSoftly) {

@@ -1,4 +1,4 @@
-// Tests perturbations that a director orders against closed forms.
+// Compares perturbations ordered by a director with closed forms.
 #include <gtest/gtest.h>
 
 #include <numbers>
@@ -15,7 +15,7 @@ namespace {
 constexpr double kMass = 0.2;
 constexpr double kTick = 1e-3;
 
-/// A finger far from a block that floats, or lies on a plane.
+/// A finger far from a block that floats or lies on a plane.
 struct Desk {
     scene::Scene scene;
     std::unique_ptr<hand::ScriptDriver> driver;

@@ -1,4 +1,4 @@
-// A grasp by devices whose readings a test can plant (planted_group.h).
+// A grasp with devices whose readings a test can plant (planted_group.h).
 #pragma once
 
 #include <functional>
@@ -41,7 +41,7 @@ struct PlantedGrasp {
         now += servo->period();
         return frame;
     }
-    /// Ticks until the fingers hold the block.
+    /// Runs ticks until the fingers hold the block.
     void grasp() {
         while (now < std::chrono::milliseconds(400)) tick();
     }

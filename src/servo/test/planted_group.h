@@ -11,7 +11,7 @@ namespace dihaptic::servo {
 
 class PlantedGroup : public devices::DeviceGroup {
   public:
-    /// `simulated`: whether the devices pass for simulated ones; for real ones a pause of the loop
+    /// `simulated`: whether the devices count as simulated; for real ones a pause of the loop
     /// is a fault.
     PlantedGroup(std::unique_ptr<devices::DeviceGroup> inner, bool simulated)
         : DeviceGroup(infos(*inner, simulated)),

@@ -1,4 +1,4 @@
-// Tests that a tick does nothing but compute: no lock, no exception, no system call, with each
+// Tests that a tick only computes: no lock, no exception, no system call, with each
 // solver, each kind of proxy and each coupling.
 #include <gtest/gtest.h>
 #include <sys/syscall.h>

@@ -38,13 +38,13 @@ TEST(RealTime, SaysWhatWasRefusedAndHowToAllowIt) {
     EXPECT_EQ(describe(RealTime::Refusals{}, 80, false), "");
     EXPECT_EQ(describe(RealTime::Refusals{.priority = EPERM, .memory = ENOMEM}, 80, false),
               "real time: Linux refused priority 80 (EPERM), locked memory (ENOMEM), so ticks may "
-              "come late; dihaptic doctor has the commands that allow it");
+              "come late; dihaptic doctor gives the commands that allow it");
     EXPECT_EQ(describe(RealTime::Refusals{.awake = EACCES}, 80, true),
               "real time: Linux refused wakeful processors (EACCES), so ticks may come late; "
-              "dihaptic doctor says how a container that may has to be started");
+              "dihaptic doctor explains how to start a container with these permissions");
 }
 
-/// What a process without any permission is told.
+/// The message for a process without any permission.
 std::string told_without_permission() {
     int ends[2];
     if (pipe(ends) != 0) return "no pipe";
@@ -53,7 +53,7 @@ std::string told_without_permission() {
         const rlimit none{0, 0};
         setrlimit(RLIMIT_RTPRIO, &none);
         setrlimit(RLIMIT_MEMLOCK, &none);
-        // root is granted everything all the same, so give it up
+        // root is granted everything anyway, so drop root
         if (geteuid() == 0 && setuid(65534) != 0) _exit(1);
         const std::string told = describe(try_real_time(80), 80);
         const auto written = write(ends[1], told.data(), told.size());
@@ -73,10 +73,10 @@ std::string told_without_permission() {
 TEST(RealTime, RunsWithoutPermissionAndTellsInOneLine) {
     const std::string told = told_without_permission();
     EXPECT_EQ(told.rfind("real time: Linux refused priority 80 (EPERM)", 0), 0u) << told;
-#ifndef DIHAPTIC_SANITIZED  // sanitizers, whose memory is vast, only pretend to lock it
+#ifndef DIHAPTIC_SANITIZED  // sanitizers, whose memory is vast, do not really lock it
     EXPECT_NE(told.find("locked memory (EPERM)"), std::string::npos) << told;
 #endif
-    EXPECT_NE(told.find("dihaptic doctor has the commands"), std::string::npos) << told;
+    EXPECT_NE(told.find("dihaptic doctor gives the commands"), std::string::npos) << told;
     EXPECT_EQ(told.find('\n'), std::string::npos);
 }
 

@@ -1,4 +1,4 @@
-// Tests that force begins at zero after a pause and after a fault, whatever was felt before.
+// Tests that force starts at zero after a pause and after a fault, whatever the force before.
 #include <gtest/gtest.h>
 
 #include "planted.h"
@@ -7,7 +7,7 @@
 namespace dihaptic::servo::resume_test {
 namespace {
 
-/// A cause that ends force, and what is planted to bring it about.
+/// A cause that ends force, and the planted event that produces it.
 struct Cause {
     const char* name;
     haptics::FaultKind kind;
@@ -35,7 +35,8 @@ void expect_soft_beginning(PlantedGrasp& grasp) {
             ASSERT_EQ(grasp.told(), 0);
         }
         if (grasp.told() == 0) continue;
-        // a share of what is asked, without a step: a hundredth of 8.5 N is more than any tick adds
+        // a fraction of the requested force, without a step: a hundredth of 8.5 N is more than any
+        // tick adds
         const double share = std::min(1.0, i * 1e-3 / soft_start);
         const double asked =
             std::max(frame.fingers[0].f_asked_W.norm(), frame.fingers[1].f_asked_W.norm());

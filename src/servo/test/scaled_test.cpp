@@ -1,4 +1,4 @@
-// Tests a rig whose workspace is scaled: a wall of the scene under the hand, and in the world.
+// Tests a rig with a scaled workspace: a wall of the scene under the hand, and in the world.
 #include <gtest/gtest.h>
 
 #include "lift.h"
@@ -27,12 +27,12 @@ class PressDriver final : public hand::Driver {
     std::vector<Phase> phases_;
 };
 
-/// Where the hand comes to rest, and what it then feels.
+/// The hand's rest position, and the force on it there.
 struct Rest {
     double world_depth = 0;  // of the handle below the proxy, in the world [m]
     double world_force = 0;  // [N]
     double hand_depth = 0;   // depth of the hand's own movement [m]
-    double hand_force = 0;   // with which the hand's spring pushes back [N]
+    double hand_force = 0;   // of the hand's spring [N]
     uint32_t status = 0;
 };
 
@@ -83,9 +83,9 @@ TEST(ScaledRig, WallIsAsStiffUnderTheHandAndInTheWorldAsTheSceneSays) {
         EXPECT_GT(rest.hand_depth, 2e-3);
         EXPECT_NEAR(rest.world_force / rest.world_depth, kStiffness, 0.01 * kStiffness) << scale;
         EXPECT_NEAR(rest.hand_force / rest.hand_depth, kStiffness, 0.01 * kStiffness) << scale;
-        // the hand feels the world's force over the scale
+        // the hand feels the world's force divided by the scale
         EXPECT_NEAR(rest.hand_force * scale / rest.world_force, 1, 0.01);
-        // and cannot tell that it is scaled
+        // and cannot detect the scale
         EXPECT_NEAR(rest.hand_force / plain.hand_force, 1, 0.01);
         EXPECT_NEAR(rest.hand_depth / plain.hand_depth, 1, 0.01);
         EXPECT_EQ(rest.status & (kEnergyGenerated | kForceLimited | kTooFast), 0U);

@@ -78,8 +78,8 @@ TEST_P(TwoPoints, LiftABlockAndMeasureTheGrasp) {
     double momentum = 0;
     Vec3 impulse = Vec3::Zero();
     const frame::Frame& frame = grasp.run(0, 1.1, [&](const frame::Frame& f) {
-        // the block gets the force that the hands get, for apart points in the next step; alike
-        // from either side
+        // the block gets the same force as the hands, for apart points in the next step; equal
+        // from both sides
         momentum = f.bodies[1].v_WB.x() * 0.1;
         if (apart()) {
             EXPECT_NEAR(impulse.x(), momentum, 1e-6);
@@ -293,7 +293,7 @@ INSTANTIATE_TEST_SUITE_P(Servo, Changeable,
 
 TEST_P(Changeable, ProxiesAreAsIfTheyHadAlwaysBeenOfTheirKind) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
-    // the kind of proxy, and whether it was changed to that kind
+    // the kind of proxy, and whether it results from a change
     const auto lift = [&](scene::ProxyKind kind, bool changed) {
         frame::Settings own = settings;
         const auto other =
@@ -423,7 +423,7 @@ TEST(Run, RealTimeKeepsPhaseAfterAnOverrun) {
     EXPECT_GE(seen[51].frame.time - seen[50].frame.time, std::chrono::milliseconds(21));
     EXPECT_TRUE(seen[51].frame.status & kOverrun);
     int64_t recorded = 0;
-    // time was zero at this moment, or earlier by as much as the quickest tick took
+    // time was zero at this moment, or earlier by the duration of the quickest tick
     auto zero = seen.front().ended - seen.front().frame.time;
     for (const Seen& s : seen) zero = std::min(zero, s.ended - s.frame.time);
     for (size_t i = 0; i < seen.size(); ++i) {

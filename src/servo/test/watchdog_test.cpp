@@ -37,7 +37,7 @@ TEST(Watchdog, StopsOnceFromAThreadOfItsOwn) {
     std::this_thread::sleep_for(milliseconds(50));  // a second call would throw
 }
 
-/// As after SIGSTOP and SIGCONT, when both deadlines are long past.
+/// The situation after SIGSTOP and SIGCONT, when both deadlines are long past.
 TEST(Watchdog, GivesAProgramThatStoodStillTheTimeToEndATick) {
     std::promise<void> stopped;
     std::atomic<bool> stuck{false};
@@ -52,8 +52,8 @@ TEST(Watchdog, GivesAProgramThatStoodStillTheTimeToEndATick) {
     EXPECT_FALSE(stuck);
 }
 
-/// A servo that spins on the only processor that it and its watchdog may use. With no more than its
-/// priority, the watchdog would wait for ever.
+/// A servo that spins on the only processor that it and its watchdog may use. With only its
+/// priority, the watchdog would wait forever.
 TEST(Watchdog, StopsAServoThatSpinsOnTheOnlyProcessor) {
     std::atomic<bool> stopped{false};
     int refused = 0;
@@ -80,13 +80,13 @@ TEST(Watchdog, StopsAServoThatSpinsOnTheOnlyProcessor) {
     }).join();
     if (refused != 0) {
         GTEST_SKIP() << "one processor and SCHED_FIFO: refused (" << strerrorname_np(refused)
-                     << "), so what a servo does that spins was not tried";
+                     << "), so a spinning servo was not tested";
     }
     EXPECT_TRUE(stopped);
     EXPECT_LT(took, 0.4);
 }
 
-/// A device whose write blocks at the `tick`th tick, until it is stopped or let go.
+/// A device whose write blocks at the `tick`th tick, until it is stopped or released.
 class BlockingGroup final : public devices::DeviceGroup {
   public:
     BlockingGroup(int tick, bool can_stop, bool simulated)
@@ -158,7 +158,7 @@ TEST(WatchdogInRealTime, StopsDevicesThatBlockAndTheRunEndsWithAFault) {
     EXPECT_TRUE(blocked.timing.stall->stopped);
     EXPECT_NE(describe(*blocked.timing.stall).find("the watchdog switched the devices' force off"),
               std::string::npos);
-    // the tick after the one that blocked is late by its own clock, as in a replay
+    // the tick after the blocked one is late by its own clock, as in a replay
     EXPECT_EQ(blocked.servo->fault().kind, haptics::FaultKind::late);
     EXPECT_GT(blocked.servo->fault().value, frame::Settings{}.safety.max_pause);
     EXPECT_LT(blocked.timing.reached, std::chrono::seconds(3));  // one second after the fault
@@ -191,7 +191,8 @@ TEST(WatchdogInRealTime, TellsOfSimulatedDevicesThatWaitedAndLeavesThemAlone) {
     EXPECT_GT(blocked.timing.reached, std::chrono::seconds(2));
     EXPECT_GE(blocked.timing.pauses, 1);
     EXPECT_GT(blocked.timing.longest_pause, 0.1);
-    EXPECT_NE(describe_pauses(blocked.timing).find("kept waiting"), std::string::npos);
+    EXPECT_NE(describe_pauses(blocked.timing).find("waited longer than allowed"),
+              std::string::npos);
     EXPECT_EQ(describe_pauses({}), "");
 }
 

@@ -1,4 +1,4 @@
-// Tests workspaces that turn about the vertical: readings and forces turn with them, and nothing
+// Tests workspaces that turn about the vertical: readings and forces turn with them, without
 // steps.
 #include "servo/workspace_turn.h"
 #include "base/number.h"
@@ -21,7 +21,7 @@ double rate(const frame::Frame& last, double goal) {
     return WorkspaceTurn::rate_toward(goal, last.workspace_turn + kTick * last.workspace_rate);
 }
 
-/// Devices that read what the test sets, and keep the wrenches they are sent.
+/// Devices with readings set by the test, which store the wrenches sent to them.
 class Desk final : public devices::DeviceGroup {
   public:
     Desk(const std::vector<std::string>& fingers, bool orientation)
@@ -51,7 +51,7 @@ class Desk final : public devices::DeviceGroup {
     }
 };
 
-/// Two fingers in the air, with devices that are set up at an angle.
+/// Two fingers in the air, with devices set up at an angle.
 struct Air {
     scene::Scene scene;
     std::vector<Pose> X_WD;
@@ -107,7 +107,7 @@ TEST(WorkspaceTurn, StartsAndEndsWithoutAStepAndKeepsItsBounds) {
             most = std::max(most, turn.angle());
         }
         EXPECT_LE(fastest, 1);
-        // the short way around, without overshoot
+        // along the shorter path, without overshoot
         const double way = goal > kPi ? goal - 2 * kPi : goal;
         EXPECT_NEAR(turn.angle(), way, 2e-6);
         EXPECT_LT(most - least, std::abs(way) * 1.005);
@@ -133,7 +133,7 @@ TEST(WorkspaceTurn, IsBoundedWhoeverOrdersIt) {
 }
 
 TEST(WorkspaceTurn, ReadingsTurnAboutTheDevicesMiddle) {
-    // the rate that leads to a frame is recorded in the frame before
+    // the rate that leads to a Frame is recorded in the Frame before
     Air turning(true);
     double led = 0;
     std::vector<Vec3> before(2);
@@ -159,7 +159,7 @@ TEST(WorkspaceTurn, ReadingsTurnAboutTheDevicesMiddle) {
             ASSERT_LT((finger.v_WH - v).norm(), 1e-12);
             const Quat R = T * X_WD.R * reading.R_DH * X_WD.R.conjugate();
             ASSERT_LT(angle_between(frame.turns[d].R_WH, R), 1e-9);
-            // both velocities are those of the movement seen
+            // both velocities are those of the observed movement
             if (i > 0) {
                 ASSERT_LT(((finger.p_WH - before[d]) / kTick - finger.v_WH).norm(), 1.5e-3) << i;
                 const Vec3 turned =
@@ -209,7 +209,7 @@ TEST(WorkspaceTurn, TheWallStaysWithTheDevice) {
     for (int i = 0; i < 4000; ++i) {
         const frame::Frame& frame = air.tick(2.5);
         if (i > 10) {
-            // as for a handle at rest, however the world turns around it
+            // as for a handle at rest, for any turn of the world around it
             EXPECT_LT((air.desk->told[0].force - Vec3(-1, 0, 0)).norm(), 1e-9) << i;
         }
         EXPECT_EQ(frame.fingers[0].status & kTooFast, 0u);

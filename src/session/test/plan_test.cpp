@@ -377,13 +377,13 @@ INSTANTIATE_TEST_SUITE_P(
                 f.experiment +=
                     "hand: {script: [{name: a, duration_s: 3600}, {name: b, duration_s: 1}]}\n";
             },
-            "experiment.yaml:3: error: script: lasts 3601 s, where 3600 s are the most"},
+            "experiment.yaml:3: error: script: lasts 3601 s, but at most 3600 s are allowed"},
         Bad{"a step of unknown fingers",
             [](Files& f) {
                 f.experiment +=
                     "hand:\n  script:\n    - {name: a, duration_s: 1, fingers: [thmub]}\n";
             },
-            "experiment.yaml:5: error: fingers: 'a' is to move 'thmub', which is not among the "
+            "experiment.yaml:5: error: fingers: 'a' moves 'thmub', which is not among the "
             "scene's fingers. Known: thumb, index."},
         Bad{"a steady step that ends with another speed",
             [](Files& f) {
@@ -391,7 +391,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "hand:\n  script:\n    - {name: a, duration_s: 1, steady: yes, "
                     "end_velocity_m_s: [1, 0, 0]}\n";
             },
-            "experiment.yaml:5: error: end_velocity: 'a' is steady: it has one speed throughout"},
+            "experiment.yaml:5: error: end_velocity: 'a' is steady, so its speed is constant"},
         Bad{"a turn in millimetres",
             [](Files& f) {
                 f.experiment +=
