@@ -18,10 +18,10 @@ namespace {
 constexpr size_t kFolds = 5;
 /// Samples are held out in stretches of time, since neighbours in time are nearly equal.
 constexpr size_t kStretches = 50;
-/// Least share of the link's directions d along any axis, as the least eigenvalue of the mean of
-/// d d^T: 1/3 if the directions are uniform.
+/// Smallest fraction of the link's directions d along any axis, as the least eigenvalue of the mean
+/// of d d^T: 1/3 if the directions are uniform.
 constexpr double kLeastTurned = 0.04;
-/// With a larger spread the endpoints were not held by one link [m].
+/// Above this spread the endpoints were not held by one link [m].
 constexpr double kMostSpread = 2e-3;
 constexpr double kMostSlips = 0.3;
 
@@ -42,7 +42,7 @@ void check_movement(const CalibrationInput& input, const CalibrationSolver& solv
         "Move the endpoints, joined, through all of the workspace: far and near, left and right, "
         "up and down.";
     if (input.link_samples.size() < kLeastSamples) {
-        throw Error(fmt::format("{} samples are too few, {} are needed", input.link_samples.size(),
+        throw Error(fmt::format("{} samples are too few; {} are needed", input.link_samples.size(),
                                 kLeastSamples),
                     again);
     }
@@ -67,19 +67,19 @@ void check_movement(const CalibrationInput& input, const CalibrationSolver& solv
         if (extents[0] >= kLeastDepth) continue;
         throw Error(
             fmt::format("the cloud of the {}'s endpoint was {:.0f} x {:.0f} x {:.0f} mm: {:.0f} mm "
-                        "deep, and {:.0f} are needed",
+                        "deep, but {:.0f} are needed",
                         input.devices[i].finger, extents[2] * 1e3, extents[1] * 1e3,
                         extents[0] * 1e3, extents[0] * 1e3, kLeastDepth * 1e3),
             again);
     }
     const double least = Eigen::SelfAdjointEigenSolver<Mat3>(turned).eigenvalues()[0];
     if (least < kLeastTurned) {
-        throw Error("the link pointed nearly the same way, or into one plane, all the time",
-                    "Turn it while it is moved: along the table to all sides, and upright.");
+        throw Error("the link pointed nearly the same way, or in one plane, all the time",
+                    "Turn it while moving it: along the table to all sides, and upright.");
     }
 }
 
-/// Throws Error when joint angles put a device's endpoint elsewhere than the device reports it.
+/// Throws Error if joint angles contradict a device's reported position.
 void check_joints(const CalibrationInput& input) {
     constexpr double kMostApart = 2e-3;  // rms [m]
     for (size_t i = 0; i < input.devices.size(); ++i) {
@@ -96,30 +96,31 @@ void check_joints(const CalibrationInput& input) {
         for (const auto& sample : input.jig_samples) {
             if (sample.device == i) add(sample.at);
         }
-        // a constant difference is only another origin of D
+        // a constant difference only moves the origin of D
         Vec3 mean = Vec3::Zero();
         for (const Vec3& d : apart) mean += d / static_cast<double>(apart.size());
         std::vector<double> off;
         for (const Vec3& d : apart) off.push_back((d - mean).norm());
         if (rms(off) <= kMostApart) continue;
         throw Error(
-            fmt::format("the joints of the {}'s device put its endpoint elsewhere than the device "
-                        "says: {:.1f} mm rms, {:.1f} mm at worst",
+            fmt::format("the joint angles of the {}'s device contradict its reported "
+                        "position: {:.1f} mm rms, {:.1f} mm at worst",
                         input.devices[i].finger, rms(off) * 1e3, worst(off) * 1e3),
             "Correct the lengths of its links in the rig file (thigh_mm, shin_mm), or leave out "
             "joint_angles.");
     }
 }
 
-/// Throws Error when the touched points are on a line: that leaves open how the devices are turned
-/// about it.
+/// Throws Error if the touched points are on a line, which leaves the devices' rotation
+/// about it undetermined.
 void check_touches(const CalibrationInput& input) {
     std::vector<Vec3> points;
     for (const CalibrationInput::JigSample& sample : input.jig_samples)
         points.push_back(input.jig[sample.point]);
     if (across(points) >= kLeastJig) return;
-    throw Error("the points of the jig that were touched are on a line, or too near to each other",
-                fmt::format("Touch three or more, {:.0f} mm apart to two sides.", kLeastJig * 1e3));
+    throw Error(
+        "the touched points of the jig are on a line, or too near to each other",
+        fmt::format("Touch three or more, {:.0f} mm apart in two directions.", kLeastJig * 1e3));
 }
 
 void check_link(const CalibrationSolution& solution, double slips) {
@@ -128,11 +129,12 @@ void check_link(const CalibrationSolution& solution, double slips) {
         fmt::format("the endpoints were not held by one link: its length varied by {:.1f} mm, and "
                     "{:.0f} % of the samples were slips",
                     solution.link_spread * 1e3, slips * 100),
-        "Fasten it to both endpoints, and move them again. If it was: do the rig file's position, "
-        "rotation, backend and links name these devices?");
+        "Fasten it to both endpoints, and move them again. If it was fastened: do the rig file's "
+        "position, "
+        "rotation, backend and links fit these devices?");
 }
 
-/// Which samples a fold is fitted to, 1 each; the others are held out.
+/// The samples used for fitting a fold, 1 each; the others are held out.
 std::vector<uint8_t> without(size_t count, size_t fold, size_t stretches) {
     std::vector<uint8_t> use(count, 1);
     for (size_t k = 0; k < count; ++k) use[k] = k * stretches / count % kFolds != fold;
@@ -155,7 +157,7 @@ DeviceCalibration part_of(const CalibrationInput::Device& device, const Correcti
     return out;
 }
 
-/// Mean distance of a device's endpoint from the first device's, held together [m].
+/// Mean distance of a device's endpoint from the first device's when held together [m].
 std::optional<double> together(const CalibrationInput& input, const CalibrationSolver& solver,
                                const CalibrationSolution& solution, size_t device) {
     double sum = 0;
@@ -185,7 +187,7 @@ struct HeldOut {
     size_t slips = 0;                ///< number of slips among the link's samples
 };
 
-/// Solves again without each fold, and judges the fold's samples by that solution. `all`: the
+/// Solves again without each fold, and evaluates the fold's samples with that solution. `all`: the
 /// solution from all samples. The residual of each of the link's samples goes to `out`.
 HeldOut judge_held_out(const CalibrationInput& input, const CalibrationSolver& solver,
                        const CalibrationSolution& all, CalibrationResult& out) {
@@ -292,7 +294,7 @@ CalibrationResult calibrate(const CalibrationInput& input) {
     if (input.devices.size() > 1) {
         check_movement(input, solver);
     } else if (input.jig_samples.empty()) {
-        throw Error("one device alone is calibrated by a jig, and none was touched",
+        throw Error("a single device is calibrated with a jig, but none was touched",
                     "Give the rig file a jig, or two devices.");
     }
     if (!input.jig_samples.empty()) check_touches(input);
@@ -312,9 +314,9 @@ CalibrationResult calibrate(const CalibrationInput& input) {
         calibration.slips = static_cast<double>(held_out.slips) / static_cast<double>(links);
     check_link(all, calibration.slips);
     if (all.jig_spread > kMostSpread) {
-        throw Error(fmt::format("the endpoints that touched the jig were {:.1f} mm off its points",
+        throw Error(fmt::format("the endpoints that touched the jig were {:.1f} mm from its points",
                                 all.jig_spread * 1e3),
-                    "Do the rig file's jig, positions and rotations name these places?");
+                    "Do the rig file's jig, positions and rotations agree with reality?");
     }
     calibration.link_length = all.length;
     calibration.link_rms = rms(held_out.along_link);
@@ -342,7 +344,7 @@ std::string describe(const CalibrationResult& result) {
             if (!r.slip) before.push_back(r.misfit);
         }
         out += fmt::format(
-            "link of {:.2f} mm, misfit along it, by samples held out:\n"
+            "link of {:.2f} mm, misfit along it, in held-out samples:\n"
             "  before  {:7.3f} mm rms\n"
             "  after   {:7.3f} mm rms, {:.3f} mm at worst; {:.1f} % of the samples were slips\n"
             "endpoints agree to {:.3f} mm rms in space\n",
@@ -353,7 +355,7 @@ std::string describe(const CalibrationResult& result) {
         out += fmt::format("jig: {:.3f} mm rms, {:.3f} mm at worst\n", mm(*c.jig_rms),
                            mm(*c.jig_worst));
     } else {
-        out += "no jig: the world stays as the rig file has it\n";
+        out += "no jig: the world remains as in the rig file\n";
     }
     for (const DeviceCalibration& d : c.devices) {
         out +=
@@ -365,12 +367,13 @@ std::string describe(const CalibrationResult& result) {
                                d.joint_offset->z() / kDegree);
         } else {
             out += fmt::format(
-                ", stretch [{:.4f}, {:.4f}, {:.4f}]; without joint angles, bends of its space "
+                ", stretch [{:.4f}, {:.4f}, {:.4f}]; without joint angles, distortions of its "
+                "space "
                 "remain",
                 d.stretch.x(), d.stretch.y(), d.stretch.z());
         }
         if (d.together)
-            out += fmt::format("; {:.1f} mm from the first, held together", mm(*d.together));
+            out += fmt::format("; {:.1f} mm from the first, when held together", mm(*d.together));
         out += "\n";
     }
     return out;

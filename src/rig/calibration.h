@@ -1,6 +1,6 @@
 // Calibration: finds the correction of each device from samples of its endpoint, taken while a link
 // of constant, unknown length joined two endpoints and while endpoints touched the points of a jig.
-// README.md has the equations, the limits of what such a movement can reveal, and the sources.
+// README.md has the equations, the limits of such a movement, and the sources.
 #pragma once
 
 #include <string>
@@ -13,15 +13,15 @@ namespace dihaptic::rig {
 /// One device's part of a calibration file: a Correction.
 struct DeviceCalibration {
     std::string finger;
-    std::string serial;         ///< of the device; "" if the device reports none
+    std::string serial;         ///< serial number of the device; "" if the device reports none
     Vec3 shift = Vec3::Zero();  ///< of the true D in the rig file's D [m]
-    Vec3 turn = Vec3::Zero();   ///< of the true D in it, about x, then y, then z [rad]
-    /// True minus reported joint angles [rad]; unset: stretch and skew hold instead.
+    Vec3 turn = Vec3::Zero();  ///< of the true D in the rig file's D, about x, then y, then z [rad]
+    /// True minus reported joint angles [rad]; unset: stretch and skew apply instead.
     std::optional<Vec3> joint_offset;
     Vec3 stretch = Vec3::Zero();  ///< along x, y, z
     Vec3 skew = Vec3::Zero();     ///< in yz, xz, xy
     /// Distance of the endpoint from the first device's when the two were held together [m]; unset
-    /// for the first device, or if they were not.
+    /// for the first device, or without such a measurement.
     std::optional<double> together;
 
     template <class Visitor>
@@ -36,7 +36,7 @@ struct DeviceCalibration {
         v("together", together, Field::length().within(0, 1));
     }
 
-    /// `arm`: the device's; its joints are used if `joint_offset` is set.
+    /// `arm`: the device's arm; its joints are used if `joint_offset` is set.
     Correction correction(const std::optional<model::PhantomLinks>& arm) const;
 };
 
@@ -45,13 +45,13 @@ struct Calibration {
     std::string date;  ///< ISO 8601: 2026-11-21
     std::vector<DeviceCalibration> devices;
     double link_length = 0;  ///< [m]
-    // misfits are of held-out samples, which the solution did not use; slips are left out
+    // misfits are those of held-out samples, which the solution did not use; slips are left out
     double link_rms = 0;              ///< misfit along the link [m]
     double link_worst = 0;            ///< [m]
     double agreement_rms = 0;         ///< of two endpoints held together, in space [m]
     std::optional<double> jig_rms;    ///< distance from the jig's points [m]
     std::optional<double> jig_worst;  ///< [m]
-    double slips = 0;                 ///< share of the link's samples that contradict the rest
+    double slips = 0;                 ///< fraction of the link's samples that contradict the rest
     Place place{};
 
     template <class Visitor>
@@ -75,7 +75,7 @@ struct Calibration {
 /// Number of days from one ISO 8601 date to another. Returns nullopt when either is not a date.
 std::optional<int> days_between(const std::string& from, const std::string& to);
 
-/// What a device reported at one moment.
+/// A device's report at one moment.
 struct CalibrationReading {
     Vec3 p_DH = Vec3::Zero();    ///< [m]
     Vec3 joints = Vec3::Zero();  ///< [rad]
@@ -85,10 +85,10 @@ struct CalibrationInput {
     struct Device {
         std::string finger;
         std::string serial;
-        Pose X_WD;  ///< as the rig file has it
+        Pose X_WD;  ///< as in the rig file
         std::optional<model::PhantomLinks> arm;
     };
-    /// The endpoints of two devices, joined. Samples are in the order in which they were taken.
+    /// The endpoints of two devices, joined. Samples are in order of time.
     struct LinkSample {
         size_t a = 0, b = 1;
         CalibrationReading at_a, at_b;
@@ -100,7 +100,7 @@ struct CalibrationInput {
         size_t point = 0;
     };
     std::vector<Device> devices;
-    std::vector<Vec3> jig;  ///< its points, in the world [m]
+    std::vector<Vec3> jig;  ///< points of the jig, in the world [m]
     std::vector<LinkSample> link_samples;
     std::vector<JigSample> jig_samples;
     std::vector<LinkSample> together_samples;  ///< endpoints held together, without the link
@@ -119,11 +119,11 @@ struct CalibrationResult {
     std::vector<LinkResidual> after;   ///< corrected, of held-out samples
 };
 
-/// Throws Error with a remedy when the movement was too short, too small or too flat, or when the
-/// link did not keep its length.
+/// Throws Error with a remedy when the movement was too short, too small or too flat, or if the
+/// link's length varied.
 CalibrationResult calibrate(const CalibrationInput& input);
 
-/// Least extent of each device's cloud of endpoints, along its thinnest direction [m].
+/// Smallest required extent of each device's cloud of endpoints, along its thinnest direction [m].
 constexpr double kLeastDepth = 0.06;
 constexpr size_t kLeastSamples = 300;
 
@@ -137,7 +137,7 @@ std::string describe(const CalibrationResult& result);
 /// Extent of points along their second principal axis, as twice the standard deviation [m]: 0 for
 /// points on a line.
 double across(const std::vector<Vec3>& points);
-/// Least such extent of a jig [m].
+/// Smallest required extent of a jig [m].
 constexpr double kLeastJig = 0.03;
 
 /// SVG text: misfits over the workspace, seen from above, before and after.

@@ -12,7 +12,7 @@ namespace {
 constexpr uint64_t kSeed = 1;        // of the simulated hand's slips
 constexpr int kTouches = 25;         // samples of a point of the jig
 constexpr int kHeld = 50;            // samples of endpoints held together: a second
-constexpr double kMostMoved = 2e-3;  // change of their distance in that second [m]
+constexpr double kMostMoved = 2e-3;  // largest change of their distance in that second [m]
 
 class CalibrationWay {
   public:
@@ -22,8 +22,8 @@ class CalibrationWay {
     CalibrationInput lead() {
         way_.begin_step(
             "Hold each arm in the standard configuration: both links at right angles, the thigh "
-            "level, the shin hanging. Let it rest on a block that keeps it there: what is off here "
-            "is felt everywhere. Devices without an arm: leave them where they rest.");
+            "level, the shin hanging. Let it rest on a block that keeps it there: any error here "
+            "affects all positions. Leave devices without an arm in their rest positions.");
         way_.wait();
         sampler_.activate();
         for (size_t other = 1; other < rig_.devices.size(); ++other) carry(other);
@@ -43,7 +43,7 @@ class CalibrationWay {
     }
     void carry(size_t other) {
         way_.begin_step(
-            fmt::format("Join the endpoints of {} by the link, until it is fast.", pair(other)));
+            fmt::format("Join the endpoints of {} with the link, and fasten it.", pair(other)));
         way_.wait();
         way_.begin_step(
             "Move the link through all of the workspace, turning it to all sides, for a minute.");
@@ -59,7 +59,7 @@ class CalibrationWay {
             way_.tell(share,
                       fmt::format("{:.0f} mm deep, {:.0f} needed; {} samples{}", depth * 1e3,
                                   kLeastDepth * 1e3, taken,
-                                  too_soon && share < 1 ? ": go on, that is too little" : ""));
+                                  too_soon && share < 1 ? ": go on, that is not enough" : ""));
             return !said || share < 1;
         });
     }
@@ -92,8 +92,8 @@ class CalibrationWay {
             const double moved = sampler_.moved_apart(from);
             if (moved <= kMostMoved) return;
             sampler_.forget_together(from);
-            way_.tell(0, fmt::format("They moved by {:.1f} mm: hold them still, once more.",
-                                     moved * 1e3));
+            way_.tell(
+                0, fmt::format("They moved by {:.1f} mm: hold them still once more.", moved * 1e3));
         }
     }
 
@@ -133,7 +133,7 @@ CalibrationInput lead_calibration(const Rig& rig, const Guide& guide) {
     return simulate_calibration(rig, kSeed, [&](double share) {
         now.share = share;
         guide.show(now);
-        guide.done();  // throws if the person gives up
+        guide.done();  // throws if the person cancels
         return true;
     });
 }
@@ -144,7 +144,7 @@ bool can_check_together(const Rig& rig, const std::vector<std::string>& fingers)
 
 std::string Together::describe() const {
     return fmt::format(
-        "the endpoints of {} and {}, held together, are {:.1f} mm apart, and were {:.1f} mm apart "
+        "the endpoints of {} and {}, held together, are {:.1f} mm apart, but were {:.1f} mm apart "
         "when the rig was calibrated",
         first, second, apart * 1e3, before * 1e3);
 }
@@ -159,7 +159,7 @@ std::vector<Together> check_together(const Rig& rig, const std::vector<std::stri
     std::vector<Told> told = told_together(rig, fingers);
     DeviceReader reader(devices, fingers);
     const std::vector<Pose> X_WD = poses(rig, fingers);
-    // without scales, which would move endpoints apart that are together in the hand
+    // without scales, which would separate endpoints that are together in the hand
     const auto p_W = [&](size_t k) {
         return Vec3(X_WD[k] *
                     (reader.readings()[k].p_DH / devices.info(static_cast<int>(k)).scale));

@@ -1,5 +1,5 @@
-// Leads a person through the calibration of a rig and, before a session, through the check that the
-// calibration still holds. Forces stay off.
+// Guides a person through the calibration of a rig and, before a session, through the check that
+// the calibration is still valid. Forces stay off.
 #pragma once
 
 #include <functional>
@@ -8,37 +8,37 @@
 
 namespace dihaptic::rig {
 
-/// What the person should do now, and the progress.
+/// The person's present task, and the progress.
 struct Guidance {
-    int step = 0;  ///< from 1; 0: the person has only to wait
+    int step = 0;  ///< from 1; 0: the person only has to wait
     int steps = 0;
     std::string text;
-    double share = 0;      ///< that is measured, of what has to be
+    double share = 0;      ///< measured fraction of the required samples
     std::string measured;  ///< in words; "" before anything is measured
 };
 
-/// Thrown by a guide when the person gives up.
+/// Thrown by a guide when the person cancels.
 struct GivenUp {};
 
-/// The link between the program and the person. Called from the thread that leads, or from a thread
-/// of a maker's library.
+/// The link between the program and the person. Called from the guiding thread, or from a thread
+/// of a manufacturer's library.
 struct Guide {
-    /// Called at the beginning of each step, and several times a second while something is
-    /// measured.
+    /// Called at the start of each step, and several times a second during
+    /// measurements.
     std::function<void(const Guidance& now)> show;
-    /// Called in each tick: whether the person has said, since the last call, that the step is
+    /// Called in each tick: whether the person has reported, since the last call, that the step is
     /// done.
     std::function<bool()> done;
 };
 
 /// Takes the samples of a calibration from the movements of a person or, on simulated devices, of a
-/// simulated hand. Throws Error as make_devices() does, and when a device does not answer.
+/// simulated hand. Throws Error like make_devices(), and if a device does not answer.
 CalibrationInput lead_calibration(const Rig& rig, const Guide& guide);
 
-/// Two endpoints that are held together, compared with their distance at calibration.
+/// The distance of two endpoints held together, and that at calibration.
 struct Together {
-    /// Difference that is allowed beyond the calibration's own error [m]: a person does not hold
-    /// fingers together twice in the same way.
+    /// Difference allowed beyond the calibration's own error [m], because a person does not hold
+    /// fingers together in the same way twice.
     static constexpr double kMostApart = 1.5e-3;
 
     std::string first;   ///< finger
@@ -49,16 +49,16 @@ struct Together {
 
     /// The two distances, as a clause.
     std::string describe() const;
-    /// The warning for endpoints that do not agree.
+    /// The warning for disagreeing endpoints.
     Problem warning(const Rig& rig) const;
 };
 
-/// Whether there is something to check: several real devices, and a calibration during which their
+/// Whether a check is possible: it needs several real devices, and a calibration in which their
 /// endpoints were held together. `fingers`: those of the session.
 bool can_check_together(const Rig& rig, const std::vector<std::string>& fingers);
 /// Asks the person to hold each pair of endpoints together, and measures them for a second.
-/// `devices`: active, and made by make_devices() for these fingers; activating them again could
-/// reset them. Throws what `guide` throws, and Error when a device does not answer.
+/// `devices`: active, and made by make_devices() for these fingers; another activation could
+/// reset them. Passes on exceptions of `guide`; throws Error if a device does not answer.
 std::vector<Together> check_together(const Rig& rig, const std::vector<std::string>& fingers,
                                      devices::DeviceGroup& devices, const Guide& guide);
 

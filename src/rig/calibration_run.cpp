@@ -14,17 +14,17 @@ namespace dihaptic::rig {
 namespace {
 
 constexpr double kLink = 0.05;      // length of the link [m]
-constexpr double kCarry = 60;       // time for which the link is carried [s]
-constexpr double kRaise = 1.5;      // from rest, and back to it [s]
-constexpr double kMove = 0.6;       // from one point of the jig to the next [s]
+constexpr double kCarry = 60;       // duration of carrying the link [s]
+constexpr double kRaise = 1.5;      // time from rest, and back [s]
+constexpr double kMove = 0.6;       // time from one point of the jig to the next [s]
 constexpr double kTouch = 0.4;      // time on a point of the jig [s]
-constexpr double kHold = 1;         // time for which endpoints are held together [s]
+constexpr double kHold = 1;         // duration of holding endpoints together [s]
 constexpr double kSlipping = 0.2;   // duration of a slip [s]
-constexpr double kSlips = 0.05;     // share of the time with slips
+constexpr double kSlips = 0.05;     // fraction of time with slips
 constexpr double kSlipSize = 5e-3;  // largest displacement in a slip [m]
-constexpr double kMargin = 0.01;    // from the end of the devices' common workspace [m]
+constexpr double kMargin = 0.01;    // distance from the limit of the common workspace [m]
 
-/// Stiff fingers: what they hold is a tool.
+/// Stiff fingers, as they hold a tool.
 hand::Impedance firm() {
     hand::Impedance out;
     out.stiffness = 1e5;
@@ -42,8 +42,8 @@ class CalibrationHand final : public hand::Driver {
     struct Stretch {
         double start = 0;
         double end = 0;
-        size_t device = 0;  // joined to the first, or touching the jig
-        int point = -1;     // of the jig; -1: none
+        size_t device = 0;  // device joined to the first, or touching the jig
+        int point = -1;     // point of the jig; -1: none
         enum class What { link, jig, together } what = What::link;
     };
 
@@ -146,12 +146,12 @@ std::unique_ptr<devices::DeviceGroup> devices_of(const Rig& rig, const hand::Dri
     return make_devices(uncorrected(rig), held_fingers(rig), context);
 }
 
-/// The ball through which the middle of the link can be carried, whichever way the link points.
+/// The ball in which the link's centre can move with any direction of the link.
 Ball common_ball(const Rig& rig) {
     const Workspace found = find_workspace(reaches(rig), [](double) { return true; });
     const Ball ball{found.sphere_centre, found.sphere_radius - kLink / 2 - kMargin};
     if (ball.radius < kLeastDepth / 4) {
-        throw Error(rig.place, "devices", "share too little reach for a link to be carried",
+        throw Error(rig.place, "devices", "have too small a common reach for carrying a link",
                     "See dihaptic workspace, and move the devices nearer to each other.");
     }
     return ball;
@@ -210,8 +210,8 @@ CalibrationInput simulate_calibration(const Rig& rig, uint64_t seed,
                                       const std::function<bool(double share)>& progress) {
     for (const Device& device : rig.devices) {
         if (device.backend == "simulated") continue;
-        throw Error(device.place, "backend", "is not simulated, as the first one's is",
-                    "All devices of a rig are of one backend.");
+        throw Error(device.place, "backend", "is not simulated, unlike the first device's",
+                    "All devices of a rig must have the same backend.");
     }
     const Rig plain = uncorrected(rig);
     const CalibrationHand hand(rig.devices.size(), common_ball(plain), jig_of(rig), seed);

@@ -1,5 +1,5 @@
-// Takes the samples of a calibration: the part that guided and simulated ones share, and the
-// simulated hand that moves simulated devices for it.
+// Takes the samples of a calibration: the part common to guided and simulated runs, and the
+// simulated hand that moves simulated devices.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@ namespace dihaptic::rig {
 /// Collects samples of a rig's devices, uncorrected and unscaled, with forces off.
 class CalibrationSampler {
   public:
-    /// Throws Error as make_devices() does. `driver`: for simulated devices.
+    /// Throws Error like make_devices(). `driver`: for simulated devices.
     CalibrationSampler(const Rig& rig, const hand::Driver* driver);
 
     void activate() { devices_->activate(); }
@@ -45,9 +45,9 @@ class CalibrationSampler {
     CalibrationInput input_;
 };
 
-/// A firm simulated hand carries a link of 50 mm through the workspace that all devices share, with
-/// slips in a twentieth of the time, and touches the jig. Throws Error when the rig's devices are
-/// not simulated. `progress` gets the share that is done, and returns false to give up.
+/// A firm simulated hand carries a link of 50 mm through the common workspace of all devices, with
+/// slips in a twentieth of the time, and touches the jig. Throws Error if the rig's devices are
+/// not simulated. `progress` gets the fraction done, and returns false to cancel.
 CalibrationInput simulate_calibration(const Rig& rig, uint64_t seed,
                                       const std::function<bool(double share)>& progress);
 

@@ -6,8 +6,8 @@
 //
 // with p the corrected endpoint in the world, q the jig's point and L the link's length. Weights
 // follow first Huber's rho, which converges from afar, then Tukey's, which gives slips no weight; s
-// follows from the median misfit. The prior is far wider than any fault of a rig: it decides only
-// what the samples leave open.
+// follows from the median misfit. The prior is far wider than any fault of a rig: it determines
+// only the parameters left undetermined by the samples.
 #pragma once
 
 #include <vector>
@@ -32,7 +32,7 @@ class CalibrationSolver {
 
     /// No corrections, with the median distance as L.
     CalibrationSolution nominal() const;
-    /// `link`, `jig`: by sample, 1 if it is used.
+    /// `link`, `jig`: by sample, 1 if used.
     CalibrationSolution solve(CalibrationSolution start, const std::vector<uint8_t>& link,
                               const std::vector<uint8_t>& jig) const;
 

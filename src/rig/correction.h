@@ -1,9 +1,9 @@
-// The correction of one device: from what it reports to where its endpoint is, in the rig file's D:
+// The correction of one device: from its report to its endpoint's position, in the rig file's D:
 //
-//     p' = X f(reading)        f = FK(q + offset)        of devices that report joint angles q
-//                              f = (I + S) p             of others; S symmetric
+//     p' = X f(reading)        f = FK(q + offset)        for devices that report joint angles q
+//                              f = (I + S) p             for others; S symmetric
 //     v' = A v                 A = R J(q + offset) J(q)^-1        or R (I + S)
-//     f  = A^T f'              which keeps power: f . v = f' . v'
+//     f  = A^T f'              which conserves power: f . v = f' . v'
 //
 // X: pose of the true D in the file's D; R: its rotation; FK, J: the arm's kinematics and Jacobian.
 // With joint angles the transpose is also exact for the motors: the device's driver makes torques
@@ -19,7 +19,7 @@ namespace dihaptic::rig {
 
 struct Correction {
     Pose X;
-    std::optional<model::PhantomLinks> arm;  ///< of a device that reports joint angles
+    std::optional<model::PhantomLinks> arm;  ///< for a device that reports joint angles
     Vec3 joint_offset = Vec3::Zero();        ///< true minus reported [rad]
     Mat3 stretch = Mat3::Zero();             ///< S: scale, and skew off its diagonal
 
@@ -32,7 +32,7 @@ struct Correction {
     Vec3 position(const Vec3& p_DH, const Vec3& joints) const noexcept {
         return X * shaped(p_DH, joints);
     }
-    /// A; R where the arm is stretched or folded, so that J(q) has no inverse.
+    /// A; R if the arm is stretched or folded, so that J(q) has no inverse.
     Mat3 slope(const Vec3& joints) const noexcept;
 };
 

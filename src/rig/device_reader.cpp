@@ -24,7 +24,7 @@ void DeviceReader::check() const {
         const bool silent = (reading.status & kNotAnswering) != 0;
         if (!silent && reading.p_DH.allFinite() && reading.joints.allFinite()) continue;
         throw Error(fmt::format("the {}'s device does not answer", fingers_[i]),
-                    "Look at its power and its cables, and begin again.");
+                    "Check its power and its cables, and start again.");
     }
 }
 
@@ -39,7 +39,7 @@ void DeviceReader::repeat(const std::function<bool()>& each) {
             }
             return each();
         } catch (...) {
-            failure = std::current_exception();  // must not pass through a maker's library
+            failure = std::current_exception();  // must not pass through a manufacturer's library
             return false;
         }
     };

@@ -12,17 +12,17 @@ namespace dihaptic::rig {
 
 class DeviceReader {
   public:
-    /// Time between readings of devices that do not pace.
+    /// Time between readings of devices without pacing.
     static constexpr Time kTick = std::chrono::milliseconds(1);
 
-    /// `fingers`: which finger holds each device; named in errors.
+    /// `fingers`: finger that holds each device, for errors.
     DeviceReader(devices::DeviceGroup& devices, std::vector<std::string> fingers);
 
     /// Reads once, at `now`.
     void tick(Time now) noexcept;
     /// Reads in real time, at the devices' own pace if they pace, and calls `each` after each
     /// reading until it returns false. Devices that are not active are not read. Throws Error when
-    /// a device does not answer, and what `each` throws.
+    /// a device does not answer, and passes on exceptions of `each`.
     void repeat(const std::function<bool()>& each);
 
     const std::vector<devices::Reading>& readings() const { return readings_; }

@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The path as it would stand in the list of libraries that are allowed.
+/// The path as in the list of allowed libraries.
 std::string whole(const std::string& path) {
     std::error_code failed;
     const fs::path out = fs::weakly_canonical(fs::absolute(path, failed), failed);
@@ -22,17 +22,17 @@ std::string whole(const std::string& path) {
 Problem refusal(const Place& place, const std::string& path) {
     if (std::error_code unreadable; !fs::exists(path, unreadable)) {
         return {Severity::error, place, "library", fmt::format("'{}' does not exist", path),
-                "Correct the path, or install the maker's software."};
+                "Correct the path, or install the manufacturer's software."};
     }
     const std::string list = allowed_libraries_file();
     std::string remedy = "If you trust it, ";
     if (!list.empty()) remedy += fmt::format("add the line '- {}' to {}; or ", whole(path), list);
     return {Severity::error, place, "library",
-            fmt::format("'{}' is not loaded: its code could do anything, and it is named by a file "
+            fmt::format("'{}' is not loaded: its code could do anything, and its name is in a file "
                         "that you did not name yourself",
                         path),
             remedy +
-                "name the rig yourself, which a session that is resumed cannot: --rig, or Rig in "
+                "name the rig yourself (not possible for a resumed session): --rig, or Rig in "
                 "the window."};
 }
 
@@ -73,7 +73,7 @@ std::vector<Problem> strange_libraries(const Rig& rig) {
     for (const Device& device : rig.devices) look_at(device.options, out);
     for (const outlets::OutletConfig& outlet : rig.outlets) look_at(outlet.options, out);
     if (rig.head) look_at(rig.head->place, rig.head->library, out);
-    // two devices of a maker have one library
+    // two devices of a manufacturer share a library
     std::set<std::string> told;
     std::erase_if(out, [&](const Problem& one) { return !told.insert(one.what).second; });
     return out;

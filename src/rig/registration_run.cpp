@@ -11,12 +11,12 @@
 namespace dihaptic::rig {
 namespace {
 
-constexpr int kCrossSamples = 25;           // samples of a cross: half a second
-constexpr double kMostMovedOnCross = 2e-3;  // of a finger that rests on one [m]
-constexpr double kMoveToCross = 0.8;        // of a simulated finger, from cross to cross [s]
-constexpr double kRest = 0.7;               // on each [s]
+constexpr int kCrossSamples = 25;           // samples per cross: half a second
+constexpr double kMostMovedOnCross = 2e-3;  // of a finger at rest on a cross [m]
+constexpr double kMoveToCross = 0.8;        // time of a simulated finger from cross to cross [s]
+constexpr double kRest = 0.7;               // rest on each cross [s]
 
-/// A finger that goes from place to place, and rests on each.
+/// A finger that moves from point to point, and rests at each.
 class TouchingHand final : public hand::Driver {
   public:
     explicit TouchingHand(std::vector<Vec3> places) : places_(std::move(places)) {}
@@ -47,7 +47,7 @@ std::vector<Vec3> places_of(const display::Display& display) {
     return out;
 }
 
-/// Reads where one finger's endpoint is.
+/// Reads the position of one finger's endpoint.
 class Endpoint {
   public:
     Endpoint(const Rig& rig, const std::string& finger, const hand::Driver* driver)
@@ -62,7 +62,7 @@ class Endpoint {
     Endpoint& operator=(const Endpoint&) = delete;
 
     DeviceReader& reader() { return reader_; }
-    /// In the hand's units [m].
+    /// Position in the hand's units [m].
     Vec3 p_W() const { return X_WD_ * (reader_.readings()[0].p_DH / devices_->info(0).scale); }
 
   private:
@@ -70,7 +70,7 @@ class Endpoint {
                                                       const hand::Driver* driver) {
         devices::Context context;
         context.driver = driver;
-        context.impedance.stiffness = 1e5;  // a simulated finger that does not give way
+        context.impedance.stiffness = 1e5;  // a simulated finger that does not yield
         context.impedance.damping = 150;
         return make_devices(rig, {finger}, context);
     }
@@ -81,7 +81,7 @@ class Endpoint {
     DeviceReader reader_;
 };
 
-/// The mean of places that should be the same, and their spread.
+/// The mean and the spread of positions that should be equal.
 struct Rested {
     Vec3 sum = Vec3::Zero();
     Eigen::AlignedBox3d box;
@@ -117,7 +117,7 @@ std::vector<Vec3> lead_person(const Rig& rig, const std::string& finger, const G
                 out.push_back(rested.mean());
                 break;
             }
-            way.tell(0, fmt::format("It moved by {:.1f} mm: hold it still, once more.",
+            way.tell(0, fmt::format("It moved by {:.1f} mm: hold it still once more.",
                                     rested.moved() * 1e3));
         }
     }
@@ -141,7 +141,7 @@ std::vector<Vec3> simulate(const Rig& rig, const std::string& finger, const disp
         if (now % Way::kEvery != Time(0)) continue;
         told.share = seconds(now) / hand.duration();
         guide.show(told);
-        guide.done();  // throws if the person gives up
+        guide.done();  // throws if the person cancels
         const double each = kMoveToCross + kRest;
         const auto i = static_cast<size_t>(seconds(now) / each);
         if (seconds(now) - static_cast<double>(i) * each > kMoveToCross + kRest / 2)

@@ -10,16 +10,16 @@
 
 namespace dihaptic::rig {
 
-/// How a simulated finger touches a screen.
+/// Parameters of a simulated finger that touches a screen.
 struct SimulatedTouch {
     double noise = 0.3e-3;  ///< standard deviation along each axis [m]
     uint64_t seed = 1;
 };
 
-/// The places where a finger touched the display's crosses, in the world and in the hand's units
-/// [m]. On simulated devices a simulated finger touches the display at its place `seen`. `finger`:
-/// the one that touches. Throws Error as make_devices() does, and when a device does not answer or
-/// reach; and what `guide` throws.
+/// The positions at which a finger touched the display's crosses, in the world and in the hand's
+/// units [m]. On simulated devices a simulated finger touches the display at its position `seen`.
+/// `finger`: the touching finger. Throws Error like make_devices(), and if a device does not answer
+/// or reach a cross; passes on exceptions of `guide`.
 std::vector<Vec3> lead_registration(const Rig& rig, const std::string& finger,
                                     const display::Display& seen, const Guide& guide,
                                     const SimulatedTouch& simulated = {});

@@ -30,7 +30,7 @@ struct View {
     double y(double p) const { return kPanelTop + kPanel / 2 - (p - area.center().y()) * scale; }
 };
 
-/// A round number below which most of the misfits are [m].
+/// A round number above most misfits [m].
 double scale_of(const std::vector<LinkResidual>& residuals) {
     std::vector<double> sizes;
     for (const LinkResidual& r : residuals)
@@ -79,12 +79,11 @@ void draw(Svg& svg, double left, const std::string& title,
 std::string residual_picture(const CalibrationResult& result, const std::string& title) {
     Svg svg(2 * kPanel + 3 * kGap, kPanelTop + kPanel + 76);
     svg.text(kGap, 28, "Calibration: " + title, "start", "font-size=\"18\" font-weight=\"bold\"");
-    svg.text(
-        kGap, 50,
-        "how far the link seems longer or shorter than it is, where its middle was, from above; "
-        "crosses are slips");
-    draw(svg, kGap, "as the rig file has it", result.before);
-    draw(svg, 2 * kGap + kPanel, "calibrated, by samples held out", result.after);
+    svg.text(kGap, 50,
+             "error of the link's apparent length, at the position of its middle, from above; "
+             "crosses are slips");
+    draw(svg, kGap, "as in the rig file", result.before);
+    draw(svg, 2 * kGap + kPanel, "calibrated, held-out samples", result.after);
     return svg.take();
 }
 

@@ -16,7 +16,7 @@
 namespace dihaptic::rig {
 namespace {
 
-/// The path of a file that a rig file names.
+/// The path of a file named in a rig file.
 std::string beside(const std::string& rig_file, const std::string& named) {
     return (std::filesystem::path(rig_file).parent_path() / named).string();
 }
@@ -50,12 +50,13 @@ void check_head(const Rig& rig, Diagnostics& diagnostics) {
     const auto tracked = std::ranges::find_if(
         rig.displays, [](const display::Display& display) { return display.eyes.tracked; });
     if (!rig.head && tracked != rig.displays.end())
-        diagnostics.error(tracked->eyes.place, "tracked", "follows no head: the rig has none",
+        diagnostics.error(tracked->eyes.place, "tracked",
+                          "needs a tracked head, but the rig has none",
                           "Add e.g. head: { stream: Head } to the rig file, or leave it out.");
     if (!rig.head) return;
     if (tracked == rig.displays.end())
         diagnostics.warning(rig.head->place, "head",
-                            "moves no eyes: those of no display are tracked",
+                            "moves no eyes, because no display has tracked eyes",
                             "Write tracked: yes in a display's eyes.");
     if (rig.head->along.norm() < 1e-9)
         diagnostics.error(rig.head->place, "along", "has no direction",
@@ -83,7 +84,7 @@ void check(const Rig& rig, Diagnostics& diagnostics) {
         backend->describe({config_of(device)}, {}, diagnostics);
         if (device.backend != rig.devices.front().backend) {
             diagnostics.error(device.place, "backend", "differs from the first device's",
-                              "All devices of a rig are of one backend.");
+                              "All devices of a rig must have the same backend.");
         }
     }
     if (rig.devices.empty())
@@ -93,7 +94,7 @@ void check(const Rig& rig, Diagnostics& diagnostics) {
     check_head(rig, diagnostics);
 }
 
-/// Reads a file that a rig file names by a key; false, with `remedy`, if there is none to read.
+/// Reads a file that a rig file names by a key; false, with `remedy`, if it cannot be read.
 template <class File>
 bool read_named(const std::string& file, const Place& place, const char* key,
                 const std::string& named, const char* remedy, File& out, Diagnostics& diagnostics) {
@@ -109,7 +110,7 @@ bool read_named(const std::string& file, const Place& place, const char* key,
 
 void check_date(const std::string& date, const Place& place, Diagnostics& diagnostics) {
     if (date.empty() || days_between(date, date)) return;
-    diagnostics.error(place, "date", fmt::format("'{}' is no date", date),
+    diagnostics.error(place, "date", fmt::format("'{}' is not a date", date),
                       "Write it as 2026-11-21.");
 }
 
@@ -151,7 +152,7 @@ void read_calibration(Rig& rig, const std::string& file, Diagnostics& diagnostic
     rig.calibrated = calibration;
 }
 
-/// Moves everything so that the world's origin is where the file says.
+/// Moves all positions so that the world's origin is that of the file.
 void place_world(Rig& rig) {
     for (Device& device : rig.devices) device.position -= rig.origin;
     for (JigPoint& point : rig.jig) point.position -= rig.origin;
@@ -163,7 +164,7 @@ void place_world(Rig& rig) {
     rig.origin = Vec3::Zero();
 }
 
-/// How a device's readings are adjusted; nullopt if they need no adjustment.
+/// The adjustment of a device's readings; nullopt if they need none.
 std::optional<Adjustment> adjustment(const Rig& rig, const Device& device,
                                      const frame::DeviceInfo& info) {
     Adjustment out;
@@ -175,15 +176,15 @@ std::optional<Adjustment> adjustment(const Rig& rig, const Device& device,
     }
     if (part->joint_offset && !info.arm) {
         throw Error(device.place, "calibration",
-                    fmt::format("has offsets of joints for the {}'s device ({}), which tells no "
+                    fmt::format("has joint offsets for the {}'s device ({}), which reports no "
                                 "joint angles",
                                 device.finger, info.model),
                     "Calibrate the rig again.");
     }
     if (!part->serial.empty() && !info.serial.empty() && part->serial != info.serial) {
         throw Error(device.place, "calibration",
-                    fmt::format("is of device {}, and the {} holds {}", part->serial, device.finger,
-                                info.serial),
+                    fmt::format("belongs to device {}, but the {} holds {}", part->serial,
+                                device.finger, info.serial),
                     "Calibrate the rig again, or connect that device.");
     }
     out.correction = part->correction(info.arm);
@@ -251,7 +252,7 @@ std::string picture_of(const std::string& calibration_file) {
 
 void check_calibration_file(const std::string& rig_file, const std::string& file) {
     if (picture_of(file) == file) {
-        throw Error({file, 0}, "", "is a name for the picture beside it",
+        throw Error({file, 0}, "", "is a name for the picture beside the calibration",
                     "Name the calibration *.yaml.");
     }
     for (const std::string& out : {file, picture_of(file)})
@@ -267,7 +268,7 @@ std::string store_calibration(const Rig& rig, const CalibrationResult& result,
 }
 
 namespace {
-/// How a rig file names another.
+/// The name of another file in a rig file.
 std::string named_in(const std::string& rig_file, const std::string& file) {
     const auto folder = std::filesystem::path(rig_file).parent_path();
     return std::filesystem::path(file).lexically_proximate(folder).string();
@@ -294,12 +295,13 @@ void check_jig(const Rig& rig) {
     std::vector<Vec3> points;
     for (const JigPoint& point : rig.jig) points.push_back(point.position);
     if (points.empty()) {
-        throw Error(rig.place, "jig", "one device alone is calibrated by a jig, and there is none",
+        throw Error(rig.place, "jig", "a single device is calibrated with a jig, but there is none",
                     "Give the rig file a jig, or two devices.");
     }
     if (across(points) >= kLeastJig) return;
-    throw Error(rig.place, "jig", "its points are on a line, or too near to each other",
-                fmt::format("Give three or more, {:.0f} mm apart to two sides.", kLeastJig * 1e3));
+    throw Error(
+        rig.place, "jig", "its points are on a line, or too near to each other",
+        fmt::format("Give three or more, {:.0f} mm apart in two directions.", kLeastJig * 1e3));
 }
 
 const display::Display& display_of(const Rig& rig, const std::string& name) {
@@ -310,7 +312,7 @@ const display::Display& display_of(const Rig& rig, const std::string& name) {
     }
     if (names.empty())
         throw Error(rig.place, "displays", "there are none",
-                    "Add one to the rig file: docs/files.md says how.");
+                    "Add one to the rig file (see docs/files.md).");
     throw Error(rig.place, "displays",
                 name.empty() ? "there are several" : fmt::format("none is named '{}'", name),
                 fmt::format("Known: {}.", fmt::join(names, ", ")));
@@ -334,8 +336,8 @@ void check_registrations(const Rig& rig, const std::string& today, Diagnostics& 
         if (!display.registered) {
             if (is_real(rig))
                 diagnostics.warning(display.place, "registration",
-                                    fmt::format("{} was never registered: things may be seen "
-                                                "beside where they are felt",
+                                    fmt::format("{} was never registered: objects may be seen "
+                                                "away from their felt positions",
                                                 display.name),
                                     "Register it: dihaptic register.");
             continue;
@@ -368,7 +370,7 @@ Rig uncorrected(const Rig& rig) {
 }
 
 namespace {
-/// The backend of the devices that fingers hold, and these devices in the fingers' order.
+/// The backend of the fingers' devices, and these devices in the fingers' order.
 std::pair<const devices::Backend&, std::vector<devices::DeviceConfig>> held_by(
     const Rig& rig, const std::vector<std::string>& fingers) {
     std::vector<devices::DeviceConfig> configs;

@@ -1,4 +1,4 @@
-// The rig: which devices there are, where they stand, and which finger holds each
+// The rig: the devices, their poses, and the finger that holds each
 // (docs/files/rig.md).
 #pragma once
 
@@ -19,7 +19,7 @@ struct Device {
     std::string backend;
     Vec3 position = Vec3::Zero();  ///< of D's origin in the world [m]
     Vec3 rotation = Vec3::Zero();  ///< about the world's axes x, then y, then z [rad]
-    /// Positions in the world over those of the hand, about D's origin; forces on the hand are
+    /// Factor from the hand's to the world's positions, about D's origin; forces on the hand are
     /// smaller by this factor (corrected_devices.h).
     double scale = 1;
     Node options;  ///< read by the backend
@@ -30,14 +30,15 @@ struct Device {
         v("finger", finger,
           Field::text().required().says("Finger of the scene that holds the device."));
         v("backend", backend, Field::text().required().says("Kind of device."));
-        v("position", position, Field::length().within(-100, 100).says("Position of its origin."));
+        v("position", position,
+          Field::length().within(-100, 100).says("Position of the device's origin."));
         v("rotation", rotation,
           Field::of(Quantity::angle)
               .within(-100, 100)
-              .says("Its rotation about the world's axes x, then y, then z."));
+              .says("Rotation of the device about the world's axes x, then y, then z."));
         v("scale", scale,
-          Field::number().within(0.1, 10).says(
-              "Movement in the world over movement of the hand, about that origin."));
+          Field::number().within(0.1, 10).says("Ratio of movement in the world to movement of the "
+                                               "hand, about the device's origin."));
         v("options", options, says("Options of the backend."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
@@ -53,11 +54,12 @@ struct JigPoint {
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name, Field::text().required().says("Name of the point."));
-        v("position", position, Field::length().within(-10, 10).required().says("Where it is."));
+        v("position", position,
+          Field::length().within(-10, 10).required().says("Position of the point."));
     }
 };
 
-/// The box in which hands are kept, if the rig file gives one: along the world's axes, in place of
+/// The box in which hands are kept, if the rig file gives one: along the world's axes, instead of
 /// each device's own workspace.
 struct Wall {
     Vec3 centre = Vec3::Zero();  ///< [m]
@@ -68,94 +70,96 @@ struct Wall {
     void visit(Visitor& v) {
         v("centre", centre,
           Field::length().within(-100, 100).required().says(
-              "Centre of the box that hands are kept in."));
+              "Centre of the box in which hands are kept."));
         v("size", size,
           Field::length()
               .within(0.001, 100)
               .required()
-              .says("Lengths of its edges, along the world's axes."));
+              .says("Lengths of the box's edges, along the world's axes."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
     Eigen::AlignedBox3d box() const { return {centre - size / 2, centre + size / 2}; }
 };
 
-/// Who named a rig's file: the operator, or another file, which may be a stranger's.
+/// Source of a rig file's name: the operator, or another file, which may be a stranger's.
 enum class NamedBy { a_file, the_operator };
 
-/// A rig file. All its positions are in one frame, in which `origin` is the world's origin.
-/// read_rig() subtracts that: the positions that it returns are in the world.
+/// A rig file. All positions are in one frame, in which `origin` is the world's origin.
+/// read_rig() subtracts `origin`, so it returns positions in the world.
 struct Rig {
     std::string title;
     Vec3 origin = Vec3::Zero();  ///< of the world, in the file's frame [m]
     std::vector<Device> devices;
     std::optional<Wall> wall;
     std::vector<outlets::OutletConfig> outlets;
-    std::string calibration;  ///< path of its file, from the rig file's folder; empty: none
+    std::string
+        calibration;  ///< path of the calibration file, from the rig file's folder; empty: none
     std::vector<JigPoint> jig;
     std::vector<display::Display> displays;
     std::optional<outlets::TrackedHead> head;
     std::optional<display::Headset> headset;
     std::optional<display::Patch> patch;
     std::optional<display::SoundOutput> sound;  ///< unset: the system's default
-    Node settings;  ///< settings that this rig asks for (frame::Settings)
+    Node settings;  ///< settings that this rig requires (frame::Settings)
     Place place;
     std::optional<Calibration> calibrated;  ///< content of the file `calibration`
     Vec3 moved_by = Vec3::Zero();           ///< the file's `origin`, before it became zero [m]
-    NamedBy named_by = NamedBy::a_file;     ///< whether its libraries are loaded (libraries.h)
+    NamedBy named_by = NamedBy::a_file;  ///< decides whether its libraries are loaded (libraries.h)
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("title", title, says("Title of the rig."));
         v("origin", origin,
           Field::length().within(-100, 100).says(
-              "Where the world's origin is, in the frame of all positions of this file."));
+              "The world's origin, in the frame of all positions in this file."));
         v("devices", devices, Field::text().required().says("Devices, one for each finger."));
         v("wall", wall,
-          says("Box that hands are kept in, in place of the reach that each device states."));
-        v("outlets", outlets, says("Connections to what else the laboratory records with."));
+          says("Box in which hands are kept, in place of the reach that each device states."));
+        v("outlets", outlets, says("Connections to the laboratory's other recording equipment."));
         v("calibration", calibration, says("Calibration file, relative to this file."));
         v("jig", jig, says("Points that endpoints can touch, for dihaptic calibrate."));
         v("displays", displays,
-          says("Where the person sees screens, and with which eyes; left out, the scene's camera "
-               "says what is seen."));
+          says("Screens as the person sees them, and the person's eyes; if left out, the scene's "
+               "camera "
+               "determines the view."));
         v("head", head,
-          says("Where a tracker sees the person's head, with which tracked eyes of displays move; "
-               "left out, none is tracked."));
+          says("Tracker of the person's head, with which tracked eyes of displays move; "
+               "if left out, no head is tracked."));
         v("headset", headset,
-          says(
-              "Headset that the person wears: where it is in the world; left out, there is none."));
+          says("Headset that the person wears, and its position in the world; if left out, there "
+               "is none."));
         v("patch", patch,
-          says("Square for a photodiode, in a corner of what the person sees first."));
+          says("Square for a photodiode, in a corner of the person's first display."));
         v("sound", sound,
-          says("Where the sounds of tasks are played; left out, on the system's default device."));
+          says("Output for the sounds of tasks; if left out, the system's default device."));
         v("settings", settings,
-          says("Settings that the rig asks for; those of safety are its limits."));
+          says("Settings that the rig requires; those of 'safety' are its limits."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
 /// Reads a rig file, its calibration and registrations; every problem goes to `diagnostics`.
 Rig read_rig(const std::string& file, Diagnostics& diagnostics, NamedBy named_by = NamedBy::a_file);
-/// Reads it without registrations, which may be missing: for a rig whose displays are to be
+/// Reads a rig without its registrations, which may be missing: for a rig whose displays are to be
 /// registered.
 Rig read_rig_to_register(const std::string& file, Diagnostics& diagnostics,
                          NamedBy named_by = NamedBy::a_file);
-/// Reads it without its calibration as well: for a rig to be calibrated.
+/// Reads a rig without its calibration as well: for a rig to be calibrated.
 Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics,
                           NamedBy named_by = NamedBy::a_file);
 
-/// Path of a rig's calibration: the file that the rig names, or else one beside the rig file.
+/// Path of a rig's calibration: the file named in the rig, or else one beside the rig file.
 std::string calibration_file(const Rig& rig, const std::string& rig_file);
-/// Throws Error when a calibration could not be stored in `file`: before a person takes samples.
+/// Throws Error if a calibration could not be stored in `file`; called before samples are taken.
 void check_calibration_file(const std::string& rig_file, const std::string& file);
-/// Writes a calibration, and beside it the picture of its residuals; returns the picture's name.
+/// Writes a calibration, and a picture of its residuals beside it; returns the picture's name.
 /// Throws Error when they cannot be written.
 std::string store_calibration(const Rig& rig, const CalibrationResult& result,
                               const std::string& file);
 
-/// The line of a rig file that names its calibration.
+/// The line in a rig file with the name of its calibration.
 std::string calibration_line(const std::string& rig_file, const std::string& calibration_file);
-/// Adds that line to a rig file that names no calibration.
+/// Adds that line to a rig file without a calibration.
 void name_calibration(const std::string& rig_file, const std::string& calibration_file);
 
 /// Whether the rig's devices are real: they run in real time, and move a person's hand.
@@ -167,37 +171,37 @@ Rig simulated_rig(const std::vector<std::string>& fingers, bool orientation = fa
 /// Throws Error when the rig's jig is missing or too small to locate its devices. Several devices
 /// need no jig.
 void check_jig(const Rig& rig);
-/// Warns of a calibration, or a display's registration, that is older than kOldCalibration, and of
-/// a display of a real rig that was never registered. `today`: ISO 8601.
+/// Warns about a calibration, or a display's registration, that is older than kOldCalibration, and
+/// of a display of a real rig that was never registered. `today`: ISO 8601.
 void check_age(const Rig& rig, const std::string& today, Diagnostics& diagnostics);
 constexpr int kOldCalibration = 30;  // days
 
-/// The rig without calibration and scales: its readings are those that the devices report.
+/// The rig without calibration and scales: its readings are the devices' reports.
 Rig uncorrected(const Rig& rig);
 
-/// What the rig file says about the devices that fingers hold, in the fingers' order and the
-/// world's units. Touches no hardware: what only an open device can tell keeps its default. Throws
-/// Error when a finger has no device, or when options or calibration are wrong.
+/// The rig file's information on the fingers' devices, in the fingers' order and the
+/// world's units. Touches no hardware: values that only an open device can report keep their
+/// defaults. Throws Error when a finger has no device, or when options or calibration are wrong.
 std::vector<frame::DeviceInfo> describe(const Rig& rig, const std::vector<std::string>& fingers,
                                         const devices::Context& context);
 /// Makes the devices for the scene's fingers, in the fingers' order, corrected and scaled.
 /// `keeping`: how a keeper owns real devices; nullopt: this process owns them. Throws Error when a
-/// finger has no device, or when the calibration is of other devices.
+/// finger has no device, or if the calibration belongs to other devices.
 std::unique_ptr<devices::DeviceGroup> make_devices(
     const Rig& rig, const std::vector<std::string>& fingers, const devices::Context& context,
     const std::optional<keeper::Keeping>& keeping = {});
 /// Claims the real devices that make_devices() made for this process, before it activates them; a
-/// keeper does this itself. Throws Error when another program has one.
+/// keeper does this itself. Throws Error if another program has one.
 std::vector<devices::DeviceClaim> claim_devices(const Rig& rig,
                                                 const std::vector<std::string>& fingers,
                                                 const devices::DeviceGroup& devices);
-/// The fingers that hold a device, in the file's order.
+/// The fingers with a device, in the file's order.
 std::vector<std::string> held_fingers(const Rig& rig);
 /// The display of that name; if it is empty, the only one. Throws Error when there is none.
 const display::Display& display_of(const Rig& rig, const std::string& name);
-/// Path of a display's registration: the file that the rig names, or else one beside the rig file.
+/// Path of a display's registration: the file named in the rig, or else one beside the rig file.
 std::string registration_file(const display::Display& display, const std::string& rig_file);
-/// The line of a display in a rig file that names its registration.
+/// The line in a rig file with the name of a display's registration.
 std::string registration_line(const std::string& rig_file, const std::string& registration_file);
 /// Writes a registration of a display of this rig, in the frame of the rig's file.
 void store_registration(const Rig& rig, const display::Registration& registration,

@@ -1,4 +1,4 @@
-// Leads a person through steps, on devices that are only read.
+// Guides a person through steps, on devices without force.
 #pragma once
 
 #include <functional>
@@ -28,12 +28,12 @@ class Way {
         now_.measured = measured;
         guide_.show(now_);
     }
-    /// Waits until the person says that the step is done.
+    /// Waits until the person reports that the step is done.
     void wait() {
         reader_.repeat([&] { return !guide_.done(); });
     }
-    /// Calls `each` for every sample until it returns false; `said`: since the last sample the
-    /// person has said that the step is done.
+    /// Calls `each` for every sample until it returns false; `said`: whether, since the last
+    /// sample, the person has reported that the step is done.
     void sample(const std::function<bool(bool said)>& each);
 
   private:

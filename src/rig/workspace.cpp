@@ -9,14 +9,14 @@
 namespace dihaptic::rig {
 namespace {
 
-/// Approximate number of the grid's points: fixed, so that any rig takes about as long.
+/// Approximate number of the grid's points: fixed, so that the time is about the same for any rig.
 constexpr double kPoints = 8e6;
 constexpr double kFinest = 1e-3;  // least spacing of the grid [m]
 /// The largest box is searched among cells of several points a side: at most this many cells along
 /// an axis.
 constexpr int kMostCells = 64;
 
-/// A hand that does nothing: simulated devices need a hand, but they are not moved.
+/// A hand without motion, because simulated devices need a hand.
 class StillDriver final : public hand::Driver {
   public:
     double duration() const override { return 0; }
@@ -121,7 +121,7 @@ void find_sphere(const Grid& grid, Workspace& out) {
                 most = here;
                 out.sphere_centre = out.first + out.spacing * Vec3(x - 1, y - 1, z - 1);
             }
-    // the edge is nearer than the next point outside, by a cell's diagonal at most
+    // the edge is nearer than the next point outside, by at most a cell's diagonal
     out.sphere_radius =
         std::max(0.0, (std::sqrt(static_cast<double>(most)) - std::sqrt(3.0)) * out.spacing);
 }
@@ -148,7 +148,7 @@ Rectangle largest_under(const std::vector<int>& heights, std::vector<int>& stack
     return best;
 }
 
-/// Which cells of `side` steps a side have all their points inside; neighbours share the points
+/// The cells of `side` steps a side with all points inside; neighbours share the points
 /// between them.
 Grid full_cells(const Grid& grid, int side) {
     Grid cells(((grid.size - Eigen::Vector3i::Ones()) / side).cwiseMax(0));
@@ -210,8 +210,8 @@ Reach::Reach(const Device& device, const frame::DeviceInfo& info)
     }
     if (!info.workspace) {
         throw Error(device.place, "options",
-                    fmt::format("the {}'s device does not say where its reach ends", finger_),
-                    "Give it workspace_mm, the edges of the box that it reaches.");
+                    fmt::format("the {}'s device does not state its reach", finger_),
+                    "Give workspace_mm, the edges of the box that it reaches.");
     }
     half_ = *info.workspace / 2;
     for (int corner = 0; corner < 8; ++corner) {

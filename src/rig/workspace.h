@@ -1,7 +1,8 @@
 // The workspace of a rig: the reach of each of its devices, and their intersection.
 //
-// A device's reach is what its joints allow, or the box that the device or its options state. The
-// intersection is found on a grid of points; README.md says how, and how exact that is.
+// A device's reach follows from its joint limits, or is the box that the device or its options
+// state. The intersection is found on a grid of points; README.md describes the method and its
+// accuracy.
 #pragma once
 
 #include <functional>
@@ -14,11 +15,11 @@ namespace dihaptic::rig {
 /// The reach of one device.
 class Reach {
   public:
-    /// Throws Error when the device does not say where its reach ends.
+    /// Throws Error if the device does not state its reach.
     Reach(const Device& device, const frame::DeviceInfo& info);
 
     bool contains(const Vec3& p_WH) const;
-    /// A box along the world's axes that holds the reach [m].
+    /// A box along the world's axes that contains the reach [m].
     const Eigen::AlignedBox3d& bounds() const { return bounds_; }
     const std::string& finger() const { return finger_; }
 
@@ -31,10 +32,10 @@ class Reach {
     Eigen::AlignedBox3d bounds_;
 };
 
-/// The reaches of all devices of a rig. Throws Error as the rig's backend does.
+/// The reaches of all devices of a rig. Throws Error like the rig's backend.
 std::vector<Reach> reaches(const Rig& rig);
 
-/// A reach seen from above: the columns of grid points that contain any point of it.
+/// A reach seen from above: the columns of grid points with any point in it.
 struct Shadow {
     std::vector<uint8_t> held;  ///< by y, then x
 };
@@ -59,11 +60,11 @@ struct Workspace {
     }
 };
 
-/// `progress` gets the share that is done, and returns false to give up: the result is then empty.
+/// `progress` gets the fraction done, and returns false to cancel; the result is then empty.
 Workspace find_workspace(const std::vector<Reach>& reaches,
                          const std::function<bool(double share)>& progress);
 
-/// A proposal for the world's origin and the wall in a workspace that is not empty.
+/// A proposal for the world's origin and the wall in a non-empty workspace.
 struct Placement {
     Vec3 origin;  ///< of the world: kUnderTable above the middle of the box's floor [m]
     Wall wall;    ///< the largest box
@@ -72,7 +73,7 @@ Placement propose_placement(const Workspace& workspace);
 /// Reach below a table's top, for hands that press it or grasp an object's lower edge.
 constexpr double kUnderTable = 0.01;  // [m]
 
-/// Share of a box that not every device reaches.
+/// Fraction of a box not reached by every device.
 double out_of_reach(const Eigen::AlignedBox3d& box, const std::vector<Reach>& reaches);
 
 /// SVG text: the reaches and their intersection, seen from above.

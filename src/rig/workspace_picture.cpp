@@ -14,7 +14,7 @@ constexpr std::array kColours{"#d1495b", "#2e6fbb", "#3a9d5d", "#8e5bb0"};
 
 /// The part of the picture that shows the grid: x to the right, y up.
 struct FromAbove {
-    Vec3 corner;    // of the grid, around its first point [m]
+    Vec3 corner;    // corner of the grid, around its first point [m]
     double scale;   // [px/m]
     double height;  // [px]
 
@@ -36,7 +36,7 @@ std::string bars(const Workspace& w, const Shadow& shadow, double scale) {
             if (!w.holds(shadow, x, y)) continue;
             const int begin = x;
             while (x < w.size.x() && w.holds(shadow, x, y)) ++x;
-            // y goes away from the person, and up in the picture
+            // y points away from the person, and up in the picture
             d += fmt::format("M{:.1f} {:.1f}h{:.1f}v{:.2f}h{:.1f}z", kSideMargin + begin * step,
                              kTop + (w.size.y() - 1 - y) * step, (x - begin) * step, step + 0.3,
                              -(x - begin) * step);
@@ -104,7 +104,7 @@ void draw_measures(Svg& svg, const FromAbove& view) {
     svg.text(kWidth - kSideMargin - bar / 2, kTop + view.height + 12, "100 mm", "middle");
 }
 
-/// Draws the legend, from y downward: what each colour and line shows, and its size.
+/// Draws the legend, from y downward: the meaning and size of each colour and line.
 void draw_legend(Svg& svg, const Workspace& w, const std::vector<Reach>& reaches, double y) {
     const auto line = [&](const std::string& words) {
         svg.text(kSideMargin + 26, y + 12, words);

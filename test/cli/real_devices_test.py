@@ -145,7 +145,7 @@ class RealDevices(unittest.TestCase):
                 stdout, stderr = process.communicate(timeout=patient(60))
                 os.close(master)
                 os.close(slave)
-                told = "held together, are 0.0 mm apart, and were 12.0 mm apart when the rig was calibrated"
+                told = "held together, are 0.0 mm apart, but were 12.0 mm apart when the rig was calibrated"
                 self.assertEqual(told in stdout, notes, stdout + stderr)
                 session = pathlib.Path(session_of(out) + "session.yaml").read_text()
                 self.assertEqual(told in session, notes, session)

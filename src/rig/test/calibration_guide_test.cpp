@@ -1,4 +1,4 @@
-// Tests the guide with a person who does what it says, on the fake OpenHaptics library.
+// Tests the guide with a person who follows it, on the fake OpenHaptics library.
 #include "rig/calibration_guide.h"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ namespace {
 constexpr double kLink = 0.05;       // length of the link [m]
 constexpr double kTogether = 0.012;  // distance of endpoints held together [m]
 
-/// Two devices that stand elsewhere than the rig file says, and the person who holds them.
+/// Two devices with poses other than those in the rig file, and the person who holds them.
 struct Person {
     testing::TemporaryFolder folder;
     devices::openhaptics::FakeHd& fake = devices::openhaptics::fake_hd();
@@ -26,11 +26,11 @@ struct Person {
     std::vector<std::string> told;
     int64_t ticks = 0;          // since the step began
     int64_t patience = 60'000;  // ticks of carrying the link
-    double moving = 0;          // by which endpoints held together move apart [m]
-    int given_up_at = 0;        // step at which the person gives up; 0: none
+    double moving = 0;          // displacement of endpoints held together [m]
+    int given_up_at = 0;        // step at which the person cancels; 0: none
     double felt = 0;            // largest of all forces [N]
 
-    /// `options`: further ones, for each device.
+    /// `options`: further options, for each device.
     explicit Person(const std::string& options = "") {
         std::string text = "title: A rig\ndevices:\n";
         for (const int i : {0, 1}) {
@@ -79,7 +79,7 @@ struct Person {
         }
         return {0, 0, 0.02 * side};
     }
-    /// Checks the calibration as a session does, on its devices.
+    /// Checks the calibration like a session, on its devices.
     std::vector<Together> hold_together() {
         now = {};
         const auto fingers = held_fingers(rig);
@@ -118,12 +118,14 @@ TEST(CalibrationGuide, LeadsAPersonToACalibration) {
     EXPECT_LT(*result.calibration.jig_rms, 1e-6);
     EXPECT_NEAR(*result.calibration.find("index")->together, kTogether, 1e-6);
     EXPECT_FALSE(result.calibration.find("thumb")->together);
-    EXPECT_NE(describe(result).find("12.0 mm from the first, held together"), std::string::npos);
+    EXPECT_NE(describe(result).find("12.0 mm from the first, when held together"),
+              std::string::npos);
     EXPECT_EQ(person.fake.violations, 0);
     EXPECT_EQ(person.felt, 0);
 }
 
-/// A reset off the standard configuration bends the space of a device that reports no joint angles.
+/// A reset off the standard configuration distorts the space of a device that reports no joint
+/// angles.
 TEST(CalibrationGuide, FindsAResetThatWasOffByTheJoints) {
     const double degree = std::numbers::pi / 180;
     for (const bool joints : {true, false}) {
@@ -159,7 +161,7 @@ TEST(CalibrationGuide, AsksForMoreWhenTheCloudIsTooSmall) {
     person.patience = 400;
     lead_calibration(person.rig, person.guide());
     const bool told = std::any_of(person.told.begin(), person.told.end(), [](const auto& text) {
-        return text.find("go on, that is too little") != std::string::npos;
+        return text.find("go on, that is not enough") != std::string::npos;
     });
     EXPECT_TRUE(told);
 }
@@ -170,7 +172,7 @@ TEST(CalibrationGuide, AsksAgainWhenEndpointsMoveApart) {
     Guide guide = person.guide();
     guide.show = [&, show = guide.show](const Guidance& now) {
         show(now);
-        if (now.measured.find("hold them still, once more") != std::string::npos) person.moving = 0;
+        if (now.measured.find("hold them still once more") != std::string::npos) person.moving = 0;
     };
     const CalibrationInput input = lead_calibration(person.rig, guide);
     EXPECT_EQ(person.moving, 0);
@@ -217,7 +219,7 @@ TEST(Together, TellsWhenADeviceWasMovedSinceTheCalibration) {
     EXPECT_FALSE(moved.agrees);
     EXPECT_NEAR(moved.apart, kTogether + 0.004, 1e-4);
     EXPECT_NE(moved.warning(person.rig).text().find("Calibrate the rig again"), std::string::npos);
-    // a scale does not move endpoints that are held together apart
+    // a scale does not separate endpoints held together
     person.X_WD[1].p.x() -= 0.004;
     for (Device& device : person.rig.devices) device.scale = 3;
     EXPECT_NEAR(person.hold_together().at(0).apart, kTogether, 1e-5);

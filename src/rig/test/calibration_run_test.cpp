@@ -35,7 +35,7 @@ class TogetherDriver final : public hand::Driver {
     std::vector<Phase> phases_;
 };
 
-/// Distance that devices report between endpoints which a hand holds together [m].
+/// Distance that devices report between endpoints held together by a hand [m].
 struct Apart {
     double rms = 0;
     double worst = 0;
@@ -84,8 +84,7 @@ TEST(CalibrationRun, OfSimulatedPremiumsBringsTheirEndpointsTogether) {
     RecordProperty("after_um", number_text(after.rms * 1e6));
 
     const std::string svg = residual_picture(result, "two <Premiums>");
-    for (const char* words :
-         {"two &lt;Premiums&gt;", "as the rig file has it", "held out", "50 mm"})
+    for (const char* words : {"two &lt;Premiums&gt;", "as in the rig file", "held-out", "50 mm"})
         EXPECT_NE(svg.find(words), std::string::npos) << words;
 }
 

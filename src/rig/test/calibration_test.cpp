@@ -15,7 +15,7 @@ namespace {
 
 const model::PhantomLinks kLinks;
 
-/// Two Premiums that stand, and were reset, elsewhere than the rig file says.
+/// Two Premiums with poses and resets that differ from the rig file.
 struct Faulty {
     std::vector<Pose> X_WD;     // in the rig file
     std::vector<Pose> true_D;   // the true D in the rig file's
@@ -36,7 +36,7 @@ struct Faulty {
             offsets.push_back(offset);
         }
     }
-    /// What a device reports about an endpoint.
+    /// A device's report of an endpoint.
     CalibrationReading report(size_t i, const Vec3& p_W) const {
         const Vec3 q =
             model::phantom_joints(kLinks, true_D[i].inverse() * (X_WD[i].inverse() * p_W)) -
@@ -62,13 +62,14 @@ struct Faulty {
     }
 };
 
-/// A random place of the workspace: a box of 120 x 120 x 120 mm around the endpoints' reset pose.
+/// A random position in the workspace: a box of 120 x 120 x 120 mm around the endpoints' reset
+/// pose.
 Vec3 some_place(Random& random) {
     return Vec3(random.uniform(-0.06, 0.06), random.uniform(-0.06, 0.06),
                 random.uniform(0.01, 0.13));
 }
 
-/// Samples of the link of 50 mm, moved about; a share `outliers` of them slipped by some
+/// Samples of the link of 50 mm, moved about; a fraction `outliers` of them slipped by some
 /// millimetres.
 void move_link(const Faulty& rig, double outliers, CalibrationInput& input, Vec3 extent = {1, 1, 1},
                size_t count = 2000) {
@@ -120,10 +121,10 @@ struct Errors {
 };
 
 struct Judged {
-    Errors agreement;  // distance of two endpoints in one place
-    Errors truth;      // distance of each endpoint from that place
+    Errors agreement;  // distance of two endpoints at the same position
+    Errors truth;      // distance of each endpoint from that position
 };
-/// The errors over the workspace, at places that the calibration did not use.
+/// The errors over the workspace, at positions that the calibration did not use.
 Judged judge(const Faulty& rig, const Calibration* calibration) {
     Random random(99, "judge");
     Judged out;
@@ -170,7 +171,7 @@ TEST(Calibration, BringsMisplacedPremiumsTogether) {
         const Judged after = judge(rig, &result.calibration);
         record(seed, before, after, result.calibration);
         EXPECT_GT(before.agreement.rms, 2e-3);
-        // the encoders' steps alone are 0.02 mm; required are 0.1 and 0.3 mm
+        // the encoders' steps alone cause 0.02 mm; 0.1 and 0.3 mm are required
         EXPECT_LT(after.agreement.rms, 0.03e-3);
         EXPECT_LT(after.agreement.worst, 0.1e-3);
         EXPECT_LT(after.truth.rms, 0.03e-3);
@@ -195,7 +196,7 @@ TEST(Calibration, WithoutAJigBringsThemTogetherStill) {
     const Judged after = judge(rig, &calibration);
     EXPECT_LT(after.agreement.rms, 0.05e-3);
     EXPECT_LT(after.agreement.worst, 0.2e-3);
-    // what only a jig can tell stays as in the rig file, for both devices together
+    // quantities that only a jig determines stay as in the rig file, for both devices together
     EXPECT_GT(after.truth.rms, 0.2e-3);
     EXPECT_LT(after.truth.rms, 10e-3);
     EXPECT_FALSE(calibration.jig_rms);
@@ -212,8 +213,8 @@ TEST(Calibration, WithoutJointAnglesSaysWhatRemains) {
         const Judged after = judge(rig, &calibration);
         record(seed, judge(rig, nullptr), after, calibration);
         // ten times worse than with joint angles, and the stated error is not smaller than that. It
-        // is larger when both devices are equally wrong in one place, but not at the link's two
-        // ends
+        // is larger when both devices have the same error at one position, but not at the link's
+        // two ends
         EXPECT_GT(after.agreement.rms, 0.2e-3);
         EXPECT_GT(calibration.agreement_rms, 0.9 * after.agreement.rms);
         EXPECT_LT(calibration.agreement_rms, 2.2 * after.agreement.rms);
@@ -272,15 +273,15 @@ TEST(Calibration, RefusesWhatTellsTooLittleAndSaysWhatToDo) {
     };
     CalibrationInput input = rig.input();
     move_link(rig, 0, input, {1, 1, 1}, 20);
-    said(input, "20 samples are too few, 300 are needed. Move the endpoints, joined, through all");
+    said(input, "20 samples are too few; 300 are needed. Move the endpoints, joined, through all");
 
     input = rig.input();
     move_link(rig, 0, input, {1, 1, 0.1});
-    said(input, "mm deep, and 60 are needed. Move the endpoints");
+    said(input, "mm deep, but 60 are needed. Move the endpoints");
 
     input = rig.input();
     move_link(rig, 0, input, {0.1, 0.1, 0.1});
-    said(input, "mm deep, and 60 are needed");
+    said(input, "mm deep, but 60 are needed");
 
     input = rig.input();
     Random random(5, "one way");
@@ -336,7 +337,7 @@ TEST(Calibration, CountsDays) {
     EXPECT_FALSE(days_between("yesterday", "2026-11-20"));
 }
 
-/// The arm is far from where its driver takes it to be.
+/// The arm is far from the position in its driver.
 TEST(Correction, SlopeIsThatOfItsPositions) {
     Random random(8, "slope");
     for (const bool joints : {true, false}) {

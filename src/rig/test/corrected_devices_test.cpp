@@ -12,7 +12,7 @@ namespace {
 using std::chrono::milliseconds;
 const model::PhantomLinks kLinks;
 
-/// An arm that moves by itself, and stores the wrench that it was told.
+/// An arm that moves by itself and stores the wrench sent to it.
 class MovingArm final : public devices::DeviceGroup {
   public:
     static Vec3 joints(double t) {
@@ -97,7 +97,7 @@ TEST(CorrectedDevices, NoStretchMakesAForceLargerThanTheDevicesLimit) {
         const auto group = make_corrected(std::make_unique<MovingArm>(told), {stretched});
         group->activate();
         std::vector<devices::Reading> readings(1);
-        const double peak = group->info(0).peak_force;  // in the world's measure
+        const double peak = group->info(0).peak_force;  // in the world's units
         for (const double limit : {1e3, 8.0 * scale, 2.0 * scale}) {
             group->limit(0, limit, 0);
             const double most = std::min(limit, peak);

@@ -1,5 +1,5 @@
-// Tests displays and their registration: what rig files may not say, and how well a finger finds a
-// screen.
+// Tests displays and their registration: mistakes in rig files, and the accuracy with which a
+// finger finds a screen.
 #include "display/display.h"
 #include "base/number.h"
 
@@ -57,7 +57,7 @@ TEST(Displays, HaveEyesThatFollowTheHeadIfThereIsOne) {
         return said;
     };
     EXPECT_EQ(with(", tracked: yes", "head: { stream: Head }\n"), "");
-    EXPECT_NE(with(", tracked: yes", "").find("tracked: follows no head"), std::string::npos);
+    EXPECT_NE(with(", tracked: yes", "").find("tracked: needs a tracked head"), std::string::npos);
     EXPECT_NE(with("", "head: { stream: Head }\n").find("warning: head: moves no eyes"),
               std::string::npos);
     EXPECT_NE(with(", tracked: yes", "head: { stream: Head, along: [0, 0, 0] }\n")
@@ -150,12 +150,12 @@ TEST(Registration, FindsAMisplacedScreenByANoisyFinger) {
         if (away < 0.2e-3 && tilted < 0.1 * kDegree) ++within;
         off += away * away / kScreens;
         turned += tilted * tilted / kScreens;
-        // three axes of 0.3 mm, less what the fit takes
+        // three axes of 0.3 mm, less the fit's degrees of freedom
         EXPECT_NEAR(found.registration.rms, 0.5e-3, 0.15e-3) << seed;
     }
     RecordProperty("off_mm", number_text(1e3 * std::sqrt(off)));
     RecordProperty("turned_deg", number_text(std::sqrt(turned) / kDegree));
-    // 0.3 mm over the root of 20 touches, times that of three axes
+    // 0.3 mm over the root of 20 touches, times the root of three axes
     EXPECT_NEAR(std::sqrt(off), 0.116e-3, 0.04e-3);
     EXPECT_LT(std::sqrt(turned), 0.06 * kDegree);
     EXPECT_GE(within, 18);
@@ -183,8 +183,9 @@ TEST(Registration, IsKeptInTheRigFilesFrame) {
     Diagnostics wrong;
     read_rig(file, wrong);
     ASSERT_EQ(wrong.problems().size(), 1u);
-    EXPECT_NE(wrong.problems()[0].text().find("found.yaml:1: error: date: 'yesterday' is no date"),
-              std::string::npos)
+    EXPECT_NE(
+        wrong.problems()[0].text().find("found.yaml:1: error: date: 'yesterday' is not a date"),
+        std::string::npos)
         << wrong.problems()[0].text();
     check_age(again, "2026-12-01", diagnostics);
     EXPECT_TRUE(diagnostics.problems().empty());

@@ -1,4 +1,4 @@
-// Tests whose libraries a rig may have loaded.
+// Tests the libraries that a rig may load.
 #include "rig/libraries.h"
 
 #include <gtest/gtest.h>

@@ -47,7 +47,7 @@ TEST(RigFile, OriginPutsTheWorldIntoItsFrame) {
     EXPECT_EQ(rig.jig[0].position, Vec3(0, -0.02, 0.03));
     EXPECT_EQ(wall_box(rig)->center(), Vec3(0, 0, 0.06));
     EXPECT_EQ(rig.moved_by, Vec3(0, 0.02, -0.03));
-    // the rig file that a session keeps gives the same world
+    // the rig file in a session gives the same world
     const Rig again = read_rig(folder.write("again.yaml", to_yaml(write_fields(rig))), diagnostics);
     EXPECT_EQ(again.devices[0].position, rig.devices[0].position);
     EXPECT_EQ(wall_box(again)->sizes(), Vec3(0.2, 0.16, 0.12));
@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"devices:\n  - {finger: a, backend: simulated}\nwall: {size_mm: [1, 0, 1]}\n",
             "rig.yaml:3: error: size_mm: "},
         Bad{"devices:\n  - {finger: a, backend: simulated}\n  - {finger: b, backend: replay}\n",
-            "All devices of a rig are of one backend"}));
+            "All devices of a rig must have the same backend"}));
 
 class StillDriver final : public hand::Driver {
   public:
@@ -177,14 +177,15 @@ TEST(RigFile, RefusesACalibrationOfOtherDevices) {
     const auto said = [&](const std::string& text, const std::string& words) {
         EXPECT_NE(text.find(words), std::string::npos) << text;
     };
-    said(refusal(kPart, "serial: P-2"), "is of device P-1, and the thumb holds P-2. Calibrate");
+    said(refusal(kPart, "serial: P-2"),
+         "belongs to device P-1, but the thumb holds P-2. Calibrate");
     said(refusal("date: 2026-10-01\ndevices:\n  - {finger: toe}\n", ""),
          "calibration.yaml:2: error: devices: has no part for the thumb's device");
     said(refusal("date: 2026-10-01\ndevices:\n  - {finger: thumb, joint_offset_deg: [0, 1, 1]}\n",
                  ""),
-         "which tells no joint angles. Calibrate the rig again");
+         "which reports no joint angles. Calibrate the rig again");
     said(refusal("date: soon\ndevices:\n  - {finger: thumb}\n", ""),
-         "'soon' is no date. Write it as");
+         "'soon' is not a date. Write it as");
     said(refusal("date: 2026-10-01\ndevices:\n  - {finger: thumb, shift_cm: [0, 0, 5]}\nwhat: 1\n",
                  ""),
          "calibration.yaml:4: error: what");

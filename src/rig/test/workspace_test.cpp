@@ -25,7 +25,7 @@ Rig boxes(const std::vector<Vec3>& places, const std::string& edges) {
     return rig;
 }
 
-/// A rig of `count` Premiums with arms, around one place.
+/// A rig of `count` Premiums with arms, around one point.
 Rig premiums(int count) {
     Rig rig;
     for (int i = 0; i < count; ++i) {
@@ -139,9 +139,8 @@ TEST(Workspace, OfADeviceWithoutAnEndIsRefused) {
         reaches(simulated_rig({"thumb"}));
         FAIL();
     } catch (const Error& e) {
-        EXPECT_NE(
-            std::string(e.what()).find("does not say where its reach ends. Give it workspace_mm"),
-            std::string::npos)
+        EXPECT_NE(std::string(e.what()).find("does not state its reach. Give workspace_mm"),
+                  std::string::npos)
             << e.what();
     }
 }
