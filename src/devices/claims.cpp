@@ -9,9 +9,8 @@ void check_distinct(const std::vector<DeviceConfig>& configs, const char* key,
     for (size_t i = 0; i < values.size(); ++i) {
         if (values[i].empty()) {
             if (needed) {
-                diagnostics.error(configs[i].place, key,
-                                  "is needed where there are several devices",
-                                  "Give it in options; dihaptic devices lists what it finds.");
+                diagnostics.error(configs[i].place, key, "is needed if there are several devices",
+                                  "Give it in options; dihaptic devices lists the devices found.");
             }
             continue;
         }
@@ -19,8 +18,8 @@ void check_distinct(const std::vector<DeviceConfig>& configs, const char* key,
             if (values[i] != values[j]) continue;
             diagnostics.error(
                 configs[i].place, key,
-                fmt::format("'{}' is that of the {}'s device too", values[i], configs[j].finger),
-                "Each device has its own.");
+                fmt::format("'{}' also belongs to the {}'s device", values[i], configs[j].finger),
+                "Each device has its own value.");
         }
     }
 }

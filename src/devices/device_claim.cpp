@@ -20,7 +20,7 @@ namespace {
 constexpr Time kPatience = std::chrono::seconds(2);
 constexpr Time kLook = std::chrono::milliseconds(20);
 
-/// An abstract address; a name that is too long is cut, as it is for everybody.
+/// An abstract address; a name that is too long is cut, in the same way by all programs.
 struct Address {
     sockaddr_un address{};
     socklen_t size = 0;
@@ -38,7 +38,7 @@ int new_socket() {
     return socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
 }
 
-/// Who has the claim, in words.
+/// The owner of the claim, in words.
 std::string owner_of(const Address& address) {
     const int asking = new_socket();
     if (asking < 0) return "another program";
@@ -64,9 +64,9 @@ DeviceClaim::DeviceClaim(const std::string& backend, const frame::DeviceInfo& in
     if (failed == 0 && listen(socket_, 8) == 0) return;
     if (socket_ >= 0) close(socket_);
     if (failed == EADDRINUSE) {
-        throw Error(place, "serial",
-                    fmt::format("{} is in use by {}", info.model, owner_of(address)),
-                    "Wait until that has ended, or end it: two programs must not move one device.");
+        throw Error(
+            place, "serial", fmt::format("{} is in use by {}", info.model, owner_of(address)),
+            "Wait until that program has ended, or end it: two programs must not move one device.");
     }
     throw Error(place, "serial",
                 fmt::format("{} cannot be claimed: {}", info.model, std::strerror(failed)),

@@ -1,6 +1,6 @@
-// A device has one owner at a time. If two programs wrote forces to one device, each would believe
-// that its own acts. Whoever activates a real device claims it by its backend and serial number;
-// the kernel releases the claim when the owner ends, for whatever reason.
+// A device has one owner at a time. If two programs wrote forces to one device, each would assume
+// that its own force acts. A program that activates a real device claims it by its backend and
+// serial number; the kernel releases the claim when the owner ends, for any reason.
 //
 // A claim is an abstract UNIX socket of that name. It is valid for all users of the machine, needs
 // no file that could be left behind or replaced, and reveals its owner. Another user could claim a
@@ -18,8 +18,8 @@ namespace dihaptic::devices {
 class DeviceClaim {
   public:
     /// Waits for up to `patience`, because a session that is ending may still be closing its
-    /// devices. Throws Error for `place` when another owner still has it then. `info`: of an open
-    /// device.
+    /// devices. Throws Error for `place` if another owner still has it then. `info`: that of an
+    /// open device.
     DeviceClaim(const std::string& backend, const frame::DeviceInfo& info, const Place& place,
                 Time patience);
     ~DeviceClaim();
@@ -30,7 +30,8 @@ class DeviceClaim {
     int socket_ = -1;
 };
 
-/// Claims all of a group's devices. Simulated ones need no claim: nothing is returned for them.
+/// Claims all of a group's devices. Simulated devices need no claim, so nothing is returned for
+/// them.
 std::vector<DeviceClaim> claim_devices(const std::string& backend, const DeviceGroup& devices,
                                        const std::vector<Place>& places);
 

@@ -5,10 +5,10 @@
 namespace dihaptic::devices {
 namespace {
 
-/// Share of the limit by which a force that was already limited may exceed it through rounding.
+/// Fraction of the limit by which rounding may make a limited force exceed it.
 constexpr double kRounding = 1e-9;
 
-/// Returns whether `v` had to be made smaller.
+/// Returns whether `v` had to be reduced.
 bool clamp(Vec3& v, double most) noexcept {
     if (!v.allFinite()) v.setZero();
     const double size = v.norm();

@@ -1,8 +1,8 @@
-// The interface to haptic devices: all devices of one backend, read together and written together.
+// The interface to haptic devices: all devices of one backend, read and written together.
 //
-// Making a group configures it, which may allocate and throw an Error that names the remedy. Then
-// come activate(), any number of pairs of read() and write(), one pair a tick, and deactivate().
-// The pair neither allocates nor throws; trouble shows in each reading's status.
+// The construction of a group configures it, and may allocate and throw an Error with the remedy.
+// Then come activate(), any number of pairs of read() and write(), one pair a tick, and
+// deactivate(). The pair neither allocates nor throws; trouble appears in each reading's status.
 #pragma once
 
 #include <cassert>
@@ -32,8 +32,8 @@ struct Reading {
     Vec3 p_DH = Vec3::Zero();  ///< endpoint [m]
     Vec3 v_DH = Vec3::Zero();  ///< [m/s]
     uint32_t buttons = 0;
-    /// Bits of kStatusByDevice. With kNotAnswering the rest of the reading means nothing,
-    /// with kUncalibrated its positions; kForceDropped is for a force that can be switched on
+    /// Bits of kStatusByDevice. With kNotAnswering the rest of the reading is meaningless,
+    /// with kUncalibrated the positions are; kForceDropped is for a force that can be switched on
     /// again.
     uint32_t status = 0;
     /// Rotation of the endpoint from the device's neutral orientation, and its angular velocity
@@ -44,23 +44,23 @@ struct Reading {
     Vec3 joints = Vec3::Zero();
 };
 
-/// One device, as the rig file describes it.
+/// One device, as described in the rig file.
 struct DeviceConfig {
     std::string finger;
     Pose X_WD;
     Node options;  ///< read by the backend
     Place place{};
-    double scale = 1;  ///< movement in the world over the hand's movement, about D's origin
+    double scale = 1;  ///< ratio of movement in the world to the hand's, about D's origin
 };
 
-/// What some backends need from the rest of the program.
+/// Data that some backends need from the rest of the program.
 struct Context {
     double tick = 1e-3;                    ///< [s]
     const hand::Driver* driver = nullptr;  ///< moves the simulated fingers; outlives the group
     hand::Impedance impedance;
     hand::TremorSpec tremor;
     uint64_t seed = 0;
-    /// For replay: the recorded devices, and the readings of a tick; false after the last.
+    /// For replay: the recorded devices, and the readings of a tick; false after the last tick.
     struct Recording {
         std::vector<frame::DeviceInfo> devices;
         std::function<bool(Time, std::span<Reading>)> read;
@@ -98,25 +98,25 @@ class DeviceGroup {
     }
     /// Commands forces and torques on the endpoints, in the axes of D, one wrench for each device,
     /// to hold until the next write. Torques are zero for devices that render none. No device is
-    /// ever told more than its peak or limit(): a larger vector is scaled down to it, which shows
-    /// in the next reading, and one that is not finite becomes zero.
+    /// ever sent more than its peak or limit(): a larger vector is scaled down to it, which appears
+    /// in the next reading's status, and a vector that is not finite becomes zero.
     void write(std::span<const Wrench> wrenches_D) noexcept;
-    /// Limits the commands that a device gets from now on [N], [N*m]; its peaks remain in effect.
+    /// Limits the commands to a device from now on [N], [N*m]; its peaks remain in effect.
     void limit(int device, double force, double torque) noexcept;
-    /// What the maker's library last reported about a device, in words; "" if nothing. Not to be
+    /// The last report of the manufacturer's library on a device, in words; "" if none. Not to be
     /// called in the cycle.
     virtual std::string explain(int /*device*/) const { return ""; }
-    /// Whether the devices say when a tick is due; then pace() is called.
+    /// Whether the devices determine when a tick is due; then pace() is called.
     virtual bool paces() const { return false; }
     /// Calls `tick`, which does one read() and one write(), whenever the devices are ready, until
-    /// it returns false; from this thread or one of the vendor's, but never two at a time.
+    /// it returns false; from this thread or one of the manufacturer's, but never two at a time.
     void pace(const std::function<bool()>& tick) {
         assert(active_ && paces());
         do_pace(tick);
     }
     /// Whether stop() may be called: from any thread, while another is in read() or write().
     virtual bool can_stop() const { return false; }
-    /// Switches force off at once on all devices, whatever is written, until they are activated
+    /// Switches force off at once on all devices, for any writes, until they are activated
     /// again. Returns whether force is known to be off.
     bool stop() noexcept {
         assert(can_stop());
@@ -133,7 +133,7 @@ class DeviceGroup {
     virtual void do_write(std::span<const Wrench> wrenches_D) noexcept = 0;
     virtual void do_pace(const std::function<bool()>&) {}
     virtual bool do_stop() noexcept { return false; }
-    /// For a group that wraps another one: passes the limit on, in that group's units.
+    /// For a group that wraps another: passes the limit on, in that group's units.
     virtual void do_limit(int /*device*/, double /*force*/, double /*torque*/) noexcept {}
 
     struct Output {
@@ -148,15 +148,15 @@ class DeviceGroup {
     bool active_ = false;
 };
 
-/// What a backend finds on this machine; shown by `dihaptic devices`.
+/// A backend's findings on this machine, shown by `dihaptic devices`.
 struct Survey {
     struct Device {
         std::string serial;
         std::string model;
-        std::string state;  ///< in words, with a remedy when it cannot be used as it is
+        std::string state;  ///< in words, with a remedy if it cannot be used
     };
     std::vector<Device> devices;
-    std::string missing;  ///< what keeps the backend from working, and the remedy; "" if nothing
+    std::string missing;  ///< the obstacle to the backend, and the remedy; "" if none
 };
 
 /// The first problem of an error and its remedy, without the place in a file: for Survey::missing.
@@ -165,18 +165,18 @@ std::string in_words(const Error& error);
 /// An entry of the table of backends, one for each subfolder of this folder.
 struct Backend {
     const char* name;
-    /// Reads and checks the options of devices, without touching hardware, and returns what follows
-    /// from them. What only an open device can tell keeps its default.
+    /// Reads and checks the options of devices, without touching hardware, and returns the
+    /// resulting information. Values that only an open device can report keep their defaults.
     std::vector<frame::DeviceInfo> (*describe)(const std::vector<DeviceConfig>& configs,
                                                const Context& context, Diagnostics& diagnostics);
     std::unique_ptr<DeviceGroup> (*make)(const std::vector<DeviceConfig>& configs,
                                          const Context& context);
-    /// Whether its devices are real: they move a person's hand, and run only in real time.
+    /// Whether its devices are real: they move a person's hand and run only in real time.
     bool real = false;
-    /// Looks for devices without moving them; null for a backend that is always there.
+    /// Looks for devices without moving them; null for a backend that is always available.
     Survey (*survey)() = nullptr;
-    /// Adds its options to the schema of rig files (base/json_schema.h); null for a backend that no
-    /// rig file may name.
+    /// Adds its options to the schema of rig files (base/json_schema.h); null for a backend that
+    /// rig files cannot name.
     void (*options)(JsonSchema& schema) = nullptr;
 };
 

@@ -1,6 +1,6 @@
-// Distinguishes a single cut of a device's force from a fault. Devices cut their own force when too
-// much is asked of them, and restore it. Once is an event; repeatedly is a fault, because a person
-// who is not told would think that the world is broken.
+// Distinguishes a single cut of a device's force from a fault. Devices cut their own force if too
+// much is requested, and restore it. A single cut is an event; repeated cuts are a fault, because a
+// person without a message would think that the world is broken.
 #pragma once
 
 #include <optional>
@@ -14,7 +14,7 @@ class ForceDrops {
     static constexpr Time kApart = std::chrono::seconds(1);    ///< drops further apart are single
     static constexpr Time kLongest = std::chrono::seconds(2);  ///< a longer series is a fault
 
-    /// The Status of a tick at `now`; `dropped`: whether force was cut in it.
+    /// The Status of a tick at `now`; `dropped`: whether force was cut in that tick.
     uint32_t status(Time now, bool dropped) noexcept {
         if (!dropped) return 0;
         if (!first_ || now - last_ > kApart) first_ = now;

@@ -1,4 +1,4 @@
-// Past values of a sensor, from which a velocity is computed.
+// Past values of a sensor, for computing a velocity.
 #pragma once
 
 #include <algorithm>
@@ -20,7 +20,7 @@ class Past {
         Time time{0};
         T value;
     };
-    /// Stores a value, and returns the one of `window` calls before, or the oldest if there are
+    /// Stores a value, and returns the value of `window` calls before, or the oldest if there are
     /// fewer; null at the first call.
     const Sample* exchange(Time now, const T& value) noexcept {
         const auto size = static_cast<int>(past_.size());

@@ -15,8 +15,8 @@ namespace dihaptic::devices::forcedimension {
 namespace {
 
 const char* const kNobody =
-    "Look at its power and its USB cable; an ordinary user needs a udev rule for USB vendor 1451 "
-    "(Falcon: 0403): dihaptic doctor says whether it is there, and has the commands.";
+    "Check its power and its USB cable; an ordinary user needs a udev rule for USB vendor 1451 "
+    "(Falcon: 0403): dihaptic doctor checks this rule, and gives the commands.";
 
 std::vector<Options> read_options(const std::vector<DeviceConfig>& configs,
                                   Diagnostics& diagnostics) {
@@ -66,8 +66,8 @@ std::vector<Connection> open_all(const Dhd& dhd, const Place& place) {
     return out;
 }
 
-/// Removes from `there` the connection of one device of the rig, and returns it. Throws Error when
-/// none fits, or several.
+/// Removes from `there` the connection of one device in the rig, and returns it. Throws Error if
+/// none or several fit.
 Connection take(std::vector<Connection>& there, const Options& options, const Place& place) {
     const bool chosen = options.serial != Options::kAny;
     std::vector<size_t> fits;
@@ -84,7 +84,7 @@ Connection take(std::vector<Connection>& there, const Options& options, const Pl
         throw Error(place, "serial",
                     fmt::format("two devices have serial number {}: they cannot be told apart",
                                 options.serial),
-                    "Unplug one; its maker can give it another number.");
+                    "Unplug one; its manufacturer can give it another number.");
     }
     if (fits.size() > 1) {
         throw Error(place, "serial", "is needed: several devices are connected",
@@ -107,7 +107,8 @@ void add_wrist(const Dhd& dhd, const Connection& connection, const Options& opti
     const bool turns = info.measures_orientation && dhd.has_active_wrist(connection.id());
     if (!turns && options.peak_torque) {
         throw Error(place, "peak_torque", fmt::format("{} renders no torque", info.model),
-                    "Leave it out: an active wrist does, and only with orientation.");
+                    "Leave it out: only devices with an active wrist render torque, and only with "
+                    "orientation.");
     }
     if (!turns) return;
     const double stated = dhd.max_torque(connection.id());

@@ -1,5 +1,5 @@
-// Our own declarations of the part of Force Dimension's DHD API (libdhd, or libdrd, which contains
-// it) that is used here. Units are SI; every call names its device by a number, `id`.
+// Our own declarations of the used part of Force Dimension's DHD API (libdhd, or libdrd, which
+// contains it). Units are SI; every call identifies its device by a number, `id`.
 #pragma once
 
 #include <array>
@@ -28,8 +28,8 @@ enum DhdForceOff : int {
     kDhdByDeadMan = 6,
 };
 
-/// dhdSetWatchdog() takes a number of steps: the largest, and the length of a step [s]. 0 switches
-/// the watchdog off.
+/// dhdSetWatchdog() accepts a number of steps: the largest, and the length of a step [s]. 0
+/// switches the watchdog off.
 constexpr unsigned char kDhdLongestWatchdog = 255;
 constexpr double kDhdWatchdogStep = 125e-6;
 
@@ -60,10 +60,10 @@ struct Dhd {
     int (*status)(int*, char id) = nullptr;
     const char* (*last_error)() = nullptr;
 
-    std::string file;  ///< from which they were loaded
+    std::string file;  ///< from which the functions were loaded
 };
 
-/// Loads the library from `path`, or from where the system finds it if that is empty. Throws Error.
+/// Loads the library from `path`, or as found by the system if that is empty. Throws Error.
 Dhd load_dhd(const std::string& path, const Place& place);
 
 }  // namespace dihaptic::devices::forcedimension

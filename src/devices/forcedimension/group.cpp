@@ -23,11 +23,11 @@ const char* describe_cause(int cause) {
         case kDhdByVelocity:
             return "It moved faster than its velocity threshold: move more slowly.";
         case kDhdByWatchdog:
-            return "It heard nothing for 32 ms: close other programs.";
+            return "It received no command for 32 ms: close other programs.";
         case kDhdBySoftware:
             return "A program switched its force off.";
         case kDhdByUsb:
-            return "Its USB connection failed: look at its cable.";
+            return "Its USB connection failed: check its cable.";
         case kDhdByDeadMan:
             return "Nobody held its dead-man switch.";
         default:
@@ -40,11 +40,11 @@ const char* describe_cause(int cause) {
 Connection::Connection(const Dhd& dhd, int n, const Place& place) : dhd_(dhd) {
     const int opened = dhd.open_id(static_cast<char>(n));
     if (opened < 0) {
-        throw Error(place, "serial",
-                    fmt::format("device {} of those that are connected cannot be opened: {}", n + 1,
-                                dhd.last_error()),
-                    "Close other programs that use it. Whether you may open it, dihaptic doctor "
-                    "says.");
+        throw Error(
+            place, "serial",
+            fmt::format("connected device {} cannot be opened: {}", n + 1, dhd.last_error()),
+            "Close other programs that use it. To see whether you may open it, run dihaptic doctor "
+            "says.");
     }
     id_ = static_cast<char>(opened);
     const char* const name = dhd.system_name(id_);
@@ -82,7 +82,7 @@ void Group::keep_last_error(Running& running) noexcept {
 
 Error Group::error(const Device& device, const std::string& doing) const {
     return {device.place, "serial", fmt::format("{} {}: {}", device.who, doing, dhd_.last_error()),
-            "Look at its power and its cable, and switch it off and on."};
+            "Check its power and its cable, and switch it off and on."};
 }
 
 /// The watchdog ends the device's force by itself when a program dies, is stopped or hangs.
@@ -92,8 +92,9 @@ void Group::set_watchdog(const Device& device) const {
     const std::string said = dhd_.last_error();
     dhd_.disable_expert_mode();
     if (done >= 0) return;
-    throw Error(device.place, "watchdog", fmt::format("{} takes no watchdog: {}", device.who, said),
-                "Without one its force may stay on when this program dies. To go on all the same, "
+    throw Error(device.place, "watchdog",
+                fmt::format("{} has no usable watchdog: {}", device.who, said),
+                "Without one its force may stay on when this program dies. To continue anyway, "
                 "with a hand near its switch, set options: watchdog: no.");
 }
 
@@ -107,13 +108,15 @@ void Group::do_activate() {
         if (dhd_.status(status.data(), id) < 0) throw error(device, "does not answer");
         if (status[kDhdPower] == 0) {
             throw Error(device.place, "serial", device.who + " has no power",
-                        "Switch it on, and look at its power supply.");
+                        "Switch it on, and check its power supply.");
         }
         if (status[kDhdReset] != 0) {
-            throw Error(device.place, "serial", device.who + " needs calibration",
-                        "Move it into all its end stops, or run its maker's calibration program.");
+            throw Error(
+                device.place, "serial", device.who + " needs calibration",
+                "Move it into all its end stops, or run its manufacturer's calibration program.");
         }
-        if (dhd_.compensate_gravity(1, id) < 0) throw error(device, "cannot bear its own weight");
+        if (dhd_.compensate_gravity(1, id) < 0)
+            throw error(device, "cannot compensate its own weight");
         if (device.watchdog) set_watchdog(device);
         if (tell(device, {}) < 0 || dhd_.enable_force(1, id) < 0)
             throw error(device, "cannot switch its force on");
@@ -172,12 +175,12 @@ uint32_t Group::read(size_t i, Time now, Reading& reading) noexcept {
 }
 
 uint32_t Group::drop_status(Running& running, Time now) noexcept {
-    // in a pause nothing is written, and the hand felt no force that could be lost
+    // in a pause nothing is written, and no force on the hand could be lost
     if (running.cause == kDhdByWatchdog && running.quiet) {
         running.cause = 0;
         return 0;
     }
-    // it is not a fault, however long a person keeps force off
+    // it is not a fault, for any time that a person keeps force off
     if (running.cause == kDhdByButton || running.cause == kDhdByDeadMan) return kForceDropped;
     return running.drops.status(now, true);
 }
@@ -206,7 +209,7 @@ void Group::do_write(std::span<const Wrench> wrenches_D) noexcept {
         running.quiet = wrench.is_zero();
         running.saturated = done == 2;
         if (running.off && !stopped) dhd_.enable_force(1, devices_[i].connection.id());
-        // a lost connection shows in the next reading
+        // a lost connection appears in the next reading
         if (done < 0) keep_last_error(running);
     }
 }

@@ -1,5 +1,5 @@
-// A group of DHD devices. The servo's own thread keeps time. D is the maker's frame: x toward the
-// person, y right, z up, with its origin in the middle of the workspace.
+// A group of DHD devices. The servo's own thread keeps time. D is the manufacturer's frame: x
+// toward the person, y right, z up, with its origin in the middle of the workspace.
 #pragma once
 
 #include <atomic>
@@ -13,42 +13,45 @@ namespace dihaptic::devices::forcedimension {
 
 /// Options of a device in the rig file.
 struct Options {
-    int serial = kAny;                        ///< kAny: the only device that is connected
+    int serial = kAny;                        ///< kAny: the only connected device
     std::string library;                      ///< path of libdhd.so, if the system finds none
-    std::optional<double> peak_force;         ///< that the device may be asked for [N]
-    std::optional<double> continuous_force;   ///< that it can hold for long [N]
+    std::optional<double> peak_force;         ///< limit for this device [N]
+    std::optional<double> continuous_force;   ///< that it can sustain [N]
     std::optional<Vec3> workspace;            ///< edges of the box around D's origin [m]
     bool orientation = true;                  ///< whether to use it, if the device measures it
-    std::optional<double> peak_torque;        ///< that the device may be asked for [N*m]
-    std::optional<double> continuous_torque;  ///< that it can hold for long [N*m]
-    /// Whether to set the watchdog by which the device ends its force when it hears nothing;
-    /// otherwise the watchdog is left as it is.
+    std::optional<double> peak_torque;        ///< limit for this device [N*m]
+    std::optional<double> continuous_torque;  ///< that it can sustain [N*m]
+    /// Whether to set the watchdog by which the device ends its force without commands;
+    /// otherwise the watchdog is unchanged.
     bool watchdog = true;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("serial", serial,
           Field::number().within(0, 65535).says(
-              "Serial number; left out, the only device that is connected."));
-        v("library", library, says("Path of libdhd.so, if the system finds none."));
+              "Serial number; if left out, the only connected device."));
+        v("library", library, says("Path of libdhd.so, if the system does not find it."));
         v("peak_force", peak_force,
           Field::of(Quantity::force)
               .within(0.01, 1000)
-              .says("Largest force that the device may be asked for."));
+              .says("Largest force requested from the device."));
         v("continuous_force", continuous_force,
-          Field::of(Quantity::force).within(0.01, 1000).says("Force that it can hold for long."));
+          Field::of(Quantity::force).within(0.01, 1000).says("Force that the device can sustain."));
         v("workspace", workspace,
           Field::length().within(1e-3, 100).says(
-              "Edges of the box around its origin that it reaches."));
-        v("orientation", orientation, says("Whether its orientation is used, if it measures one."));
+              "Edges of the reachable box around the device's origin."));
+        v("orientation", orientation,
+          says("Whether the device's orientation is used, if measured."));
         v("peak_torque", peak_torque,
           Field::of(Quantity::torque)
               .within(1e-4, 100)
-              .says("Largest torque that the device may be asked for."));
+              .says("Largest torque requested from the device."));
         v("continuous_torque", continuous_torque,
-          Field::of(Quantity::torque).within(1e-4, 100).says("Torque that it can hold for long."));
+          Field::of(Quantity::torque)
+              .within(1e-4, 100)
+              .says("Torque that the device can sustain."));
         v("watchdog", watchdog,
-          says("Whether to set the watchdog by which the device ends its force when it hears "
+          says("Whether to set the watchdog by which the device ends its force when it receives "
                "nothing."));
     }
 
@@ -83,7 +86,7 @@ class Group final : public DeviceGroup {
     struct Device {
         Connection connection;
         frame::DeviceInfo info;
-        std::string who;  ///< for messages
+        std::string who;  ///< device in words, for messages
         Place place{};
         bool watchdog = true;
     };
@@ -95,9 +98,9 @@ class Group final : public DeviceGroup {
   private:
     struct Running {
         ForceDrops drops;
-        bool off = false;        // force was off in this tick's reading
-        bool quiet = true;       // the last force written was zero
-        bool saturated = false;  // a motor could give no more
+        bool off = false;        // whether force was off in this tick's reading
+        bool quiet = true;       // whether the last force written was zero
+        bool saturated = false;  // whether a motor was at its limit
         int cause = 0;           // the last DhdForceOff
         std::array<char, 160> said{};
     };

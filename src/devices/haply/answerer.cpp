@@ -17,10 +17,10 @@ namespace {
 
 constexpr const char* kMapped = "0000000000000000FFFF0000";  // before an IPv4 address, in tcp6
 
-/// An end of a connection as /proc/net/tcp and tcp6 have it: words of the address as they lie in
+/// An end of a connection as in /proc/net/tcp and tcp6: words of the address as in
 /// memory, and the port.
 struct End {
-    bool local = false;  // within this machine
+    bool local = false;  // whether it is within this machine
     bool v6 = false;
     std::string text;
 };

@@ -35,7 +35,7 @@ error_code system_error(int number) {
     return {number, boost::system::system_category()};
 }
 
-/// A socket whose reads and writes end at a deadline. Beast's own time limits work only with its
+/// A socket with a deadline for reads and writes. Beast's own time limits work only with its
 /// asynchronous calls, which allocate.
 class TimedSocket {
   public:
@@ -122,7 +122,7 @@ class TimedSocket {
         return {};
     }
 
-    /// Repeats `call` until it succeeds, fails or the deadline is over.
+    /// Repeats `call` until it succeeds or fails, or until the deadline.
     template <class Call>
     size_t transfer(short event, error_code& ec, const Call& call) {
         ec = {};
@@ -229,12 +229,12 @@ void Connection::open(const Url& url, Time time_out) {
     const int failure =
         ::getaddrinfo(url.host.c_str(), number_text(url.port).c_str(), &hints, &found);
     if (failure != 0) {
-        throw Error(fmt::format("no computer is called {} ({})", url.host, gai_strerror(failure)),
-                    "Correct url: the service is at ws://localhost:10001/ as it comes.");
+        throw Error(fmt::format("there is no computer {} ({})", url.host, gai_strerror(failure)),
+                    "Correct url: the service's default is ws://localhost:10001/.");
     }
     const std::unique_ptr<addrinfo, void (*)(addrinfo*)> addresses(found, ::freeaddrinfo);
 
-    // a new stream, because one that was closed does not open again
+    // a new stream, because a closed stream cannot be reopened
     impl_ = std::make_unique<Impl>();
     impl_->allow(time_out);
     error_code ec = impl_->stream.next_layer().connect(addresses.get());
@@ -243,19 +243,21 @@ void Connection::open(const Url& url, Time time_out) {
     impl_->stream.handshake(fmt::format("{}:{}", url.host, url.port), url.path, ec);
     if (ec == websocket::error::upgrade_declined) {
         throw Error(fmt::format("the web server at {} refused a WebSocket handshake", where),
-                    "Correct url: the service takes commands at ws://localhost:10001/ as it "
-                    "comes; another program may have its port.");
+                    "Correct url: the service accepts commands at ws://localhost:10001/ by "
+                    "default; another program may have its port.");
     }
     if (ec) {
-        throw Error(fmt::format("what listens at {} is no WebSocket service ({})", where,
-                                ec == net::error::timed_out ? "no answer in time" : ec.message()),
-                    "Correct url: another program may have the Inverse Service's port.");
+        throw Error(
+            fmt::format("the program that listens at {} is not a WebSocket service ({})", where,
+                        ec == net::error::timed_out ? "no answer in time" : ec.message()),
+            "Correct url: another program may have the Inverse Service's port.");
     }
     if (const auto user = user_at_other_end(impl_->stream.next_layer().descriptor());
         user && !may_serve(*user)) {
-        throw Error(fmt::format("what answers at {} is a program of another user's (number {})",
-                                where, *user),
-                    "Have that ended, or correct url: the Inverse Service is the machine's own.");
+        throw Error(
+            fmt::format("the program that answers at {} belongs to another user (number {})", where,
+                        *user),
+            "End that program, or correct url: the Inverse Service belongs to the system.");
     }
     impl_->stream.text(true);
     impl_->stream.auto_fragment(false);

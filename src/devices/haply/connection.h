@@ -1,4 +1,4 @@
-// A WebSocket connection to a service, for a real-time loop: messages go through buffers that are
+// A WebSocket connection to a service, for a real-time loop: messages pass through buffers that are
 // allocated once, and each call has a time limit.
 #pragma once
 
@@ -17,7 +17,7 @@ struct Url {
     int port = 80;
     std::string path = "/";
 
-    /// Returns nullopt when the text is not such an address.
+    /// Returns nullopt if the text is not such an address.
     static std::optional<Url> parse(const std::string& text);
 };
 
@@ -33,7 +33,7 @@ class Connection {
     Connection(const Connection&) = delete;
     Connection& operator=(const Connection&) = delete;
 
-    /// Connects and shakes hands. Throws an Error that says where and why it failed, and the
+    /// Connects and shakes hands. Throws an Error with the address, the cause and the
     /// remedy.
     void open(const Url& url, Time time_out);
     void close() noexcept;
@@ -41,9 +41,9 @@ class Connection {
 
     /// Sends a text message; false when the connection is lost.
     bool send(std::string_view message, Time time_out) noexcept;
-    /// The next message, valid until the next call. Empty when none was complete in time or the
-    /// connection is lost; the connection is then given up, since a late answer would be taken for
-    /// the next one.
+    /// The next message, valid until the next call. Empty if no message was complete in time or the
+    /// connection is lost; the connection is then closed, since a late answer would be mistaken for
+    /// the next answer.
     std::string_view receive(Time time_out) noexcept;
 
     /// Ends the connection from any thread, while another is in send() or receive().

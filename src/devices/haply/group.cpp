@@ -15,7 +15,7 @@
 namespace dihaptic::devices::haply {
 namespace {
 
-/// Number of readings that an angular velocity is taken over: the service reports none for grips.
+/// Number of readings for an angular velocity, which the service does not report for grips.
 constexpr int kTurnWindow = 8;
 
 std::optional<Grip> grip_of(const Options& options) {
@@ -38,7 +38,7 @@ std::vector<frame::DeviceInfo> infos(const std::vector<Wanted>& devices) {
     return out;
 }
 
-/// Reads the options of all devices, and checks that they fit together.
+/// Reads the options of all devices, and checks that they are compatible.
 std::vector<Wanted> read_wanted(const std::vector<DeviceConfig>& configs,
                                 Diagnostics& diagnostics) {
     std::vector<Wanted> devices;
@@ -48,14 +48,16 @@ std::vector<Wanted> read_wanted(const std::vector<DeviceConfig>& configs,
         devices.push_back({options, config.place, grip_of(options)});
         const Options& first = devices.front().options;
         if (!options.device_id.empty() && !ids.insert(options.device_id).second) {
-            diagnostics.error(config.place, "device_id",
-                              fmt::format("'{}' is another finger's device too", options.device_id),
-                              "Give each finger a device of its own.");
+            diagnostics.error(
+                config.place, "device_id",
+                fmt::format("'{}' is also another finger's device", options.device_id),
+                "Give each finger a device of its own.");
         }
         if (options.url != first.url || options.time_out != first.time_out) {
-            diagnostics.error(config.place, "url", "url or time_out differ from another device's",
-                              "One message of one service carries all fingers: give all devices "
-                              "the same.");
+            diagnostics.error(
+                config.place, "url", "url or time_out differs from another device's",
+                "A single message of the service carries all fingers: give all devices "
+                "the same values.");
         }
     }
     return devices;
@@ -106,8 +108,8 @@ class HaplyGroup final : public DeviceGroup {
         connection_.open(url_, kSetUpTime);
         receive_first(connection_, reader_, message_, "list of devices");
         check_inventory(message_, devices_);
-        // without force, so that we know whether the service accepts commands before a hand feels
-        // one
+        // without force, to learn whether the service accepts commands before a hand feels
+        // a force
         std::fill(forces_D_.begin(), forces_D_.end(), Vec3::Zero());
         connection_.send(writer_.write(forces_D_, true), kSetUpTime);
         receive_first(connection_, reader_, message_, "answer to a command");
@@ -125,7 +127,7 @@ class HaplyGroup final : public DeviceGroup {
         connection_.close();
     }
 
-    /// Receives every answer that the service owes; the last one is the state.
+    /// Receives all outstanding answers; the last one is the state.
     void receive() noexcept {
         for (; unanswered_ > 0; --unanswered_) {
             const std::string_view text = connection_.receive(time_out_);
@@ -168,8 +170,8 @@ class HaplyGroup final : public DeviceGroup {
         }
     }
 
-    /// Takes a device's state from the message; false when that is missing or incomplete, or the
-    /// device cannot be used as it is.
+    /// Reads a device's state from the message; false if the state is missing or incomplete, or the
+    /// device cannot be used.
     bool take(const Wanted& device, Cycle& cycle, Time now) const noexcept {
         const DeviceState* state = message_.device(device.options.device_id);
         if (state == nullptr || !state->p_DH || !state->v_DH) return false;
@@ -200,7 +202,7 @@ class HaplyGroup final : public DeviceGroup {
 
     void do_pace(const std::function<bool()>& tick) override {
         receive();
-        fresh_ = false;  // the answer may be as old as the pause before
+        fresh_ = false;  // the answer may be as old as the preceding pause
         while (true) {
             if (unanswered_ == 0) ask_without_force();
             receive();
@@ -225,9 +227,9 @@ class HaplyGroup final : public DeviceGroup {
     CommandWriter writer_;
     std::vector<Vec3> forces_D_;
     std::vector<Cycle> cycles_;
-    int unanswered_ = 0;  // number of messages that the service has not answered
-    bool fresh_ = false;  // no read() has used message_ yet
-    bool sound_ = false;  // message_ holds the last answer, complete and without an error
+    int unanswered_ = 0;  // number of unanswered messages
+    bool fresh_ = false;  // whether no read() has used message_ yet
+    bool sound_ = false;  // whether message_ is the last answer, complete and without an error
     std::atomic<bool> stopped_{false};
 };
 

@@ -6,10 +6,10 @@
 
 namespace dihaptic::devices::haply {
 
-/// What follows from the devices' options; the service adds nothing.
+/// The information in the devices' options; the service adds none.
 std::vector<frame::DeviceInfo> describe_group(const std::vector<DeviceConfig>& configs,
                                               const Context& context, Diagnostics& diagnostics);
-/// Makes the group. Throws Error when the devices' options do not fit together.
+/// Makes the group. Throws Error if the devices' options are incompatible.
 std::unique_ptr<DeviceGroup> make_group(const std::vector<DeviceConfig>& configs,
                                         const Context& context);
 

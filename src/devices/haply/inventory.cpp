@@ -8,11 +8,11 @@
 namespace dihaptic::devices::haply {
 namespace {
 
-/// Why a device cannot be used as it is, and the remedy; both are empty when it can.
+/// Why a device cannot be used, and the remedy; both are empty if it can.
 std::pair<std::string, std::string> trouble(const DeviceState& state) {
     if (state.power_supply == false) return {"has no power", "Plug its power supply in."};
     if (state.calibrated == false) {
-        return {"is not calibrated", "Calibrate it as Haply's guide for it says."};
+        return {"is not calibrated", "Calibrate it according to Haply's guide."};
     }
     if (state.ready == false) {
         return {"is not ready", "Wait until it has started, or unplug it and plug it in again."};
@@ -34,12 +34,12 @@ void receive_first(Connection& connection, StateReader& reader, StateMessage& me
     const std::string_view text = connection.receive(kSetUpTime);
     if (text.empty()) {
         throw Error(
-            fmt::format("the Inverse Service gave no {} in {:g} s", what, seconds(kSetUpTime)),
+            fmt::format("the Inverse Service sent no {} within {:g} s", what, seconds(kSetUpTime)),
             "Restart it (sudo systemctl restart haply-inverse-service); only versions "
-            "from 3.1 on speak at port 10001.");
+            "from 3.1 on answer at port 10001.");
     }
     if (!reader.read(text, message)) {
-        throw Error(fmt::format("the Inverse Service's {} is no whole JSON object", what),
+        throw Error(fmt::format("the Inverse Service's {} is not a complete JSON object", what),
                     "Correct url: another program may have the port; or restart the service (sudo "
                     "systemctl restart haply-inverse-service).");
     }
@@ -58,11 +58,10 @@ void check_inventory(const StateMessage& message, std::span<const Wanted> device
                 fmt::format("It lists: {}. Plug the device in, or correct the serial number.",
                             list_ids(message.devices())));
         } else if (same > 1) {
-            diagnostics.error(
-                device.place, "device_id",
-                fmt::format("the Inverse Service lists {} devices '{}'", same, id),
-                "Unplug one: which of them a force goes to cannot be said. Then ask Haply for "
-                "another serial number.");
+            diagnostics.error(device.place, "device_id",
+                              fmt::format("the Inverse Service lists {} devices '{}'", same, id),
+                              "Unplug one, since a force could go to either. Then ask Haply for "
+                              "another serial number.");
         } else if (const auto [what, remedy] = trouble(*message.device(id)); !what.empty()) {
             diagnostics.error(device.place, "device_id",
                               fmt::format("the Inverse3 '{}' {}", id, what), remedy);
@@ -87,7 +86,7 @@ void check_answer(const StateMessage& message, std::span<const Wanted> devices) 
         throw Error(
             device.place, "force_key",
             message.error.empty()
-                ? fmt::format("the Inverse Service's answer to a command leaves '{}' out",
+                ? fmt::format("the Inverse Service's answer to a command does not contain '{}'",
                               device.options.device_id)
                 : fmt::format("the Inverse Service refuses a command: {}", message.error),
             fmt::format("Its versions spell the force differently: try force_key: {}.",

@@ -1,4 +1,4 @@
-// Compares what the Inverse Service lists with what a rig file asks for.
+// Compares the Inverse Service's list with the devices in a rig file.
 #pragma once
 
 #include <span>
@@ -19,19 +19,19 @@ struct Grip {
 struct Wanted {
     Options options;
     Place place;
-    std::optional<Grip> grip;  ///< that gives the finger's orientation
+    std::optional<Grip> grip;  ///< grip that gives the finger's orientation
 };
 
-/// Receives an inventory, or the first answer to a command; `what` names it in messages. Throws
+/// Receives an inventory, or the first answer to a command; `what` is its name in messages. Throws
 /// Error.
 void receive_first(Connection& connection, StateReader& reader, StateMessage& message,
                    const char* what);
-/// Throws Error unless each device and grip is listed once and each device can be used as it is.
+/// Throws Error unless each device and grip is listed once and each device can be used.
 void check_inventory(const StateMessage& message, std::span<const Wanted> devices);
-/// Throws Error when the service did not understand the first command.
+/// Throws Error if the service did not understand the first command.
 void check_answer(const StateMessage& message, std::span<const Wanted> devices);
 
-/// What the service at `url` lists, for `dihaptic devices`.
+/// The list of the service at `url`, for `dihaptic devices`.
 Survey survey_of(const std::string& url);
 
 }  // namespace dihaptic::devices::haply

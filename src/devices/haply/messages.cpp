@@ -16,7 +16,7 @@ namespace json = simdjson::ondemand;
 
 static_assert(Connection::kPadding >= simdjson::SIMDJSON_PADDING);
 
-/// Calls `use(key, value)` for each member; false when the text breaks off or is not an object.
+/// Calls `use(key, value)` for each member; false if the text is truncated or is not an object.
 template <class Use>
 bool for_members(const simdjson::simdjson_result<json::object>& object, const Use& use) {
     if (object.error()) return false;
@@ -30,7 +30,7 @@ bool for_members(const simdjson::simdjson_result<json::object>& object, const Us
     return true;
 }
 
-/// Calls `use(element)` for each element; false when the text breaks off or is not an array.
+/// Calls `use(element)` for each element; false if the text is truncated or is not an array.
 template <class Use>
 bool for_elements(json::value value, const Use& use) {
     json::array elements;

@@ -15,10 +15,10 @@
 
 namespace dihaptic::devices::haply {
 
-/// What the service reports about an Inverse3. Fields that it leaves out are nullopt.
+/// The service's report on an Inverse3. Omitted fields are nullopt.
 struct DeviceState {
     std::string_view id;
-    /// In D [m], [m/s]; a component that is not a number is NaN, one that is left out is 0.
+    /// In D [m], [m/s]; a component that is not a number is NaN, an omitted one is 0.
     std::optional<Vec3> p_DH;
     std::optional<Vec3> v_DH;
     std::optional<bool> calibrated;
@@ -31,7 +31,7 @@ constexpr auto enum_names(GripKind) {
     return std::array{"verse_grip", "wireless_verse_grip"};
 }
 
-/// What the service reports about a grip.
+/// The service's report on a grip.
 struct GripState {
     GripKind kind = GripKind::verse_grip;
     std::string_view id;
@@ -41,7 +41,7 @@ struct GripState {
 
 /// A message from the service. Texts are valid until the next message is read.
 struct StateMessage {
-    static constexpr size_t kMostDevices = 16;  ///< and most grips; any further are left out
+    static constexpr size_t kMostDevices = 16;  ///< and of grips; further ones are left out
 
     std::span<const DeviceState> devices() const { return {device_list.data(), device_count}; }
     std::span<const GripState> grips() const { return {grip_list.data(), grip_count}; }
@@ -53,16 +53,16 @@ struct StateMessage {
     size_t device_count = 0;
     std::array<GripState, kMostDevices> grip_list;
     size_t grip_count = 0;
-    std::string_view error;  ///< that the service reports; "" if none
+    std::string_view error;  ///< reported by the service; "" if none
 };
 
-/// Reads messages. Once made, it neither allocates nor throws.
+/// Reads messages. After construction it neither allocates nor throws.
 class StateReader {
   public:
     explicit StateReader(size_t most_bytes);
     ~StateReader();
 
-    /// Returns false when the text is not a complete JSON object; `out` then means nothing.
+    /// Returns false when the text is not a complete JSON object; `out` is then meaningless.
     /// Connection::kPadding bytes must be readable after the text.
     bool read(std::string_view text, StateMessage& out) noexcept;
 
@@ -71,7 +71,7 @@ class StateReader {
     std::unique_ptr<Impl> impl_;
 };
 
-/// Writes the message of a tick. Once made, it neither allocates nor throws.
+/// Writes the message of a tick. After construction it neither allocates nor throws.
 class CommandWriter {
   public:
     struct Device {
@@ -80,8 +80,8 @@ class CommandWriter {
     };
     explicit CommandWriter(std::vector<Device> devices);
 
-    /// `forces_D`: by device, finite [N]. `first`: the message also names this program. The text is
-    /// valid until the next call.
+    /// `forces_D`: by device, finite [N]. `first`: the message also contains this program's name.
+    /// The text is valid until the next call.
     std::string_view write(std::span<const Vec3> forces_D, bool first) noexcept;
 
   private:

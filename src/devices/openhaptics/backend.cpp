@@ -51,11 +51,12 @@ std::unique_ptr<DeviceGroup> make(const std::vector<DeviceConfig>& configs,
             if (connections[i].serial().empty() ||
                 connections[i].serial() != connections[j].serial())
                 continue;
-            throw Error(configs[i].place, "name",
-                        fmt::format("{} and {} have one serial number: they are one device, under "
-                                    "two names",
-                                    connections[i].who(), connections[j].who()),
-                        "Correct the ports in the driver's configuration.");
+            throw Error(
+                configs[i].place, "name",
+                fmt::format("{} and {} have the same serial number: they are one device under "
+                            "two names",
+                            connections[i].who(), connections[j].who()),
+                "Correct the ports in the driver's configuration.");
         }
     }
     return std::make_unique<Group>(hd, std::move(connections), context.tick);
@@ -67,8 +68,9 @@ Survey survey() {
         const Hd hd = load_hd("", {});
         // HD lists no devices: without a name only the first can be found
         const Connection connection(hd, {}, {});
-        out.devices.push_back({connection.serial(), connection.model(),
-                               "the driver's first; others answer to their names there"});
+        out.devices.push_back(
+            {connection.serial(), connection.model(),
+             "the driver's first device; others have names in the driver's configuration"});
     } catch (const Error& e) {
         out.missing = in_words(e);
     }

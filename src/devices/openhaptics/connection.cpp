@@ -34,8 +34,8 @@ Connection::Connection(const Hd& hd, const DeviceConfig& config, const Options& 
     try {
         check("cannot be reached", "name");
         if (handle_ == kNoHandle) {
-            throw Error(place_, "name", who() + " is not there",
-                        "Switch it on, and look in the driver's configuration for its name.");
+            throw Error(place_, "name", who() + " cannot be found",
+                        "Switch it on, and check its name in the driver's configuration.");
         }
         read_info();
     } catch (...) {
@@ -115,18 +115,18 @@ void Connection::read_info() {
     int dof = 0;
     hd_.get_integers(kHdInputDof, &dof);
     info_.measures_orientation = options_.orientation && dof >= 6;
-    check("does not say what it can do", "name");
+    check("does not report its capabilities", "name");
     read_limits_of_turning();
 
     if (!sound(info_.peak_force) || !sound(info_.continuous_force) ||
         !sound(info_.workspace->minCoeff()) || !centre_.allFinite()) {
         throw Error(place_, "name",
-                    fmt::format("{} states limits that cannot be: {:g} N at most, {:g} N for long, "
+                    fmt::format("{} states impossible limits: {:g} N peak, {:g} N continuous, "
                                 "{:g} x {:g} x {:g} mm",
                                 who(), info_.peak_force, info_.continuous_force,
                                 info_.workspace->x() / kPerMm, info_.workspace->y() / kPerMm,
                                 info_.workspace->z() / kPerMm),
-                    "Look at its model in the driver's configuration.");
+                    "Check its model in the driver's configuration.");
     }
     const double stiffness = number(kHdMaxStiffness) / kPerMm;
     const double damping = number(kHdMaxDamping) / kPerMm;
@@ -135,12 +135,12 @@ void Connection::read_info() {
     if (!info_.max_damping && sound(damping)) info_.max_damping = damping;
     if (!options_.serial.empty() && options_.serial != serial_) {
         throw Error(place_, "serial",
-                    fmt::format("{} is not that of serial {}", who(), options_.serial),
+                    fmt::format("{} does not have serial number {}", who(), options_.serial),
                     "Correct name or serial, or swap the devices in the driver's configuration.");
     }
 }
 
-/// A device that measures no orientation renders no torque; nor does one without a known limit.
+/// A device without orientation or without a known limit renders no torque.
 void Connection::read_limits_of_turning() {
     int dof = 0;
     hd_.get_integers(kHdOutputDof, &dof);
@@ -150,7 +150,8 @@ void Connection::read_limits_of_turning() {
     forget_errors();  // not every device states these
     if (!turns && options_.peak_torque) {
         throw Error(place_, "peak_torque", who() + " renders no torque",
-                    "Leave it out: devices with six degrees of output do, with orientation.");
+                    "Leave it out: only devices with six output degrees of freedom render torque, "
+                    "with orientation.");
     }
     if (!turns) return;
     info_.peak_torque = options_.peak_torque.value_or(sound(peak) ? peak : 0);
@@ -160,12 +161,12 @@ void Connection::read_limits_of_turning() {
 }
 
 void Connection::check_joints() const {
-    check("does not say what it can do", "name");
+    check("does not report its capabilities", "name");
     Vec3 joints = Vec3::Constant(std::nan(""));
     hd_.get_doubles(kHdJointAngles, joints.data());
     forget_errors();
     if (joints.allFinite()) return;
-    throw Error(place_, "joint_angles", who() + " does not tell the angles of its joints",
+    throw Error(place_, "joint_angles", who() + " does not report its joint angles",
                 "Leave out joint_angles.");
 }
 

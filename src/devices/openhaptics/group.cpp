@@ -10,7 +10,7 @@ namespace {
 
 using Steady = std::chrono::steady_clock;
 
-/// Time without a call after which the scheduler is given up: once it has begun, and before.
+/// Time without a call after which the scheduler is abandoned: after its start, and before.
 constexpr auto kSilence = std::chrono::milliseconds(100);
 constexpr auto kBeginning = std::chrono::seconds(2);
 constexpr auto kLook = std::chrono::milliseconds(5);
@@ -40,7 +40,7 @@ std::string Group::explain(int device) const {
 void Group::do_activate() {
     const double hz = 1 / tick_;
     hd_.set_scheduler_rate(static_cast<unsigned long>(std::lround(hz)));
-    devices_.front().connection.check(fmt::format("does not run at {:g} ticks a second", hz),
+    devices_.front().connection.check(fmt::format("does not run at {:g} ticks per second", hz),
                                       "rate");
     for (Device& device : devices_) {
         device.connection.calibrate();
@@ -77,7 +77,7 @@ void Group::read(Device& device, Reading& reading) noexcept {
     if (device.connection.info().arm) {
         Vec3 joints = Vec3::Zero();
         hd_.get_doubles(kHdJointAngles, joints.data());
-        reading.joints = {-joints[0], joints[1], joints[2]};  // ours: turret to the right
+        reading.joints = {-joints[0], joints[1], joints[2]};  // our sign: turret to the right
     }
     if (device.connection.info().measures_orientation) {
         Eigen::Matrix4d transform = Eigen::Matrix4d::Identity();
@@ -154,7 +154,7 @@ unsigned Group::on_tick(void* group) noexcept {
     return kHdDone;
 }
 
-/// Returns false when the scheduler stopped calling.
+/// Returns false if the scheduler stopped calling.
 bool Group::wait_for_end() {
     uint64_t seen = 0;
     auto since = Steady::now();
@@ -165,8 +165,8 @@ bool Group::wait_for_end() {
         if (ticks != seen) since = now;
         seen = ticks;
         Turn free = Turn::free;
-        // a tick that blocks is left to the servo's watchdog: turn_ stays `inside`, so that none
-        // can be called meanwhile
+        // a tick that blocks is left to the servo's watchdog: turn_ stays `inside`, so that no tick
+        // can start meanwhile
         if (now - since > (seen == 0 ? Steady::duration(kBeginning) : Steady::duration(kSilence)) &&
             turn_.compare_exchange_strong(free, Turn::closed))
             return false;
@@ -187,7 +187,7 @@ void Group::do_pace(const std::function<bool()>& tick) {
     for (Device& device : devices_) device.framed = false;
     if (!silent_) return;
     take_errors();
-    // for an orderly end the servo goes on ticking and recording until it ends the session; it
+    // for an orderly end the servo continues ticking and recording until it ends the session; it
     // finds that no device answers
     while (tick()) std::this_thread::sleep_for(std::chrono::duration<double>(tick_));
 }

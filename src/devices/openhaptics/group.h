@@ -1,5 +1,5 @@
 // A group of devices served in one callback of HD's scheduler, which paces the tick: each device's
-// frame begins and it is read, the tick computes, then each device's force is set and its frame
+// frame starts and it is read, the tick computes, then each device's force is set and its frame
 // ends.
 //
 // D has HD's axes (x right, y up, z toward the person). Its origin is the middle of the usable
@@ -17,50 +17,53 @@ namespace dihaptic::devices::openhaptics {
 
 /// Options of a device in the rig file.
 struct Options {
-    std::string name;            ///< in the driver's configuration; "": the first that is found
-    std::string serial;          ///< serial number that the device must have; "": any
-    std::string library;         ///< path of libHD.so, if the system finds none
+    std::string name;            ///< name in the driver's configuration; "": the first device found
+    std::string serial;          ///< required serial number; "": any
+    std::string library;         ///< path of libHD.so, if the system does not find it
     bool encoder_reset = false;  ///< reset at each activation, with the arm in its neutral pose
     bool orientation = true;     ///< whether to use it, if the device measures it
-    std::optional<double> peak_torque;  ///< lower than the device's own, or in its place [N*m]
-    std::optional<double> continuous_torque;  ///< in place of what the device states [N*m]
-    bool joint_angles = false;                ///< read a Premium's, which a calibration can use
-    model::PhantomLinks links;                ///< of a device whose joint angles are read
-    std::optional<double> max_stiffness;      ///< in place of what the device states [N/m]
-    std::optional<double> max_damping;        ///< in place of what the device states [N*s/m]
+    std::optional<double> peak_torque;  ///< lower than the device's own, or replacing it [N*m]
+    std::optional<double> continuous_torque;  ///< replaces the device's value [N*m]
+    bool joint_angles = false;                ///< whether a Premium's are read, for a calibration
+    model::PhantomLinks links;                ///< for a device whose joint angles are read
+    std::optional<double> max_stiffness;      ///< replaces the device's value [N/m]
+    std::optional<double> max_damping;        ///< replaces the device's value [N*s/m]
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("name", name,
-          says("Name in the driver's configuration; left out, the first device that is found."));
-        v("serial", serial, says("Serial number that the device must have; left out, any."));
-        v("library", library, says("Path of libHD.so, if the system finds none."));
+          says("Name in the driver's configuration; if left out, the first device found."));
+        v("serial", serial, says("Required serial number; if left out, any."));
+        v("library", library, says("Path of libHD.so, if the system does not find it."));
         v("encoder_reset", encoder_reset,
-          says("Whether its encoders are reset at each start, with the arm in its neutral pose."));
-        v("orientation", orientation, says("Whether its orientation is used, if it measures one."));
+          says("Whether the encoders are reset at each start, with the arm in its neutral pose."));
+        v("orientation", orientation,
+          says("Whether the device's orientation is used, if measured."));
         v("peak_torque", peak_torque,
           Field::of(Quantity::torque)
               .within(1e-4, 100)
-              .says("Torque that larger ones are reduced to: lower than the device's own, or in "
+              .says("Limit to which larger torques are reduced: lower than the device's own, or in "
                     "its place."));
         v("continuous_torque", continuous_torque,
           Field::of(Quantity::torque)
               .within(1e-4, 100)
-              .says("Torque that it can hold for long, in place of what it states."));
+              .says("Torque that the device can sustain, in place of the value it states."));
         v("joint_angles", joint_angles,
-          says("Whether the joint angles of a Premium are read, which a calibration can use."));
+          says("Whether the joint angles of a Premium are read, for a calibration."));
         links.visit(v);
         v("max_stiffness", max_stiffness,
           Field::of(Quantity::stiffness)
               .within(1, 1e6)
-              .says("Largest stiffness that it renders stably, in place of what it states."));
+              .says("Largest stiffness that the device renders stably, in place of the value it "
+                    "states."));
         v("max_damping", max_damping,
           Field::of(Quantity::damping)
               .within(1e-3, 1e4)
-              .says("Largest damping that it renders stably, in place of what it states."));
+              .says("Largest damping that the device renders stably, in place of the value it "
+                    "states."));
     }
 
-    /// What follows from them about the device.
+    /// The device information that follows from the options.
     frame::DeviceInfo info() const;
 };
 
@@ -83,8 +86,8 @@ class Connection {
     const Vec3& centre() const { return centre_; }
     const frame::DeviceInfo& info() const { return info_; }
 
-    /// Calibrates the device if it can do so by itself. Throws Error when its positions still mean
-    /// nothing.
+    /// Calibrates the device if it can do so by itself. Throws Error if its positions are still
+    /// meaningless.
     void calibrate() const;
     /// Empties the stack of errors; throws Error for the newest of them.
     void check(const std::string& doing, const char* key) const;
@@ -118,11 +121,11 @@ class Group final : public DeviceGroup {
   private:
     struct Device {
         Connection connection;
-        bool framed = false;   // its frame has begun
-        uint32_t trouble = 0;  // Status that lasts until the next activation
-        bool dropped = false;  // it cut its force in this tick
+        bool framed = false;   // whether its frame has started
+        uint32_t trouble = 0;  // Status bits until the next activation
+        bool dropped = false;  // whether it cut its force in this tick
         ForceDrops drops;
-        unsigned said = kHdSuccess;  // the last error that concerned it
+        unsigned said = kHdSuccess;  // its last error
     };
 
     void do_activate() override;
@@ -140,7 +143,7 @@ class Group final : public DeviceGroup {
     std::vector<Device> devices_;
     double tick_;  // [s]
 
-    // for pace(): whether the scheduler's thread may begin a tick, is in one, or may begin no more
+    // for pace(): whether the scheduler's thread may start a tick, is in one, or may start no more
     enum class Turn : int { free, inside, closed };
     const std::function<bool()>* paced_ = nullptr;
     std::atomic<Turn> turn_{Turn::closed};

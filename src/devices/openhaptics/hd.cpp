@@ -6,11 +6,11 @@ namespace dihaptic::devices::openhaptics {
 namespace {
 
 constexpr const char* kLookAtCable =
-    "Look at its cable, its power and, of a parallel port, that it is in EPP mode";
+    "Check its cable, its power and, for a parallel port, its EPP mode";
 constexpr const char* kGently = "Soften the coupling, or move more slowly";
 constexpr const char* kMixedUp = "HD_FRAME_ERROR, its frames were mixed up";
 constexpr const char* kReportThis = "Report this, with the session's folder";
-constexpr const char* kNoCallback = "HD_SCHEDULER_FULL, the scheduler takes no callback";
+constexpr const char* kNoCallback = "HD_SCHEDULER_FULL, the scheduler accepts no callback";
 constexpr const char* kCloseOthers = "Close other programs that use OpenHaptics";
 
 struct HdErrorRow {
@@ -20,20 +20,21 @@ struct HdErrorRow {
 };
 
 constexpr HdErrorRow kHdErrorRows[] = {
-    {kHdInvalidValue, "HD_INVALID_VALUE, a value that it cannot take", ""},
-    {kHdInvalidOperation, "HD_INVALID_OPERATION, not now", ""},
+    {kHdInvalidValue, "HD_INVALID_VALUE, a value that it cannot accept", ""},
+    {kHdInvalidOperation, "HD_INVALID_OPERATION, not possible now", ""},
     {kHdBadHandle, "HD_BAD_HANDLE, no such device",
-     "Switch it on, and look for its name in the driver's configuration"},
+     "Switch it on, and check its name in the driver's configuration"},
     {kHdWarmMotors, "HD_WARM_MOTORS, its motors are hot", "Let them cool, and press less"},
-    {kHdExceededMaxForce, "HD_EXCEEDED_MAX_FORCE, more force than it bears", kGently},
+    {kHdExceededMaxForce, "HD_EXCEEDED_MAX_FORCE, more force than it can bear", kGently},
     {kHdExceededMaxImpulse, "HD_EXCEEDED_MAX_FORCE_IMPULSE, a force that rose too fast", kGently},
     {kHdExceededMaxVelocity, "HD_EXCEEDED_MAX_VELOCITY, it moved too fast", kGently},
-    {kHdForceError, "HD_FORCE_ERROR, it cannot give force", "Switch it off and on"},
-    {kHdDeviceFault, "HD_DEVICE_FAULT", "Switch it off and on, and run its maker's diagnosis"},
+    {kHdForceError, "HD_FORCE_ERROR, it cannot render force", "Switch it off and on"},
+    {kHdDeviceFault, "HD_DEVICE_FAULT",
+     "Switch it off and on, and run its manufacturer's diagnosis"},
     {kHdAlreadyInitiated, "HD_DEVICE_ALREADY_INITIATED, it is in use",
      "Close the other program that uses it, or correct options: name"},
     {kHdCommError, "HD_COMM_ERROR, the connection to it failed", kLookAtCable},
-    {kHdCommConfigError, "HD_COMM_CONFIG_ERROR, the connection to it is set up wrongly",
+    {kHdCommConfigError, "HD_COMM_CONFIG_ERROR, the connection to it is configured wrongly",
      kLookAtCable},
     {kHdTimerError, "HD_TIMER_ERROR, the driver's clock failed", "Restart the machine"},
     {kHdIllegalBegin, kMixedUp, kReportThis},
@@ -42,7 +43,7 @@ constexpr HdErrorRow kHdErrorRows[] = {
     {kHdInvalidPriority, kNoCallback, kCloseOthers},
     {kHdSchedulerFull, kNoCallback, kCloseOthers},
     {kHdInvalidLicence, "HD_INVALID_LICENSE, no valid licence was found",
-     "Name the licence's file in the environment variable OH_SDK_LICENSE_PATH"},
+     "Put the licence file's path into the environment variable OH_SDK_LICENSE_PATH"},
 };
 
 }  // namespace
@@ -78,14 +79,14 @@ HdErrorText describe_error(unsigned code) {
 
 Hd load_hd(const std::string& path, const Place& place) {
     const std::string driver =
-        "Install the device driver that belongs to this OpenHaptics, from 3D Systems, and run "
+        "Install the device driver for this version of OpenHaptics, from 3D Systems, and run "
         "ldconfig.";
     const Library library(
         {"OpenHaptics",
          {"libHD.so", "libHD.so.3.4", "libHD.so.3.0"},
          true,
          "Install OpenHaptics 3.4 for Linux and the device driver from 3D Systems, and run "
-         "ldconfig; or say where the file is, options: library.",
+         "ldconfig; or give the file's path, options: library.",
          {{"libPhantomIOLib42", driver},
           {"libPHANToMIO", driver},
           {"libncurses.so.5", "Install the package libncurses5."}}},

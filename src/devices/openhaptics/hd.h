@@ -1,4 +1,4 @@
-// Our own declarations of the part of OpenHaptics' HD API (libHD) that is used here. Units are mm,
+// Our own declarations of the used part of OpenHaptics' HD API (libHD). Units are mm,
 // mm/s, N, mN*m and rad; axes are x right, y up, z toward the person.
 #pragma once
 
@@ -11,7 +11,7 @@ constexpr double kPerMm = 1e-3;  // [m]
 using HdHandle = unsigned;
 constexpr HdHandle kNoHandle = 0xFFFFFFFF;
 
-/// The newest error of the stack that all threads share. A stack that never empties must not block
+/// The newest error in the stack shared by all threads. A stack that never empties must not block
 /// the program, so at most kMostErrors are taken at a time.
 struct HdErrorInfo {
     unsigned code;  ///< HdError
@@ -32,7 +32,7 @@ enum HdValue : unsigned {
     kHdTransform = 0x2052,        // 16 doubles, column after column
     kHdAngularVelocity = 0x2053,  // 3 doubles
     kHdJointAngles = 0x2100,      // 3 doubles: turret to the left, thigh up, shin up [rad]
-    kHdVersion = 0x2500,          // string, as are the next
+    kHdVersion = 0x2500,          // string, like the next ones
     kHdModel = 0x2501,
     kHdSerial = 0x2504,
     kHdUsableWorkspace = 0x2551,   // 6 doubles: minima, maxima
@@ -77,12 +77,12 @@ enum HdError : unsigned {
     kHdInvalidLicence = 0x600,
 };
 
-/// What an error means for a session.
+/// The meaning of an error for a session.
 enum class HdErrorClass {
     none,
     force,      ///< the device cut its force: write zero, then switch force on again
     scheduler,  ///< the device, or the loop, is lost
-    device,     ///< anything else
+    device,     ///< any other error
 };
 HdErrorClass error_class(unsigned code);
 /// An error's name, and the remedy.
@@ -115,10 +115,10 @@ struct Hd {
     unsigned long (*schedule)(HdCallback, void* data, unsigned short priority) = nullptr;
     void (*unschedule)(unsigned long) = nullptr;
 
-    std::string file;  ///< from which they were loaded
+    std::string file;  ///< from which the functions were loaded
 };
 
-/// Loads the library from `path`, or from where the system finds it if that is empty. Throws Error.
+/// Loads the library from `path`, or as found by the system if that is empty. Throws Error.
 Hd load_hd(const std::string& path, const Place& place);
 
 }  // namespace dihaptic::devices::openhaptics

@@ -6,10 +6,10 @@
 namespace dihaptic::devices::simulated {
 namespace {
 
-/// Viscous friction of a Premium's joint; a value that others have tuned [N*m*s].
+/// Viscous friction of a Premium's joint; a value tuned by others [N*m*s].
 constexpr double kDamping = 0.0005;
 
-/// How far each joint moves the endpoint per radian in the reset pose [m].
+/// Displacement of the endpoint per radian of each joint in the reset pose [m].
 Vec3 levers(const model::PhantomLinks& links) {
     return {links.thigh, links.thigh, links.shin};
 }
@@ -24,7 +24,7 @@ Arm::Arm(const Options& options, double carried)
       step_(options.position_step * levers(links_).cwiseInverse()),
       peak_(options.peak_force * levers(links_)),
       friction_(options.friction * levers(links_)) {
-    // `friction: 0` takes viscous friction away too
+    // `friction: 0` also removes viscous friction
     dynamics_.damping = options.friction > 0 ? kDamping : 0;
 }
 
@@ -96,7 +96,7 @@ void Arm::stop_at_limits() noexcept {
         angle = std::clamp(angle, low, high);
     };
     for (int i = 0; i < 3; ++i) stop(state_.q[i], state_.rate[i], limits.low[i], limits.high[i]);
-    // at the limit of the bend the shin gives way: it is lighter than the thigh
+    // at the limit of the bend the shin yields, as it is lighter than the thigh
     double bend = state_.q[1] - state_.q[2];
     double bending = state_.rate[1] - state_.rate[2];
     stop(bend, bending, limits.bend_low, limits.bend_high);

@@ -4,10 +4,10 @@
 //     (M + m J^T J) q'' + C + m J^T dJ/dt q' + G + b q' = J^T f_finger + torques + friction
 //
 // integrated by the classical Runge-Kutta method. The motors' torques J^T f_device use the angles
-// that the encoders report; an encoder's step is `position_step` at the endpoint in the reset pose.
-// Each motor's torque is limited to what gives the peak force in that pose. Coulomb friction of
-// each joint removes momentum, and holds the joint when it can; an end stop removes all of it.
-// Gravity acts: a Premium is balanced by the weight of its motors, and what remains is felt.
+// reported by the encoders; an encoder's step is `position_step` at the endpoint in the reset pose.
+// Each motor's torque is limited to the value for the peak force in that pose. Coulomb friction of
+// each joint removes momentum, and holds the joint if it can; an end stop removes all of it.
+// Gravity acts: a Premium is balanced by the weight of its motors, and the remainder is felt.
 #pragma once
 
 #include "devices/simulated/options.h"
@@ -22,7 +22,7 @@ class Arm {
     /// Smallest apparent mass of the endpoint in the reset pose [kg].
     static double least_mass(const Options& options);
 
-    /// Puts the endpoint, at rest, as near to p_DH as it can get; returns its position there.
+    /// Puts the endpoint, at rest, as near to p_DH as possible; returns its position there.
     Vec3 reset(const Vec3& p_DH);
     /// Sets the motors' torques for this force [N], which they hold until the next call.
     void drive(const Vec3& f_device_D) noexcept;
@@ -47,7 +47,7 @@ class Arm {
     const Vec3& rate() const { return state_.rate; }
     Vec3 p_DH() const noexcept { return model::phantom_position(links_, state_.q); }
     Vec3 v_DH() const noexcept { return model::phantom_jacobian(links_, state_.q) * state_.rate; }
-    /// Joint angles as the encoders report them [rad].
+    /// Joint angles as reported by the encoders [rad].
     Vec3 reported() const noexcept;
     bool has_steps() const { return step_.x() > 0; }
     /// Kinetic and potential energy of the arm alone [J].
@@ -75,7 +75,7 @@ class Arm {
     double carried_;
     Vec3 offset_;    // true minus reported angles [rad]
     Vec3 step_;      // of the encoders [rad]
-    Vec3 peak_;      // torque of the motors [N*m]
+    Vec3 peak_;      // limit of the motors' torques [N*m]
     Vec3 friction_;  // [N*m]
     Vec3 torques_ = Vec3::Zero();
     State state_;

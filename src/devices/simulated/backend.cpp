@@ -26,13 +26,13 @@ Options read_options(const DeviceConfig& config, Diagnostics& diagnostics) {
     return options;
 }
 
-/// Reads the options of all devices, and checks that the hand is one that they can follow.
+/// Reads the options of all devices, and checks that they can follow the hand.
 std::vector<Options> read_options(const std::vector<DeviceConfig>& configs, const Context& context,
                                   Diagnostics& diagnostics) {
     std::vector<Options> options;
     options.reserve(configs.size());
     for (const DeviceConfig& config : configs) options.push_back(read_options(config, diagnostics));
-    if (context.driver == nullptr) return options;  // a rig file, which knows no hand
+    if (context.driver == nullptr) return options;  // a rig file alone, without a hand
     for (const Options& option : options) {
         if (Plant::holds(option, context.impedance)) continue;
         diagnostics.error(
@@ -49,8 +49,8 @@ std::vector<Options> read_options(const std::vector<DeviceConfig>& configs, cons
     return options;
 }
 
-/// A hand that sees its fingers in the world, scaled by s, and aims accordingly: from D's origin it
-/// moves 1/s of the way to a place.
+/// A hand whose fingers appear in the world scaled by s, and which aims accordingly: from D's
+/// origin it moves 1/s of the way to a target.
 class AimingDriver final : public hand::Driver {
   public:
     AimingDriver(const std::vector<DeviceConfig>& configs, const hand::Driver& seen) : seen_(seen) {
@@ -79,7 +79,7 @@ class AimingDriver final : public hand::Driver {
 
 struct Device {
     Options options;
-    Pose X_WD;  // true pose of D: that of the rig file, misplaced as the options say
+    Pose X_WD;  // true pose of D: that of the rig file, misplaced according to the options
     Plant plant;
     Encoder encoder;
     JointEncoder joints;
@@ -194,7 +194,7 @@ class SimulatedGroup final : public DeviceGroup {
     std::unique_ptr<AimingDriver> driver_;
     std::vector<Device> devices_;
     std::atomic<bool> stopped_{false};
-    bool begins_ = false;  // the plants begin at the next reading, whatever its time
+    bool begins_ = false;  // the plants start at the next reading, at any time
 };
 
 std::vector<frame::DeviceInfo> describe(const std::vector<DeviceConfig>& configs,

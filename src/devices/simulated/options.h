@@ -12,7 +12,7 @@
 
 namespace dihaptic::devices::simulated {
 
-/// plant: a bare mass, as the benchmarks use it. premium_1_0: SensAble PHANToM Premium 1.0, from
+/// plant: a bare mass, as used by the benchmarks. premium_1_0: SensAble PHANToM Premium 1.0, from
 /// its data sheet. touch: 3D Systems Touch, which measures orientation. sigma_7: Force Dimension
 /// sigma.7 without its gripper, which also renders torque. The largest stiffness and damping of the
 /// three, and the sigma.7's force and torque, are CHAI3D 3.3's values; masses, inertias, friction
@@ -30,38 +30,41 @@ constexpr auto enum_names(Mechanics) {
 }
 
 struct Options {
-    std::string serial;             ///< that the device reports
+    std::string serial;             ///< reported by the device
     Preset preset = Preset::plant;  ///< sets all other options, each of which may also be given
     double mass = 0.075;            ///< apparent mass at the endpoint [kg]
     double peak_force = 8.5;        ///< larger forces are clamped [N]
-    std::optional<double> continuous_force;  ///< that the motors can hold for long [N]
+    std::optional<double> continuous_force;  ///< that the motors can sustain [N]
     double position_step = 0;                ///< of the encoders, at the endpoint; 0: exact [m]
     double friction = 0;                     ///< Coulomb friction at the endpoint [N]
     int delay_ticks = 0;                     ///< ticks from writing a force until it acts
-    int velocity_window = 8;  ///< ticks that the velocity is taken over, when positions have steps
-    int buttons = 0;          ///< that the simulated hand holds down, one bit each
-    std::optional<Vec3> workspace;        ///< edges of the reachable box around D's origin [m]
-    std::optional<double> max_stiffness;  ///< largest stable one, as its maker states [N/m]
-    std::optional<double> max_damping;    ///< largest stable one, as its maker states [N*s/m]
+    int velocity_window = 8;  ///< number of ticks for computing velocity if positions have steps
+    int buttons = 0;          ///< held down by the simulated hand, one bit each
+    std::optional<Vec3> workspace;  ///< edges of the reachable box around D's origin [m]
+    std::optional<double>
+        max_stiffness;  ///< largest stable stiffness, according to its manufacturer [N/m]
+    std::optional<double>
+        max_damping;  ///< largest stable damping, according to its manufacturer [N*s/m]
 
     Mechanics arm = Mechanics::point;
-    model::PhantomLinks links;           ///< phantom: lengths; a 1.0's are not verified [m]
-    Vec3 joint_offset = Vec3::Zero();    ///< phantom: true minus reported angles, as a reset
-                                         ///< off the standard configuration leaves it [rad]
-    Vec3 misplaced_by = Vec3::Zero();    ///< shift of D from its place in the rig, in D [m]
+    model::PhantomLinks links;         ///< phantom: lengths; those of a 1.0 are not verified [m]
+    Vec3 joint_offset = Vec3::Zero();  ///< phantom: true minus reported angles, e.g. after a reset
+                                       ///< off the standard configuration [rad]
+    Vec3 misplaced_by = Vec3::Zero();  ///< shift of D from its position in the rig, in D [m]
     Vec3 misplaced_turn = Vec3::Zero();  ///< turn of D, about its x, then y, then z [rad]
 
-    bool orientation = false;  ///< whether orientation is measured: else the endpoint does not turn
-    double peak_torque = 0;    ///< larger torques are clamped; 0: the device renders none [N*m]
-    std::optional<double> continuous_torque;  ///< that the motors can hold for long [N*m]
+    bool orientation =
+        false;  ///< whether orientation is measured: otherwise the endpoint does not turn
+    double peak_torque = 0;  ///< larger torques are clamped; 0: the device renders none [N*m]
+    std::optional<double> continuous_torque;  ///< that the motors can sustain [N*m]
     double inertia = 1e-4;  ///< of the handle about its endpoint, equal about all axes [kg*m^2]
     double angle_step = 0;  ///< of the three encoders of the gimbal; 0: exact [rad]
 
     template <class Visitor>
     void visit(Visitor& v) {
-        v("serial", serial, says("Serial number that the device reports."));
+        v("serial", serial, says("Serial number reported by the device."));
         v("preset", preset,
-          says("Device that is simulated; it sets all other options, whose defaults are stated of "
+          says("Simulated device; it sets all other options, whose defaults are those of "
                "plant."));
         if constexpr (requires { v.diagnostics(); }) {
             const std::string given = serial;
@@ -73,28 +76,28 @@ struct Options {
         v("peak_force", peak_force,
           Field::of(Quantity::force)
               .within(0.01, 1e4)
-              .says("Force that larger ones are reduced to."));
+              .says("Limit to which larger forces are reduced."));
         v("continuous_force", continuous_force,
-          Field::of(Quantity::force)
-              .within(0.01, 1e4)
-              .says("Force that the motors can hold for long."));
+          Field::of(Quantity::force).within(0.01, 1e4).says("Force that the motors can sustain."));
         visit_reading(v);
         v("workspace", workspace,
           Field::length().within(1e-3, 100).says(
-              "Edges of the box around its origin that it reaches."));
+              "Edges of the reachable box around the device's origin."));
         v("max_stiffness", max_stiffness,
           Field::of(Quantity::stiffness)
               .within(1, 1e6)
-              .says("Largest stiffness that it renders stably, as its maker states."));
+              .says("Largest stiffness that the device renders stably, according to its "
+                    "manufacturer."));
         v("max_damping", max_damping,
           Field::of(Quantity::damping)
               .within(1e-3, 1e4)
-              .says("Largest damping that it renders stably, as its maker states."));
+              .says("Largest damping that the device renders stably, according to its "
+                    "manufacturer."));
         visit_arm(v);
         visit_turning(v);
     }
 
-    /// Pose of the true D in the D of the rig file.
+    /// Pose of the true D in the rig file's D.
     Pose misplaced() const { return {rotation_xyz(misplaced_turn), misplaced_by}; }
 
     static constexpr int kMostWindow = 64;
@@ -104,22 +107,21 @@ struct Options {
     template <class Visitor>
     void visit_reading(Visitor& v) {
         v("position_step", position_step,
-          Field::length().within(0, 0.01).says(
-              "Step of the encoders, at the endpoint; 0 is exact."));
+          Field::length().within(0, 0.01).says("Step of the encoders, at the endpoint; 0: exact."));
         v("friction", friction,
           Field::of(Quantity::force).within(0, 100).says("Coulomb friction at the endpoint."));
         v("delay_ticks", delay_ticks,
           Field::number().at_least(0).at_most(100).says(
-              "Number of ticks from writing a force until it acts."));
+              "Number of ticks between writing a force and its effect."));
         v("velocity_window", velocity_window,
           Field::number()
               .at_least(1)
               .at_most(kMostWindow)
-              .says("Number of ticks that the velocity is taken over, if positions have steps."));
+              .says("Number of ticks for computing velocity, if positions have steps."));
         v("buttons", buttons,
           Field::number()
               .within(0, 0x7fffffff)
-              .says("Buttons that the simulated hand holds down, one bit each."));
+              .says("Buttons held down by the simulated hand, one bit each."));
     }
     template <class Visitor>
     void visit_arm(Visitor& v) {
@@ -130,27 +132,28 @@ struct Options {
         v("joint_offset", joint_offset,
           Field::of(Quantity::angle)
               .within(-0.2, 0.2)
-              .says("True minus reported angles of the joints, as a bad reset leaves them."));
+              .says("True minus reported joint angles, e.g. after a bad reset."));
         v("misplaced_by", misplaced_by,
           Field::length().within(-0.1, 0.1).says(
-              "How far the device stands from where the rig file has it, along its own axes."));
+              "Displacement of the device from its position in the rig file, along its own axes."));
         v("misplaced_turn", misplaced_turn,
           Field::of(Quantity::angle)
               .within(-0.5, 0.5)
-              .says("How it is turned from how the rig file has it, about its x, then y, then z."));
+              .says("Rotation of the device from its orientation in the rig file, about its x, "
+                    "then y, then z."));
     }
     template <class Visitor>
     void visit_turning(Visitor& v) {
         v("orientation", orientation,
-          says("Whether it measures orientation; otherwise the endpoint does not turn."));
+          says("Whether the device measures orientation; otherwise the endpoint does not turn."));
         v("peak_torque", peak_torque,
           Field::of(Quantity::torque)
               .within(0, 100)
-              .says("Torque that larger ones are reduced to; 0: it renders none."));
+              .says("Limit to which larger torques are reduced; 0: no torque is rendered."));
         v("continuous_torque", continuous_torque,
           Field::of(Quantity::torque)
               .within(1e-4, 100)
-              .says("Torque that the motors can hold for long."));
+              .says("Torque that the motors can sustain."));
         v("inertia", inertia,
           Field::of(Quantity::inertia)
               .within(1e-7, 1)
@@ -158,7 +161,7 @@ struct Options {
         v("angle_step", angle_step,
           Field::of(Quantity::angle)
               .within(0, 0.1)
-              .says("Step of the encoders of the handle's rotation; 0 is exact."));
+              .says("Step of the encoders for the handle's rotation; 0: exact."));
     }
 };
 

@@ -3,9 +3,9 @@
 //     m a = f_finger + f_device + f_friction
 //
 // integrated at 10 kHz (semi-implicit Euler). The device's force is held from write to write,
-// clamped to its peak, and acts `delay_ticks` late. Coulomb friction takes up to friction * h of
-// momentum a step and holds the endpoint when it can. If orientation is measured the endpoint
-// turns too, without friction, with an inertia I that is equal about all axes:
+// clamped to its peak, and acts `delay_ticks` late. Coulomb friction removes up to friction * h of
+// momentum per step and holds the endpoint if it can. If orientation is measured, the endpoint
+// also turns, without friction, with an inertia I equal about all axes:
 //
 //     I dw/dt = t_finger + t_device,    R <- exp(h w) R
 //
@@ -28,14 +28,15 @@ class Plant {
 
     /// Whether the integration below converges: with a = k h^2 / m and b = c h / m its
     /// characteristic polynomial z^2 - (2 - a - b) z + 1 - b has its roots inside the unit circle
-    /// for a + 2 b < 4. k is the stiffness at the device's peak force. Turning is checked likewise.
+    /// for a + 2 b < 4. k is the stiffness at the device's peak force. Rotation is checked
+    /// likewise.
     static bool holds(const Options& options, const hand::Impedance& impedance);
 
     /// Puts the endpoint, at rest, at the finger's target at `now`.
     void begin(Time now) noexcept;
     /// Integrates up to `now`.
     void advance(Time now) noexcept;
-    /// Sets the wrench to hold from now on, in world axes; true when it had to be clamped.
+    /// Sets the wrench to hold from now on, in world axes; true if it had to be clamped.
     bool hold(const Wrench& wrench_W) noexcept;
     /// Sets the force to zero at once, delayed forces included.
     void release() noexcept;
@@ -65,11 +66,11 @@ class Plant {
     Vec3 v_ = Vec3::Zero();
     Quat R_ = Quat::Identity();
     Vec3 w_ = Vec3::Zero();
-    std::vector<Wrench> pending_;  // the last delay_ticks + 1 written; the oldest acts now
+    std::vector<Wrench> pending_;  // the last delay_ticks + 1 written; the oldest is the acting one
     size_t newest_ = 0;
 };
 
-/// A position as encoders and a driver report it: in steps, with a velocity from past positions.
+/// A position as reported by encoders and a driver: in steps, with a velocity from past positions.
 class Encoder {
   public:
     explicit Encoder(const Options& options)

@@ -1,5 +1,5 @@
 // Sends a minute of commands to a fake Haply service at each rate, on the real clock: none may be
-// lost or doubled. Prints how long an answer takes.
+// lost or doubled. Prints the duration of an answer.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

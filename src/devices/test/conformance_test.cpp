@@ -1,4 +1,4 @@
-// Tests that every backend of the table keeps the contract of device_group.h.
+// Tests that every backend in the table keeps the contract of device_group.h.
 #include <gtest/gtest.h>
 
 #include <thread>
@@ -152,7 +152,7 @@ TEST_P(Conformance, PacesUntilItIsToldToEndAndThenAgain) {
         });
         EXPECT_EQ(ticks, 20);
         EXPECT_EQ(readings[0].status, 0u);
-        group->write(none);  // as a servo does between runs, with zero force
+        group->write(none);  // like a servo between runs, with zero force
     }
     group->deactivate();
 }
@@ -178,7 +178,7 @@ TEST_P(Conformance, ItsOptionsSayNothingElseThanItsDevicesDo) {
         if (!said.serial.empty()) {
             EXPECT_EQ(said.serial, is.serial);
         }
-        // all that there is to say, or what only an open device knows is left
+        // complete, or only values that an open device reports are missing
         if (std::isfinite(said.peak_force)) {
             EXPECT_EQ(said, is);
         }

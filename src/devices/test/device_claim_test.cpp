@@ -11,7 +11,7 @@
 namespace dihaptic::devices::device_claim_test {
 namespace {
 
-/// A device that no other test has.
+/// A device used by no other test.
 frame::DeviceInfo device(const std::string& serial = number_text(getpid())) {
     frame::DeviceInfo info;
     info.model = "Made up";

@@ -1,4 +1,4 @@
-// The hand that moves the handles of the makers' fake libraries: a test's function, or none.
+// The hand that moves the handles of the manufacturers' fake libraries: a test's function, or none.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@ namespace dihaptic::devices {
 struct Held {
     Vec3 p = Vec3::Zero();      ///< [m]
     Vec3 v = Vec3::Zero();      ///< [m/s]
-    Quat R = Quat::Identity();  ///< turn from its neutral orientation
+    Quat R = Quat::Identity();  ///< rotation from its neutral orientation
     Vec3 w = Vec3::Zero();      ///< [rad/s]
 };
 

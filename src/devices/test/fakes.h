@@ -1,4 +1,4 @@
-// Puts simulated devices behind the fakes of what makers supply, by backend.
+// Puts simulated devices behind fakes of the manufacturers' software, by backend.
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ inline const StandIn* find_stand_in(const std::string& backend) {
     return found == all.end() ? nullptr : &*found;
 }
 
-/// Makes fake devices whose handles move as simulated ones, and the backend's group on them, where
-/// the fake is a library. `context.driver` has to outlive the group.
+/// Makes fake devices whose handles move like simulated ones, and the backend's group on them, if
+/// the fake is a library. `context.driver` must outlive the group.
 inline std::unique_ptr<DeviceGroup> make_behind(const std::string& backend,
                                                 const std::vector<simulated::Options>& options,
                                                 std::vector<DeviceConfig> configs,

@@ -1,5 +1,5 @@
-// Shared by the tests of makers' backends: makes devices from options as in rig files, and catches
-// the message when that fails.
+// Shared by the tests of manufacturers' backends: makes devices from options as in rig files, and
+// catches the message of a failure.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Puts simulated devices, held by the simulated hand, behind a maker's fake library.
+// Puts simulated devices, held by the simulated hand, behind a manufacturer's fake library.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace dihaptic::devices {
 
-/// `configs`: of simulated devices. `context.driver` has to outlive the result.
+/// `configs`: of simulated devices. `context.driver` must outlive the result.
 inline Hand plant_hand(const std::vector<DeviceConfig>& configs, const Context& context) {
     const std::vector<simulated::Options> options = options_of(configs);
     struct Device {

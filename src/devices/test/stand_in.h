@@ -1,5 +1,5 @@
-// How tests have the devices of a real backend: simulated devices behind a fake of what its maker
-// supplies. Each real backend's folder has its own in test/stand_in.h; fakes.h lists them.
+// The tests' devices for a real backend: simulated devices behind a fake of its manufacturer's
+// software. Each real backend's folder has its own in test/stand_in.h; fakes.h lists them.
 #pragma once
 
 #include <memory>
@@ -13,9 +13,9 @@ struct StandIn {
     const char* backend;
     struct Made {
         std::vector<DeviceConfig> configs;  ///< for the backend
-        std::shared_ptr<void> service;  ///< has to outlive the devices; null where it is a library
+        std::shared_ptr<void> service;      ///< must outlive the devices; null for a library
     };
-    /// `simulated`: configurations of simulated devices. `context.driver` has to outlive them.
+    /// `simulated`: configurations of simulated devices. `context.driver` must outlive them.
     Made (*make)(std::vector<DeviceConfig> simulated, const Context& context);
 };
 

@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"HD comm error", "openhaptics",
              [](Grasp& g) { g.hd->raise(devices::openhaptics::kHdCommError, 1); },
              FaultKind::not_answering, kNotAnswering,
-             "the index's device (PHANToM Premium 1.0, serial 40124) does not answer. Look at its "
+             "the index's device (PHANToM Premium 1.0, serial 40124) does not answer. Check its "
              "power and its cables. HD_COMM_ERROR"},
         Case{"HD device fault", "openhaptics",
              [](Grasp& g) { g.hd->raise(devices::openhaptics::kHdDeviceFault, 0); },
@@ -128,10 +128,10 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"HD NaN", "openhaptics", [](Grasp& g) { g.hd->devices[1].nonsense = true; },
              FaultKind::bad_reading, kBadReading, "that is not a number. Check its cables"},
         Case{"HD silent", "openhaptics", [](Grasp& g) { g.hd->silent = true; },
-             FaultKind::not_answering, kNotAnswering, "does not answer. Look at its power"},
+             FaultKind::not_answering, kNotAnswering, "does not answer. Check its power"},
         Case{"DHD silent", "forcedimension", [](Grasp& g) { g.dhd->devices[1].silent = true; },
              FaultKind::not_answering, kNotAnswering,
-             "the index's device (omega.3, serial 102) does not answer. Look at its power and its "
+             "the index's device (omega.3, serial 102) does not answer. Check its power and its "
              "cables. communication error."},
         Case{"DHD NaN", "forcedimension", [](Grasp& g) { g.dhd->devices[0].nonsense = true; },
              FaultKind::bad_reading, kBadReading, "that is not a number. Check its cables"},

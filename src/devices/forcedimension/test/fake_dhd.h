@@ -1,6 +1,6 @@
-// A fake libdhd: it behaves as Force Dimension's documentation says, including faults, and a test's
-// hand moves its handles. Like the real library it exists once in a program; fake_dhd() finds it.
-// Its time advances by a period with each reading; in a whole program, whose handles
+// A fake libdhd: it behaves according to Force Dimension's documentation, including faults, and a
+// test's hand moves its handles. Like the real library it exists once in a program; fake_dhd()
+// finds it. Its time advances by a period with each reading; in a whole program, whose handles
 // DIHAPTIC_FAKE_PUSH moves, it is real time.
 #pragma once
 
@@ -23,45 +23,45 @@ struct FakeDhd {
         bool wrist = false;         ///< measures orientation
         bool active_wrist = false;  ///< renders torque
         bool has_watchdog = true;   ///< whether the firmware has one; it acts only if it was set
-        bool in_use = false;        ///< by another program
+        bool in_use = false;        ///< whether another program uses it
         bool power = true;
         bool connected = true;
         bool calibrated = true;
         bool broken = false;
-        bool silent = false;      ///< every call about it fails
+        bool silent = false;      ///< every call for it fails
         bool nonsense = false;    ///< its position is not a number
         bool time_guard = false;  ///< dhdGetPosition() returns 1
         double fastest = 0;       ///< its velocity threshold; 0: none [m/s]
 
         // the device's state
-        int opened = 0;  ///< number of times that it was opened
+        int opened = 0;  ///< number of times it was opened
         bool open = false;
         bool force_enabled = false;
         bool gravity = false;
         int cause = 0;  ///< DhdForceOff
         int frames = 0;
         unsigned char watchdog = 0;         ///< steps of 125 us; 0: none
-        double told_at = 0;                 ///< when it was last told a force, in its time [s]
-        Vec3 wanted = Vec3::Zero();         ///< force that it was last told [N]
+        double told_at = 0;                 ///< time of its last force command, on its clock [s]
+        Vec3 wanted = Vec3::Zero();         ///< last commanded force [N]
         Vec3 acting = Vec3::Zero();         ///< force that acts on the hand [N]
         Vec3 acting_torque = Vec3::Zero();  ///< torque that acts on the hand [N*m]
     };
     std::vector<Device> devices;
-    Hand hand;             ///< null: the handles stay where they are
+    Hand hand;             ///< null: the handles do not move
     double period = 1e-3;  ///< time between readings [s]
     bool expert = false;   ///< expert mode, in which a watchdog may be set
-    /// Called at the beginning of dhdGetPosition(): may block.
+    /// Called at the start of dhdGetPosition(); may block.
     std::function<void(size_t device)> in_position;
 
     /// Makes a device cut its force; `cause` is a DhdForceOff.
     std::function<void(size_t device, int cause)> cut;
-    /// Starts anew, with two omega.3.
+    /// Resets the library, with two omega.3.
     std::function<void()> reset;
 };
 
-#if __has_include("fake_makers.h")  // absent where the fake library itself is built
+#if __has_include("fake_makers.h")  // absent when the fake library itself is built
 #include "fake_makers.h"
-/// The fake library of this program, as it is; fake_dhd() resets it.
+/// The fake library of this program in its present state; fake_dhd() resets it.
 inline FakeDhd& fake_dhd_as_it_is() {
     void* const library = dlopen(DIHAPTIC_FAKE_DHD, RTLD_LAZY | RTLD_LOCAL);
     if (library == nullptr) throw std::runtime_error(dlerror());

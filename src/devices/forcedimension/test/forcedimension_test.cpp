@@ -1,4 +1,4 @@
-// Tests the DHD backend on a fake libdhd: what it reads, how it fails, and its messages then.
+// Tests the DHD backend on a fake libdhd: its readings, its failures, and their messages.
 #include <cmath>
 
 #include "devices/forcedimension/backend.h"
@@ -21,7 +21,7 @@ std::unique_ptr<DeviceGroup> make_two() {
     return make({"serial: 101\n", "serial: 102\n"});
 }
 
-/// Runs ticks as a servo that pushes along x.
+/// Runs ticks like a servo that pushes along x.
 class Ticks {
   public:
     explicit Ticks(DeviceGroup& group)
@@ -124,7 +124,7 @@ TEST(ForceDimension, DevicesThatAreNotThereAreTold) {
               told([] { make({""}); }));
     fake.devices.clear();
     said = told([] { make({""}); });
-    expect_in("no Force Dimension device is connected. Look at its power", said);
+    expect_in("no Force Dimension device is connected. Check its power", said);
     expect_in("udev rule for USB vendor 1451", said);
 }
 
@@ -138,7 +138,7 @@ TEST(ForceDimension, NothingStaysOpenAfterAFailure) {
 TEST(ForceDimension, RigsThatCannotBeAreRefusedWithoutADevice) {
     fake_dhd();
     expect_in("rig.yaml:2: error: serial: is needed", told([] { make({"serial: 101\n", ""}); }));
-    expect_in("serial: '101' is that of the thumb's device too", told([] {
+    expect_in("serial: '101' also belongs to the thumb's device", told([] {
                   make({"serial: 101\n", "serial: 101\n"});
               }));
 }
@@ -207,7 +207,7 @@ TEST(ForceDimension, AForceThatNobodyRenewsEndsWithin32Ms) {
     EXPECT_EQ(fake.devices[0].acting, Vec3::Zero());
     EXPECT_EQ(fake.devices[1].acting, Vec3::Zero());
     EXPECT_EQ(readings[0].status, uint32_t{kForceDropped});
-    expect_in("It heard nothing for 32 ms", group->explain(0));
+    expect_in("It received no command for 32 ms", group->explain(0));
     EXPECT_EQ(ticks.status(0, 1), uint32_t{kForceDropped});  // the reading precedes arming it again
     EXPECT_EQ(ticks.status(0, 1), 0u);
     EXPECT_EQ(fake.devices[0].acting, Vec3(1, 0, 0));
@@ -235,7 +235,8 @@ TEST(ForceDimension, ADeviceWithoutAWatchdogIsUsedOnlyWhenTheRigSaysSo) {
     fake.devices[0].has_watchdog = false;
     const std::string said = told([] { make_two()->activate(); });
     expect_in(
-        "rig.yaml:1: error: watchdog: the thumb's device (omega.3, serial 101) takes no watchdog: "
+        "rig.yaml:1: error: watchdog: the thumb's device (omega.3, serial 101) has no usable "
+        "watchdog: "
         "not available on this device",
         said);
     expect_in("its force may stay on when this program dies", said);

@@ -50,7 +50,7 @@ void cut(size_t i, int cause) {
     act(i, {});
 }
 
-/// The watchdog of a device's firmware, if it was set: it ends a force that is not renewed.
+/// The watchdog of a device's firmware, if set: it ends a force that is not renewed.
 void watch(size_t i) {
     const Device& device = fake.devices[i];
     const double limit = device.watchdog * kDhdWatchdogStep;
@@ -87,7 +87,7 @@ Held state[8];  // by device, at the last reading
 
 }  // namespace
 
-// NOLINTBEGIN(readability-identifier-naming): the maker's names
+// NOLINTBEGIN(readability-identifier-naming): the manufacturer's names
 extern "C" {
 
 FakeDhd* dihaptic_fake_dhd() {
@@ -161,7 +161,7 @@ int dhdGetPosition(double* x, double* y, double* z, char id) {
     const Lock lock(mutex);
     Device* const device = find(id);
     const double t = i < fake.devices.size() ? now(fake.devices[i]) : 0;
-    if (i < fake.devices.size()) ++fake.devices[i].frames;  // time goes on even if the call fails
+    if (i < fake.devices.size()) ++fake.devices[i].frames;  // time advances even if the call fails
     if (device == nullptr) return -1;
     state[i] = fake.hand ? fake.hand(i, t, {device->acting, device->acting_torque}) : Held{};
     if (device->fastest > 0 && state[i].v.norm() > device->fastest) cut(i, kDhdByVelocity);

@@ -15,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
     std::vector<char> text(size + Connection::kPadding);
     std::copy_n(data, size, text.begin());
     if (!reader.read({text.data(), size}, message)) return 0;
-    unsigned sum = 0;  // of every character that the message points at: all must be readable
+    unsigned sum = 0;  // over every character to which the message points: all must be readable
     const auto look_at = [&](std::string_view letters) {
         for (const char letter : letters) sum += static_cast<unsigned char>(letter);
     };

@@ -1,4 +1,4 @@
-// Tests whose program is said to answer at a port of this machine.
+// Tests the reported owner of a program that answers at a port of this machine.
 #include "devices/haply/answerer.h"
 
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ int listening(bool v6) {
     return out;
 }
 
-/// A connection over IPv4 to what listens there.
+/// A connection over IPv4 to the listening program.
 int connected_to(int listener, bool v6) {
     sockaddr_in6 wide{};
     sockaddr_in at{};
@@ -65,7 +65,7 @@ TEST(Answerer, OfAnotherUserIsFound) {
     ASSERT_EQ(pipe(ready), 0);
     const pid_t child = fork();
     if (child == 0) {
-        // a socket is whose who made it: this one makes its own
+        // a socket belongs to its maker, so this user makes its own
         if (setuid(kNobody) != 0) _exit(1);
         const int own = listening(false);
         if (write(ready[1], &own, sizeof(own)) < 0) _exit(1);
@@ -83,7 +83,7 @@ TEST(Answerer, OfAnotherUserIsFound) {
     const int mine = socket(AF_INET, SOCK_STREAM, 0);
     EXPECT_EQ(connect(mine, reinterpret_cast<const sockaddr*>(&at), sizeof(at)), 0);
     std::optional<uid_t> user;
-    for (int i = 0; i < 500 && user != kNobody; ++i) {  // until it has accepted
+    for (int i = 0; i < 500 && user != kNobody; ++i) {  // until the program has accepted
         usleep(10'000);
         user = user_at_other_end(mine);
     }

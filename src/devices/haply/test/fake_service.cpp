@@ -134,7 +134,7 @@ struct FakeService::Impl {
         });
     }
 
-    /// Takes a message of the client.
+    /// Handles a message from the client.
     void take(const std::string& text) {
         const auto json = nlohmann::json::parse(text);
         Forces these(setup.devices.size(), Vec3::Zero());
@@ -161,7 +161,7 @@ struct FakeService::Impl {
         commanded = true;
         ++owed;
         if (setup.rate > 0) return;
-        // time begins with the first message: a session's first tick has the state at time 0
+        // time starts with the first message: a session's first tick has the state at time 0
         if (session->messages > 0) tick();
         answer();
     }
@@ -295,13 +295,13 @@ struct FakeService::Impl {
     std::vector<Reading> readings;
     std::vector<Wrench> forces;
     bool commanded = false;  // a message came in this tick
-    int owed = 0;            // number of answers that are owed
+    int owed = 0;            // number of outstanding answers
 
     net::io_context io{1};
     net::ip::tcp::acceptor acceptor{io, {net::ip::make_address("127.0.0.1"), 0}};
     net::steady_timer timer{io};
     std::shared_ptr<Session> session;
-    Mischief mischief = Mischief::none;  // what it does wrong now
+    Mischief mischief = Mischief::none;  // present misbehaviour
     size_t mischief_device = 0;
 
     mutable std::mutex mutex;  // guards the members below

@@ -1,4 +1,4 @@
-// A fake Inverse Service: a WebSocket server in a thread of its own, with simulated devices behind
+// A fake Inverse Service: a WebSocket server in its own thread, with simulated devices behind
 // it. It sends a full inventory on connect, then exactly one state message for each of the
 // client's; optional parts are left out most of the time. A force lasts one tick of the service;
 // without a message in a tick the devices are idle.
@@ -13,18 +13,18 @@
 
 namespace dihaptic::devices::haply {
 
-/// What the service does wrong, once misbehave() asks it to.
+/// The kinds of misbehaviour for misbehave().
 enum class Mischief {
     none,
-    late,               ///< one answer comes `pause` late
-    silent,             ///< it answers no more
+    late,               ///< one answer is late by `pause`
+    silent,             ///< it no longer answers
     half_message,       ///< it stops in the middle of a message, and is silent
-    half_json,          ///< from then on its messages are whole, but their JSON is not
+    half_json,          ///< from then on its messages are complete, but their JSON is not
     not_a_number,       ///< one position is not a number
     leaves_out,         ///< one device is missing from its answers from then on
-    loses_calibration,  ///< one device says that it is not calibrated
-    complains,          ///< it answers with an error, and obeys no more
-    closes,             ///< it ends the connection, as at a restart, and serves the next one
+    loses_calibration,  ///< one device reports that it is not calibrated
+    complains,          ///< it answers with an error and no longer obeys
+    closes,             ///< it ends the connection, like at a restart, and serves the next one
 };
 
 class FakeService {
@@ -35,10 +35,11 @@ class FakeService {
         std::vector<std::string> ids{"049D", "04A1", "04A2"};
         /// Rate of ticks on the real clock [Hz]. 0: a tick for each message, answered at once.
         double rate = 0;
-        std::string refused_key;    ///< spelling of the force's field that it does not know
+        std::string refused_key;    ///< spelling of the force's field that it refuses
         bool refuses_http = false;  ///< answers each handshake with 404
         bool garbage = false;       ///< answers a handshake with something other than HTTP
-        bool grips = false;         ///< a wireless grip "A<i>" for each device, which turns with it
+        bool grips =
+            false;  ///< a wireless grip "A<i>" for each device, which turns with the device
         std::string not_calibrated, not_ready, no_power;  ///< serial numbers
         std::string greeting;                             ///< sent in place of the inventory
     };
@@ -51,7 +52,7 @@ class FakeService {
     /// The rig file's options for one of its devices; `more`: further ones, as "time_out_ms: 5, ".
     Node options(size_t device, const std::string& more = "") const;
 
-    /// Misbehaves once, beginning with the answer to message number `message` of a connection, from
+    /// Misbehaves once, starting with the answer to message number `message` of a connection, from
     /// 0.
     void misbehave(Mischief what, int message, size_t device = 0, Time pause = Time(0));
 
@@ -60,7 +61,7 @@ class FakeService {
     std::vector<Forces> received() const;
     /// The forces of the devices in each tick.
     std::vector<Forces> felt() const;
-    /// The tick in which it misbehaved; -1: it has not yet.
+    /// The tick in which it misbehaved; -1: none yet.
     int mischief_tick() const;
 
   private:

@@ -1,4 +1,4 @@
-// Tests the backend on the fake service: what it requires of a set-up, and what trouble leads to.
+// Tests the backend on the fake service: its requirements on a set-up, and the effects of trouble.
 #include <gtest/gtest.h>
 
 #include "base/number.h"
@@ -16,7 +16,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A hand whose fingers stay apart, and turn slowly.
+/// A hand whose fingers stay apart and turn slowly.
 class TurningDriver final : public hand::Driver {
   public:
     static constexpr double kTurn = 0.5;  // [rad/s]
@@ -176,7 +176,7 @@ TEST(HaplyOptions, AreChecked) {
     };
     EXPECT_EQ(problems("{ device_id: 049D }"), "");
     EXPECT_SAYS(problems("{}"), "device_id");
-    EXPECT_SAYS(problems("{ device_id: my device }"), "'my device' is no serial number");
+    EXPECT_SAYS(problems("{ device_id: my device }"), "'my device' is not a serial number");
     EXPECT_SAYS(problems("{ device_id: 049D, url: http://localhost }"), "ws://localhost:10001/");
     EXPECT_SAYS(problems("{ device_id: 049D, force_key: torque }"), "values");
     EXPECT_SAYS(problems("{ device_id: 049D, time_out_ms: 0 }"), "time_out");
@@ -283,12 +283,12 @@ TEST_F(Haply, SaysWhatKeepsItFromStarting) {
     setup = {};
     setup.garbage = true;
     serve(setup);
-    EXPECT_SAYS(refusal(), "is no WebSocket service");
+    EXPECT_SAYS(refusal(), "is not a WebSocket service");
     for (const char* greeting : {"{\"inverse3\":[", "hello", "[]"}) {
         setup = {};
         setup.greeting = greeting;
         serve(setup);
-        EXPECT_SAYS(refusal(), "no whole JSON object");
+        EXPECT_SAYS(refusal(), "not a complete JSON object");
     }
     setup = {};
     setup.greeting = "{}";
@@ -327,7 +327,7 @@ TEST_F(Haply, SaysThatNothingListens) {
     EXPECT_SAYS(survey_of(url).missing, "Connection refused");
     EXPECT_TRUE(survey_of(url).devices.empty());
     EXPECT_SAYS(survey_of("ws://" + std::string(70, 'x') + ":1/").missing,
-                "no computer is called xxx");
+                "there is no computer xxx");
 }
 
 TEST_F(Haply, SurveysWhatTheServiceLists) {
@@ -351,7 +351,7 @@ TEST_F(Haply, SurveysWhatTheServiceLists) {
 
 struct Trouble {
     Mischief what;
-    bool one_device = false;  ///< the other device has no trouble
+    bool one_device = false;  ///< whether the other device has no trouble
     bool ends = true;         ///< whether it ends the connection
 };
 class HaplyTrouble : public Haply, public ::testing::WithParamInterface<Trouble> {};
@@ -425,7 +425,7 @@ TEST_P(HaplyRate, LosesAndDoublesNoCommand) {
     devices->activate();
     const NumberedRun first =
         expect_no_command_lost_or_doubled(*devices, *service_, 1, static_cast<int>(GetParam() / 4));
-    // a pause, which begins as in Servo::rest()
+    // a pause, which starts as in Servo::rest()
     devices->write(std::vector<Wrench>(2));
     devices->write(std::vector<Wrench>(2));
     expect_no_command_lost_or_doubled(*devices, *service_, first.sent + 2, 20);

@@ -1,4 +1,4 @@
-// Sends commands that carry their number, to test that each arrives once and in order.
+// Sends numbered commands, to test that each arrives once and in order.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@ namespace dihaptic::devices::haply {
 
 struct NumberedRun {
     size_t sent = 0;                 ///< number of messages that the service has received so far
-    std::vector<double> round_trip;  ///< from a command to the tick that its answer calls [s]
+    std::vector<double> round_trip;  ///< from a command to the tick called by its answer [s]
     double duration = 0;             ///< [s]
 };
 

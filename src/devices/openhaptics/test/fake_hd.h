@@ -1,5 +1,5 @@
-// A fake libHD: it behaves as OpenHaptics' manuals say, including faults, and a test's hand moves
-// its handles. Like the real library it exists once in a program; fake_hd() finds it.
+// A fake libHD: it behaves according to OpenHaptics' manuals, including faults, and a test's hand
+// moves its handles. Like the real library it exists once in a program; fake_hd() finds it.
 #pragma once
 
 #include <dlfcn.h>
@@ -30,46 +30,46 @@ struct FakeHd {
         double max_stiffness = 1;                              ///< [N/mm]
         double max_damping = 0.005;                            ///< [N*s/mm]
         double workspace[6] = {-127, -60, -40, 127, 118, 87};  ///< minima, maxima [mm]
-        /// True minus reported joint angles [rad], of a device whose positions follow from the
-        /// reported ones; unset: it reports no joint angles.
+        /// True minus reported joint angles [rad], for a device whose positions follow from the
+        /// reported ones; unset: no joint angles are reported.
         std::optional<Vec3> joint_offset;
         bool nonsense = false;  ///< its position is not a number
 
         // the device's state
-        int opened = 0;  ///< number of times that it was initialised
+        int opened = 0;  ///< number of times it was initialised
         bool initialised = false;
-        bool late = false;  ///< initialised while the scheduler ran: takes no part
+        bool late = false;  ///< initialised while the scheduler ran, so it takes no part
         bool force_enabled = false;
         bool ramping = false;
         int resets = 0;                     ///< number of encoder resets
         Vec3 acting = Vec3::Zero();         ///< force that acts on the hand [N]
         Vec3 acting_torque = Vec3::Zero();  ///< torque that acts on the hand [N*m]
         int frames = 0;
-        int frames_of_force = 0;  ///< number of frames since its amplifiers came on
+        int frames_of_force = 0;  ///< number of frames since its amplifiers were switched on
     };
     std::vector<Device> devices;
-    Hand hand;              ///< null: the handles stay where they are
+    Hand hand;              ///< null: the handles do not move
     bool real_time = true;  ///< otherwise as fast as the machine goes
-    double ramp = 50;       ///< of force, when it comes on [N/s]
-    std::vector<unsigned long> rates{500, 1000, 2000, 4000};  ///< that the scheduler can run at
+    double ramp = 50;       ///< of force after being switched on [N/s]
+    std::vector<unsigned long> rates{500, 1000, 2000, 4000};  ///< possible rates of the scheduler
     unsigned init_error = 0;                                  ///< of the next hdInitDevice()
-    bool silent = false;  ///< the scheduler calls no more callbacks
-    /// Called by the scheduler before each tick, from 0; false: it calls no more callbacks.
+    bool silent = false;  ///< whether the scheduler stops calling callbacks
+    /// Called by the scheduler before each tick, from 0; false: it stops calling callbacks.
     std::function<bool(int tick)> before_tick;
     /// Called in hdBeginFrame(): may block.
     std::function<void(size_t device)> in_frame;
-    int violations = 0;      ///< calls that the manuals forbid
+    int violations = 0;      ///< number of calls that the manuals forbid
     int callbacks_left = 0;  ///< number of callbacks neither done nor unscheduled
 
     /// Puts an error of a device onto the stack; a force error takes its force away at once.
     std::function<void(unsigned code, size_t device)> raise;
-    /// Starts anew, with the two devices of the rig of 2012.
+    /// Resets the library, with the two devices of the rig of 2012.
     std::function<void()> reset;
 };
 
-#if __has_include("fake_makers.h")  // absent where the fake library itself is built
+#if __has_include("fake_makers.h")  // absent when the fake library itself is built
 #include "fake_makers.h"
-/// The fake library of this program, as it is; fake_hd() resets it.
+/// The fake library of this program in its present state; fake_hd() resets it.
 inline FakeHd& fake_hd_as_it_is() {
     void* const library = dlopen(DIHAPTIC_FAKE_HD, RTLD_LAZY | RTLD_GLOBAL);
     if (library == nullptr) throw std::runtime_error(dlerror());

@@ -28,7 +28,7 @@ struct Scheduled {
     unsigned short priority;
 };
 
-/// One lock for everything: speed does not matter here.
+/// One lock for all data, as speed does not matter here.
 std::recursive_mutex mutex;
 std::deque<HdErrorInfo> errors;
 HdHandle current = kNoHandle;
@@ -132,7 +132,7 @@ void run_scheduler() {
         silent = silent || fake.silent || (fake.before_tick && !fake.before_tick(tick));
         const bool called = !silent && call_all();
         do {
-            next += period;  // ticks that were missed are left out
+            next += period;  // missed ticks are skipped
         } while (next < Clock::now());
         if (fake.real_time) {
             std::this_thread::sleep_until(next);
@@ -142,7 +142,8 @@ void run_scheduler() {
     }
 }
 
-/// The current device, which the call is about. Returns null and raises an error if there is none.
+/// The current device, to which the call applies. Returns null and raises an error if there is
+/// none.
 Device* here() {
     look_at_thread();
     return find(current);
@@ -159,7 +160,7 @@ Held held(Device& device) {
 }
 Held state[8];  // by device, in this frame
 
-/// Joint angles as an arm's encoders report them, with our signs [rad].
+/// Joint angles reported by an arm's encoders, with our signs [rad].
 Vec3 told_joints(const Device& device, const Held& now) {
     return model::phantom_joints({}, now.p) - *device.joint_offset;
 }
@@ -169,13 +170,13 @@ Vec3 middle(const Device& device) {
     return Vec3(w[0] + w[3], w[1] + w[4], w[2] + w[5]) / 2;
 }
 
-/// Position of the handle as HD reports it [mm].
+/// Position of the handle as reported by HD [mm].
 Vec3 told_position(const Device& device, const Held& now) {
     if (device.joint_offset) return 1e3 * model::phantom_position({}, told_joints(device, now));
     return 1e3 * now.p + middle(device);
 }
 
-/// The part of a force that reaches the hand: force ramps up after the amplifiers come on.
+/// The part of a force that reaches the hand: force ramps up after the amplifiers are switched on.
 Wrench ramped(Device& device, const Wrench& push) {
     const double most = fake.ramp * ++device.frames_of_force / static_cast<double>(rate);
     const double size = push.force.norm();
@@ -185,7 +186,8 @@ Wrench ramped(Device& device, const Wrench& push) {
 
 }  // namespace
 
-// NOLINTBEGIN(readability-identifier-naming,clang-diagnostic-return-type-c-linkage): the maker's
+// NOLINTBEGIN(readability-identifier-naming,clang-diagnostic-return-type-c-linkage): the
+// manufacturer's
 extern "C" {
 
 FakeHd* dihaptic_fake_hd() {

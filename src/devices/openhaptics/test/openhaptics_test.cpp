@@ -1,4 +1,4 @@
-// Tests the HD backend on a fake libHD: what it reads, how it fails, and its messages then.
+// Tests the HD backend on a fake libHD: its readings, its failures, and their messages.
 #include <thread>
 
 #include "devices/openhaptics/backend.h"
@@ -24,7 +24,7 @@ std::unique_ptr<DeviceGroup> make_two() {
     return make({kTwo[0], kTwo[1]});
 }
 
-/// Runs `ticks` through pace() as a servo that pushes with `force`; keeps each tick's readings.
+/// Runs `ticks` through pace() like a servo that pushes with `force`; keeps each tick's readings.
 struct Paced {
     std::vector<std::vector<Reading>> readings;
     explicit Paced(DeviceGroup& group, int ticks, const Vec3& force = Vec3::Zero(),
@@ -98,7 +98,7 @@ TEST(OpenHaptics, TellsTheJointsOfAnArmThatIsAskedForThem) {
 
 TEST(OpenHaptics, RefusesJointsOfADeviceThatTellsNone) {
     fake_hd();
-    expect_in("does not tell the angles of its joints. Leave out joint_angles.",
+    expect_in("does not report its joint angles. Leave out joint_angles.",
               told([] { make({"joint_angles: yes\n"}); }));
 }
 
@@ -211,7 +211,7 @@ TEST(OpenHaptics, DevicesThatAreNotThereAreTold) {
         "rig.yaml:1: error: name: the thumb's device 'PHANToM 3' cannot be reached: "
         "HD_BAD_HANDLE",
         said);
-    expect_in("look for its name in the driver's configuration", said);
+    expect_in("check its name in the driver's configuration", said);
     fake.init_error = kHdInvalidLicence;
     expect_in("OH_SDK_LICENSE_PATH", told([] { make({""}); }));
     fake.init_error = kHdCommError;
@@ -235,21 +235,21 @@ TEST(OpenHaptics, SerialNumbersAreChecked) {
     FakeHd& fake = fake_hd();
     EXPECT_EQ(make({"name: PHANToM 1\nserial: 40123\n"})->size(), 1);
     std::string said = told([] { make({"name: PHANToM 1\nserial: 40124\n"}); });
-    expect_in("(PHANToM Premium 1.0, serial 40123) is not that of serial 40124", said);
+    expect_in("(PHANToM Premium 1.0, serial 40123) does not have serial number 40124", said);
     fake.devices[1].serial = "40123";
     said = told([] { make_two(); });
     expect_in("rig.yaml:2: error: name: the index's device 'PHANToM 2'", said);
-    expect_in("have one serial number: they are one device, under two names", said);
+    expect_in("have the same serial number: they are one device under two names", said);
     EXPECT_FALSE(fake.devices[0].initialised);
 }
 
 TEST(OpenHaptics, RigsThatCannotBeAreRefusedWithoutADevice) {
     fake_hd();
     expect_in("rig.yaml:2: error: name: is needed", told([] { make({kTwo[0], ""}); }));
-    expect_in("name: 'PHANToM 1' is that of the thumb's device too", told([] {
+    expect_in("name: 'PHANToM 1' also belongs to the thumb's device", told([] {
                   make({kTwo[0], kTwo[0]});
               }));
-    expect_in("serial: '7' is that of the thumb's device too", told([] {
+    expect_in("serial: '7' also belongs to the thumb's device", told([] {
                   make({"name: A\nserial: 7\n", "name: B\nserial: 7\n"});
               }));
 }
@@ -257,14 +257,14 @@ TEST(OpenHaptics, RigsThatCannotBeAreRefusedWithoutADevice) {
 TEST(OpenHaptics, LimitsThatCannotBeAreRefused) {
     FakeHd& fake = fake_hd();
     fake.devices[0].max_force = 0;
-    expect_in("states limits that cannot be: 0 N at most", told([] { make({""}); }));
+    expect_in("states impossible limits: 0 N peak", told([] { make({""}); }));
 }
 
 TEST(OpenHaptics, RatesThatTheDriverRefusesAreTold) {
     fake_hd();
     const auto group = make({""}, 1.0 / 300);
     const std::string said = told([&] { group->activate(); });
-    expect_in("does not run at 300 ticks a second: HD_INVALID_VALUE", said);
+    expect_in("does not run at 300 ticks per second: HD_INVALID_VALUE", said);
 }
 
 TEST(OpenHaptics, CalibratesWhatCalibratesItself) {

@@ -90,7 +90,7 @@ TEST(Arm, StopsWhereItsJointsEnd) {
     EXPECT_LT(arm.rate().norm(), 1e-9);
 }
 
-/// A hand that moves around.
+/// A moving hand.
 class RoundDriver final : public hand::Driver {
   public:
     static Vec3 at(double t) {
