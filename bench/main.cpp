@@ -1,5 +1,5 @@
-// Measures what developers of Dihaptic need to know: solvers, ticks, threads and pictures.
-// docs/measures.md defines the figures. `dihaptic` has the benches that labs need.
+// Measurements for developers of Dihaptic: solvers, ticks, threads and pictures.
+// docs/measures.md defines the figures. `dihaptic` has the benches for labs.
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -34,7 +34,7 @@ std::string json_of(const auto& figures) {
     return FigureJson<nlohmann::ordered_json>::of(figures).dump(2) + "\n";
 }
 
-/// Rows of figures: in JSON a list of that name in an object.
+/// Rows of figures: in JSON a list with that name in an object.
 template <class Figures>
 void print_rows(const char* name, const std::vector<Figures>& rows, bool json) {
     const auto all = FigureJson<nlohmann::ordered_json>::of(rows);
@@ -46,7 +46,7 @@ void add_settings(CLI::App& command, BenchOptions& options) {
     frame::Settings& settings = options.setup.settings;
     add_choice(command, "--solver", settings.dynamics.solver, "contact solver");
     add_choice(command, "--coupling", settings.coupling.kind, "coupling of handle and proxy");
-    command.add_option("--rate", settings.rate, "ticks a second [Hz]")
+    command.add_option("--rate", settings.rate, "ticks per second [Hz]")
         ->check(rate_range())
         ->capture_default_str();
     add_json(command, options.json);
@@ -92,9 +92,9 @@ void add_friction(CLI::App& app) {
 
 void add_scale(CLI::App& app) {
     auto* command =
-        app.add_subcommand("scale", "What a tick costs with 0 to 1000 more blocks on the table");
+        app.add_subcommand("scale", "Cost of a tick with 0 to 1000 more blocks on the table");
     auto options = std::make_shared<BenchOptions>();
-    // the bare step that it is compared with is Bullet's
+    // the bare step for comparison is Bullet's
     options->setup.settings.dynamics.solver = contact::Solver::sequential_impulse;
     auto extras = std::make_shared<std::vector<int>>(std::vector<int>{0, 10, 50, 200, 1000});
     add_settings(*command, *options);
@@ -109,8 +109,8 @@ void add_scale(CLI::App& app) {
 }
 
 void add_heap(CLI::App& app) {
-    auto* command = app.add_subcommand(
-        "heap", "Whether a heap beside a held block costs the hand exactness or time");
+    auto* command =
+        app.add_subcommand("heap", "Effect of a heap beside a held block on exactness and time");
     auto options = std::make_shared<BenchOptions>();
     auto loose = std::make_shared<std::vector<int>>(std::vector<int>{20, 60, 200});
     add_settings(*command, *options);
@@ -139,14 +139,14 @@ void add_contact(CLI::App& app) {
                      "contact problems in the FCLIB layout (HDF5), or folders of *.hdf5")
         ->required();
     add_choice(*command, "--solver", options->solver,
-               "only this one; otherwise all and the peers that are installed");
+               "only this one; otherwise all, and the installed peers");
     command
         ->add_option("--directions", options->wanted.polygon.directions,
-                     "of stewart_trinkle's friction polygon")
+                     "directions of stewart_trinkle's friction polygon")
         ->check(CLI::Range(4, contact::kMostDirections))
         ->capture_default_str();
     add_choice(*command, "--direction-frame", options->wanted.polygon.frame,
-               "where they lie: sliding is the first along each contact's friction");
+               "their placement; sliding: the first along each contact's friction");
     add_json(*command, options->json);
     command->footer(
         "\nExample:\n  dihaptic-bench contact ../shared/data/contact-problems --solver newton");
@@ -168,10 +168,11 @@ void add_contact(CLI::App& app) {
 }
 
 void add_solvers(CLI::App& app) {
-    auto* command = app.add_subcommand(
-        "solvers", "What a solve costs by contacts, beside Bullet's, on problems of shaken scenes");
+    auto* command = app.add_subcommand("solvers",
+                                       "Cost of a solve by number of contacts, compared with "
+                                       "Bullet, on problems from shaken scenes");
     auto options = std::make_shared<BenchOptions>();
-    add_choice(*command, "--solver", options->solver, "only this one, beside Bullet's");
+    add_choice(*command, "--solver", options->solver, "only this one, compared with Bullet's");
     add_json(*command, options->json);
     command->footer("\nExample:\n  dihaptic-bench solvers --solver newton");
     command->callback([command, options] {
@@ -223,9 +224,10 @@ void run_jitter(const JitterOptions& options) {
 void add_jitter(CLI::App& app) {
     auto* command = app.add_subcommand(
         "jitter",
-        "How punctual the real-time thread is, beside cyclictest, and how long ticks take");
+        "Punctuality of the real-time thread, compared with cyclictest, and duration of ticks");
     auto options = std::make_shared<JitterOptions>();
-    command->add_option("--time", options->time, "in real time, cyclictest's as much again [s]")
+    command
+        ->add_option("--time", options->time, "in real time, and the same again for cyclictest [s]")
         ->check(time_range())
         ->capture_default_str();
     command
@@ -234,13 +236,13 @@ void add_jitter(CLI::App& app) {
         ->capture_default_str();
     command
         ->add_option("--runs", options->runs,
-                     "how many runs, one after another: prints the median and the spread")
+                     "number of successive runs: prints the median and the spread")
         ->check(CLI::Range(1, 100))
         ->capture_default_str();
     command->add_flag("--view", options->beside.view,
-                      "draw the scene beside, as fast as the machine goes");
+                      "also draw the scene, as fast as the machine can");
     add_choice(*command, "--sound", options->beside.sound,
-               "where a tone goes that begins beside, twenty times a second");
+               "output for an additional tone, twenty times per second");
     add_settings(*command, *options);
     command->footer(
         "\ncyclictest is in the Debian package rt-tests.\n\nExamples:\n  dihaptic-bench jitter\n"
@@ -254,10 +256,10 @@ void add_jitter(CLI::App& app) {
 void add_task(CLI::App& app) {
     auto* command = app.add_subcommand(
         "task",
-        "What a task of 20 states and 10 loads adds to a tick, and what 20 conditions cost");
+        "Time that a task with 20 states and 10 loads adds to a tick, and cost of 20 conditions");
     auto options = std::make_shared<BenchOptions>();
     auto pairs = std::make_shared<int>(5);
-    command->add_option("--pairs", *pairs, "runs with the task, and without it")
+    command->add_option("--pairs", *pairs, "number of pairs of runs with and without the task")
         ->check(CLI::Range(1, 100))
         ->capture_default_str();
     add_settings(*command, *options);
@@ -299,7 +301,8 @@ void add_mechanics(CLI::App& app) {
 
 void add_chain(CLI::App& app) {
     auto* command = app.add_subcommand(
-        "chain", "Chains of 2 to 50 links on hinges: cost and exactness, beside other simulators");
+        "chain",
+        "Chains of 2 to 50 links on hinges: cost and exactness, compared with other simulators");
     auto options = std::make_shared<BenchOptions>();
     auto links = std::make_shared<std::vector<int>>(std::vector{2, 10, 50});
     add_choice(*command, "--solver", options->solver, "only this one and the peers; otherwise all");
@@ -327,7 +330,7 @@ void add_chain(CLI::App& app) {
 
 void add_scrub(CLI::App& app) {
     auto* command =
-        app.add_subcommand("scrub", "How soon any moment of a recorded session is there");
+        app.add_subcommand("scrub", "Time for a jump to any moment of a recorded session");
     auto session = std::make_shared<std::string>();
     auto json = std::make_shared<bool>(false);
     command->add_option("SESSION", *session, "folder of a session")->required();
@@ -342,8 +345,8 @@ void add_scrub(CLI::App& app) {
 }
 
 void add_view(CLI::App& app) {
-    auto* command = app.add_subcommand(
-        "view", "What a picture costs, beside the same one with a plain shadow map");
+    auto* command =
+        app.add_subcommand("view", "Cost of a picture, compared with one with a plain shadow map");
     auto json = std::make_shared<bool>(false);
     add_json(*command, *json);
     command->footer("\nExample:\n  dihaptic-bench view");
@@ -366,7 +369,7 @@ int main(int argc, char** argv) {
     CLI::App app("Measures Dihaptic's solvers, ticks, threads and pictures (docs/measures.md).");
     app.set_version_flag("--version", recording::program_version());
     app.footer(
-        "\nExample:\n  dihaptic-bench scale --json > scale.json\n\nEach command has --help of its "
+        "\nExample:\n  dihaptic-bench scale --json > scale.json\n\nEach command has its own --help"
         "own. dihaptic bench grasp measures how calmly a block is held.");
     cli::add_friction(app);
     cli::add_scale(app);

@@ -1,4 +1,4 @@
-// A raw log for the ticks of a bench, in a temporary folder that is removed with it.
+// A raw log for the ticks of a bench, in a temporary folder that is removed together with the log.
 #pragma once
 
 #include <string>

@@ -11,7 +11,7 @@ namespace {
 using dynamics::from_bullet;
 using dynamics::to_bullet;
 
-/// Inverse of a value; 0 for a value that is about 0, since Bullet takes 0 for infinite.
+/// Inverse of a value; 0 for a value that is about 0, since for Bullet 0 means infinite.
 double inverse(double value, double largest) {
     return value > 1e-12 * largest ? 1 / value : 0;
 }
@@ -99,7 +99,7 @@ void BulletProblem::solve(btSequentialImpulseConstraintSolver& solver, int itera
     info.m_warmstartingFactor = 1;
     info.m_numIterations = iterations;
     info.m_leastSquaresResidualThreshold = 0;
-    info.m_erp2 = 1;  // the problem's bias already has its error reduction
+    info.m_erp2 = 1;  // the problem's bias already includes error reduction
     info.m_timeStep = kStep;
     info.m_splitImpulse = 0;
     solver.solveGroup(moving_.data(), static_cast<int>(moving_.size()), manifold_list_.data(),

@@ -1,9 +1,9 @@
 // A contact problem in the form of Bullet's sequential-impulse solver: made once, then solved any
 // number of times from the same velocities and impulses.
 //
-// Bullet uses contact points only relative to the bodies' centres, so all bodies stand at the
-// origin, with each contact point at its place from its body's centre. The gap given to Bullet is
-// the one that the bias closes in one step.
+// Bullet uses contact points only relative to the bodies' centres, so all bodies are at the
+// origin, with each contact point at its position relative to its body's centre. The gap for Bullet
+// is the gap that the bias closes in one step.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
@@ -20,8 +20,8 @@ class BulletProblem {
   public:
     BulletProblem(const contact::ContactProblem& problem, std::span<const contact::Impulse> start);
 
-    /// Sets velocities and impulses back to those before a solve. Bullet takes only the normal
-    /// impulses of the start, and always begins friction at zero.
+    /// Restores velocities and impulses to those before a solve. Bullet uses only the normal
+    /// impulses of the start, and always starts friction at zero.
     void reset();
     /// Solves with exactly `iterations` iterations, two directions of friction, and a warm start.
     void solve(btSequentialImpulseConstraintSolver& solver, int iterations);

@@ -32,7 +32,8 @@ class ChainEquations {
     using State = Eigen::VectorXd;  ///< angles [rad], then their rates [rad/s]
 
     explicit ChainEquations(int links) : n_(links), coupling_(links, links), weight_(links) {
-        // arm j carries the centre of its own link at half its length, of those below at the whole
+        // arm j carries the centre of its own link at half its length, and those below at full
+        // length
         for (int j = 0; j < n_; ++j) {
             const auto arm = [](int of, int link) {
                 return of == link ? 0.5 : of < link ? 1. : 0.;
@@ -85,7 +86,7 @@ class ChainEquations {
 };
 
 /// Compares the path of the last link with its equations. Depending on how they define velocities,
-/// simulators begin at rest at the start, half a step before, or a step before; this shift in time
+/// simulators start at rest at the start, half a step before, or a step before; this shift in time
 /// does not count as an error.
 class EndJudge {
   public:
@@ -118,7 +119,7 @@ double energy_between(std::span<const Pose> before, std::span<const Pose> after)
     return out;
 }
 
-/// How far the links are apart at their hinges [m].
+/// Largest separation of links at their hinges [m].
 double apart(const scene::Scene& scene, std::span<const Pose> X_WB) {
     double most = 0;
     for (size_t i = 0; i < X_WB.size(); ++i) {

@@ -78,7 +78,7 @@ std::vector<std::string> contact_files(const std::vector<std::string>& names,
         }
         if (inside.empty()) {
             diagnostics.error({name, 0}, "", "is a folder without *.hdf5",
-                              "Name a folder or files of the FCLIB kind.");
+                              "Name a folder or files in the FCLIB layout.");
         }
         std::sort(inside.begin(), inside.end());
         out.insert(out.end(), inside.begin(), inside.end());

@@ -17,7 +17,7 @@ struct ContactBench {
         contact::Solver::newton, contact::Solver::staggered_projections,
         contact::Solver::stewart_trinkle, contact::Solver::sequential_impulse};
     contact::PolygonSettings polygon;
-    bool peers = true;  ///< also other libraries' solvers, if this build has them
+    bool peers = true;  ///< whether to include other libraries' solvers, if in this build
 };
 
 /// One problem, solved by one solver from zero impulses.
@@ -25,7 +25,7 @@ struct ContactFigures {
     std::string file;
     int contacts = 0;
     std::string solver;
-    double residual = 0;                 ///< natural map over 1 + |q|, of the problem as given
+    double residual = 0;                 ///< natural map over 1 + |q|, for the given problem
     std::optional<double> lcp_residual;  ///< stewart_trinkle: residual of its own problem
     double us = 0;                       ///< shortest time of several runs [us]
     int iterations = 0;
@@ -36,18 +36,18 @@ struct ContactFigures {
     static void visit(Self& f, Visitor& v) {
         v("file", f.file, "", "");
         v("contacts", f.contacts, "1", "");
-        v("solver", f.solver, "", "or peer");
+        v("solver", f.solver, "", "our solver, or a peer");
         v("residual", f.residual, "1", "natural map over 1 + |q|");
         v("us", f.us, "", "shortest time of several runs [us]");
-        v("iterations", f.iterations, "1", "as the solver counts them");
-        v("fallback", f.fallback, "", "another solver gave the answer");
-        v("route", f.route, "", "what gave the answer");
+        v("iterations", f.iterations, "1", "as counted by the solver");
+        v("fallback", f.fallback, "", "whether another solver gave the answer");
+        v("route", f.route, "", "method that gave the answer");
         v("lcp_residual", f.lcp_residual, "1", "of stewart_trinkle's own problem");
     }
 };
 
-/// The files named, with a folder replaced by the *.hdf5 files in it. A name that is neither is
-/// kept: reading it gives the error.
+/// The files named, with a folder replaced by the *.hdf5 files in it. A name that is neither one is
+/// kept, so that reading it gives the error.
 std::vector<std::string> contact_files(const std::vector<std::string>& names,
                                        Diagnostics& diagnostics);
 

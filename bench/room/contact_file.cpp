@@ -30,9 +30,9 @@ Id own(hid_t id, herr_t (*close)(hid_t)) {
 }
 
 constexpr auto kRemedy =
-    "Give a file of the FCLIB kind: fclib_local/W/{m,n,nz,p,i,x} and fclib_local/vectors/{q,mu}.";
+    "Give a file in the FCLIB layout: fclib_local/W/{m,n,nz,p,i,x} and fclib_local/vectors/{q,mu}.";
 
-/// Largest problem: W is kept as a dense matrix, of which the solvers make several copies.
+/// Largest problem: W is stored as a dense matrix, of which the solvers make several copies.
 constexpr size_t kMostContacts = 2000;
 constexpr hssize_t kMostNumbers = 9 * kMostContacts * kMostContacts;
 
@@ -66,7 +66,7 @@ Id open_file(const std::string& name) {
     return file;
 }
 
-/// Contents of a file as they stand, with W in compressed columns or rows.
+/// Contents of a file, unchanged, with W in compressed columns or rows.
 struct Fclib {
     static constexpr int kColumns = -1;
     static constexpr int kRows = -2;
@@ -116,7 +116,7 @@ void check_fclib(const Fclib& in, const std::string& name) {
     want(finite(in.x), "fclib_local/W/x", "has values that are not finite");
     const size_t n = in.q.size();
     want(in.mu.size() <= kMostContacts, "fclib_local/vectors/mu", "has more than 2000 contacts");
-    want(n == 3 * in.mu.size(), "fclib_local/vectors", "q has not three rows for each mu");
+    want(n == 3 * in.mu.size(), "fclib_local/vectors", "q does not have three rows for each mu");
     want(in.layout == Fclib::kColumns || in.layout == Fclib::kRows, "fclib_local/W/nz",
          "is neither -1 (columns) nor -2 (rows)");
     want(in.p.size() == n + 1, "fclib_local/W/p", "does not fit q");

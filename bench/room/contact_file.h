@@ -1,4 +1,4 @@
-// Reads contact problems of other simulators from files of the FCLIB layout (HDF5).
+// Reads contact problems of other simulators from files in the FCLIB layout (HDF5).
 #pragma once
 
 #include <string>

@@ -21,7 +21,7 @@ namespace {
 
 constexpr int kMostLate = 1000000;  // [us]; cyclictest counts later wake-ups separately
 
-/// Runs a program to its end, without its output. Returns what failed; "" if nothing did.
+/// Runs a program to its end, without its output. Returns the failure; "" if none.
 std::string run(std::vector<std::string> arguments) {
     std::vector<char*> argv;
     argv.reserve(arguments.size() + 1);
@@ -92,7 +92,7 @@ std::string run_cyclictest(const Cyclictest& wanted, double seconds, Wakeups& wa
         const auto beyond = thread.at("cycles").get<int64_t>() - counted;
         if (beyond > 0) wakeups.add(thread.at("max").get<int>(), beyond);
     } catch (const std::exception&) {
-        return "this version of cyclictest writes no figures that can be read";
+        return "this version of cyclictest writes no readable figures";
     }
     return "";
 }

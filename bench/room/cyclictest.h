@@ -1,5 +1,5 @@
-// Runs cyclictest, of Debian's rt-tests, which measures how late this machine wakes a real-time
-// thread that does nothing else: a reference for the lateness of our own thread.
+// Runs cyclictest, from Debian's rt-tests, which measures the lateness with which this machine
+// wakes a real-time thread without work: a reference for the lateness of our own thread.
 #pragma once
 
 #include <map>
@@ -9,7 +9,7 @@
 
 namespace dihaptic::bench {
 
-/// A histogram of how late wake-ups were.
+/// A histogram of the lateness of wake-ups.
 class Wakeups {
   public:
     /// `us`: whole microseconds, rounded down.
@@ -24,8 +24,8 @@ class Wakeups {
     std::map<int, int64_t> counts_;
 };
 
-/// Options of cyclictest, which should measure as our thread did: with the same priority and locked
-/// memory, or without them if our thread was refused them.
+/// Options of cyclictest, which should run like our thread: with the same priority and locked
+/// memory, or without if our thread was refused these.
 struct Cyclictest {
     frame::Settings settings;
     bool priority = true;
@@ -33,8 +33,8 @@ struct Cyclictest {
     std::string file;  ///< file for its figures
 };
 
-/// Runs cyclictest for `seconds`, and adds its wake-ups. Returns why there are none; "" if all went
-/// well.
+/// Runs cyclictest for `seconds`, and adds its wake-ups. Returns the reason if there are none; ""
+/// on success.
 std::string run_cyclictest(const Cyclictest& wanted, double seconds, Wakeups& wakeups);
 
 }  // namespace dihaptic::bench

@@ -1,4 +1,4 @@
-// A view that draws as fast as it can in a thread of its own, as a load beside the servo.
+// A view that draws as fast as possible in its own thread, as an additional load.
 #pragma once
 
 #include <atomic>
@@ -15,7 +15,7 @@ class Drawing {
   public:
     /// Draws `newest` until it is destroyed.
     Drawing(const scene::Scene& scene, Latest<frame::Frame>& newest);
-    /// Throws what drawing threw, e.g. Error without OpenGL.
+    /// Passes on exceptions of drawing, e.g. Error without OpenGL.
     ~Drawing() noexcept(false);
     Drawing(const Drawing&) = delete;
     Drawing& operator=(const Drawing&) = delete;

@@ -19,7 +19,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 using model::kGravity;
 constexpr double kFallen = 0.02;  // a body that moved this far has fallen [m]
-constexpr double kParts = 9;      // of the bench, for its progress
+constexpr double kParts = 9;      // number of parts of the bench, for its progress
 
 scene::Body box_at(const std::string& name, const Vec3& size, const Pose& X_WB, double friction) {
     scene::Body body = measure::box(name, size, X_WB.p, friction);
@@ -36,10 +36,10 @@ int steps(double time) {
 
 /// Largest displacement of any body's centre of volume after some time [m].
 struct Drift {
-    double drawn = 0;    ///< from the pose that was drawn
+    double drawn = 0;    ///< from the drawn pose
     double settled = 0;  ///< from its pose after a second, when soft contacts bear their load
 };
-/// Stops when a body moves further than `fallen`; `drawn` is then some displacement beyond it.
+/// Stops when a body moves further than `fallen`; `drawn` is then a displacement beyond it.
 Drift drift(const scene::Scene& scene, const Simulator& simulator, double time,
             double fallen = std::numeric_limits<double>::infinity()) {
     const int settling = steps(1);
@@ -70,7 +70,7 @@ std::optional<double> standing(double drift) {
     return drift < kFallen ? std::optional(drift * 1e3) : std::nullopt;
 }
 
-/// Storeys of the highest house of cards, from 2 to 6, that stands for 3 s; 0 if none does.
+/// Storeys of the highest house of cards, from 2 to 6, that stands for 3 s; 0 if none.
 int storeys_held(const Simulator& simulator, const std::function<void(int)>& say) {
     for (int storeys = 6; storeys >= 2; --storeys) {
         say(storeys);
@@ -79,7 +79,7 @@ int storeys_held(const Simulator& simulator, const std::function<void(int)>& say
     return 0;
 }
 
-/// How a block slides from rest: its acceleration down the slope, and its angle off the fall line,
+/// Sliding of a block from rest: its acceleration down the slope, and its angle from the fall line,
 /// over the last 0.8 s of one second. Soft contacts need the first 0.2 s to settle.
 struct Slide {
     double acceleration = 0;
@@ -129,8 +129,8 @@ double pinch_slip(const Simulator& simulator) {
 }  // namespace
 
 scene::Scene incline_scene(double slope, double turn, double friction, scene::ShapeKind kind) {
-    // the fall line is turned about the vertical, and the block's edges keep the world's
-    // directions, so that nothing is aligned
+    // the fall line is turned about the vertical, while the block's edges keep the world's
+    // directions, so that there is no alignment
     const Quat R_table(Eigen::AngleAxisd(turn, Vec3::UnitZ()) *
                        Eigen::AngleAxisd(slope, Vec3::UnitY()));
     const Quat R_block(R_table * Quat(Eigen::AngleAxisd(-turn, Vec3::UnitZ())));
@@ -169,7 +169,7 @@ scene::Scene cards_scene(int storeys) {
     const double centre_x = u * std::sin(lean) + n * std::cos(lean);
     const double centre_z = u * std::cos(lean) + n * std::sin(lean);
     const double height = 2 * centre_z;  // height of a pair's highest corners
-    // neighbouring pairs stand clear of each other
+    // neighbouring pairs do not touch each other
     const double outermost = centre_x + u * std::sin(lean) + n * std::cos(lean);
     const double pitch = 2 * outermost + thick;
     scene::Scene scene;

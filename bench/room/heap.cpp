@@ -17,9 +17,9 @@ namespace {
 constexpr double kHeapFriction = 0.6;
 constexpr double kHeapAway = 2;      // from the held block [m]
 constexpr double kSettleTime = 2.5;  // [s]
-constexpr double kStirred = 0.5;     // largest force along an axis, over the weight
+constexpr double kStirred = 0.5;     // largest force along an axis, relative to the weight
 
-/// A bowl of four slopes that are steeper than friction holds.
+/// A bowl of four slopes steeper than the friction angle.
 void add_bowl(scene::Scene& scene) {
     for (int side = 0; side < 4; ++side) {
         scene::Body body =
@@ -53,7 +53,7 @@ std::vector<scene::Body> loose_bodies(int count) {
     return out;
 }
 
-/// Puts the loose bodies where they come to rest.
+/// Moves the loose bodies to their rest positions.
 void let_fall(scene::Scene& scene) {
     frame::DynamicsSettings settings;
     settings.solver = contact::Solver::sequential_impulse;

@@ -1,5 +1,5 @@
-// The command `dihaptic-bench heap`: measures whether a heap beside a held block costs the hand its
-// exactness, or its tick the time. docs/measures.md defines the figures.
+// The command `dihaptic-bench heap`: measures the effect of a heap beside a held block on the
+// hand's exactness and on the time of a tick. docs/measures.md defines the figures.
 #pragma once
 
 #include <vector>
@@ -18,16 +18,16 @@ struct HeapFigures {
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
         v("loose", f.loose, "1", "boxes and balls in the heap");
-        v("held_residual", f.held_residual, "1", "the largest of the held block's island");
-        v("tick_median_us", f.tick_median_us, "us", "whole tick, recording included");
+        v("held_residual", f.held_residual, "1", "largest in the held block's island");
+        v("tick_median_us", f.tick_median_us, "us", "entire tick, including recording");
         v("tick_p99_us", f.tick_p99_us, "us", "");
         v("tick_max_us", f.tick_max_us, "us", "");
-        v("ended", f.ended, "1", "ticks in which counted work ended an island");
+        v("ended", f.ended, "1", "ticks in which the limit of work ended an island");
         v("hf_force_n", f.hf_force_n, "N", "handle force above 5 Hz, RMS");
     }
 };
 
-/// Holds the block in the air for 5 s beside a heap that is stirred.
+/// Holds the block in the air for 5 s beside a stirred heap.
 HeapFigures measure_heap(const measure::BenchSetup& setup, int loose);
 std::vector<HeapFigures> bench_heap(const measure::BenchSetup& setup, const std::vector<int>& loose,
                                     const measure::Progress& progress);

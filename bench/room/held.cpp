@@ -8,7 +8,7 @@
 namespace dihaptic::bench {
 namespace {
 
-constexpr double kSpringHeld = 200;  // of the spring [N/m]
+constexpr double kSpringHeld = 200;  // stiffness of the spring [N/m]
 
 measure::BenchSetup setup_of(contact::Solver solver, double k) {
     measure::BenchSetup out;
@@ -44,7 +44,7 @@ scene::Scene scene_of(Held held, const measure::BenchSetup& setup) {
         if (held == Held::spring) {
             joint.stiffness = kSpringHeld;
             joint.damping = 0.2;
-            joint.rest = mass * model::kGravity / kSpringHeld;  // it begins at rest
+            joint.rest = mass * model::kGravity / kSpringHeld;  // it starts at rest
         }
         top += kApart + kHeight;
         out.bodies.push_back(part);

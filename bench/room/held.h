@@ -1,5 +1,5 @@
-// Measures how calmly two fingers hold objects with joints, compared with the rigid block of `bench
-// grasp`, and how much time they add to a tick.
+// Measures the calmness with which two fingers hold objects with joints, compared with the rigid
+// block of `bench grasp`, and the time that these add to a tick.
 #pragma once
 
 #include <array>
@@ -12,15 +12,15 @@ namespace dihaptic::bench {
 enum class Held {
     nothing,
     hinge,       ///< a second block that turns about an upright axis
-    slider,      ///< one that slides away from the grasp
-    spring,      ///< one on a spring of 200 N/m that swings up and down
-    six_hinges,  ///< a tower of six that turn on each other
+    slider,      ///< a block that slides away from the grasp
+    spring,      ///< a block that swings up and down on a spring of 200 N/m
+    six_hinges,  ///< a tower of six blocks on hinges
 };
 
-/// The highest stiffness of the list of `bench grasp` up to which it is held calmly [N/m].
+/// The highest stiffness in the list of `bench grasp` at which the object is held calmly [N/m].
 double calm_k(Held held, contact::Solver solver);
 
-/// Time of a tick while it is held: the 99th percentile [us].
+/// 99th percentile of a tick's time while the object is held [us].
 double tick_p99(Held held, contact::Solver solver);
 
 }  // namespace dihaptic::bench

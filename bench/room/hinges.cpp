@@ -13,7 +13,8 @@ std::vector<Hinge> hinges_of(const scene::Scene& scene) {
         if (joint.kind != scene::JointKind::hinge || joint.has_spring() || joint.has_damper() ||
             joint.friction > 0 || joint.low || joint.high)
             throw Error(
-                fmt::format("Joint {} is more than a hinge, and peers are given none", joint.name),
+                fmt::format("Joint {} is not a plain hinge, but peers get only plain hinges",
+                            joint.name),
                 "Use plain hinges.");
         Hinge hinge;
         hinge.body = static_cast<size_t>(scene.find(joint.between.back()));
@@ -23,10 +24,10 @@ std::vector<Hinge> hinges_of(const scene::Scene& scene) {
         hinge.axis_W = joint.axis.normalized();
         if (hangs[hinge.body])
             throw Error(fmt::format("{} hangs on two hinges", joint.between.back()),
-                        "Peers are given trees.");
+                        "Peers get only trees.");
         if (hinge.parent && !hangs[*hinge.parent])
-            throw Error(fmt::format("{} stands before what it hangs on", joint.name),
-                        "Begin with the hinge that is joined to the world.");
+            throw Error(fmt::format("{} comes before its parent", joint.name),
+                        "Start with the hinge joined to the world.");
         hangs[hinge.body] = true;
         out.push_back(hinge);
     }

@@ -1,4 +1,4 @@
-// Lists a scene's hinges in the form that other simulators need: by numbers of bodies, each body on
+// Lists a scene's hinges in the form that other simulators need: by body numbers, each body on
 // its parent.
 #pragma once
 
@@ -17,9 +17,9 @@ struct Hinge {
     Vec3 axis_W = Vec3::UnitZ();
 };
 
-/// The hinges of a scene that has no other joints, parents before the bodies on them. Throws Error
-/// for anything that is not passed to peers: other joints, loops, and springs, dampers, friction or
-/// stops.
+/// The hinges of a scene without other joints, with parents before their children. Throws Error
+/// for any feature that is not passed to peers: other joints, loops, and springs, dampers, friction
+/// or stops.
 std::vector<Hinge> hinges_of(const scene::Scene& scene);
 
 /// The pose of a hinge at the start, its axis along z.

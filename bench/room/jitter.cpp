@@ -17,7 +17,7 @@
 namespace dihaptic::bench {
 namespace {
 
-// our turn, then cyclictest's: short enough for the machine's other load to affect both alike [s]
+// our turn, then cyclictest's: short enough for the machine's other load to affect both equally [s]
 constexpr double kTurn = 5;
 
 /// Lifts the block on the virtual clock; returns the time at which it is held.
@@ -30,7 +30,7 @@ Time lift(measure::Bench& bench) {
     return reached;
 }
 
-/// A tone that is started again and again by the ticks of a servo.
+/// A tone that a servo's ticks start again and again.
 class Tone {
   public:
     Tone(display::SoundTo to, const servo::Servo& servo, const recording::SessionFolder& folder)
@@ -56,10 +56,10 @@ class Tone {
         }
         player_->hear(due_);
     }
-    /// Returns how often it was heard.
+    /// Returns the number of times it was heard.
     int64_t finish() {
         for (const std::string& problem : player_->finish()) throw Error(problem, "Try again.");
-        player_.reset();  // which writes the last lines of its file
+        player_.reset();  // this writes the last lines of its file
         return static_cast<int64_t>(recording::read_hearings(folder_).size());
     }
 
@@ -72,7 +72,7 @@ class Tone {
     std::optional<sound::Player> player_;
 };
 
-/// A block that is held in real time, in several turns, and recorded.
+/// A block held in real time, in several turns, with a recording.
 class HeldBlock {
   public:
     explicit HeldBlock(const measure::BenchSetup& setup)
@@ -103,7 +103,7 @@ class HeldBlock {
         recorder.finish();
         dropped_ += recorder.dropped();
     }
-    /// The same with the additional load, except the view; returns how many sounds were heard.
+    /// The same with the additional load, except the view; returns the number of sounds heard.
     int64_t hold(servo::Timing& timing, double turn, const Beside& beside,
                  const std::atomic<bool>& stop) {
         if (!beside.sounds()) {
@@ -130,7 +130,7 @@ class HeldBlock {
     Latest<frame::Frame> newest_;
     Time reached_;
     double height_ = 0;    // [m]
-    int64_t dropped_ = 0;  // number of frames that were not recorded
+    int64_t dropped_ = 0;  // number of unrecorded frames
 };
 
 Spread spread(const auto& times) {
@@ -148,11 +148,13 @@ std::string bar(int64_t count) {
 std::string beside_text(const JitterFigures& f) {
     std::string out;
     if (f.pictures > 0)
-        out += fmt::format("a view drew {:.0f} pictures a second beside both\n", f.pictures);
-    if (f.sounds > 0) out += fmt::format("{} heard beside the servo\n", counted(f.sounds, "sound"));
+        out += fmt::format("a view drew {:.0f} pictures per second meanwhile\n", f.pictures);
+    if (f.sounds > 0)
+        out += fmt::format("{} heard during the servo's turns\n", counted(f.sounds, "sound"));
     if (f.disturbed())
-        out += fmt::format("without that: {} in as many ticks; p99.9 of lateness {:.1f} us\n",
-                           counted(f.quiet_overruns, "overrun"), f.quiet_lateness.p999);
+        out += fmt::format(
+            "without these: {} in the same number of ticks; p99.9 of lateness {:.1f} us\n",
+            counted(f.quiet_overruns, "overrun"), f.quiet_lateness.p999);
     return out;
 }
 
@@ -265,7 +267,7 @@ std::string to_text(const JitterRuns& all) {
     row("most", ours.most, theirs.most, ratio.most, share.most);
     if (!first.no_cyclictest.empty()) return out + "no peer: " + first.no_cyclictest + "\n";
     return out +
-           fmt::format("bar: no more overruns than cyclictest's, in each run: met in {} of {}\n",
+           fmt::format("bar: no more overruns than cyclictest's in each run; met in {} of {}\n",
                        all.within_bar(), all.runs.size());
 }
 
@@ -284,7 +286,7 @@ std::string to_text(const JitterFigures& f) {
     if (peer) row("cyclictest's", f.cyclictest_spread(), 0);
     row("tick", f.tick, 1);
     out += fmt::format(
-        "\nwake-ups by lateness, us; each further # is twice as many\n{:>14s}  {:34s}{}\n", "",
+        "\nwake-ups by lateness, us; each further # doubles the count\n{:>14s}  {:34s}{}\n", "",
         "servo", peer ? "cyclictest" : "");
     for (size_t i = 0; i < kSteps.size(); ++i) {
         const bool last = i + 1 == kSteps.size();

@@ -1,5 +1,5 @@
-// The command `dihaptic-bench jitter`: measures how punctual the real-time thread is, in comparison
-// with cyclictest. docs/measures.md defines the figures.
+// The command `dihaptic-bench jitter`: measures the punctuality of the real-time thread, in
+// comparison with cyclictest. docs/measures.md defines the figures.
 #pragma once
 
 #include <atomic>
@@ -38,16 +38,16 @@ struct JitterFigures {
     Spread lateness;
     Spread tick;
     int64_t overruns = 0;
-    int64_t dropped = 0;  ///< number of frames that were not recorded
-    bool held = false;    ///< the block was held to the end
+    int64_t dropped = 0;  ///< number of unrecorded frames
+    bool held = false;    ///< whether the block was held to the end
     Wakeups wakeups;
-    std::string refused;  ///< the real-time rights that the system refused; "" if none
+    std::string refused;  ///< real-time permissions refused by the system; "" if none
     Wakeups cyclictest;
-    double pictures = 0;  ///< pictures per second of the view that draws beside both; 0: no view
-    int64_t sounds = 0;   ///< that were heard beside the servo
-    int64_t quiet_overruns = 0;  ///< overruns in as many ticks without that view and these sounds
+    double pictures = 0;         ///< pictures per second of the additional view; 0: no view
+    int64_t sounds = 0;          ///< number heard during the servo's turns
+    int64_t quiet_overruns = 0;  ///< overruns in the same number of ticks without view and sounds
     Spread quiet_lateness;       ///< the same
-    std::string no_cyclictest;   ///< why cyclictest has no wake-ups
+    std::string no_cyclictest;   ///< reason why cyclictest has no wake-ups
 
     double period() const { return 1e6 / rate; }          ///< [us]
     double slack() const { return period() - tick.p99; }  ///< [us]
@@ -64,48 +64,50 @@ struct JitterFigures {
         };
         const bool peer = f.cyclictest.count() > 0;
         const bool viewed = f.pictures > 0;
-        v("rate_hz", f.rate, "Hz", "ticks a second");
+        v("rate_hz", f.rate, "Hz", "ticks per second");
         v("extra", f.extra, "1", "blocks on the table, awake");
-        v("seconds", f.seconds, "", "of the servo's turns");
-        v("lateness_us", f.lateness, "us", "of a tick's beginning");
-        v("tick_us", f.tick, "us", "duration of ticks, recording included");
+        v("seconds", f.seconds, "", "duration of the servo's turns");
+        v("lateness_us", f.lateness, "us", "lateness of a tick's start");
+        v("tick_us", f.tick, "us", "duration of ticks, including recording");
         v("ticks", f.ticks, "1", "");
         v("overruns", f.overruns, "1", "ticks that ended after the next deadline");
-        v("dropped", f.dropped, "1", "frames that were not recorded");
-        v("held", f.held, "", "the block, to the end");
-        v("cyclictest_us", given(peer, f.cyclictest_spread()), "us", "lateness of its wake-ups");
+        v("dropped", f.dropped, "1", "unrecorded frames");
+        v("held", f.held, "", "whether the block was held to the end");
+        v("cyclictest_us", given(peer, f.cyclictest_spread()), "us",
+          "lateness of cyclictest's wake-ups");
         v("lateness_p999_ratio", f.p999_ratio(), "1", "our p99.9 over cyclictest's");
-        v("tick_p99_share", f.tick_p99_share(), "1", "of the period");
-        v("slack_us", f.slack(), "us", "what a tick's p99 leaves of the period");
-        v("cyclictest_late", given(peer, f.cyclictest_late()), "1", "wake-ups beyond the slack");
-        v("view_hz", given(viewed, f.pictures), "Hz", "pictures drawn beside");
-        v("sounds", given(f.sounds > 0, f.sounds), "1", "heard beside");
+        v("tick_p99_share", f.tick_p99_share(), "1", "fraction of the period");
+        v("slack_us", f.slack(), "us", "period minus a tick's p99");
+        v("cyclictest_late", given(peer, f.cyclictest_late()), "1",
+          "cyclictest's wake-ups later than the slack");
+        v("view_hz", given(viewed, f.pictures), "Hz", "pictures drawn meanwhile");
+        v("sounds", given(f.sounds > 0, f.sounds), "1", "sounds heard meanwhile");
         v("overruns_without", given(f.disturbed(), f.quiet_overruns), "1",
-          "in as many ticks with no view and no sound");
+          "in the same number of ticks without view and sounds");
         v("lateness_without_us", given(f.disturbed(), f.quiet_lateness), "us", "the same");
-        v("refused", given(!f.refused.empty(), f.refused), "", "what Linux refused");
+        v("refused", given(!f.refused.empty(), f.refused), "", "permissions that Linux refused");
     }
 };
 
-/// The load that runs beside the servo.
+/// The additional load during the servo's run.
 struct Beside {
-    bool view = false;  ///< one draws as fast as it can
-    /// Where to play a tone that begins twenty times a second.
+    bool view = false;  ///< whether a view draws as fast as possible
+    /// Output for a tone that starts twenty times per second.
     display::SoundTo sound = display::SoundTo::nowhere;
 
     bool sounds() const { return sound != display::SoundTo::nowhere; }
     bool anything() const { return view || sounds(); }
 };
 
-/// Two fingers hold the block in the air, and are recorded, for `seconds`, alternating with
+/// Two fingers hold the block in the air, with a recording, for `seconds`, alternating with
 /// cyclictest for the same time, or until `stop`. With an additional load, the servo also runs
-/// without it in turn, for the same time. Throws Error when nothing can be drawn or played.
+/// without it in turn, for the same time. Throws Error if drawing or playing is impossible.
 JitterFigures bench_jitter(const measure::BenchSetup& setup, double seconds, const Beside& beside,
                            const std::atomic<bool>& stop, const measure::Progress& progress);
 
 std::string to_text(const JitterFigures& figures);
 
-/// Median, least and most of a figure over several runs.
+/// Median, minimum and maximum of a figure over several runs.
 struct OfRuns {
     double median = 0;
     double least = 0;
@@ -119,13 +121,14 @@ struct OfRuns {
     }
 };
 
-/// Several runs, to show how figures vary between runs and how many runs meet the bar.
+/// Several runs, to show the variation of figures between runs and the number of runs that meet the
+/// bar.
 struct JitterRuns {
     std::vector<JitterFigures> runs;
 
-    /// Number of runs with no more overruns than cyclictest would have had.
+    /// Number of runs with no more overruns than for cyclictest.
     int within_bar() const;
-    /// Of a member of JitterFigures, or what one of its functions returns.
+    /// For a member of JitterFigures, or the result of one of its functions.
     OfRuns over(const auto& figure) const {
         std::vector<double> values;
         for (const JitterFigures& f : runs)

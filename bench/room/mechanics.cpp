@@ -52,7 +52,7 @@ scene::Joint slider(const std::string& body, const Vec3& position, const Vec3& a
     return out;
 }
 
-/// Worlds of one solver, in which nothing sleeps.
+/// Worlds with one solver, without sleeping.
 class Bench {
   public:
     explicit Bench(contact::Solver solver) {
@@ -85,7 +85,7 @@ World pendulum(const Bench& bench, double angle) {
     return bench.make({bob}, {hinge({"bob"}, Vec3::Zero())});
 }
 
-/// Relative error of the period, by passes of the lowest point within 12 s.
+/// Relative error of the period, from passes through the lowest point within 12 s.
 double period_error(const Bench& bench, double angle) {
     World world = pendulum(bench, angle);
     std::vector<double> passes;
@@ -193,7 +193,7 @@ double cart_pendulum_error(const Bench& bench) {
     return worst;
 }
 
-/// How an undamped spring of a given frequency changes in a step: src/dynamics/README.md.
+/// Change of an undamped spring of a given frequency in a step (src/dynamics/README.md).
 struct SpringForm {
     double root;   ///< factor on amplitudes
     double phase;  ///< [rad]
@@ -247,7 +247,7 @@ void measure_springs(const Bench& bench, MechanicsFigures& out) {
     }
 }
 
-/// Where the coupler of a four-bar linkage meets the rocker, by the crank's angle: the upper
+/// Joint of coupler and rocker of a four-bar linkage, from the crank's angle: the upper
 /// intersection of two circles.
 struct FourBar {
     static constexpr double kCrank = 0.06, kCoupler = 0.15, kRocker = 0.12, kBase = 0.15;
@@ -284,7 +284,7 @@ double four_bar_error(const Bench& bench) {
         {bar("crank", Vec3::Zero(), a, 0.1), bar("coupler", a, b, 0.2), bar("rocker", end, b, 0.1)},
         {hinge({"crank"}, Vec3::Zero()), hinge({"crank", "coupler"}, a),
          hinge({"coupler", "rocker"}, b), hinge({"rocker"}, end)});
-    world.apply({0}, Vec3::Zero(), {0, -2, 0});  // sets it turning
+    world.apply({0}, Vec3::Zero(), {0, -2, 0});  // starts the rotation
     double worst = 0;
     for (int i = 0; i < 5000; ++i) {
         world.step(kStep);
@@ -297,7 +297,7 @@ double four_bar_error(const Bench& bench) {
     return worst;
 }
 
-/// A door on three hinges, pushed and left to swing for 60 s: how its hinges' forces grow.
+/// Growth of the hinge forces of a door on three hinges that is pushed and then swings for 60 s.
 double door_force_growth(const Bench& bench) {
     std::vector<scene::Joint> hinges;
     for (const double z : {0.2, 0.5, 0.8}) {
@@ -357,7 +357,7 @@ void measure_bounces(const Bench& bench, MechanicsFigures& out) {
     }
 }
 
-/// Two fingers squeeze a soft block, each by 3 mm: relative error of what they feel, springs in
+/// Two fingers squeeze a soft block, each by 3 mm: relative error of the felt force, springs in
 /// series.
 double soft_error(const Bench& bench, double stiffness) {
     constexpr double kCoupling = 1000, kHalf = 0.02, kPad = 0.0025, kPress = 0.003;
@@ -404,8 +404,8 @@ double soft_error(const Bench& bench, double stiffness) {
 }
 
 struct Energy {
-    double change = 0;  ///< of the mean of the last 10 s against that of the first 10 s, relative
-    double above = 0;   ///< most, against the start, relative
+    double change = 0;  ///< of the mean from the first to the last 10 s, relative
+    double above = 0;   ///< largest excess over the start, relative
 };
 
 /// A chain of ten links, released stretched out at an angle from the vertical, for 60 s. Its energy
@@ -420,7 +420,7 @@ Energy energy_of_chain(const Bench& bench, double angle) {
         world.step(kStep);
         double energy = level;
         for (const dynamics::BodyState& s : world.states()) {
-            // velocities are those of the middle of the step: heights too
+            // velocities, and here heights, are those of the middle of the step
             energy += energy_of_link(s.X_WB.p.z() - kStep / 2 * s.v_WB.z(), s.v_WB,
                                      s.X_WB.R.conjugate() * s.w_WB);
         }
@@ -432,8 +432,8 @@ Energy energy_of_chain(const Bench& bench, double angle) {
     return {std::abs(last / first - 1), most / start - 1};
 }
 
-/// A rod of ten blocks that is glued to the world at one end and pushed at the other: error of its
-/// deflection, which is a hundredth of its length, against beam theory.
+/// A rod of ten blocks, glued to the world at one end and pushed at the other: error of its
+/// deflection, which is a hundredth of its length, compared with beam theory.
 double cantilever_error(const Bench& bench) {
     constexpr double kLength = 0.2, kWide = 0.02, kHigh = 0.01, kYoung = 1e7, kForce = 0.0125;
     constexpr int kBlocks = 10;
@@ -522,7 +522,7 @@ MechanicsFigures bench_mechanics(contact::Solver solver, const measure::Progress
     out.whip_energy_above = whip.above;
     progress("soft rods", 0.7);
     out.lattice = cantilever_error(bench);
-    progress("objects that are held", 0.75);
+    progress("held objects", 0.75);
     out.calm_k_rigid = calm_k(Held::nothing, solver);
     out.calm_k_hinge = calm_k(Held::hinge, solver);
     out.calm_k_slider = calm_k(Held::slider, solver);

@@ -32,8 +32,8 @@ struct Delete {
 template <class T>
 using Owned = std::unique_ptr<T, Delete>;
 
-/// Boxes are drawn in by this much on each side: where boxes touch exactly, this version reports
-/// contacts that are centimetres deep, and throws cards and stacks apart.
+/// Boxes are shrunk by this on each side: if boxes touch exactly, this version reports
+/// contacts centimetres deep, and throws cards and stacks apart.
 constexpr double kDrawnIn = 5e-6;  // [m]
 
 /// Attributes that differ from MuJoCo's defaults.
@@ -46,7 +46,7 @@ std::string text(const Vec3& v) {
     return fmt::format("{} {} {}", v.x(), v.y(), v.z());
 }
 
-/// MuJoCo takes the larger friction of a pair; in the bench's scenes all bodies have the same.
+/// MuJoCo uses the larger friction of a pair; in the bench's scenes all bodies have the same.
 std::string geometry(const scene::Body& body, size_t index) {
     switch (body.shape.kind) {
         case scene::ShapeKind::box:
@@ -58,7 +58,7 @@ std::string geometry(const scene::Body& body, size_t index) {
         case scene::ShapeKind::plane:
             return fmt::format("<geom type='plane' size='1 1 1' friction='{}'/>", body.friction);
         default:
-            throw Error("MuJoCo is given boxes, meshes and planes only", "Use these.");
+            throw Error("MuJoCo gets only boxes, meshes and planes", "Use only these.");
     }
 }
 
@@ -66,7 +66,7 @@ std::string joints(const scene::Body& body) {
     if (!body.moves_at_all()) return "";
     if (body.moves == scene::Axes::xyz && body.turns == scene::Axes::xyz) return "<freejoint/>";
     if (body.turns != scene::Axes::none)
-        throw Error("MuJoCo is not given bodies with some axes to turn about", "Use all or none.");
+        throw Error("MuJoCo gets no bodies with only some axes of rotation", "Use all or none.");
     std::string out;
     for (int axis = 0; axis < 3; ++axis) {
         if (!scene::contains(body.moves, axis)) continue;
@@ -85,7 +85,7 @@ std::string inertia(const scene::Body& body) {
                        I(1, 2));
 }
 
-/// A body with all that hangs on it, in the frame of its parent. Each is named by its index.
+/// A body with all its children, in the frame of its parent. Each body's name is its index.
 std::string element(const scene::Scene& scene, std::span<const Hinge> hinges, size_t index,
                     const Pose& X_WP) {
     const scene::Body& body = scene.bodies[index];
@@ -139,7 +139,7 @@ Owned<mjModel> load(const std::string& xml) {
     Owned<mjModel> model(
         mj_loadXML(kFile, files.get(), error.data(), static_cast<int>(error.size())));
     if (!model)
-        throw Error(fmt::format("MuJoCo refuses a scene: {}", error.data()), "Mend mujoco.cpp.");
+        throw Error(fmt::format("MuJoCo refuses a scene: {}", error.data()), "Correct mujoco.cpp.");
     return model;
 }
 
@@ -162,7 +162,7 @@ void run(const Choice& choice, const Trial& trial, int steps, const Watch& watch
     for (int i = 0; i < steps; ++i) {
         const double before = data->time;
         mj_step(model.get(), data.get());
-        if (data->time <= before) {  // MuJoCo met a bad number, and began again from the start
+        if (data->time <= before) {  // MuJoCo met a bad number, and restarted
             for (Pose& X : X_WB) X.p.setConstant(std::numeric_limits<double>::infinity());
             watch(X_WB);
             return;

@@ -11,7 +11,7 @@
 namespace dihaptic::bench {
 namespace {
 
-/// The handles in each tick, with which the bare world is driven through the same grasp.
+/// The handles in each tick, which drive the bare world through the same grasp.
 using HandleTrace = std::vector<std::vector<frame::Handle>>;
 
 Cost measure_ticks(const measure::BenchSetup& setup, HandleTrace* trace) {

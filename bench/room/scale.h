@@ -26,9 +26,9 @@ struct ScaleFigures {
     int extra = 0;
     Cost awake;
     Cost asleep;
-    double bullet_us = 0;  ///< median of bare Bullet steps of that world, with nothing asleep
+    double bullet_us = 0;  ///< median of bare Bullet steps of that world, without sleeping
 
-    /// The bar: a tick may take this many times a bare step, and this much more.
+    /// The bar: a tick may take this multiple of a bare step, plus this time.
     static constexpr double kMostTimes = 1.3;
     static constexpr double kMostMore = 10;  ///< [us]
     double most_us() const { return kMostTimes * bullet_us + kMostMore; }
@@ -38,14 +38,14 @@ struct ScaleFigures {
     static void visit(Self& f, Visitor& v) {
         v("extra", f.extra, "1", "more blocks on the table");
         v("awake", f.awake, "", "a tick with all of them awake");
-        v("asleep", f.asleep, "", "a tick with them allowed to sleep");
-        v("bullet_us", f.bullet_us, "us", "median of the bare step");
+        v("asleep", f.asleep, "", "a tick while they may sleep");
+        v("bullet_us", f.bullet_us, "us", "median time of the bare step");
         v("most_us", f.most_us(), "us", "the bar");
-        v("within_bar", f.within_bar(), "", "the awake median keeps it");
+        v("within_bar", f.within_bar(), "", "whether the median awake is within the bar");
     }
 };
 
-/// Measures the whole tick, recording included, over the script of `bench grasp`.
+/// Measures the entire tick, including recording, over the script of `bench grasp`.
 std::vector<ScaleFigures> bench_scale(const measure::BenchSetup& setup,
                                       const std::vector<int>& extras,
                                       const measure::Progress& progress);

@@ -15,7 +15,7 @@ namespace {
 constexpr int kJumps = 500;
 constexpr int kTicks = 5000;
 
-/// Time that f() takes [s].
+/// Duration of f() [s].
 template <class F>
 double time_of(const F& f) {
     const auto begin = std::chrono::steady_clock::now();

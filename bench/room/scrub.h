@@ -1,4 +1,4 @@
-// The command `dihaptic-bench scrub`: measures how fast the player can jump to any moment of a
+// The command `dihaptic-bench scrub`: measures the time of the player's jump to any moment of a
 // recorded session. docs/measures.md defines the figures.
 #pragma once
 
@@ -18,7 +18,7 @@ struct ScrubFigures {
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
         v("duration", f.duration, "s", "of the session");
-        v("open_ms", f.open_ms, "ms", "until its log can be looked through");
+        v("open_ms", f.open_ms, "ms", "until its log can be browsed");
         v("jump_ms", f.jump_ms, "ms", "to a random moment, median");
         v("worst_jump_ms", f.worst_jump_ms, "ms", "to a random moment, at worst");
         v("next_us", f.next_us, "us", "to the next tick, median");

@@ -1,4 +1,4 @@
-// Loads that shake a body where it is, for benches.
+// Loads that shake a body in place, for benches.
 #pragma once
 
 #include <array>
@@ -11,7 +11,8 @@
 namespace dihaptic::bench {
 
 /// A force and a torque on one body: along each axis three sines of 10 to 40 Hz, so that the body
-/// is shaken and yet stays about where it is. Each axis may reach `force` [N] or `torque` [N*m].
+/// is shaken but approximately keeps its position. Each axis may reach `force` [N] or `torque`
+/// [N*m].
 class Shaking {
   public:
     Shaking(Random& random, double force, double torque) : force_(force), torque_(torque) {

@@ -12,7 +12,7 @@ namespace dihaptic::bench {
 struct PeerAnswer {
     Eigen::VectorXd r;
     int iterations = 0;
-    double us = 0;  ///< time of the solve alone, without converting the problem [us]
+    double us = 0;  ///< time of the solve without converting the problem [us]
 };
 
 /// Names of Siconos' solvers; empty in builds without peers.

@@ -24,7 +24,7 @@ std::vector<simbody::Link> links_of(const scene::Scene& scene) {
         simbody::Link link;
         link.parent = hinge.parent ? link_of[*hinge.parent] : -1;
         link.mass = solid.mass;
-        // the benches' bodies are boxes, whose axes are those of the solid
+        // the benches' bodies are boxes, with the solid's axes
         link.inertia = solid.inertia;
         link.X_PJ = X_WP.inverse() * X_WJ;
         link.X_BJ = body.pose().inverse() * X_WJ;
@@ -37,7 +37,7 @@ std::vector<simbody::Link> links_of(const scene::Scene& scene) {
 Simulator simulator(const std::string& name, simbody::Steps kind) {
     return {name, [kind](const Trial& trial, int steps, const Watch& watch) {
                 if (!trial.pushes.empty())
-                    throw Error("Simbody is given no forces from outside", "Use chains.");
+                    throw Error("Simbody gets no external forces", "Use chains.");
                 simbody::Model model(links_of(trial.scene), trial.scene.gravity, kind);
                 std::vector<Pose> X_WB(trial.scene.bodies.size());
                 for (int i = 1; i <= steps; ++i) {

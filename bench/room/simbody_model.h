@@ -9,18 +9,17 @@
 
 namespace dihaptic::bench::simbody {
 
-/// A body that a hinge carries.
+/// A body carried by a hinge.
 struct Link {
-    int parent = -1;  ///< index of a link before it; -1: the world
-    double mass = 0;  ///< [kg]
-    Vec3 inertia =
-        Vec3::Zero();  ///< about its centre, which is its origin, along its axes [kg*m^2]
-    Pose X_PJ;         ///< of the hinge, its axis along z, in the parent at the start
-    Pose X_BJ;         ///< and in the body
+    int parent = -1;              ///< index of an earlier link; -1: the world
+    double mass = 0;              ///< [kg]
+    Vec3 inertia = Vec3::Zero();  ///< about its centre (its origin) along its axes [kg*m^2]
+    Pose X_PJ;                    ///< of the hinge, its axis along z, in the parent at the start
+    Pose X_BJ;                    ///< and in the body
 };
 
-/// The kind of steps: those that its integrator chooses to keep its own accuracy, or Euler's
-/// semi-explicit ones.
+/// The kind of steps: chosen by the integrator for its own accuracy, or Euler's
+/// semi-explicit steps.
 enum class Steps { chosen, of_1_ms };
 
 class Model {
@@ -30,7 +29,7 @@ class Model {
     Model(const Model&) = delete;
     Model& operator=(const Model&) = delete;
 
-    /// Advances to a time [s], and writes the poses that the links have then.
+    /// Advances to a time [s], and writes the links' poses at that time.
     void step_to(double time, std::vector<Pose>& X_WB);
 
   private:

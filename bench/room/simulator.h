@@ -1,5 +1,5 @@
 // A common interface to simulators that move the bodies of a scene in steps of 1 ms: our solvers,
-// and peers beside them.
+// and peers for comparison.
 #pragma once
 
 #include <functional>
@@ -14,7 +14,7 @@ namespace dihaptic::bench {
 
 constexpr double kStep = 1e-3;  // [s]
 
-/// A scene, and constant forces that act in it.
+/// A scene, and constant forces in it.
 struct Trial {
     struct Push {
         size_t body = 0;
@@ -24,43 +24,43 @@ struct Trial {
     std::vector<Push> pushes;
 };
 
-/// Gets the poses X_WB of all bodies after each step; returns false to end the run. When a
+/// Gets the poses X_WB of all bodies after each step; returns false to end the run. If a
 /// simulator gives up, its bodies are infinitely far away.
 using Watch = std::function<bool(std::span<const Pose> X_WB)>;
 
 struct Simulator {
     std::string name;
     std::function<void(const Trial& trial, int steps, const Watch& watch)> run;
-    /// Shape that blocks slide on: a box, or a plane if its contacts are better.
+    /// Shape on which blocks slide: a box, or a plane if its contacts are better.
     scene::ShapeKind slope = scene::ShapeKind::box;
 };
 
-/// Our World. Nothing sleeps.
+/// Our World, without sleeping.
 Simulator world_simulator(frame::DynamicsSettings settings);
 
 /// Bullet's own world with all its default settings: 10 iterations, one direction of friction.
-/// Nothing sleeps.
+/// No sleeping.
 Simulator bullet_simulator();
 
 /// MuJoCo with elliptic cones, one simulator per choice of settings; empty in builds without peers.
 std::vector<Simulator> mujoco_simulators();
 
-/// All simulators with which ours are compared on bodies that touch.
+/// All simulators for comparison with ours on touching bodies.
 std::vector<Simulator> peer_simulators();
 
-/// MuJoCo with the integrators that it has for joints; empty in builds without peers, as are the
+/// MuJoCo with its integrators for joints; empty in builds without peers, like the
 /// next two.
 std::vector<Simulator> mujoco_jointed_simulators();
 
-/// ODE, with its exact solver and with its iterative one. Only for bodies on hinges that do not
+/// ODE, with its exact and its iterative solver. Only for bodies on hinges that do not
 /// touch.
 std::vector<Simulator> ode_simulators();
 
-/// Simbody, whose coordinates are angles of joints, with fixed steps and with steps that it
+/// Simbody, whose coordinates are joint angles, with fixed steps and with steps that it
 /// chooses. Only for bodies on hinges.
 std::vector<Simulator> simbody_simulators();
 
-/// All simulators with which ours are compared on bodies that hang on hinges.
+/// All simulators for comparison with ours on bodies that hang on hinges.
 std::vector<Simulator> jointed_peers();
 
 }  // namespace dihaptic::bench

@@ -38,21 +38,21 @@ class Recorder {
     std::vector<RecordedProblem>& out_;
 };
 
-/// Keeps at most `most` problems, evenly from first to last.
+/// Keeps at most `most` problems, spread evenly from first to last.
 void thin_out(std::vector<RecordedProblem>& problems, size_t most) {
     if (problems.size() <= most) return;
     for (size_t i = 0; i < most; ++i) problems[i] = problems[i * problems.size() / most];
     problems.resize(most);
 }
 
-/// How a world is shaken while its problems are recorded.
+/// The shaking of a world during the recording of its problems.
 struct Course {
-    double settle = 0;  ///< time to settle before, with Bullet's solver [s]
+    double settle = 0;  ///< settling time before the recording, with Bullet's solver [s]
     double time = 1;    ///< time recorded [s]
-    double force = 1;   ///< force on each body at the end of that time, over its weight
+    double force = 1;   ///< force on each body at the end of that time, relative to its weight
 };
 
-/// Shakes every body that can move, more and more.
+/// Shakes every movable body with growing force.
 std::vector<RecordedProblem> shake(const scene::Scene& scene, int contacts, const Course& course) {
     frame::DynamicsSettings settings;
     settings.solver = contact::Solver::sequential_impulse;
@@ -74,7 +74,7 @@ std::vector<RecordedProblem> shake(const scene::Scene& scene, int contacts, cons
         shakings.push_back(
             {{static_cast<int>(i)}, {random, course.force * weight, course.force * weight * arm}});
     }
-    for (int i = 0; i < 20; ++i) world.step(kStep);  // comes to rest by Newton's method too
+    for (int i = 0; i < 20; ++i) world.step(kStep);  // comes to rest with Newton's method as well
     recorder.on = true;
     for (double time = 0; time < course.time; time += kStep) {
         const double share = time / course.time;
@@ -101,7 +101,7 @@ std::vector<RecordedProblem> shake_grasp(const scene::Scene& scene, const hand::
     std::vector<std::pair<dynamics::BodyIndex, Shaking>> shakings;
     for (size_t i = 0; i < scene.bodies.size(); ++i) {
         if (!scene.bodies[i].moves_at_all()) continue;
-        // the gripped block is held by far more than its weight
+        // the grip force far exceeds the block's weight
         const double size = i == 1 ? force : 0.8 * scene::mass(scene.bodies[i]) * kGravity;
         shakings.push_back({{static_cast<int>(i)}, {random, size, size * measure::kBlockSize / 4}});
     }
@@ -126,8 +126,9 @@ std::vector<RecordedProblem> shake_grasp(const scene::Scene& scene, const hand::
 
 scene::Scene brick_wall_scene(int bricks, int courses) {
     const Vec3 size(0.06, 0.04, 0.02);
-    const double pitch = size.x() + 0.002;  // joints stay open: bricks touch only above and below
-    const double shift = 0.4 * pitch;       // less than half, or end bricks would stand on an edge
+    const double pitch = size.x() + 0.002;  // joints are open: bricks touch only above and below
+    const double shift =
+        0.4 * pitch;  // less than half, since end bricks would otherwise stand on an edge
     scene::Scene scene;
     scene.bodies = {measure::table(2, kFriction)};
     for (int course = 0; course < courses; ++course) {
@@ -146,7 +147,7 @@ scene::Scene pile_scene(int boxes) {
     Random random(1, "pile");
     scene::Scene scene;
     for (int side = 0; side < 4; ++side) {
-        const double slope = 40 * std::numbers::pi / 180;  // steeper than friction holds
+        const double slope = 40 * std::numbers::pi / 180;  // steeper than the friction angle
         const double turn = side * std::numbers::pi / 2;
         scene::Body body = measure::table(2, kFriction);
         body.name = fmt::format("side {}", side);
@@ -214,7 +215,7 @@ std::vector<ProblemGroup> record_problems(size_t most, const measure::Progress& 
                          {0, 1, 1});
         });
     }
-    // numbers of boxes; the number of contacts depends on how they fall
+    // numbers of boxes; the number of contacts depends on their fall
     constexpr std::array<int, kGrowth.size()> kPiles{2, 4, 13, 22, 36, 46};
     for (size_t i = 0; i < kGrowth.size(); ++i) {
         add("pile", kGrowth[i], [&] {

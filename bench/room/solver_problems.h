@@ -1,6 +1,6 @@
-// Records contact problems like those of sessions, from scenes that random forces shake more and
-// more: contacts stick at first, then also slide and open. Newton's method solves the scenes while
-// they are recorded.
+// Records contact problems like those of sessions, from scenes shaken by growing random
+// forces: contacts stick at first, then also slide and open. Newton's method solves the scenes
+// while they are recorded.
 #pragma once
 
 #include <string>
@@ -13,24 +13,25 @@ namespace dihaptic::bench {
 
 struct RecordedProblem {
     contact::ContactProblem problem;
-    std::vector<contact::Impulse> start;  ///< the impulses of the tick before
+    std::vector<contact::Impulse> start;  ///< the impulses of the previous tick
 };
 
-/// Problems of one kind of scene, with about `contacts` contacts.
+/// Problems from one kind of scene, with about `contacts` contacts.
 struct ProblemGroup {
     std::string family;  ///< block, grasp, stack, wall or pile
     int contacts = 0;
     std::vector<RecordedProblem> problems;
 };
 
-/// Problems whose number of contacts differs from the group's by more than this share are left out.
+/// Problems whose number of contacts differs from the group's by more than this fraction are left
+/// out.
 constexpr double kContactsWithin = 0.2;
 
 /// A block on a table; a block between pads, in the air and under another block; a stack of ten;
 /// walls and piles of about 8 to 200 contacts. At most `most` problems of each, evenly over time.
 std::vector<ProblemGroup> record_problems(size_t most, const measure::Progress& progress);
 
-// Scenes of the two families that grow, which tests use too.
+// Scenes of the two growing families, which tests also use.
 
 /// A wall in which bricks of each course lie across the joints of the one below.
 scene::Scene brick_wall_scene(int bricks, int courses);

@@ -40,7 +40,7 @@ struct Times {
     std::vector<double> us;
 };
 
-/// 0 ... count - 1 in an order whose first part, of any length, is spread evenly (van der Corput).
+/// 0 ... count - 1 in an order whose first part of any length is spread evenly (van der Corput).
 std::vector<size_t> spread_over(size_t count) {
     std::vector<size_t> out;
     unsigned bits = 0;
@@ -53,10 +53,10 @@ std::vector<size_t> spread_over(size_t count) {
     return out;
 }
 
-/// Finds how many problems, spread evenly over the scene's time, half the budget [s] allows; at
-/// least one. Then each is solved once more, now in their order, so that it meets the caches that
-/// the problem of the tick before left behind, as in a session. Only that time counts, whatever
-/// happened in it: the shortest of several would leave out what a p99 should show.
+/// Finds the number of problems, spread evenly over the scene's time, that half the budget [s]
+/// allows; at least one. Then each is solved once more, now in their order, so that it finds the
+/// caches in the state left by the previous tick's problem, as in a session. Only that time counts,
+/// unconditionally: the shortest of several would hide what a p99 should show.
 template <class Solve>
 Times times(size_t count, double budget, const Solve& solve) {
     Times out;
@@ -115,7 +115,7 @@ class Measurement {
         double all = 0;
         out.problems = static_cast<int>(group_.problems.size());
         const size_t stride =
-            1 + group_.problems.size() / 50;  // about 50 problems are enough for shares
+            1 + group_.problems.size() / 50;  // about 50 problems are enough for fractions
         int seen = 0;
         for (size_t i = 0; i < group_.problems.size(); i += stride, ++seen) {
             const RecordedProblem& p = group_.problems[i];
@@ -232,7 +232,7 @@ std::vector<Growth> growth_of(const std::vector<SolverCost>& costs,
 }  // namespace
 
 SolversFigures bench_solvers(const SolversBench& bench, const measure::Progress& progress) {
-    constexpr double kRecording = 0.3;  // share of the time that recording takes
+    constexpr double kRecording = 0.3;  // fraction of the time for recording
     const std::vector<ProblemGroup> groups =
         record_problems(bench.most_problems, [&](const std::string& what, double share) {
             if (progress) progress(what, kRecording * share);

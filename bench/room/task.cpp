@@ -31,7 +31,7 @@ constexpr const char* kLoads = R"(
         - { kind: constant, on: block, force_N: [0, 0, 0.001] }
 )";
 
-/// One trial whose states share the time, each with a condition that never comes.
+/// One trial whose states share the time, each with a condition that never holds.
 task::Task task_of(double time) {
     std::string yaml = R"(regions:
   - { name: start, position_mm: [0, 0, 20] }
@@ -79,7 +79,7 @@ Cost cost_of(const servo::TickTimes& times) {
     return {times.quantile(0.5), times.quantile(0.99), times.quantile(1)};
 }
 
-/// One run of the grasp, with the task or without.
+/// One run of the grasp, with or without the task.
 Cost measure_run(const measure::BenchSetup& setup, bool with_task, TaskFigures& figures) {
     const scene::Scene scene = measure::grasp_scene(setup);
     measure::Bench bench(scene, measure::grasp_hand(setup), setup);
@@ -107,7 +107,7 @@ Cost measure_run(const measure::BenchSetup& setup, bool with_task, TaskFigures& 
     return cost_of(times);
 }
 
-/// Time of 20 conditions on a held block, with the refresh of what they name.
+/// Time of 20 conditions on a held block, with the refresh of their quantities.
 double measure_expressions() {
     task::Quantities quantities{{.fingers = {"thumb", "index"},
                                  .bodies = {"table", "block"},
@@ -171,7 +171,7 @@ TaskFigures bench_task(const measure::BenchSetup& setup, int pairs,
     std::vector<double> more;
     std::array<std::vector<Cost>, 2> costs;
     for (int pair = 0; pair < pairs; ++pair) {
-        if (progress) progress("with a task and without", static_cast<double>(pair) / pairs);
+        if (progress) progress("with and without a task", static_cast<double>(pair) / pairs);
         for (const bool with_task : {false, true})
             costs[with_task ? 1 : 0].push_back(measure_run(setup, with_task, out));
         more.push_back(costs[1].back().median_us - costs[0].back().median_us);

@@ -69,7 +69,7 @@ ViewFigures bench_view(int frames, const measure::Progress& progress) {
                 offscreen.wait();
                 const std::chrono::duration<double, std::milli> took =
                     std::chrono::steady_clock::now() - begin;
-                // the first picture makes resources that the others use
+                // the first picture makes resources used by the others
                 if (i > 0) times[k].push_back(took.count());
             }
         }

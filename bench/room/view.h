@@ -25,7 +25,7 @@ struct PictureTimes {
         v("plain_ms", f.plain_ms, "ms", "with a plain shadow map");
         v("ratio", f.variance_ms / f.plain_ms, "1", "of the two");
         v("coarse_ms", f.coarse_ms, "ms", "with two thirds of the pixels each way");
-        v("coarse_hz", 1e3 / f.coarse_ms, "Hz", "pictures a second, then");
+        v("coarse_hz", 1e3 / f.coarse_ms, "Hz", "pictures per second in that case");
     }
 };
 

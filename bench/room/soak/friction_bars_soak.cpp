@@ -1,4 +1,4 @@
-// Tests the bars of the solvers that bench/room/test/friction_bars_test.cpp leaves out.
+// Tests the bars of the solvers missing in bench/room/test/friction_bars_test.cpp.
 #include "bench/test/friction_bars.h"
 
 namespace dihaptic::bench {

@@ -1,4 +1,4 @@
-// Runs the solvers' bench on all its scenes, with a few problems of each.
+// Runs the solvers' bench on all its scenes, with a few problems from each.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// Tests that chains in `bench chain` hang together, ours as exactly as it is said of them.
+// Tests that chains in `bench chain` hang together, ours with the stated accuracy.
 #include "bench/chain.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Tests `dihaptic-bench contact` on other simulators' problems, and on files that are not usable.
+// Tests `dihaptic-bench contact` on other simulators' problems, and on unusable files.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -48,7 +48,7 @@ TEST(BenchContact, StaggeredProjectionsSolveUpToSixtyContacts) {
         EXPECT_LE(f.residual, 1e-8) << f.file;
 }
 
-/// Number of the problems that stewart_trinkle solves without fallback, to the residual of its own
+/// Number of problems that stewart_trinkle solves without fallback, to the residual of its own
 /// problem and, where directions follow friction, also to Coulomb's.
 int answered_by_its_own_means(const std::string& folder, contact::DirectionFrame frame) {
     int count = 0;
@@ -93,7 +93,7 @@ TEST(BenchContact, SolvesTheProblemThatCarriesASolution) {
     }
 }
 
-/// A file of one contact, a point mass of 1 kg on a plane, with the mistakes that a test wants.
+/// A file of one contact, a point mass of 1 kg on a plane, with a test's mistakes.
 struct Small {
     std::vector<double> q{-1, 0, 0};
     std::vector<double> mu{0.5};

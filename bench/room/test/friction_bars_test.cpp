@@ -1,4 +1,4 @@
-// Tests the bars of the default solver and of Bullet's; a soak tests those of the others.
+// Tests the bars of the default solver and of Bullet's; a soak tests those of the other solvers.
 #include "bench/test/friction_bars.h"
 
 namespace dihaptic::bench::friction_bars_test {

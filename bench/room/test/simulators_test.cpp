@@ -25,7 +25,7 @@ Pose last_pose(const Simulator& simulator, const Trial& trial, int steps, size_t
 }
 
 TEST(Simulators, LetStonesFallByTheirOwnFrames) {
-    // a stone's frame is not at its centre of mass, nor along its principal axes
+    // a stone's frame is neither at its centre of mass nor along its principal axes
     Trial trial;
     trial.scene = arch_scene(9);
     trial.scene.bodies = {trial.scene.bodies[3]};
@@ -48,7 +48,7 @@ TEST(Simulators, LetStonesFallByTheirOwnFrames) {
 
 TEST(Simulators, HoldABlockThatIsPinchedHardEnough) {
     for (const Simulator& simulator : all()) {
-        // MuJoCo's contacts are so soft by default that the pads go through
+        // by default MuJoCo's contacts are so soft that the pads pass through
         if (simulator.name == "mujoco") continue;
         SCOPED_TRACE(simulator.name);
         Trial trial = pinch_trial();

@@ -1,4 +1,4 @@
-// Tests with few solves that `dihaptic-bench solvers` measures what it says; it tests no times.
+// Tests the figures of `dihaptic-bench solvers` with few solves, but no times.
 #include <gtest/gtest.h>
 
 #include "bench/bullet_problem.h"
@@ -9,7 +9,7 @@ namespace dihaptic::bench::solvers_bench_test {
 namespace {
 
 TEST(BulletProblem, IsTheSameProblem) {
-    // a block at rest on four corners, which any number of iterations solves
+    // a block at rest on four corners, solved by any number of iterations
     contact::ContactProblem problem;
     contact::ProblemBody block;
     block.inverse_mass.diagonal() << Vec3::Constant(1 / 0.1),
@@ -40,7 +40,7 @@ TEST(BulletProblem, IsTheSameProblem) {
         for (const contact::Impulse& impulse : r) sum += impulse[0];
         EXPECT_NEAR(sum, 0.1 * 9.81e-3, 1e-9);
     }
-    // a gap that the step leaves open takes no impulse
+    // a gap that remains open in the step has no impulse
     for (contact::ProblemContact& contact : problem.contacts) contact.bias = 0.02;
     BulletProblem apart(problem, start);
     apart.solve(solver, kBulletIterations);
