@@ -20,8 +20,7 @@ fs::path file_itself(const std::string& path) {
 
 bool is_entry(const Node& item, const fs::path& file) {
     if (item.kind != Node::Kind::scalar || !fs::path(item.scalar).is_absolute()) {
-        throw Error(item.place, "",
-                    "must be an absolute path, which begins with / (~ is not replaced)",
+        throw Error(item.place, "", "must be an absolute path, starting with / (~ is not replaced)",
                     "Write a line for each, e.g. '- /opt/OpenHaptics/lib/libHD.so'.");
     }
     return file_itself(item.scalar) == file;

@@ -132,7 +132,7 @@ bool wait_for(pid_t process, const CompanionTask& task) {
 }
 
 struct Ended {
-    int status = 1 << 8;  // where waitpid() fails: as if the companion had refused its input
+    int status = 1 << 8;  // if waitpid() fails, treated like a companion that refused its input
     bool late = false;
 };
 

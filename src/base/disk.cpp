@@ -16,7 +16,7 @@ void sync_to_disk(int descriptor, const std::string& name) {
     while (status != 0 && errno == EINTR) status = ::fsync(descriptor);
     if (status == 0 || errno == EINVAL || errno == ENOSYS || errno == EROFS) return;
     throw Error({name, 0}, "", fmt::format("cannot be kept on the disk: {}", std::strerror(errno)),
-                "Save what you can elsewhere: the disk is full, or fails.");
+                "Save your data elsewhere: the disk is full or failing.");
 }
 
 void sync_to_disk(const std::string& name) {

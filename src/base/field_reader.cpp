@@ -432,11 +432,12 @@ int FieldReader::read_choice(std::string_view name, const std::vector<std::strin
             return static_cast<int>(i);
     }
     const bool gone = !old.was.empty() && given.node->scalar == old.was;
-    diagnostics_.error(given.node->place, given.key,
-                       fmt::format("'{}' is {}", given.node->scalar, gone ? "gone" : "not known"),
-                       gone ? std::string(old.remedy)
-                            : fmt::format("Use {}.", alternatives({names.begin(), names.end()})),
-                       choices_of(names));
+    diagnostics_.error(
+        given.node->place, given.key,
+        fmt::format("'{}' is {}", given.node->scalar, gone ? "no longer allowed" : "not known"),
+        gone ? std::string(old.remedy)
+             : fmt::format("Use {}.", alternatives({names.begin(), names.end()})),
+        choices_of(names));
     return -1;
 }
 

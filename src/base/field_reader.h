@@ -94,8 +94,8 @@ class FieldReader {
     /// A field that belongs to structs of another kind; it is an error to give it here.
     void foreign(std::string_view name, const Field& field, const std::string& remedy);
 
-    /// Where the struct itself was written; place_of() gives a field's place or, failing that, the
-    /// struct's.
+    /// The place at which the struct itself was written; place_of() gives a field's place or,
+    /// failing that, the struct's.
     Place place() const;
     Place place_of(std::string_view name) const;
     /// Whether the mapping gives the field, in any unit.

@@ -17,7 +17,7 @@ namespace dihaptic {
 /// Reads a table line by line, because movements have millions of lines.
 class GivenTable {
   public:
-    /// `text` is the file's text, which must outlive this object; the table begins at one of its
+    /// `text` is the file's text, which must outlive this object; the table starts at one of its
     /// lines.
     GivenTable(std::string_view text, std::string file, size_t begin = 0);
 

@@ -47,7 +47,7 @@ Json text(const Field& field) {
     return out;
 }
 
-/// A default as FieldWriter writes it, in the key's unit; null if there is none.
+/// A default in FieldWriter's form, in the key's unit; null if there is none.
 Json preset_of(const Node& node, double si) {
     if (node.kind == Node::Kind::scalar) {
         const auto number = node.plain ? finite_number(node.scalar) : std::nullopt;

@@ -2,8 +2,8 @@
 // schema of a file completes the keys, explains each, and marks mistakes during typing.
 //
 // A schema refuses nothing that FieldReader accepts. It is meant for YAML 1.2, in which yes and no
-// are words. What a schema cannot express is left to `dihaptic check`: names of things that do not
-// exist, mistakes in expressions, keys that exclude each other.
+// are words. Mistakes that a schema cannot express are left to `dihaptic check`: names of objects
+// that do not exist, mistakes in expressions, keys that exclude each other.
 #pragma once
 
 #include <functional>

@@ -1,5 +1,5 @@
-// A third-party library is loaded when a rig asks for it. The program runs without it, and reports
-// a missing library with the places tried and the remedy.
+// A third-party library is loaded when a rig needs it. The program runs without it, and reports
+// a missing library with the paths tried and the remedy.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ class Library {
         std::string product;             ///< for messages
         std::vector<std::string> files;  ///< tried in this order; dlopen() looks for them
         bool global = false;             ///< whether libraries loaded by it see its symbols
-        std::string remedy;              ///< what to install
+        std::string remedy;              ///< the package to install
         /// A library that this one needs: the start of its file name, and the package that
         /// contains it.
         struct Need {

@@ -37,7 +37,7 @@ class RegularFile {
 std::string read_bytes(const std::string& file, int64_t most);
 
 /// Whether anything has this name, even a dangling link or something other than a file; reading it
-/// then reports what is wrong. Also true when a folder on the path cannot be searched.
+/// then reports the problem. Also true when a folder on the path cannot be searched.
 bool is_there(const std::string& file) noexcept;
 
 }  // namespace dihaptic

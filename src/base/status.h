@@ -101,11 +101,11 @@ constexpr StatusRow kStatusTable[] = {
        "the simulation diverged: the position or velocity of a body is not a number"}}},
     {kOutsideWorkspace, "a handle left its device's workspace",
      "move the device in the rig file, or the hand"},
-    {kForceClamped, "a device was asked for more than its peak force or torque",
+    {kForceClamped, "more than a device's peak force or torque was requested",
      "lower settings: safety: max_force_N or max_torque_Nm, or soften the coupling"},
     {kNoMoreData, "the recording ended", ""},
     {kOverrun, "the previous tick ended too late, and the ticks that it missed were left out",
-     "close other programs, lower the rate, or allow real time where a note asks for it"},
+     "close other programs, lower the rate, or allow real time if a note asks for it"},
     {kSolverFallback, "the contact solver missed its tolerance, and another solver answered",
      "nothing if this is rare or in a heap; otherwise choose settings: dynamics: solver: "
      "newton"},
@@ -184,7 +184,8 @@ constexpr StatusRow kStatusTable[] = {
        "be rendered calmly",
        "close other programs, or lower the rate"}}},
     {kSoftened,
-     "the coupling was softened to what can be rendered calmly at the rate that the loop kept",
+     "the coupling was softened to a stiffness that can be rendered calmly at the loop's actual "
+     "rate",
      "close other programs, or lower the rate"},
     {kAbandoned,
      "the window no longer answered",

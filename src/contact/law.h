@@ -54,8 +54,8 @@ struct JointScale {
 
 /// The regularisation of rows without bounds: their compliance, or rho if there is hardly any
 /// compliance, since a G much larger than 1 / rho would cost Newton's step its precision. A larger
-/// rho would take a chain of joints many proximal steps, because motions of its whole length change
-/// its rows little.
+/// rho would require many proximal steps for a chain of joints, because motions of its whole length
+/// change its rows little.
 constexpr double kLinearRho = 1e-7;
 constexpr double kLeastCompliance = 1e-9;
 

@@ -1,4 +1,4 @@
-// The interface to the contact solvers: takes a problem and a start, and returns impulses and
+// The interface to the contact solvers: from a problem and a start to impulses and
 // statistics.
 //
 // A solver that misses its tolerance hands over to others (hand_over.h). The statistics tell

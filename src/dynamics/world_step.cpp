@@ -760,7 +760,7 @@ void World::Impl::integrate_positions(double h) {
         Item& item = items[i];
         btRigidBody& body = *item.body;
         if (item.turns_freely()) {
-            // contacts and joints act at the beginning of the step
+            // contacts and joints act at the start of the step
             const btVector3& w_after = item.bounces ? item.w_leaves : body.getAngularVelocity();
             const btVector3 change = w_after - item.w_free;
             item.L_W = momentum(item, limited(from_bullet(item.w_start + change), h));

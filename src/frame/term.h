@@ -1,4 +1,4 @@
-// Term describes a quantity of the Frame, in one place: the visit() that lists it. The schema
+// Term describes a quantity of the Frame in a single place, the visit() that lists it. The schema
 // of the log, session.nwb, docs/quantities.md and the window's plots
 // use this name.
 #pragma once

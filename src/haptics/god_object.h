@@ -100,7 +100,7 @@ class GodObject {
     Vec3 carried(std::span<const dynamics::BodyState> bodies) const noexcept;
     double push_out(const Vec3& start, std::span<const dynamics::BodyState> bodies) noexcept;
     void pull(const Vec3& p_WH, bool rubs) noexcept;
-    /// What ends a straight path: at most one of `meets` and `crosses`.
+    /// The end of a straight path: at most one of `meets` and `crosses`.
     struct Event {
         double share = 1;                     ///< of the path covered by then
         std::optional<PointContact> meets;    ///< a body in the path

@@ -1,4 +1,4 @@
-// Heating limits the time for which a device may be asked for more than its continuous force.
+// Heating limits the time for which more than a device's continuous force may be requested.
 //
 // Motors warm with the square of their current, which is proportional to the force, and cool toward
 // room temperature with a time constant tau. In units of force squared,

@@ -24,7 +24,7 @@ json fail(const std::string& what) {
 
 std::atomic<Server*> at_stake{nullptr};
 
-/// Most likely the manufacturer's library failed. Unless it can still be asked to stop the devices,
+/// Most likely the manufacturer's library failed. Unless it can still stop the devices,
 /// only their own guards are left.
 void on_own_error(int signal) {
     constexpr itimerval kLastWait{{0, 0}, {0, 20'000}};
@@ -87,7 +87,7 @@ int keep(const InRealTime& in_real_time) {
     while (const std::optional<json> message = receive(kSocket))
         send(kSocket, control.answer(*message));
 
-    // the program is gone: force ends first, then the devices are shut down in an orderly way,
+    // the program has ended: force ends first, then the devices are shut down in an orderly way,
     // unless the manufacturer's library takes longer than kOrderly
     end_force(page);
     std::thread([] {

@@ -25,7 +25,7 @@ using nlohmann::json;
 /// A keeper is abandoned when its silence exceeds the program's tolerated silence
 /// by this time.
 constexpr Time kPatience = std::chrono::milliseconds(20);
-/// Limit for making and activating devices: opening and calibrating them takes long.
+/// Limit for making and activating devices: opening and calibrating them is slow.
 constexpr Time kSetUp = std::chrono::seconds(60);
 /// Limit for deactivating devices and ending their keeper.
 constexpr Time kSetDown = std::chrono::seconds(2);

@@ -20,7 +20,7 @@ Error error_of(const nlohmann::json& json);
 
 /// `socket`: of a type that separates messages (SOCK_SEQPACKET).
 void send(int socket, const nlohmann::json& message);
-/// Receives the next message. Returns nullopt when the other side is gone, sends nothing for
+/// Receives the next message. Returns nullopt if the other side has ended, sends nothing for
 /// `most` (0: waits for ever), or sends text that is not JSON, and soon after `given_up`
 /// returns true.
 std::optional<nlohmann::json> receive(int socket, Time most = Time(0),

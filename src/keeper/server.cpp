@@ -117,7 +117,7 @@ void Server::serve(Request request) noexcept {
     }
 }
 
-/// A call to the devices: while this exists, the watcher checks how long the call takes.
+/// A call to the devices: while this exists, the watcher checks the duration of the call.
 class Server::Call {
   public:
     explicit Call(Server& server) : server_(server) { server_.busy_since_.store(monotonic()); }
@@ -166,7 +166,7 @@ void Server::switch_off() noexcept {
 
 /// Waits for the program's forces; returns whether they came in time.
 bool Server::await_reply() noexcept {
-    // after a missed turn the program gets one tick for each turn, not the whole longest silence
+    // after a missed turn the program gets one tick for each turn, not the entire longest silence
     const Time most = behind_ ? tick_ : longest_silence_;
     const int64_t begin = monotonic();
     while (!ended() && page_.closing.load() == 0) {

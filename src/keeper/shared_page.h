@@ -1,7 +1,7 @@
 // The memory that the program and the keeper share: the data of each tick, and the
 // flag by which the program ends force.
 //
-// The program asks and the keeper answers; while devices pace, the keeper offers turns and the
+// The program requests and the keeper answers; while devices pace, the keeper offers turns and the
 // program replies. Each side counts in its own words, on which the other side sleeps (futex).
 // Either side may die at any moment, so there is no lock here.
 #pragma once

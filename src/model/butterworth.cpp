@@ -27,7 +27,7 @@ struct Biquad {
 };
 
 /// Extends a signal at both ends by its point reflection, so that the filter has settled where the
-/// signal begins, and runs both passes.
+/// signal starts, and runs both passes.
 std::vector<double> both_ways(const std::vector<double>& signal, const Biquad& filter, double gain,
                               size_t pad) {
     if (signal.empty()) return {};

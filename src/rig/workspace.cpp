@@ -281,7 +281,7 @@ Workspace find_workspace(const std::vector<Reach>& reaches,
     std::vector<int64_t> counts(reaches.size());
     int64_t count = 0;
     for (int z = 0; z < out.size.z(); ++z) {
-        // the search that follows takes about a tenth as long as this
+        // the following search takes about a tenth of this time
         if (!progress(0.9 * z / out.size.z())) return {};
         for (int y = 0; y < out.size.y(); ++y) {
             for (int x = 0; x < out.size.x(); ++x) {

@@ -171,7 +171,7 @@ Nested look_at(const Mesh& mesh, const Shell& shell) {
     return out;
 }
 
-/// Whether a shell lies within another, apart from places where the two touch.
+/// Whether a shell lies within another, apart from points at which the two touch.
 bool is_in(const Mesh& mesh, const Shell& inner, const Nested& small, const Shell& outer,
            const Nested& large) {
     if (std::abs(small.volume) >= std::abs(large.volume)) return false;

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int64_t kLargestMaterials = 10'000'000;  // bytes: a line takes about thirty
+constexpr int64_t kLargestMaterials = 10'000'000;  // bytes: about thirty per line
 constexpr const char* kBlanks = " \t\r";
 
 std::string trimmed(std::string_view text) {

@@ -34,8 +34,8 @@ std::string format_of(const std::string& file) {
     return "";
 }
 
-/// What an OBJ file lacks for a solid, because the reader does not report this; "" if nothing
-/// or for another format.
+/// The parts that an OBJ file lacks for a solid, which the reader does not report; "" if none are
+/// missing, or for another format.
 std::string missing_in(const std::string& bytes, const std::string& format) {
     if (format != "obj") return "";
     std::istringstream in(bytes);

@@ -1,6 +1,6 @@
 // RealTime requests the resources that a thread needs to keep time: to run before ordinary programs
 // (SCHED_FIFO), memory that is never fetched from disk or created on first touch, and processors
-// that do not enter a sleep that takes long to wake from. Each needs a permission that ordinary
+// that do not enter a sleep with slow wake-up. Each needs a permission that ordinary
 // users lack. Refusals are reported together with the way to allow them, and the thread runs
 // without.
 #pragma once

@@ -1,5 +1,5 @@
 // Tests of companions that crash, hang, exceed their limits or are missing. The shell stands in for
-// the companion, as it can be told to do any of that.
+// the companion, as it can do all of this on command.
 #include "base/companion.h"
 #include "base/number.h"
 

@@ -251,7 +251,7 @@ TEST(Node, RefusesAKeyGivenTwice) {
     }
 }
 
-/// What parse_yaml() says of a text that it refuses.
+/// The message of parse_yaml() for a text that it refuses.
 std::string refusal_of(const std::string& yaml) {
     try {
         parse_yaml(yaml, "far.yaml");

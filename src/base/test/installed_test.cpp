@@ -1,4 +1,4 @@
-// Tests of where files are looked for that come with the program, or are kept for all studies.
+// Tests of the search for files that come with the program, or that a user keeps for all studies.
 #include "base/installed.h"
 
 #include <gtest/gtest.h>

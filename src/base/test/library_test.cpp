@@ -1,4 +1,4 @@
-// Tests of what is reported when a manufacturer's library cannot be used.
+// Tests of the messages when a manufacturer's library cannot be used.
 #include "base/library.h"
 
 #include <gtest/gtest.h>

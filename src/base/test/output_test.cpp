@@ -1,4 +1,4 @@
-// Tests that what is written goes nowhere else, whatever stands at the names of files.
+// Tests that output goes to no other place, whatever exists under the names of files.
 #include "base/output.h"
 #include "base/number.h"
 
@@ -65,7 +65,7 @@ TEST_F(OutputTest, TakesNoPipeNorFolderForAFile) {
 }
 
 TEST_F(OutputTest, LinksAtNamesThatCanBeForeseenLeadNowhere) {
-    // what versions before 0.3 would have written to
+    // the path to which versions before 0.3 would have written
     fs::create_symlink(foreign, file + "." + number_text(getpid()) + ".part");
     write_file("ours", file);
     expect_untouched();

@@ -1,4 +1,4 @@
-// Tests who is said to be at the other end of a socket.
+// Tests the reported process at the other end of a socket.
 #include "base/peer.h"
 #include "base/number.h"
 

@@ -11,7 +11,7 @@
 namespace dihaptic::shell_word_test {
 namespace {
 
-/// What a shell makes of a word: bash, since sh knows no $'...'.
+/// A shell's reading of a word: bash, since sh does not support $'...'.
 std::string by_bash(const std::string& word) {
     const std::string command = "bash -c " + shell_word("printf %s " + word);
     std::FILE* const pipe = popen(command.c_str(), "r");

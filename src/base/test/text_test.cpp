@@ -1,4 +1,4 @@
-// Tests that what is written as text is what is read again.
+// Tests that written text is read again unchanged.
 #include "base/text.h"
 
 #include <gtest/gtest.h>
@@ -81,7 +81,7 @@ void append(std::string& text, unsigned code) {
     }
 }
 
-/// Words, and what has a meaning in YAML, CSV or a shell, in any order.
+/// Words, and characters with a meaning in YAML, CSV or a shell, in any order.
 std::string random_text(std::mt19937& random) {
     const auto below = [&](unsigned n) { return static_cast<unsigned>(random()) % n; };
     std::string out;

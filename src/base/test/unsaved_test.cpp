@@ -1,4 +1,4 @@
-// Tests that a text stands in place of a file's, for its thread and while it lives.
+// Tests that an unsaved text replaces a file's, in its thread and during its lifetime.
 #include "base/unsaved.h"
 
 #include <gtest/gtest.h>

@@ -10,7 +10,7 @@
 namespace dihaptic::written_test {
 namespace {
 
-/// Counts the plain texts of a part, each of which must stand where it is said to.
+/// Counts the plain texts of a part, each of which must be at its stated position.
 int count_plain(const Written& part, const std::string& text) {
     int out = 0;
     for (const Written& item : part.items) out += count_plain(item, text);

@@ -8,7 +8,8 @@
 
 namespace dihaptic::devices::forcedimension {
 
-/// What dhdGetStatus() fills: 17 numbers in 3.17.5, with room for those of later versions.
+/// The array that dhdGetStatus() fills: 17 numbers in 3.17.5, with room for those of later
+/// versions.
 using DhdStatus = std::array<int, 64>;
 enum DhdStatusIndex : unsigned {
     kDhdPower = 0,

@@ -9,7 +9,7 @@
 
 namespace dihaptic::devices::haply {
 
-/// Time limit for connecting and for the first messages, which take longer than those of the cycle.
+/// Time limit for connecting and for the first messages, which need longer than those of the cycle.
 constexpr Time kSetUpTime = std::chrono::seconds(2);
 
 struct Grip {

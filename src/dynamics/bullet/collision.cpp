@@ -56,7 +56,7 @@ double turning(const btCollisionObjectWrapper& part) {
     return turning(*part.getCollisionObject(), *part.getCollisionShape(), part.getWorldTransform());
 }
 
-/// Moves a body to where its present velocities take it in a time t.
+/// Moves a body for a time t with its present velocities.
 void move_on(btRigidBody& body, const btTransform& from, double t) {
     btTransform to;
     btTransformUtil::integrateTransform(from, body.getLinearVelocity(), body.getAngularVelocity(),
@@ -64,7 +64,7 @@ void move_on(btRigidBody& body, const btTransform& from, double t) {
     body.setWorldTransform(to);
 }
 
-/// Turns a contact that was found at time t into an equivalent one at the beginning of the step,
+/// Converts a contact found at time t into an equivalent one at the start of the step,
 /// when body 0 was at from_0 and body 1 at from_1: its gap is such that the present velocities lead
 /// to the gap found at t. Returns whether the gap at t is below -kEntered and these velocities
 /// violate the contact by more than kEntered, given that it removes the share `recovery` of a
@@ -138,7 +138,7 @@ Collision::Collision(int max_parts, int max_pairs)
                   btVector3(kWorldHalfExtent, kWorldHalfExtent, kWorldHalfExtent),
                   static_cast<unsigned>(max_parts + 2), &pairs_, true),
       max_pairs_(max_pairs) {
-    // contacts are found at the distance set here, whatever the size of the shapes
+    // contacts are found at the distance set here, for shapes of any size
     dispatcher_.setDispatcherFlags(
         dispatcher_.getDispatcherFlags() &
         ~btCollisionDispatcher::CD_USE_RELATIVE_CONTACT_BREAKING_THRESHOLD);
@@ -217,7 +217,7 @@ void Collision::set_bounds(CollisionPart& part, double h, bool keep) {
 
 void Collision::hide(CollisionPart& part) {
     part.hidden = true;
-    // moves its bounds to where nothing is, so that its pairs end
+    // moves its bounds away from all bodies, so that its pairs end
     const btVector3 corner(kWorldHalfExtent, kWorldHalfExtent, kWorldHalfExtent);
     broadphase_.setAabb(part.bounds, corner, corner, &dispatcher_);
 }
@@ -309,7 +309,8 @@ bool Collision::look_at(btBroadphasePair& pair, const btDispatcherInfo& info) {
     const btTransform X_WB = part_b.X_WS();
     const btCollisionObjectWrapper a_wrap(nullptr, part_a.shape.get(), &a, X_WA, -1, -1);
     const btCollisionObjectWrapper b_wrap(nullptr, part_b.shape.get(), &b, X_WB, -1, -1);
-    // such hulls are found ahead of touch: Bullet takes the distance from three places
+    // contacts of such hulls are found before they touch; Bullet gets this distance from three
+    // settings
     const double margin = std::min(kMostHullMargin, kHullMargin + approach(a_wrap, b_wrap, step_));
     dispatcher_.margin = margin;
     scratch_.resizeNoInitialize(0);

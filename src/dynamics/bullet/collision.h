@@ -97,8 +97,8 @@ class Collision {
         int64_t version = 0;
     };
 
-    /// Parts of one body do not meet each other, nor do bodies for which a joint excludes it;
-    /// hidden parts meet nothing.
+    /// Excludes pairs of parts of the same body, and pairs of bodies for which a joint excludes
+    /// contact; hidden parts have no pairs.
     struct OtherBodies final : btOverlapFilterCallback {
         bool needBroadphaseCollision(btBroadphaseProxy* a, btBroadphaseProxy* b) const override {
             return (a->m_collisionFilterGroup & b->m_collisionFilterMask) != 0 &&
@@ -114,7 +114,7 @@ class Collision {
     void set_bounds(CollisionPart& part, double h, bool keep);
     void reserve_pairs(int pairs);
     void sort_by_bodies();
-    /// Removes contacts at places inside bodies of several parts (seams.h).
+    /// Removes contacts at points inside bodies of several parts (seams.h).
     void remove_inner();
     void list_live_pairs();
     bool look_at(btBroadphasePair& pair, const btDispatcherInfo& info);

@@ -105,7 +105,7 @@ Eigen::Vector2d along_arcs(const contact::ContactProblem& problem,
 
 /// A rolling rim touches with another point in the middle of the step, where velocities are
 /// those that bring its body to the step's end. The impulse acts at the point of contact at the
-/// beginning, and must allow the motion of that point while the other one rests. This is that
+/// start, and must allow the motion of that point while the other one rests. This is that
 /// motion, in the contact's frame [m/s]. Without it, Euler's disc sinks from step to step and
 /// gains energy.
 Vec3 by_rolling(const contact::ContactProblem& problem, const contact::ProblemContact& contact,

@@ -1,5 +1,5 @@
 // Tests that bodies which do not touch are solved separately: a held body stays exact,
-// whatever happens elsewhere in the world.
+// independent of the rest of the world.
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -293,7 +293,7 @@ TEST(Hinge, StopsAndRubs) {
     EXPECT_NEAR(least, -0.5, 1e-6);
     EXPECT_NEAR(world.joints()[0].position, -0.5, 1e-6);
     EXPECT_NEAR(world.joints()[0].torque_W.y(), -kMass * kGravity * kArm * std::cos(0.5), 1e-6);
-    // dry friction above the weight's moment holds it; below, it falls with what is left
+    // dry friction above the weight's moment holds it; below, it falls with the rest
     World held = pendulum(90 * kDegree, 1.01 * kMass * kGravity * kArm);
     for (int i = 0; i < 500; ++i) held.step(kStep);
     EXPECT_NEAR(held.joints()[0].position, 0, 1e-9);

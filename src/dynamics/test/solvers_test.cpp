@@ -145,7 +145,7 @@ double turned_after(World& world, double press, double time) {
 
 TEST(SoftFinger, HoldsARodByItsEndAndLetsItSwingWhenItEases) {
     // the moment of its weight about the pinch is 0.02 kg g 0.09 m = 17.7 mN m; two fingers of 12
-    // mm carry 2 mu r N = 19.2 mN m per N at mu 0.8, less what carries the weight
+    // mm carry 2 mu r N = 19.2 mN m per N at mu 0.8, less the part that carries the weight
     for (const contact::Solver solver :
          {contact::Solver::sequential_impulse, contact::Solver::stewart_trinkle,
           contact::Solver::staggered_projections, contact::Solver::newton}) {

@@ -6,7 +6,7 @@
 namespace dihaptic::haptics {
 
 /// Two blocks, 1 um above one end of a bar of 0.2 x 0.02 x 0.01 m and below the other: they keep
-/// the bar from turning about +y, which would take its end at +x down.
+/// the bar from turning about +y, which would move its end at +x down.
 inline scene::Scene stops() {
     scene::Scene out;
     for (const int side : {-1, 1}) {

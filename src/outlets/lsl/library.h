@@ -1,4 +1,4 @@
-// load() loads liblsl when a rig asks for it.
+// load() loads liblsl when a rig needs it.
 #pragma once
 
 #include "base/library.h"

@@ -24,7 +24,7 @@ struct Person {
     std::vector<Pose> X_WD;  // true poses
     Guidance now;
     std::vector<std::string> told;
-    int64_t ticks = 0;          // since the step began
+    int64_t ticks = 0;          // since the start of the step
     int64_t patience = 60'000;  // ticks of carrying the link
     double moving = 0;          // displacement of endpoints held together [m]
     int given_up_at = 0;        // step at which the person cancels; 0: none

@@ -35,7 +35,7 @@ Scene scene_of(const std::string& text) {
     return out;
 }
 
-/// What the scene's text says, but for the position of one body.
+/// The content of the scene's text, except for the position of one body.
 std::string others(Scene scene, const std::string& name) {
     for (Body& body : scene.bodies) {
         if (body.name == name) body.position.setZero();
@@ -43,7 +43,7 @@ std::string others(Scene scene, const std::string& name) {
     return to_yaml(write_fields(scene));
 }
 
-/// The signs of a text that are no digits, points and signs of numbers.
+/// The characters of a text other than those of numbers.
 std::string without_numbers(std::string text) {
     std::erase_if(text, [](char c) {
         return std::string_view("0123456789.-").find(c) != std::string_view::npos;

@@ -167,7 +167,7 @@ TEST(Concave, PiecesOfTheFirstVersionAreTakenIfTheyFillTheMesh) {
     EXPECT_EQ(testing::read_file(file), kept);
 }
 
-/// A prism over a star; the more teeth it has, the longer it takes to cut.
+/// A prism over a star; the cutting time grows with the number of teeth.
 std::string star(int teeth) {
     std::string out;
     const int n = 2 * teeth;

@@ -1,4 +1,4 @@
-// Tests what scenes make of lattices, and the mistakes that files make with them.
+// Tests the bodies and joints made from lattices, and mistakes in files with lattices.
 #include "scene/lattice.h"
 
 #include <gtest/gtest.h>

@@ -36,7 +36,7 @@ std::string png(const testing::TemporaryFolder& folder, const std::string& name,
     return folder.file(name);
 }
 
-/// What is felt is the same, to the bit, whatever of the mesh is drawn.
+/// The felt shape is the same, to the bit, for all ways of drawing the mesh.
 TEST(Look, OfAMeshChangesNothingThatIsFelt) {
     const testing::TemporaryFolder folder;
     folder.write("m.mtl", kMaterials);
@@ -76,7 +76,7 @@ TEST(Look, OfAFileIsRead) {
     EXPECT_EQ(b.picture->image->height, 20);
     EXPECT_EQ(b.seen->mesh->vertices.size(), 4u);
     EXPECT_TRUE(b.seen->mesh->colours.empty());  // the picture is in their place
-    // what is felt is the box
+    // the felt shape is the box
     EXPECT_DOUBLE_EQ(integrate(b.shape).volume, 8e-6);
 }
 

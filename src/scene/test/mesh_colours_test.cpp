@@ -7,7 +7,7 @@
 namespace dihaptic::scene::mesh_colours_test {
 namespace {
 
-/// Colours of a mesh at the place of each of its faces' corners.
+/// Colours of a mesh at each corner of its faces.
 std::vector<int32_t> corner_colours(const Mesh& mesh) {
     std::vector<int32_t> out;
     for (const auto& face : mesh.faces) {
@@ -41,7 +41,7 @@ TEST(MeshColours, AreThoseOfTheFile) {
 TEST(MeshColours, OfStlAreNone) {
     const testing::TemporaryFolder folder;
     std::string bytes = stl_of(read_mesh("meshes/stone.obj", 1, {}), true);
-    // spare bytes that some programs take for colours
+    // spare bytes that some programs read as colours
     for (size_t at = 84 + 48; at + 1 < bytes.size(); at += 50) bytes.replace(at, 2, "\xff\xff");
     EXPECT_TRUE(read_mesh(folder.write("s.stl", bytes), 1, {}).colours.empty());
 }

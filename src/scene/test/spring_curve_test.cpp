@@ -1,4 +1,4 @@
-// Tests the curves of springs: their lines, and what a file may not say of them.
+// Tests the curves of springs: their segments, and mistakes in files.
 #include "scene/spring_curve.h"
 
 #include <gtest/gtest.h>

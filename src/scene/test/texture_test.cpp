@@ -1,4 +1,4 @@
-// Tests textures: what files may not say of them, and pictures as reliefs.
+// Tests textures: mistakes in files, and pictures as reliefs.
 #include "scene/texture.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Tests that force starts at zero after a pause and after a fault, whatever the force before.
+// Tests that force starts at zero after a pause and after a fault, regardless of the force before.
 #include <gtest/gtest.h>
 
 #include "planted.h"

@@ -44,7 +44,7 @@ struct Session {
     }
 };
 
-/// One finger and a fixed wall at x = 0, solid beyond; pressing_hand(start, end) takes the face of
+/// One finger and a fixed wall at x = 0, solid beyond; pressing_hand(start, end) moves the face of
 /// the finger's pad from `start` to `end` in 0.4 s.
 scene::Scene wall() {
     scene::Scene out;

@@ -228,7 +228,7 @@ TEST(WorkspaceTurn, ProxiesFollowInTheAirAndTurnWithoutALagOrAStep) {
             const frame::Frame& frame = air.tick(kPi / 2);
             const frame::FingerFrame& finger = frame.fingers[0];
             if (i > 0) {
-                // within what the handle moves in a step, and the lag of a dual spring
+                // within the handle's movement in a step, and the lag of a dual spring
                 const double lag = kind == frame::CouplingKind::dual_spring ? 2e-3 : 0.3e-3;
                 ASSERT_LT((finger.p_WP - finger.p_WH).norm(), lag) << enum_name(kind) << i;
                 ASSERT_LT((finger.v_WP - before).norm(), 2e-3) << enum_name(kind) << i;

@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kBlock, "{ name: before, kind: perturbed }", "is missing in a perturbed block"},
         Mistake{kBlock, "{ name: before, ramp: 3 }", "ramp: needs a perturbation"},
         Mistake{kBlock, "{ name: before, kind: error_clamp, perturb: clamp }",
-                "'error_clamp' is gone. Write visual_clamp"},
+                "'error_clamp' is no longer allowed. Write visual_clamp"},
         Mistake{kBlock, "{ name: before, kind: visual_clamp }", "is missing in a visual_clamp"},
         Mistake{kBlock, "{ name: before, kind: visual_clamp, perturb: channel }",
                 "'channel' is a force channel. Write kind: force_channel"},

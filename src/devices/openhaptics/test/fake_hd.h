@@ -49,7 +49,7 @@ struct FakeHd {
     };
     std::vector<Device> devices;
     Hand hand;              ///< null: the handles do not move
-    bool real_time = true;  ///< otherwise as fast as the machine goes
+    bool real_time = true;  ///< otherwise as fast as the machine can
     double ramp = 50;       ///< of force after being switched on [N/s]
     std::vector<unsigned long> rates{500, 1000, 2000, 4000};  ///< possible rates of the scheduler
     unsigned init_error = 0;                                  ///< of the next hdInitDevice()
@@ -61,7 +61,7 @@ struct FakeHd {
     int violations = 0;      ///< number of calls that the manuals forbid
     int callbacks_left = 0;  ///< number of callbacks neither done nor unscheduled
 
-    /// Puts an error of a device onto the stack; a force error takes its force away at once.
+    /// Puts an error of a device onto the stack; a force error removes its force at once.
     std::function<void(unsigned code, size_t device)> raise;
     /// Resets the library, with the two devices of the rig of 2012.
     std::function<void()> reset;
