@@ -381,8 +381,8 @@ struct Polygonal {
     }
 };
 
-/// The following functions use the law for a contact, and a joint's own rows for a joint. This
-/// function applies to a proximal step about r_k.
+/// The following functions use the law for a contact, and a joint's own rows for a joint. The
+/// first one applies to a proximal step about r_k.
 template <int D, class Law>
 double linearise(const Law& law, const Scale& scale, const Eigen::Matrix<double, D, 1>& r,
                  const Eigen::Matrix<double, D, 1>& u, const Eigen::Matrix<double, D, 1>& r_k,

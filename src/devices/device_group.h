@@ -116,7 +116,7 @@ class DeviceGroup {
     }
     /// Whether stop() may be called: from any thread, while another is in read() or write().
     virtual bool can_stop() const { return false; }
-    /// Switches force off at once on all devices, for any writes, until they are activated
+    /// Switches force off at once on all devices, whatever is written, until they are activated
     /// again. Returns whether force is known to be off.
     bool stop() noexcept {
         assert(can_stop());

@@ -540,8 +540,8 @@ void try_lines(const Placed& a, const Placed& b, double margin, Best& best) {
         best.take(-a.extent(a.across) - b.extent(a.across), a.across, Best::line);
 }
 
-/// The best of the faces of `a` and of the caps of `b`, and in `flush` the face of `a` for `b`
-/// with which it is flush, or -1.
+/// The best of the faces of `a` and of the caps of `b`, and in `flush` the face of `a` with
+/// which `b` is flush, or -1.
 Best best_face(const Corners& a, const Placed& b, double margin, const Vec3& way_W, int& flush) {
     Best best;
     flush = -1;

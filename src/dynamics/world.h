@@ -1,8 +1,8 @@
 // World simulates rigid bodies under gravity, contact and friction. One step is
 //
-//     v <- v + h (g + f/m),  w <- w + h I^-1 torque      all loads except contacts, on the
-//     velocities find contacts; solve for contact impulses           velocities now obey contact
-//     and friction x <- x + h v,  R <- exp(h w) R                      semi-implicit Euler
+//     v <- v + h (g + f/m),  w <- w + h I^-1 torque      all loads but contacts, on velocities
+//     find contacts; solve for contact impulses          velocities now obey contact and friction
+//     x <- x + h v,  R <- exp(h w) R                     semi-implicit Euler
 //
 // so that the solver's friction sees all loads of the step, including applied torques, which
 // Bullet's own order hides from it. Bodies at rest that touch no moving body sleep:
@@ -140,7 +140,7 @@ class World {
     double held_residual() const noexcept;
     /// The books of the last step.
     const Balance& balance() const noexcept;
-    /// Whether a body moved less far in the last step than by its velocity, because it
+    /// Whether a body moved less far in the last step than its velocity implies, because it
     /// would have entered another.
     bool held_back() const noexcept;
     /// Joints of the scene that are recorded, in its order, after the last step.

@@ -6,8 +6,7 @@
 //                   body gets the velocity that takes it to its target instead.
 //   2 free turns    w becomes its mean over the step in which the body turns freely (free_turn.h):
 //                   contacts and joints need the final poses, which this mean gives.
-//   3 contacts      are found in advance, with the velocities after the loads. A gap g lets two
-//   bodies
+//   3 contacts      are found in advance, with the velocities after the loads. A gap g lets bodies
 //                   approach by at most g, so that nothing overlaps and nothing has to be
 //                   pushed apart. Sleepers that are touched wake up, and join the step.
 //   4 islands       of touching or joined bodies are solved one after the other, those with a

@@ -121,8 +121,8 @@ Columns read_nexus(GivenTable& table) {
     return columns;
 }
 
-/// Reads the lines with Qualisys' column names or marker types. Whether a frame and a time stand
-/// before the markers.
+/// Reads the lines with Qualisys' column names or marker types. Returns whether a frame and a
+/// time precede the markers.
 bool take_column_names(GivenTable& table) {
     bool named = false;
     for (auto cells = table.peek(); cells; cells = table.peek()) {

@@ -8,9 +8,8 @@
 //   push    in each body's frame the point's own straight path in the tick is followed; where it
 //           enters, the face crossed becomes a constraint, and the nearest position
 //           that satisfies all constraints is taken (half_spaces.h)
-//   pull    straight toward the handle, to the first body in its path; then along it, and so on
-//   with
-//           up to three bodies at once, until friction holds it or it cannot get nearer
+//   pull    straight toward the handle, to the first body in its path; then along it, and so
+//           on with up to three bodies at once, until friction holds it or it cannot get nearer
 //
 // Each part is a path outside all bodies, so there is no tunnelling, and the face of entry
 // remains the one felt, even past a thin wedge's edge.

@@ -22,8 +22,8 @@ class Heating {
   public:
     /// A device that can sustain its peak force.
     Heating() = default;
-    /// Peak and continuous force [N], time constant [s]. A continuous force not below the
-    /// peak, or is not finite, limits nothing.
+    /// Peak and continuous force [N], time constant [s]. A continuous force that is
+    /// not finite or not below the peak limits nothing.
     Heating(double peak, double continuous, double time);
 
     /// The largest force allowed now; infinite if unlimited [N].

@@ -172,7 +172,7 @@ Rig simulated_rig(const std::vector<std::string>& fingers, bool orientation = fa
 /// need no jig.
 void check_jig(const Rig& rig);
 /// Warns about a calibration, or a display's registration, that is older than kOldCalibration, and
-/// of a display of a real rig that was never registered. `today`: ISO 8601.
+/// about a display of a real rig that was never registered. `today`: ISO 8601.
 void check_age(const Rig& rig, const std::string& today, Diagnostics& diagnostics);
 constexpr int kOldCalibration = 30;  // days
 

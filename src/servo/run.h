@@ -71,7 +71,7 @@ Time run_virtual(Servo& servo, const frame::Director& director, const frame::Fra
 /// that RealTime got: one at each deadline of Pace, on the monotonic clock plus the time for which
 /// the machine was suspended; devices that pace call them instead. A Watchdog stops real devices
 /// when no tick has ended for longer than `max_pause`; if the loop then continues, the next tick
-/// finds itself late. If it does not, `stuck` is called from the watchdog's thread: this function
+/// finds itself late. If it never does, `stuck` is called from the watchdog's thread: this function
 /// can no longer return, and the program should end.
 void run_real(Servo& servo, const frame::Director& director, const frame::FrameSink& sink,
               Time first, Time last, const std::atomic<bool>& stop, Timing& timing,

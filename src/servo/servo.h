@@ -33,7 +33,7 @@ constexpr Time kGrace = std::chrono::seconds(1);
 class Servo {
   public:
     /// `X_WD` and the devices are in the order of the scene's fingers. `wall` is the box in which
-    /// hands are kept in; without one it is each device's workspace, if stated.
+    /// hands are kept; without one it is each device's workspace, if stated.
     Servo(const scene::Scene& scene, const frame::Settings& settings,
           std::unique_ptr<devices::DeviceGroup> devices, std::vector<Pose> X_WD,
           const std::optional<Eigen::AlignedBox3d>& wall = {});

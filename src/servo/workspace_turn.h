@@ -7,7 +7,7 @@
 //     f_0H = T^-1 f_WH
 //
 // where 0 denotes the world without the turn. All checks in axes fixed to the devices
-// (speeds, walls, limits) is independent of the turn. The power f_WH . (v_WH - a' z x (p_WH - c))
+// (speeds, walls, limits) are independent of the turn. The power f_WH . (v_WH - a' z x (p_WH - c))
 // equals f_0H . v_0H; the rest of f_WH . v_WH is the work of the turn.
 //
 // C is the mean of the devices' origins: their reach keeps its position, no point in it moves

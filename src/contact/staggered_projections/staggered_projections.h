@@ -1,5 +1,5 @@
-// Staggered projections (Kaufman, Sueda, James and Pai 2008) solve Coulomb's law as two convex
-// alternating problems,
+// Staggered projections (Kaufman, Sueda, James and Pai 2008) solve Coulomb's law as two
+// alternating convex problems,
 //
 //     friction:  the tangential impulses that dissipate most, on discs of radius mu r_N
 //     contact:   the normal impulses that keep bodies apart, with that friction

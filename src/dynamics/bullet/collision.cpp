@@ -67,7 +67,7 @@ void move_on(btRigidBody& body, const btTransform& from, double t) {
 /// Converts a contact found at time t into an equivalent one at the start of the step,
 /// when body 0 was at from_0 and body 1 at from_1: its gap is such that the present velocities lead
 /// to the gap found at t. Returns whether the gap at t is below -kEntered and these velocities
-/// violate the contact by more than kEntered, given that it removes the share `recovery` of a
+/// violate the contact by more than kEntered, given that it removes the fraction `recovery` of a
 /// penetration.
 bool look_back(const btPersistentManifold& manifold, btManifoldPoint& point,
                const btTransform& from_0, const btTransform& from_1, double t, double h,

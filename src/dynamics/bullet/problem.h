@@ -31,8 +31,7 @@ class ManifoldProblem {
     /// To be called once the problem is solved: contacts that touched in the step and bounce shall
     /// separate at the speed of Newton's law, and all other conditions shall hold as before. The
     /// answer of the changed problem gives the velocities after the step. `by_loads` is the change
-    /// by the step's loads of the velocities of all bodies, by user index. False if nothing
-    /// bounces.
+    /// of all bodies' velocities by the step's loads, by user index. False if nothing bounces.
     bool bounce(std::span<btPersistentManifold*> manifolds,
                 std::span<const contact::Vec6> by_loads) noexcept;
 
