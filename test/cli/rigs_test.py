@@ -29,7 +29,7 @@ class Commands(unittest.TestCase):
             self.assertIn("no device is held by the scene's finger 'thumb'", result.stderr)
             result = dihaptic("tune", "scenes/block-on-table.yaml", "--map", folder + "/none/map.svg")
             self.assertEqual(result.returncode, 2, result.stderr)
-            self.assertIn("map.svg: error: cannot be written: No such file or directory. Name a file in a folder that is there", result.stderr)
+            self.assertIn("map.svg: error: cannot be written: No such file or directory. Name a file in an existing folder", result.stderr)
 
     def test_workspace_measures_and_draws(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -53,8 +53,8 @@ class Commands(unittest.TestCase):
             self.assertRegex(result.stdout, r"not all devices reach: \d\d\.\d % of it")
             result = dihaptic("workspace", "rigs/ideal-pair.yaml", "-o", picture)
             self.assertEqual(result.returncode, 2, result.stdout)
-            self.assertIn("rigs/ideal-pair.yaml:5: error: options: the thumb's device does not say where its reach ends."
-                          " Give it workspace_mm", result.stderr)
+            self.assertIn("rigs/ideal-pair.yaml:5: error: options: the thumb's device does not state its reach."
+                          " Give workspace_mm", result.stderr)
 
     def test_calibrate_finds_what_is_misplaced_and_sessions_use_it(self):
         with tempfile.TemporaryDirectory() as folder:

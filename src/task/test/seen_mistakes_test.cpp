@@ -46,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kShow, "look: [{ finger: thumb, scale: 2 }]", "not a finger of the scene"},
         Mistake{kShow, "look: [{ target: tarket, scale: 2 }]", "Did you mean target?"},
         Mistake{kShow, "look: [{ target: target, colour: red }]", "'red' is not a colour"},
-        Mistake{kShow, "look: [{ target: target, colour: \"#12345g\" }]", "is no colour"},
+        Mistake{kShow, "look: [{ target: target, colour: \"#12345g\" }]", "is not a colour"},
         Mistake{kShow, "look: [{ target: target, color: red }]", "Did you mean colour?"},
         Mistake{kShow, "look: [{ target: target, scale: 0 }]", "scale"},
         Mistake{"- name: right\n", "- { name: right, look: [{ body: blok, scale: 2 }] }\n",
