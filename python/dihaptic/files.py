@@ -221,7 +221,7 @@ class File(Part):
         >>> scene = dh.Scene.load("scenes/block-on-table.yaml")
         >>> scene.bodies[1].mass_g = -1
         >>> print(scene.check()[0].text())
-        Scene.bodies[1]: error: mass_g: must be positive, is -1. Correct the value, or its unit.
+        Scene.bodies[1]: error: mass_g: must be positive, but is -1. Correct the value, or its unit.
         """
         return problems_of(self)
 

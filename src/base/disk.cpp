@@ -15,7 +15,8 @@ void sync_to_disk(int descriptor, const std::string& name) {
     int status = ::fsync(descriptor);
     while (status != 0 && errno == EINTR) status = ::fsync(descriptor);
     if (status == 0 || errno == EINVAL || errno == ENOSYS || errno == EROFS) return;
-    throw Error({name, 0}, "", fmt::format("cannot be kept on the disk: {}", std::strerror(errno)),
+    throw Error({name, 0}, "",
+                fmt::format("cannot be written to the disk: {}", std::strerror(errno)),
                 "Save your data elsewhere: the disk is full or failing.");
 }
 

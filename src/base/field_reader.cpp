@@ -150,7 +150,7 @@ std::optional<double> FieldReader::number(const Given& given, const Node& node,
                                   : node.kind == Node::Kind::null ? "nothing"
                                                                   : "a list";
         diagnostics_.error(
-            given.node->place, given.key, fmt::format("must be a number, is {}", shown),
+            given.node->place, given.key, fmt::format("must be a number, but is {}", shown),
             field.quantity == Quantity::none ? "Write a number."
                                              : "Write the number alone; its unit is in the key.");
         return std::nullopt;
@@ -164,7 +164,7 @@ std::optional<double> FieldReader::number(const Given& given, const Node& node,
     }
     if (is_too_low(field, si) || si > field.max) {
         diagnostics_.error(given.node->place, given.key,
-                           fmt::format("must be {}, is {}", bounds_of(field, si, given.to_si),
+                           fmt::format("must be {}, but is {}", bounds_of(field, si, given.to_si),
                                        shortened(node.scalar)),
                            "Correct the value, or its unit.");
         return std::nullopt;
@@ -314,7 +314,7 @@ void FieldReader::operator()(std::string_view name, int& value, Field field) {
     if (!read) return;
     if (*read != std::floor(*read) || std::abs(*read) > 1e9) {
         diagnostics_.error(given.node->place, given.key,
-                           fmt::format("must be a whole number, is {}", given.node->scalar),
+                           fmt::format("must be a whole number, but is {}", given.node->scalar),
                            "Leave out the decimals.");
         return;
     }
@@ -331,7 +331,7 @@ void FieldReader::operator()(std::string_view name, bool& value, Field field) {
         value = false;
     } else {
         diagnostics_.error(given.node->place, given.key,
-                           fmt::format("must be yes or no, is '{}'", text), "Write yes or no.");
+                           fmt::format("must be yes or no, but is '{}'", text), "Write yes or no.");
     }
 }
 

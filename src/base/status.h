@@ -86,7 +86,7 @@ struct StatusRow {
 };
 
 constexpr StatusRow kStatusTable[] = {
-    {kContactsFull, "more contacts than memory was reserved for",
+    {kContactsFull, "more contacts than the reserved memory can hold",
      "raise settings: dynamics: max_contacts"},
     {kForceLimited, "a force or a torque was cut to the largest allowed",
      "soften the coupling, or press less"},
@@ -153,10 +153,10 @@ constexpr StatusRow kStatusTable[] = {
      "soften the coupling, raise its damping, give its body more mass, or set settings: safety: "
      "energy_guard: act",
      {{FaultKind::active,
-       "{of_finger}coupling went on feeding energy into the hand, {value:.2g} J more than was put "
+       "{of_finger}coupling kept feeding energy into the hand, {value:.2g} J more than was put "
        "in"},
       {FaultKind::chatters,
-       "{of_finger}force went on alternating from tick to tick, by {value:.1f} N"}}},
+       "{of_finger}force kept alternating from tick to tick, by {value:.1f} N"}}},
     {kEnergyDamped, "a damper removed some of that energy",
      "soften the coupling, or raise its damping"},
     {kStopped,

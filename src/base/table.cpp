@@ -175,15 +175,14 @@ std::vector<std::vector<std::string>> read_csv(const std::string& file) {
     auto rows = CsvParser(text, file).run();
     for (const auto& [separator, name] : {std::pair{';', "semicolons"}, std::pair{'\t', "tabs"}}) {
         if (!rows.empty() && rows[0].size() == 1 && rows[0][0].find(separator) != std::string::npos)
-            throw Error(
-                {file, 1}, "",
-                fmt::format("is separated by {}: another program has saved it", name),
-                "Put a backup of it in its place; dihaptic recover makes a session's tables "
-                "anew from raw.log.");
+            throw Error({file, 1}, "",
+                        fmt::format("is separated by {}: another program has saved it", name),
+                        "Replace it by a backup; dihaptic recover makes a session's tables "
+                        "anew from raw.log.");
     }
     if (rows.empty()) {
         throw Error({file, 0}, "", "is empty, without the line that names its columns",
-                    "Put a backup of it in its place; dihaptic recover makes a session's tables "
+                    "Replace it by a backup; dihaptic recover makes a session's tables "
                     "anew from raw.log.");
     }
     return rows;

@@ -59,7 +59,7 @@ std::string name_of(int control) {
     constexpr std::array kNames{"NUL", "SOH", "STX", "ETX",       "EOT", "ENQ", "ACK",
                                 "BEL", "BS",  "tab", "line feed", "VT",  "FF",  "carriage return"};
     if (control < static_cast<int>(kNames.size())) return kNames[static_cast<size_t>(control)];
-    if (control == 0x1b) return "ESC, which arrow keys send too";
+    if (control == 0x1b) return "ESC, which arrow keys also send";
     return control == 0x7f ? "DEL" : fmt::format("U+{:04X}", control);
 }
 

@@ -112,7 +112,7 @@ class World {
     /// Makes a changeable proxy a point from the next step on, or again a body with its shape.
     void set_point(BodyIndex proxy, bool point) noexcept;
 
-    int size() const;        ///< number of bodies, proxies included
+    int size() const;        ///< number of bodies, including proxies
     int scene_size() const;  ///< number of bodies of the scene: indices below this one
     BodyIndex find(const std::string& name) const;
     const std::string& name(BodyIndex body) const;

@@ -165,7 +165,7 @@ struct World::Impl {
     void find_islands();
     /// Joins bodies that touch or are joined to groups.
     void join_groups();
-    /// Number of islands with a finger that touches something.
+    /// Number of islands with a touching finger.
     int64_t held_islands() const;
     /// Solves island by island.
     contact::SolveStats solve(double h);

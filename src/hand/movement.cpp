@@ -176,7 +176,8 @@ bool read_frame(const Columns& columns, const std::vector<std::string>& cells, R
     if (columns.occluded >= 0) {
         const double occluded = cell(columns.occluded);
         if (!std::isnan(occluded) && occluded != 0 && occluded != 1) {
-            problems.error(place, "occluded", fmt::format("must be 0 or 1, is {:.6g}", occluded),
+            problems.error(place, "occluded",
+                           fmt::format("must be 0 or 1, but is {:.6g}", occluded),
                            "Write 1 if the tracker had lost a marker, otherwise 0.");
             readable = false;
         }

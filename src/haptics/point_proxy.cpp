@@ -13,7 +13,7 @@ PointProxy::PointProxy(const scene::Scene& scene, BodyIndex body,
       point_(scene.bodies, std::vector<double>(scene.bodies.size()), settings.sliding_friction),
       onset_(coupling.onset) {}
 
-/// Friction on a soft surface withholds less of the spring, which is pressed less.
+/// On a soft surface, which is pressed less, friction balances less of the spring's force.
 void PointProxy::feel_surfaces(const World& world) noexcept {
     for (size_t i = 0; i < shares_.size(); ++i) {
         const BodyIndex body{static_cast<int>(i)};

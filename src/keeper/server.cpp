@@ -25,7 +25,7 @@ Server::Server(SharedPage& page, const Order& order, const InRealTime& in_real_t
     for (const devices::DeviceConfig& config : order.configs) places_.push_back(config.place);
     const devices::Backend* const backend = devices::find_backend(order.backend);
     if (backend == nullptr || order.configs.empty() || order.configs.size() > kMostDevices) {
-        throw Error("a rig of real devices has one to eight of them, of one backend",
+        throw Error("a rig has one to eight real devices, all with the same backend",
                     "Correct the rig file.");
     }
     devices::Context context;

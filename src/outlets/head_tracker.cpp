@@ -104,8 +104,8 @@ void HeadTracker::receive() {
         }
         if (static_cast<size_t>(inlet.channels()) < needed)
             throw Error(head_.place, "first",
-                        fmt::format("the stream '{}' has {} channels, and channels up to {} are "
-                                    "wanted",
+                        fmt::format("the stream '{}' has {} channels, but channels up to {} are "
+                                    "needed",
                                     head_.stream, inlet.channels(), needed - 1),
                         "Correct first, or write quaternion: none.");
         tell(fmt::format("The head is tracked by the stream '{}'.", head_.stream), false);

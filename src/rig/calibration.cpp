@@ -61,7 +61,7 @@ void check_movement(const CalibrationInput& input, const CalibrationSolver& solv
         if (clouds[i].empty()) {
             throw Error(
                 fmt::format("the {}'s device was joined to no other", input.devices[i].finger),
-                "Join each device to the first by the link.");
+                "Join each device to the first with the link.");
         }
         const Vec3 extents = cloud_extents(clouds[i]);
         if (extents[0] >= kLeastDepth) continue;

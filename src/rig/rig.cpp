@@ -204,7 +204,7 @@ const Device& device_of(const Rig& rig, const std::string& finger) {
                                     [&](const Device& d) { return d.finger == finger; });
     if (found != rig.devices.end()) return *found;
     throw Error(rig.place, "devices",
-                fmt::format("no device is held by the scene's finger '{}'", finger),
+                fmt::format("the scene's finger '{}' holds no device", finger),
                 fmt::format("The rig has devices for {}: add one, or choose another rig.",
                             fmt::join(held_fingers(rig), ", ")));
 }

@@ -95,7 +95,7 @@ struct Lattice {
         v("friction", friction,
           Field::number().within(0, kMostFriction).says("Coefficient of friction, as for a body."));
         v("colour", colour, says("Colour, as \"#rrggbb\"; if left out, the view chooses."));
-        v("glued", glued, says("Faces that are glued to bodies or to the world."));
+        v("glued", glued, says("Faces glued to bodies or to the world."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };

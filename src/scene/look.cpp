@@ -12,7 +12,7 @@
 namespace dihaptic::scene {
 namespace {
 
-/// Pictures by their files.
+/// Pictures by file.
 using Pictures = std::map<std::string, std::shared_ptr<const Image>>;
 
 /// The largest extent of a mesh along any axis [m].

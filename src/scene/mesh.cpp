@@ -50,7 +50,7 @@ std::string missing_in(const std::string& bytes, const std::string& format) {
         return n == 0 ? fmt::format("no {}", many) : fmt::format("{} {}", n, n == 1 ? one : many);
     };
     if (vertices >= 4 && faces >= 4) return "";
-    return fmt::format("has {} ('v') and {} ('f'), where a solid needs at least four of each",
+    return fmt::format("has {} ('v') and {} ('f'), but a solid needs at least four of each",
                        counted(vertices, "vertex", "vertices"), counted(faces, "face", "faces"));
 }
 

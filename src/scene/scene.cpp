@@ -204,7 +204,7 @@ void check_body(const Body& body, Diagnostics& diagnostics) {
     const bool two_axes =
         body.turns == Axes::xy || body.turns == Axes::xz || body.turns == Axes::yz;
     if (two_axes) {
-        diagnostics.error(body.place, "turns", "a body cannot be held to turn about two axes",
+        diagnostics.error(body.place, "turns", "a body cannot turn about exactly two axes",
                           "Use none, x, y, z or xyz.");
     }
 }
@@ -331,7 +331,7 @@ void check_references(const Scene& scene, Diagnostics& diagnostics) {
         }
     } else if (!scene.bodies[static_cast<size_t>(object)].moves_at_all()) {
         diagnostics.error(scene.object_place, "object", fmt::format("'{}' is fixed", scene.object),
-                          "Name a body that can move: summaries are about it.");
+                          "Name a movable body, the subject of summaries.");
     }
 }
 

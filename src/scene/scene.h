@@ -134,7 +134,9 @@ struct Finger {
         v("name", name, Field::text().required().says("Name of the finger."));
         shape.visit(v);
         v("mass", mass,
-          Field::of(Quantity::mass).within(kLightest, kHeaviest).says("Mass of its proxy."));
+          Field::of(Quantity::mass)
+              .within(kLightest, kHeaviest)
+              .says("Mass of the finger's proxy."));
         v("friction", friction,
           Field::number()
               .within(0, kMostFriction)
@@ -197,7 +199,7 @@ struct Scene {
         v("title", title, says("Title of the scene."));
         v("gravity", gravity,
           Field::of(Quantity::acceleration).within(-1000, 1000).says("Gravity."));
-        v("bodies", bodies, Field::text().required().says("Bodies, fixed ones included."));
+        v("bodies", bodies, Field::text().required().says("Bodies, including fixed ones."));
         v("pairs", pairs, says("Pairs with their own friction or surface."));
         v("joints", joints, says("Joints between two bodies, or between a body and the world."));
         v("lattices", lattices, says("Soft bodies made of parts joined by springs."));

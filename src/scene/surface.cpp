@@ -77,7 +77,7 @@ void check(const Texture& texture, Diagnostics& diagnostics) {
         diagnostics.error(texture.place, "along", "has no direction",
                           "Write e.g. along: [1, 0, 0].");
     if (texture.kind == TextureKind::picture && texture.file.empty())
-        diagnostics.error(texture.place, "file", "is missing", "Name the picture, a PNG file.");
+        diagnostics.error(texture.place, "file", "is missing", "Give the name of a PNG file.");
     if (texture.kind != TextureKind::picture && !texture.file.empty())
         diagnostics.error(texture.place, "file", "applies only to pictures", "Set kind: picture.");
     if (texture.friction == 0 && texture.height == 0)

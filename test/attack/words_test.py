@@ -71,7 +71,7 @@ class Words(unittest.TestCase):
                               stdin=there, stdout=subprocess.PIPE, stderr=subprocess.STDOUT) as program:
             os.write(here, b"S1\x1b[D\nS07\n30\nF\nright\n")
             told = program.communicate(timeout=patient(300))[0].decode()
-        self.assertIn("has a control character (ESC, which arrow keys send too)", told)
+        self.assertIn("has a control character (ESC, which arrow keys also send)", told)
         self.assertEqual(told.count("participant, e.g. S07: "), 2)
         self.assertEqual(told.count("age in years: "), 1)
 

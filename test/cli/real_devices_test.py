@@ -118,7 +118,7 @@ class RealDevices(unittest.TestCase):
         result = dihaptic("calibrate", rig, input="\n\n", env=self.env)
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertRegex(result.stdout, r"1 of 4\. Hold each arm in the standard configuration: .*\n   Then press Enter\.\n"
-                                        r"2 of 4\. Join the endpoints of thumb and index by the link")
+                                        r"2 of 4\. Join the endpoints of thumb and index with the link")
         self.assertIn("3 of 4. Move the link through all of the workspace", result.stdout)
         self.assertIn("interrupted: nothing was stored", result.stderr)
         self.assertEqual(os.listdir(self.folder.name).count("rig-calibration.yaml"), 0)

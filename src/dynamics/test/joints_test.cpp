@@ -87,7 +87,7 @@ TEST(Pendulum, NeitherDriftsFromItsHingeNorGainsOrLosesEnergyInAMinute) {
 
 TEST(Pendulum, CarriesItsWeightAndItsTurn) {
     // at the lowest point of a swing from the horizontal the hinge carries three times the weight
-    // of a point; the cube's inertia takes its share
+    // of a point; the cube's inertia adds its part
     World world = pendulum(90 * kDegree);
     const double about_hinge = kInertia + kMass * kArm * kArm;
     double most = 0;

@@ -186,7 +186,7 @@ const std::vector<Damage> kDamages{
          l[57].back() = '2';
          return l;
      },
-     "m.csv:58: error: occluded: must be 0 or 1, is 2"},
+     "m.csv:58: error: occluded: must be 0 or 1, but is 2"},
     {"a column given twice",
      [](std::vector<std::string> l) {
          l[0].replace(l[0].find("thumb_y"), 7, "thumb_x");

@@ -250,7 +250,8 @@ TEST(SolvedPoint, AFallingPlateIsCaughtAndItsWeightFelt) {
 }
 
 TEST(SolvedPoint, SticksUnderStaticFrictionAndSlidesAtDynamicFriction) {
-    // at a depth of 2 mm static friction of 0.8 holds 1.6 N, dynamic friction of 0.5 of it 0.8 N
+    // at a depth of 2 mm static friction of 0.8 holds 1.6 N, and dynamic friction, half of it, 0.8
+    // N
     Room room;
     room.add(round(scene::ShapeKind::plane, 0, 0)).friction = 0.64;  // 0.8 for the pair
     room.proxy.sliding_friction = 0.5;

@@ -67,7 +67,7 @@ TEST(RigFile, PlacesAHeadset) {
     EXPECT_EQ(rig.headset->space, display::HeadsetSpace::local);
     const Pose X_WS = rig.headset->X_WS();
     EXPECT_EQ(X_WS.p, Vec3(0.01, 0, 0.03));
-    // turned to the left by a quarter, its forward is -x; its up is up
+    // turned left by 90 degrees: forward is -x, up is +z
     EXPECT_LT((X_WS.R * Vec3(0, 0, -1) - Vec3(-1, 0, 0)).norm(), 1e-15);
     EXPECT_LT((X_WS.R * Vec3(0, 1, 0) - Vec3(0, 0, 1)).norm(), 1e-15);
     EXPECT_FALSE(read_rig(folder.write("none.yaml", devices), diagnostics).headset);

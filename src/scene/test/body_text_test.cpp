@@ -17,7 +17,7 @@ std::string moved(const std::string& text, const std::string& name, const Vec3& 
     return changed(text, moved_body(text, name, way_mm * 1e-3, turn));
 }
 
-/// The message of why a body cannot be moved.
+/// The message that explains why a body cannot be moved.
 std::string refusal(const std::string& text, const std::string& name) {
     try {
         moved_body(text, name, {0.001, 0, 0});

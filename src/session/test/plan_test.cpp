@@ -159,7 +159,7 @@ TEST(Plan, RefusesSharesThatContradictAreNoneOrAreOfNothing) {
         << damping.messages();
     SharedFiles large;
     large.experiment += "settings: {coupling: {stiffness_share: 1.5}}\n";
-    EXPECT_NE(large.messages().find("stiffness_share: must be above 0 and at most 1, is 1.5"),
+    EXPECT_NE(large.messages().find("stiffness_share: must be above 0 and at most 1, but is 1.5"),
               std::string::npos)
         << large.messages();
     Files ideal;
@@ -371,7 +371,7 @@ INSTANTIATE_TEST_SUITE_P(
             "aperture_mm: must be at least 0"},
         Bad{"endless duration",
             [](Files& f) { f.experiment += "hand: {script: [{name: a, duration_s: 1e12}]}\n"; },
-            "experiment.yaml:3: error: duration_s: must be above 0 and at most 3600, is 1e12"},
+            "experiment.yaml:3: error: duration_s: must be above 0 and at most 3600, but is 1e12"},
         Bad{"endless script",
             [](Files& f) {
                 f.experiment +=

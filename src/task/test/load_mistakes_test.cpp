@@ -53,7 +53,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "three rows of three numbers"},
         Mistake{kField,
                 "loads: [{ kind: general, on: index, B_Ns_m: [[0, 1, 0], [0, x, 0], [0, 0, 0]] }]",
-                "must be a number, is 'x'"},
+                "must be a number, but is 'x'"},
         Mistake{
             kField,
             "loads: [{ kind: general, on: index, A_N_m: [[-1, 0, 0], [0, -1, 0], [0, 0, -1]] }]",

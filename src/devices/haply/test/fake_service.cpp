@@ -176,7 +176,7 @@ struct FakeService::Impl {
         });
     }
 
-    /// Moves the devices on by one period.
+    /// Advances the devices by one period.
     void tick() {
         if (!commanded) {
             for (Wrench& force : forces) force = {};

@@ -88,7 +88,7 @@ TEST(OpenHaptics, TellsTheJointsOfAnArmThatIsAskedForThem) {
     fake.hand = [&](size_t, double, const Wrench&) { return Held{model::phantom_position({}, q)}; };
     const auto group = make({"joint_angles: yes\n"});
     ASSERT_TRUE(group->info(0).arm);
-    // HD's own origin is not the middle of the workspace: the box is the smaller side's
+    // HD's own origin is not the middle of the workspace: the box follows from the smaller side
     EXPECT_TRUE(group->info(0).workspace->isApprox(Vec3(0.254, 0.120, 0.080)));
     group->activate();
     const Reading reading = Paced(*group, 1).readings[0][0];
