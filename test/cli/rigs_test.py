@@ -26,7 +26,7 @@ class Commands(unittest.TestCase):
             pathlib.Path(rig).write_text("devices:\n  - { finger: toe, backend: simulated }\n")
             result = dihaptic("tune", "scenes/block-on-table.yaml", "--rig", rig)
             self.assertEqual(result.returncode, 2, result.stderr)
-            self.assertIn("no device is held by the scene's finger 'thumb'", result.stderr)
+            self.assertIn("the scene's finger 'thumb' holds no device", result.stderr)
             result = dihaptic("tune", "scenes/block-on-table.yaml", "--map", folder + "/none/map.svg")
             self.assertEqual(result.returncode, 2, result.stderr)
             self.assertIn("map.svg: error: cannot be written: No such file or directory. Name a file in an existing folder", result.stderr)

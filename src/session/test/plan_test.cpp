@@ -336,7 +336,7 @@ INSTANTIATE_TEST_SUITE_P(
             "the hand's finger 'pinky' is not among the scene's fingers"},
         Bad{"finger without device",
             [](Files& f) { f.rig = "devices:\n  - {finger: thumb, backend: simulated}\n"; },
-            "no device is held by the scene's finger 'index'"},
+            "the scene's finger 'index' holds no device"},
         Bad{"negative duration",
             [](Files& f) { f.experiment += "hand: {script: [{name: a, duration_s: -1}]}\n"; },
             "duration_s: must be positive"},
