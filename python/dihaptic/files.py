@@ -106,7 +106,7 @@ class Part:
         >>> import dihaptic as dh
         >>> scene = dh.Scene.load("scenes/block-on-table.yaml")
         >>> scene.bodies[1].known()["torsion_radius_mm"]
-        'Radius of its soft contact points: each carries a moment up to friction x radius x normal force.'
+        'Radius of the soft contact points: each carries a moment up to friction x radius x normal force.'
         """
         root, _ = self._root_and_path()
         if not isinstance(root, File):

@@ -107,7 +107,7 @@ def quantity(name: str) -> Quantity:
 
     >>> import dihaptic as dh
     >>> dh.quantity("grip_force").meaning
-    'Pinch part of the normal forces, half their sum; NaN for one finger.'
+    'Pinch component of the normal forces, half their sum; NaN for one finger.'
     """
     item, dot, last = name.rpartition(".")
     if not dot:
