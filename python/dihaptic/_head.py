@@ -101,5 +101,5 @@ def _text_of_head(log: BinaryIO, file: Path) -> str:
         if kind == b"HEAD" and zlib.crc32(payload, zlib.crc32(header[:-4])) == checksum:
             return payload.decode("utf-8")
     raise error(
-        "has no readable head", "Nothing of it can be recovered: put a backup of it in its place.", file=str(file)
+        "has no readable head", "Nothing in it can be recovered: replace it with a backup.", file=str(file)
     )

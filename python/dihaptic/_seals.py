@@ -12,10 +12,10 @@ from .errors import Problem
 
 
 def broken_seals(folder: Path, info: dict[str, Any], table: str) -> list[str]:
-    """What is wrong with a table, and with the seal of session.yaml, in sentences.
+    """The faults of a table and of session.yaml's seal, in sentences.
 
-    `info` is what session.yaml has, `table` the name of a file. There is nothing to say of a session
-    without seals, nor of a table that no session seals.
+    `info`: the content of session.yaml; `table`: the name of a file. Empty for a session without seals, and for a table
+    that is never sealed.
     """
     sealed = {each["file"]: each for each in info.get("tables") or []}
     if not sealed and not info.get("seal"):
@@ -23,7 +23,9 @@ def broken_seals(folder: Path, info: dict[str, Any], table: str) -> list[str]:
     found = []
     if _seal_of(info) != info.get("seal", ""):
         what = "the session's identity, participant, seed, program, state, ticks, inputs or list of tables"
-        found.append(_problem(folder, "session.yaml", f"does not fit: {what} was changed since it ended", key="seal"))
+        found.append(
+            _problem(folder, "session.yaml", f"does not match: {what} has been changed since it ended", key="seal")
+        )
     if table in facts()["tables_from_log"] + facts()["other_tables"]:
         fault = _fault_of(folder / table, sealed.get(table))
         if fault:
@@ -42,7 +44,7 @@ def _seal_of(info: dict[str, Any]) -> str:
 
 def _fault_of(file: Path, sealed: dict[str, str] | None) -> str:
     if sealed is None:
-        return "was not there when the session ended: it is of something else"
+        return "did not exist when the session ended: it belongs to something else"
     then = f"it had {_counted(int(sealed.get('rows', 0)))} when the session ended"
     try:
         csv = file.read_bytes()
@@ -57,11 +59,11 @@ def _fault_of(file: Path, sealed: dict[str, str] | None) -> str:
 
 
 def _problem(folder: Path, name: str, what: str, key: str = "") -> str:
-    # session.yaml is sealed anew by the same command
+    # the same command also seals session.yaml again
     if (folder / "raw.log").is_file() and name not in facts()["other_tables"]:
-        remedy = f"Make it anew from raw.log: dihaptic recover {shlex.quote(str(folder))}"
+        remedy = f"Rebuild it from raw.log: dihaptic recover {shlex.quote(str(folder))}"
     else:
-        remedy = "Restore it from a backup. If there is none, the session has to be done again."
+        remedy = "Restore it from a backup. If there is none, the session has to be repeated."
     return Problem("warning", str(folder / name), 0, key, what, remedy).text()
 
 

@@ -12,8 +12,8 @@ namespace {
 
 /// The file is searched for kinds in blocks of this many bytes.
 constexpr int64_t kBlock = 1 << 16;
-/// Bytes that look like a chunk but are not one may have to be read again from each of their bytes.
-/// A file that requires more than this was made to keep its reader busy [bytes].
+/// Bytes that look like a chunk but are not one may have to be read again, starting at each of
+/// them. A file that requires more such reading than this was made to keep its reader busy [bytes].
 constexpr int64_t kMostWasted = int64_t{1} << 30;
 constexpr std::array kKinds{kHead, kData, kPacked, kDone};
 
@@ -39,7 +39,7 @@ ChunkReader::ChunkReader(const std::string& file) : name_(file), file_(file) {
     if (!header_at(end_, header) || header.kind != kHead || header.size > kMostHead ||
         !read_at(end_, header)) {
         throw Error({file, 0}, "", "has no readable head",
-                    "Nothing of it can be recovered: put a backup of it in its place.");
+                    "Nothing in it can be recovered: replace it with a backup.");
     }
     head_ = chunk_.payload;
     session_ = session_of(head_);
@@ -48,7 +48,7 @@ ChunkReader::ChunkReader(const std::string& file) : name_(file), file_(file) {
     first_ = end_;
 }
 
-/// Whether the header of an own chunk is at a place.
+/// Whether the header of one of the log's own chunks is at this position.
 bool ChunkReader::is_next(const ChunkPlace& place, ChunkHeader& out) const {
     return header_at(place.at, out) && out.session == session_ &&
            (version_ == 1 || out.number == place.number) &&
@@ -59,7 +59,7 @@ std::vector<ChunkPlace> ChunkReader::places() const {
     std::vector<ChunkPlace> out;
     ChunkPlace place{first_, 1};
     ChunkHeader header;
-    // bytes that are written meanwhile do not count
+    // bytes that are written meanwhile are ignored
     while (place.at < file_.size() && is_next(place, header)) {
         const int64_t end = place.at + header_size() + header.size;
         if (end > file_.size()) return out;  // it was not written completely
@@ -106,7 +106,7 @@ int64_t ChunkReader::header_size() const {
     return version_ == 1 ? sizeof(ChunkHeader1) : sizeof(ChunkHeader);
 }
 
-/// Reads the bytes at a place as a header.
+/// Reads the bytes at a position as a header.
 bool ChunkReader::header_at(int64_t at, ChunkHeader& out) const {
     if (version_ > 1)
         return file_.read(at, std::as_writable_bytes(std::span(&out, 1))) == sizeof(out);
@@ -117,7 +117,7 @@ bool ChunkReader::header_at(int64_t at, ChunkHeader& out) const {
     return true;
 }
 
-/// Reads the chunk at a place; false if there is none, or if it is damaged.
+/// Reads the chunk at a position; false if there is none, or if it is damaged.
 bool ChunkReader::read_at(int64_t at, ChunkHeader& out) {
     if (!header_at(at, out)) return false;
     if (out.size > kMostPayload || out.size > file_.size() - at - header_size()) return false;
@@ -132,11 +132,11 @@ bool ChunkReader::read_at(int64_t at, ChunkHeader& out) {
     return false;
 }
 
-/// Finds the first whole chunk at or after a place.
+/// Finds the first whole chunk at or after a position.
 bool ChunkReader::find(int64_t from, Found& found, ChunkHeader& header) {
     for (int64_t at = from; at >= 0; at = find_kind(at + 1)) {
         if (!read_at(at, header)) {
-            wasted_ += kBlock;  // it is read again from there
+            wasted_ += kBlock;  // the block is read again from there
             continue;
         }
         found = {at, at + header_size() + header.size, at - from, header.number, Chunk::Place::own};
@@ -147,7 +147,7 @@ bool ChunkReader::find(int64_t from, Found& found, ChunkHeader& header) {
 }
 
 int64_t ChunkReader::find_kind(int64_t from) const {
-    constexpr int64_t kOverlap = sizeof(uint32_t) - 1;  // a kind may span two blocks
+    constexpr int64_t kOverlap = sizeof(uint32_t) - 1;  // a chunk's kind may span two blocks
     if (wasted_ > kMostWasted) return -1;
     std::string block;
     for (; from + kOverlap < file_.size(); from += kBlock - kOverlap) {
@@ -177,8 +177,9 @@ const Chunk* ChunkReader::next() {
     return give(header, found);
 }
 
-/// Finds all chunks in the rest of the file, and sorts them by number. Of chunks with one number
-/// the first counts; foreign chunks stay behind the chunk that they follow in the file.
+/// Finds all chunks in the rest of the file, and sorts them by number. Of several chunks with the
+/// same number, the first is used; foreign chunks stay behind the chunk that they follow in the
+/// file.
 void ChunkReader::look_through(const Found& first, const ChunkHeader& header) {
     looked_ = true;
     auto last = static_cast<uint32_t>(due_ - 1);

@@ -1,9 +1,9 @@
 // Reads the chunks of a log in the order in which they were written, whatever happened to the file
 // since: it may have damaged bytes, and chunks may be foreign, duplicated, missing or out of place.
 //
-// The file is read from its beginning as long as each chunk is the expected one. At the first chunk
-// that is not, the rest of the file is searched once, and then read in the order of the chunks'
-// numbers. Logs of version 1, whose chunks have no numbers, are read as they stand.
+// The file is read from its beginning as long as each chunk is the expected one. At the first
+// unexpected chunk, the rest of the file is searched once, and then read in the order of the
+// chunks' numbers. Logs of version 1, whose chunks have no numbers, are read in file order.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace dihaptic::recording {
 
-/// Where a chunk stands in its file.
+/// The position of a chunk in its file.
 struct ChunkPlace {
     int64_t at = 0;
     uint32_t number = 0;
@@ -26,17 +26,17 @@ struct ChunkPlace {
 struct Chunk {
     enum class Place {
         own,        ///< the next one that exists
-        moved,      ///< the next one that exists, but located behind later ones
+        moved,      ///< the next one that exists, but stored behind later ones
         doubled,    ///< a chunk with its number was read before
         foreign,    ///< it belongs to another session
-        after_end,  ///< it stands behind the end mark
+        after_end,  ///< it lies behind the end mark
     };
     uint32_t kind = 0;
     Place place = Place::own;
     ChunkPlace in_file;
     int64_t bytes = 0;    ///< including its header
     int64_t damaged = 0;  ///< bytes before it in the file that belong to no whole chunk
-    int64_t missing = 0;  ///< number of chunks that are gone between the one before and this one
+    int64_t missing = 0;  ///< number of chunks missing between the previous one and this one
     std::vector<std::byte> payload;
 };
 
@@ -51,19 +51,19 @@ class ChunkReader {
     /// Share of the file that has been read, from 0 to 1.
     double share() const;
 
-    /// Where the chunks with frames are, in their order. Only the headers of an intact log are
-    /// read, but all of a damaged one.
+    /// Positions of the chunks with frames, in order. Of an intact log, only the headers are read;
+    /// a damaged log is read completely.
     std::vector<ChunkPlace> places() const;
-    /// Makes next() go on with this chunk.
+    /// Makes next() continue with this chunk.
     void go_to(const ChunkPlace& place);
-    /// The place of the chunk with frames that follows `last` (null: the first one), in a file that
-    /// may still be written; nullopt as long as it is not complete.
+    /// The position of the chunk with frames that follows `last` (null: the first one), in a file
+    /// that may still be growing; nullopt as long as the chunk is incomplete.
     std::optional<ChunkPlace> following(const ChunkPlace* last);
 
     /// After the end: number of bytes behind the last whole chunk.
     int64_t tail() const { return file_.size() - end_; }
-    /// After the end: whether these bytes begin a chunk that was not written completely; `bytes` is
-    /// its intended size, 0 if that is not known.
+    /// After the end: whether these bytes begin an incompletely written chunk; `bytes` is its
+    /// intended size, 0 if unknown.
     bool tail_is_unfinished(int64_t& bytes) const;
 
   private:
@@ -89,7 +89,7 @@ class ChunkReader {
     int version_ = 3;
     uint64_t session_ = 0;
     std::vector<std::byte> head_;
-    int64_t first_ = 0;   // where the first chunk after the head is
+    int64_t first_ = 0;   // position of the first chunk after the head
     int64_t end_ = 0;     // end of the last whole chunk in the file so far
     int64_t wasted_ = 0;  // bytes that were read in vain
     uint64_t due_ = 0;    // number of the chunk that comes next

@@ -47,8 +47,8 @@ class Writer {
     size_t size() const { return fits_ ? used_ : 0; }
 
   private:
-    /// Counts in the log have 16 bits. A frame with more items is dropped and reported, rather than
-    /// written wrongly.
+    /// Counts in the log have 16 bits. A frame with more items is dropped and reported, because it
+    /// could not be written correctly.
     void fit(size_t count) { fits_ = fits_ && count <= std::numeric_limits<uint16_t>::max(); }
     template <class T>
     void put(const T& value) {
@@ -67,7 +67,7 @@ class Writer {
 }  // namespace
 
 size_t most_bytes(const Layout& layout, size_t contacts) {
-    // a frame with everything in it, measured
+    // measured, on a frame with everything in it
     Frame frame;
     frame.fingers.resize(layout.fingers);
     frame.turns.resize(layout.turns);

@@ -1,5 +1,5 @@
 // Encodes frames as bytes, field by field in the order of Frame::visit(), little-endian. A body is
-// written only when it has changed: decoding over the frame before keeps the others (decoder.h).
+// written only when it has changed: decoding over the previous frame keeps the others (decoder.h).
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace dihaptic::recording {
 
-/// How many of each a frame has; fixed for a session.
+/// Numbers of items in a frame; fixed for a session.
 struct Layout {
     size_t fingers = 0;
     size_t bodies = 0;
@@ -20,7 +20,7 @@ struct Layout {
 /// Size of the largest frame with this many contacts [bytes].
 size_t most_bytes(const Layout& layout, size_t contacts);
 
-/// Which bodies an encoded frame has. A frame with all bodies is readable without those before it.
+/// The bodies in an encoded frame. A frame with all bodies is readable without earlier frames.
 enum class Bodies { changed, all };
 
 /// Encodes the frame into `out`, and returns the number of bytes, or 0 if it does not fit.

@@ -8,8 +8,8 @@
 
 namespace dihaptic::recording {
 
-/// Meanings of a field's numbers, e.g. "0: between trials, 1: home, 2: reach"; "" if the number
-/// stands for itself. `name`: name of the field of Frame, without the finger's or body's prefix.
+/// Meanings of a field's codes, e.g. "0: between trials, 1: home, 2: reach"; "" if the field is an
+/// ordinary number. `name`: name of the field of Frame, without the finger's or body's prefix.
 std::string codes_of(const std::string& name, const LogHead& head);
 
 }  // namespace dihaptic::recording

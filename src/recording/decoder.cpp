@@ -39,12 +39,12 @@ std::string first_word(const std::string& line) {
 
 /// A field of a Frame, or of an item of one of its lists.
 struct Member {
-    std::string line;  ///< of the schema
+    std::string line;  ///< its line in the schema
     size_t at = 0;     ///< offset in the Frame or the item
     bool recorded = false;
 };
 
-/// Finds the member with this line of the schema, and marks it as recorded; null if there is none.
+/// Finds the member with this line in the schema, and marks it as recorded; null if there is none.
 template <class Members>
 auto* recorded(Members& members, const std::string& line) {
     const auto found = std::find_if(members.begin(), members.end(),
@@ -56,13 +56,13 @@ auto* recorded(Members& members, const std::string& line) {
 
 }  // namespace
 
-/// Lists the fields of a Frame: their lines of the schema, and their offsets in memory.
+/// Lists the fields of a Frame: their lines in the schema, and their offsets in memory.
 class FrameDecoder::Members {
   public:
     struct OfList {
         std::string line;
         Target target;
-        std::vector<Member> fields;  ///< of an item
+        std::vector<Member> fields;  ///< fields of an item
         bool recorded = false;
     };
 
@@ -121,7 +121,7 @@ class FrameDecoder::Members {
     std::vector<Member>* into_ = &fields;
 };
 
-/// The bytes of an encoded frame, which are taken from the front.
+/// The bytes of an encoded frame, which are consumed from the front.
 class FrameDecoder::Source {
   public:
     explicit Source(std::span<const std::byte> bytes) : rest_(bytes) {}
@@ -148,7 +148,7 @@ class FrameDecoder::Source {
     std::span<const std::byte> rest_;
 };
 
-/// Reads a schema line by line, and notes which of its fields a Frame has.
+/// Reads a schema line by line, and notes which of its fields exist in a Frame.
 class FrameDecoder::Builder {
   public:
     Builder(FrameDecoder& out, const std::string& file) : out_(out), file_(file) {
@@ -170,7 +170,7 @@ class FrameDecoder::Builder {
         }
     }
 
-    /// Notes which fields of a Frame the schema did not have.
+    /// Notes which fields of a Frame are missing from the schema.
     void finish() {
         for (const Member& field : members_.fields) {
             if (field.recorded) continue;
@@ -225,8 +225,8 @@ class FrameDecoder::Builder {
         }
     }
     Error unreadable() const {
-        return Error({file_, 0}, "schema", "does not say what its frames are made of",
-                     "Put a backup of the log in its place.");
+        return Error({file_, 0}, "schema", "does not describe the contents of its frames",
+                     "Replace it with a backup.");
     }
 
     FrameDecoder& out_;
@@ -255,7 +255,7 @@ bool FrameDecoder::read_list(const List& list, Source& source, std::byte* frame)
     return true;
 }
 
-/// Reads the items that changed; the others stay as they are.
+/// Reads the items that changed; the others keep their values.
 bool FrameDecoder::read_changed(const List& list, Source& source, std::byte* frame) {
     uint16_t count = 0;
     if (!source.take(count)) return false;

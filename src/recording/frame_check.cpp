@@ -7,7 +7,7 @@
 namespace dihaptic::recording {
 namespace {
 
-/// Whether i is an index below `count`, or -1, which stands for none.
+/// Whether i is an index below `count`, or -1 for none.
 bool is_index(int32_t i, size_t count) noexcept {
     return i >= -1 && i < static_cast<int64_t>(count);
 }
@@ -32,7 +32,7 @@ bool is_possible(const frame::ContactFrame& contact, size_t all) noexcept {
            is_index(contact.b, all);
 }
 
-/// The index of the thing to which an item refers.
+/// The index to which an item refers.
 template <class Item>
 int32_t index_of(const Item& item) noexcept {
     if constexpr (requires { item.body; })

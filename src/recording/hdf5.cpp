@@ -181,7 +181,7 @@ Rows::Rows(hid_t parent, const std::string& name, size_t columns, Numbers number
     const int rank = columns == 1 ? 1 : 2;
     const hsize_t none[2] = {0, columns};
     const hsize_t most[2] = {H5S_UNLIMITED, columns};
-    const hsize_t chunk[2] = {kChunkRows, 1};  // a column each: they compress better alone
+    const hsize_t chunk[2] = {kChunkRows, 1};  // one column each: columns compress better alone
     const Id space(H5Screate_simple(rank, none, most));
     const Id create(H5Pcreate(H5P_DATASET_CREATE));
     check(H5Pset_chunk(create, rank, chunk));

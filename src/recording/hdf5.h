@@ -15,7 +15,7 @@ namespace dihaptic::recording::hdf5 {
 // create_file() again, and nothing is closed at the program's end either. The leak is small, and
 // the file's space is released when it is truncated to zero length, as write_nwb() does.
 
-/// Why a file could not be written, and the system's errno; 0 where HDF5 gives none.
+/// The reason why a file could not be written, and the system's errno; 0 if HDF5 gives none.
 struct WriteFailure : std::runtime_error {
     WriteFailure(const std::string& why, int number) : std::runtime_error(why), error(number) {}
     int error;
@@ -38,8 +38,8 @@ class Id {
 };
 
 Id create_file(const std::string& path);
-/// Writes everything that is buffered. Call it while all objects are still open, since closing them
-/// cannot throw.
+/// Writes all buffered data. Call it while all objects are still open, since closing them cannot
+/// throw.
 void flush(hid_t file);
 /// Closes the file; everything in it must be closed. Throws WriteFailure unless the whole file was
 /// written.

@@ -1,5 +1,5 @@
-// Writes head.csv, which says where the head was in each picture that a headset, or a screen with
-// tracked eyes, showed. It is written while the session runs.
+// Writes head.csv: the head's pose in each picture that a headset, or a screen with tracked eyes,
+// showed. It is written while the session runs.
 #pragma once
 
 #include <array>
@@ -10,26 +10,26 @@
 
 namespace dihaptic::recording {
 
-/// The head in a picture.
+/// The head's pose in a picture.
 struct HeadSeen {
-    int64_t tick = 0;           ///< that the picture is of
-    double time = 0;            ///< session time when its light came, as foreseen [s]
+    int64_t tick = 0;           ///< the tick shown
+    double time = 0;            ///< predicted session time of its light [s]
     std::array<double, 3> p{};  ///< between the eyes, in the world [m]
     std::array<double, 4> R{};  ///< quaternion, w first: in a headset x is right, y up, z backward
-                                ///< of the head; before a screen, of the body that is tracked
-    bool tracked = false;       ///< it was measured; otherwise guessed, or where it was seen last
+                                ///< of the head; for a screen, of the tracked body
+    bool tracked = false;       ///< measured; otherwise guessed, or the last one seen
 };
 
 class HeadsWriter {
   public:
     explicit HeadsWriter(const SessionFolder& folder) : file_(folder.file("head.csv")) {}
     void add(const HeadSeen& head);
-    /// Passes what was added to the system, so that it survives the end of this program.
+    /// Passes added rows to the system, so that they survive the end of this program.
     void flush() { out_.flush(); }
 
   private:
     std::string file_;
-    std::ofstream out_;  // opened with the first: most sessions have no headset
+    std::ofstream out_;  // opened with the first row: most sessions have no headset
 };
 
 }  // namespace dihaptic::recording

@@ -1,4 +1,4 @@
-// Writes and reads heard.csv, which says when each sound of a session was heard. It is written
+// Writes and reads heard.csv, with the time when each sound of a session was heard. It is written
 // while the session runs.
 #pragma once
 
@@ -11,19 +11,19 @@
 
 namespace dihaptic::recording {
 
-/// A sound that began.
+/// A sound that was heard.
 struct Hearing {
-    int64_t tick = -1;  ///< that asked for it
+    int64_t tick = -1;  ///< tick that requested it
     std::string sound;
     double asked = kUnmeasured;  ///< the tick's session time [s]
     double heard = kUnmeasured;  ///< session time at which its first sample was heard [s]
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
-        v("tick", f.tick, "1", "that asked for it");
+        v("tick", f.tick, "1", "tick that requested it");
         v("sound", f.sound, "", "name");
-        v("asked", f.asked, "s", "the tick's time in the session");
-        v("heard", f.heard, "s", "when its first sample was heard");
+        v("asked", f.asked, "s", "session time of that tick");
+        v("heard", f.heard, "s", "session time when its first sample was heard");
     }
 };
 
@@ -31,7 +31,7 @@ class HearingsWriter {
   public:
     explicit HearingsWriter(const SessionFolder& folder) : file_(folder.file("heard.csv")) {}
     void add(const Hearing& hearing);
-    /// Passes what was added to the system, so that it survives the end of this program.
+    /// Passes added rows to the system, so that they survive the end of this program.
     void flush() { out_.flush(); }
 
   private:

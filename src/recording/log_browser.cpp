@@ -24,7 +24,7 @@ LogBrowser::LogBrowser(const std::string& file)
     if (ahead_ == nullptr) throw Error({file, 0}, "", "has no frame", "Give another session.");
     begin_ = end_ = seconds(ahead_->time);
     take();
-    // a chunk that cannot be read has no last frame
+    // a chunk that cannot be read yields no last frame
     for (size_t k = chunks_.size(); k-- > 0 && end_ == begin_;) {
         scout_.go_to(chunks_[k]);
         while (const frame::Frame* frame = scout_.next()) end_ = seconds(frame->time);
@@ -82,7 +82,7 @@ void LogBrowser::take() {
     read_on();
 }
 
-/// Reads the next frame, from the next chunks if this one has no more.
+/// Reads the next frame, from later chunks if this chunk has no more.
 void LogBrowser::read_on() {
     ahead_ = reader_.next();
     while (ahead_ == nullptr && chunk_ < chunks_.size()) {

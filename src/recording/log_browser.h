@@ -34,11 +34,11 @@ class LogBrowser {
     RawLogReader reader_;
     RawLogReader scout_;  // reads the times of chunks
     std::vector<ChunkPlace> chunks_;
-    std::vector<double> times_;  // of chunks' first frames, as far as they are known; else NaN [s]
+    std::vector<double> times_;  // of the chunks' first frames; NaN if not yet known [s]
     double begin_ = 0;
     double end_ = 0;
-    size_t chunk_ = 0;                     // that reader_ reads after this one
-    frame::Frame now_;                     // what at() gave last
+    size_t chunk_ = 0;                     // the chunk that reader_ reads next
+    frame::Frame now_;                     // the last frame that at() returned
     const frame::Frame* ahead_ = nullptr;  // the frame after it; null: there is none
 };
 

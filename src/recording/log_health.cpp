@@ -34,8 +34,8 @@ namespace {
 
 std::string why(const Gap& gap) {
     if (gap.damaged_bytes > 0)
-        return counted(gap.damaged_bytes, "byte") + " of the log are damaged there";
-    if (gap.chunks > 0) return counted(gap.chunks, "chunk") + " of the log gone there";
+        return counted(gap.damaged_bytes, "byte") + " in the log are damaged there";
+    if (gap.chunks > 0) return counted(gap.chunks, "chunk") + " missing from the log there";
     return "the recorder could not keep up";
 }
 
@@ -46,33 +46,33 @@ std::string describe(const Stray& stray) {
     switch (stray.kind) {
         case Stray::Kind::moved:
             return fmt::format(
-                "{} of the log not in place, from {:.3f} s on: used in the order of their numbers",
+                "{} out of place in the log, from {:.3f} s on: used in the order of their numbers",
                 chunks, from);
         case Stray::Kind::doubled:
-            return fmt::format("{} of the log there twice, from {:.3f} s on: used once", chunks,
-                               from);
+            return fmt::format("{} in the log twice, from {:.3f} s on: used once", chunks, from);
         case Stray::Kind::foreign:
-            return fmt::format("{} of another session in the log ({}), from {:.3f} s on: left out",
-                               chunks, bytes, from);
+            return fmt::format(
+                "{} from another session in the log ({}), from {:.3f} s on: left out", chunks,
+                bytes, from);
         case Stray::Kind::after_end:
-            return fmt::format("{} behind the log's end mark, at {:.3f} s: left out", bytes, from);
+            return fmt::format("{} after the log's end mark, at {:.3f} s: left out", bytes, from);
         case Stray::Kind::no_chunk:
             return fmt::format("{} in the log that no recorder wrote, from {:.3f} s on: left out",
                                bytes, from);
         case Stray::Kind::no_frame:
             return fmt::format(
-                "{} of the log with a right checksum and what is no frame, from {:.3f} s on: used "
-                "up to that",
+                "{} in the log with a correct checksum but an invalid frame, from {:.3f} s on: "
+                "used up to that frame",
                 chunks, from);
         case Stray::Kind::backwards:
             break;
     }
-    return fmt::format("{} in the log no later than the one before, from {:.3f} s on: left out",
+    return fmt::format("{} in the log no later than the previous one, from {:.3f} s on: left out",
                        counted(stray.count, "frame"), from);
 }
 
 void describe_gaps(std::vector<std::string>& out, const LogHealth& health) {
-    constexpr size_t kMostGaps = 10;  // more say no more
+    constexpr size_t kMostGaps = 10;  // a longer list would not help
     for (size_t i = 0; i < health.gaps.size() && i < kMostGaps; ++i) {
         const Gap& gap = health.gaps[i];
         out.push_back(fmt::format("{} missing from tick {} on, between {:.3f} s and {:.3f} s: {}",
@@ -102,11 +102,11 @@ void describe_end(std::vector<std::string>& out, const LogHealth& health, int64_
                                   counted(health.tail_ticks, "tick")));
     }
     if (health.tail_chunks > 0) {
-        out.push_back(fmt::format("{} gone before the log's end mark, after {:.3f} s",
+        out.push_back(fmt::format("{} missing before the log's end mark, after {:.3f} s",
                                   counted(health.tail_chunks, "chunk"), end));
     }
     if (health.complete && health.written >= 0 && health.written != health.frames) {
-        out.push_back(fmt::format("the log's end mark tells of {}; {} were read",
+        out.push_back(fmt::format("the log's end mark states {}; {} were read",
                                   counted(health.written, "frame"), health.frames));
     }
     if (!health.complete && ticks == 0) {
@@ -134,14 +134,13 @@ std::vector<std::string> describe_version(const LogHealth& health) {
     std::vector<std::string> out;
     if (!health.not_recorded.empty()) {
         out.push_back(fmt::format(
-            "another version recorded this: it did not record {}, which {} at the "
-            "default wherever it is shown",
+            "another version made this recording: it did not record {}, which {} shown at the "
+            "default everywhere",
             fmt::join(health.not_recorded, ", "), health.not_recorded.size() == 1 ? "is" : "are"));
     }
     if (!health.passed_over.empty()) {
         out.push_back(
-            fmt::format("another version recorded this: what it recorded of {} is left "
-                        "out",
+            fmt::format("another version made this recording: its data on {} are left out",
                         fmt::join(health.passed_over, ", ")));
     }
     return out;
@@ -149,8 +148,9 @@ std::vector<std::string> describe_version(const LogHealth& health) {
 
 std::string describe_left_out(int64_t ticks, double period) {
     if (ticks == 0) return "";
-    return fmt::format("{} ({:.1f} ms) never were: the servo was late, and went on with the next",
-                       counted(ticks, "tick"), static_cast<double>(ticks) * period * 1e3);
+    return fmt::format(
+        "{} ({:.1f} ms) never took place: the servo was late, and continued with the next",
+        counted(ticks, "tick"), static_cast<double>(ticks) * period * 1e3);
 }
 
 }  // namespace dihaptic::recording

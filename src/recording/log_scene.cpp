@@ -16,7 +16,8 @@ bool fits(const LogHead& head, const scene::Scene& scene) {
 
 void check_fits(const LogHead& head, const scene::Scene& scene, const std::string& file) {
     if (fits(head, scene)) return;
-    throw Error({file, 0}, "", "has other fingers, bodies or joints than the session's scene.yaml",
+    throw Error({file, 0}, "",
+                "has different fingers, bodies or joints from the session's scene.yaml",
                 "Put this session's own log back.");
 }
 

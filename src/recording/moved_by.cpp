@@ -5,9 +5,9 @@
 namespace dihaptic::recording {
 
 const std::array<Table::Column, 2> kMovedByColumns{
-    {{"simulated", "yes: no person took part; no: a person did; empty: not recorded"},
+    {{"simulated", "yes: no person took part; no: a person took part; empty: not recorded"},
      {"moved_by",
-      "what moved the hand: devices or mouse (a person did), recorded_movement, script, "
+      "source of the hand's movement: devices or mouse (a person), recorded_movement, script, "
       "simulated_person; empty: not recorded"}}};
 
 std::string MovedBy::describe() const {

@@ -43,7 +43,7 @@ void mark(hid_t object, const std::string& type, const std::string& space = "cor
     write_attribute(object, "object_id", new_uuid());
 }
 
-/// NWB's words for SI units; the same as here for the rest.
+/// NWB's words for SI units; other units keep their symbols.
 std::string nwb_unit(const std::string& unit) {
     static const std::map<std::string, std::string> kWords{{"m", "meters"},
                                                            {"m/s", "meters/second"},
@@ -56,10 +56,10 @@ std::string nwb_unit(const std::string& unit) {
     return found == kWords.end() ? unit : found->second;
 }
 
-/// One series of a tick's values.
+/// One series, with a value for each tick.
 class Series {
   public:
-    /// `frame`: the frame in whose axes positions are given; "" if it is not a position.
+    /// `frame`: the frame in whose axes positions are given; "" if the quantity is not a position.
     Series(hid_t acquisition, const std::string& name, size_t columns, const std::string& unit,
            const std::string& description, const std::string& frame,
            hdf5::Numbers numbers = hdf5::Numbers::real)
@@ -128,8 +128,8 @@ class ListColumns {
 };
 
 /// A list with any number of items per tick becomes a table with a row for each item. As a series
-/// it would often have more columns than rows, which readers of NWB take for a series whose time
-/// runs along its columns.
+/// it would often have more columns than rows, and readers of NWB would take its columns for points
+/// in time.
 class ListTable {
   public:
     ListTable(hid_t acquisition, const std::string& name, const std::string& meaning,
@@ -212,7 +212,7 @@ class FrameExporter {
                  const std::vector<uint16_t>&, const char*) {
         each_of(head_.bodies, name, bodies);
     }
-    /// Lists of any length: a table for each, once there is an item.
+    /// Writes each list of variable length to a table, created at its first item.
     template <class T>
     void each(const char* name, const std::vector<T>& items, const char* meaning) {
         for (const T& item : items) {
@@ -257,8 +257,8 @@ class FrameExporter {
     }
     static std::string reference_frame(const std::string& frame) {
         if (frame == "D") {
-            return "Device: its own axes, from its own origin; general/devices and the rig in the "
-                   "session's folder say where that stands in the world.";
+            return "Device: its own axes, from its own origin, whose pose in the world is in "
+                   "general/devices and in the rig in the session's folder.";
         }
         return "World: x right, y away from the person, z up; origin on the table top.";
     }
@@ -271,7 +271,9 @@ class FrameExporter {
         if (!codes.empty()) words += " " + codes + ".";
         const std::string field = list_ ? name + " of " + list_ : name;
         if (std::find(not_recorded_.begin(), not_recorded_.end(), field) != not_recorded_.end())
-            words += " The version that recorded this session did not record it: a default.";
+            words +=
+                " The version that recorded this session did not record this quantity: the values "
+                "are defaults.";
         return words;
     }
 
@@ -279,7 +281,7 @@ class FrameExporter {
     const LogHead& head_;
     std::vector<std::string> not_recorded_;
     std::vector<std::string> turning_;
-    const char* list_ = nullptr;         // that is visited
+    const char* list_ = nullptr;         // the list being visited
     const std::string* item_ = nullptr;  // name of its item
     std::vector<Series> series_;
     size_t next_ = 0;
@@ -289,7 +291,7 @@ class FrameExporter {
     FrameRow row_;
 };
 
-/// Columns that count or number something.
+/// Columns with counts or numbers of items.
 bool is_whole(const std::string& column) {
     return column == "trial" || column == "attempt" || column.ends_with("_num") ||
            column == "trial_num_in_block";
@@ -331,7 +333,7 @@ void write_dynamic_table(hid_t parent, const std::string& name, const Table& tab
     }
 }
 
-/// Fingers, bodies and joints, so that a reader need not have the log too.
+/// Fingers, bodies and joints, so that a reader does not need the log as well.
 Table items_of(const LogHead& head) {
     Table out{
         {{"list", "fingers, turns (fingers whose devices measure orientation), bodies, joints"},
@@ -347,7 +349,7 @@ Table items_of(const LogHead& head) {
     return out;
 }
 
-/// As far as known.
+/// The subject, as far as known.
 void write_study(hid_t general, const Study& study) {
     if (!study.experimenters.empty()) write_dataset(general, "experimenter", study.experimenters);
     if (!study.institution.empty()) write_dataset(general, "institution", study.institution);
@@ -370,7 +372,7 @@ void write_general(hid_t file, const SessionInfo& info, const std::string& sessi
     write_dataset(subject, "subject_id",
                   info.participant.id.empty() ? "unknown" : info.participant.id);
     write_dataset(subject, "description", info.moved_by.describe());
-    // only a person has one
+    // only a person has a species
     if (info.moved_by.person()) write_dataset(subject, "species", "Homo sapiens");
     write_dataset(subject, "sex", info.participant.sex.empty() ? "U" : info.participant.sex);
     if (!info.participant.age.empty()) {
@@ -419,16 +421,16 @@ void write_file(const std::string& name, const std::string& session, RawLogReade
         write_dynamic_table(intervals, "trials", content.trials, "TimeIntervals", "core",
                             "The trials, in order.");
         write_dynamic_table(intervals, "phases", content.phases, "TimeIntervals", "core",
-                            "What each trial is made of.");
-        write_dynamic_table(intervals, "events", content.events, "TimeIntervals", "core",
-                            "What happened, and when it was seen: moments, which stop when they "
-                            "start.");
+                            "The phases of each trial.");
+        write_dynamic_table(
+            intervals, "events", content.events, "TimeIntervals", "core",
+            "Events, and when they were seen: moments, which stop when they start.");
         const Id scratch = create_group(file, "scratch");
         write_dynamic_table(scratch, "settings", content.settings, "DynamicTable", "hdmf-common",
-                            "Every setting of the session, and where it came from.");
+                            "Every setting of the session, with its origin.");
         if (const Table items = items_of(log.head()); !items.rows.empty()) {
             write_dynamic_table(scratch, "items", items, "DynamicTable", "hdmf-common",
-                                "What has names in acquisition, in the order of its indices.");
+                                "The named items in acquisition, in the order of their indices.");
         }
         hdf5::flush(file);
     }
@@ -454,7 +456,7 @@ void write_nwb(const SessionFolder& folder, const NwbContent& content,
     const Emptied emptied{output.path()};
     const auto failed = [&](const std::string& why, int error) {
         return Error({folder.nwb(), 0}, "", "cannot be written: " + why,
-                     "raw.log has all of it: " + make_room(error) +
+                     "raw.log has all data: " + make_room(error) +
                          ", then run: dihaptic recover " + shell_file(folder.path()));
     };
     try {

@@ -26,8 +26,8 @@ struct NwbContent {
     Table settings;  ///< name, value, origin
 };
 
-/// Writes the file from the folder's raw.log, replacing an old one only when it is complete.
-/// `progress` gets the share done. Throws Error when it cannot be written; an old file then stays.
+/// Writes the file from the folder's raw.log; an old file is replaced only once the new one is
+/// complete. `progress` receives the share done. Throws Error when the file cannot be written.
 void write_nwb(const SessionFolder& folder, const NwbContent& content,
                const std::function<void(double)>& progress);
 

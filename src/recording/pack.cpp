@@ -8,7 +8,7 @@
 namespace dihaptic::recording {
 namespace {
 
-/// Level 3 takes twice the time and saves two percent of the length.
+/// Level 3 would take twice the time and save two percent of the length.
 constexpr int kLevel = 1;
 
 }  // namespace
@@ -74,7 +74,7 @@ bool Unpacker::restore(std::span<const std::byte> blocks) {
         blocks = blocks.subspan(sizeof(head));
         const size_t records = head[0];
         const size_t bytes = head[1];
-        // Records without bytes could be any number.
+        // Empty records could claim to be any number.
         if (records == 0 || bytes == 0 || blocks.size() / bytes < records) return false;
         const size_t first = records_.size();
         const size_t stride = sizeof(uint32_t) + bytes;

@@ -1,7 +1,7 @@
-// Packs the records of a log's chunk. Records of one length that follow each other are transposed:
-// the first bytes of all of them stand together, then the second bytes, and so on. Then zstd
-// compresses the result. Most bytes of a frame stay the same from tick to tick, so a packed chunk
-// has about a quarter of its original length.
+// Packs the records of a log's chunk. Consecutive records of the same length are transposed: first
+// come the first bytes of all of them, then the second bytes, and so on. Then zstd compresses the
+// result. Most bytes of a frame stay the same from tick to tick, so a packed chunk has about a
+// quarter of its original length.
 //
 //   packed   one zstd frame of blocks: u32 number of records, u32 bytes of each, transposed bytes
 #pragma once
@@ -18,7 +18,7 @@ struct ZSTD_DCtx_s;
 
 namespace dihaptic::recording {
 
-/// Largest size of the unpacked records [bytes]; data that claims more is not a pack.
+/// Largest size of the unpacked records [bytes]; data that claim more are not a pack.
 constexpr size_t kMostUnpacked = 64u << 20;
 
 class Packer {
@@ -38,7 +38,7 @@ class Packer {
   private:
     struct Block {
         uint32_t records = 0;
-        uint32_t bytes = 0;  ///< of each
+        uint32_t bytes = 0;  ///< bytes of each record
     };
     std::vector<std::byte> records_;
     std::vector<Block> blocks_;

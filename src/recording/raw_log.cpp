@@ -29,7 +29,7 @@ void write_all(int descriptor, const void* data, size_t size, const std::string&
         if (n < 0 && errno == EINTR) continue;
         if (n < 0) {
             throw Error({file, 0}, "", fmt::format("cannot be written: {}", std::strerror(errno)),
-                        "What was written before is kept: " + make_room(errno) +
+                        "Earlier data are kept: " + make_room(errno) +
                             ", then run 'dihaptic recover' on the session's folder.");
         }
         at += n;
@@ -37,7 +37,7 @@ void write_all(int descriptor, const void* data, size_t size, const std::string&
     }
 }
 
-/// Names become parts of other files' names, and counts the sizes of what is read.
+/// Checks the setup, because names become parts of file names, and counts become sizes of buffers.
 void check_head(const LogHead& head, const std::string& file) {
     constexpr size_t kMost = 65535;  // bodies are counted by two bytes
     const auto check = [&](const char* key, const std::vector<std::string>& names) {
@@ -50,8 +50,9 @@ void check_head(const LogHead& head, const std::string& file) {
                    });
         }
         if (good) return;
-        throw Error({file, 0}, key, "are not what a session can have: too many, or no names",
-                    "Put a backup of the log in its place.");
+        throw Error({file, 0}, key,
+                    "are not valid for a session: there are too many, or they are not names",
+                    "Replace it with a backup.");
     };
     check("fingers", head.fingers);
     check("bodies", head.bodies);
@@ -59,7 +60,7 @@ void check_head(const LogHead& head, const std::string& file) {
     check("devices", head.turning_fingers());
     if (head.devices.size() <= head.fingers.size()) return;
     throw Error({file, 0}, "devices", "are more than the fingers that they hold",
-                "Put a backup of the log in its place.");
+                "Replace it with a backup.");
 }
 
 }  // namespace
@@ -222,14 +223,14 @@ void RawLogReader::note_end() {
     int64_t wanted = 0;
     health_.unfinished = chunks_.tail_is_unfinished(wanted);
     health_.tail_bytes = bytes;
-    health_.tail_ticks = ticks_in(wanted > 0 ? wanted : bytes);  // as many as it was to have
+    health_.tail_ticks = ticks_in(wanted > 0 ? wanted : bytes);  // as many as it was meant to have
 }
 
 int64_t RawLogReader::ticks_in(int64_t bytes) const {
     return read_bytes_ == 0 ? 0 : bytes * health_.frames / read_bytes_;
 }
 
-/// Sets unknown values of bodies to NaN: those of all bodies, or of those that this frame lacks.
+/// Sets unknown values of bodies to NaN: of all bodies, or of the bodies that this frame lacks.
 void RawLogReader::forget_bodies(bool all) {
     const Vec3 unknown = Vec3::Constant(kUnmeasured);
     for (size_t i = 0; i < frame_.bodies.size(); ++i) {
@@ -245,13 +246,13 @@ void RawLogReader::note_frame() {
     const Time period = from_seconds(head_.tick);
     const Time last = health_.frames > 0 ? health_.last_time : -period;
     const int64_t missing = frame_.sequence - health_.last_tick - 1;
-    // devices that pace have their own period, so whole ticks are counted
+    // devices that set the pace have their own period, so whole ticks are counted
     const int64_t periods = (frame_.time - last + period / 2) / period;
     health_.left_out += std::max<int64_t>(0, periods - missing - 1);
     if (missing > 0) {
         health_.gaps.push_back(
             {health_.last_tick + 1, missing, health_.last_time, frame_.time, damaged_, gone_});
-        forget_bodies(false);  // those may have moved
+        forget_bodies(false);  // these bodies may have moved
     } else if (damaged_ > 0) {
         health_.note(Stray::Kind::no_chunk, 0, damaged_);
     }
@@ -261,7 +262,8 @@ void RawLogReader::note_frame() {
     health_.last_time = frame_.time;
 }
 
-/// The next record; false when it is no frame of this session that can follow the one before.
+/// Reads the next record; false unless it is a frame of this session that can follow the previous
+/// one.
 bool RawLogReader::read_frame() {
     uint32_t length = 0;
     if (rest_.size() >= sizeof(length)) std::memcpy(&length, rest_.data(), sizeof(length));

@@ -1,10 +1,10 @@
 // Writes and reads raw.log, the record of a session while it runs. It is append-only, in chunks
 // with a checksum, their session and their number (chunk.h), so that everything written before a
-// crash can be read after it, and nothing else is mistaken for it.
+// crash can be read afterwards, and nothing else is mistaken for the session's data.
 //
 //   kinds   head: YAML (layout, tick, names, setup, schema)   first chunk
 //           data: records, each u32 length and a frame (codec.h, schema.h)
-//           pack: such records, packed (pack.h); this is what is written today
+//           pack: such records, packed (pack.h); written today
 //           done: i64 number of frames                   last chunk of a session that ended
 //
 // A damaged chunk is skipped: the reader continues with the next one. The first frame of a chunk
@@ -70,10 +70,10 @@ class RawLogWriter {
 
     /// Adds an encoded frame to the chunk that is being filled. Throws Error if the disk is full.
     void add(std::span<const std::byte> frame);
-    /// Packs the chunk and passes it to the operating system; from now on it survives the end of
+    /// Packs the chunk and passes it to the operating system; from then on it survives the end of
     /// this program.
     void flush();
-    /// Synchronises what was written to the disk; from now on it survives a loss of power. May be
+    /// Synchronises the written data to the disk; from then on they survive a loss of power. May be
     /// called from any thread until finish(). Throws Error if the disk fails.
     void sync() const;
     /// Writes the end mark, and synchronises.
@@ -87,34 +87,34 @@ class RawLogWriter {
     std::string file_;
     int descriptor_ = -1;
     uint64_t session_ = 0;
-    uint32_t number_ = 0;  // of the next chunk
+    uint32_t number_ = 0;  // number of the next chunk
     Packer packer_;
     int64_t frames_ = 0;
 };
 
 class RawLogReader {
   public:
-    /// Throws Error if the file is not a log, or does not say what its frames are made of.
+    /// Throws Error if the file is not a log, or does not describe the contents of its frames.
     explicit RawLogReader(const std::string& file);
 
     const LogHead& head() const { return head_; }
     /// Returns the next frame, valid until the next call; null at the end of what can be read.
     const frame::Frame* next();
-    /// What was found so far. Statements about the end are valid once next() has returned null.
+    /// The findings so far. Statements about the end are valid once next() has returned null.
     const LogHealth& health() const { return health_; }
-    /// Reads the rest of the log, and returns what was found.
+    /// Reads the rest of the log, and returns the findings.
     const LogHealth& read_to_end();
     /// Share of the file that has been read, from 0 to 1.
     double share() const { return chunks_.share(); }
 
-    /// Where the chunks with frames are, in their order.
+    /// Positions of the chunks with frames, in order.
     std::vector<ChunkPlace> places() const { return chunks_.places(); }
-    /// The place of the chunk with frames that follows `last` (null: the first one), in a log that
-    /// may still be written; nullopt as long as it is not complete.
+    /// The position of the chunk with frames that follows `last` (null: the first one), in a log
+    /// that may still be growing; nullopt as long as the chunk is incomplete.
     std::optional<ChunkPlace> following(const ChunkPlace* last) { return chunks_.following(last); }
-    /// Makes next() give the frames of this chunk alone. `follows`: it comes directly after what
-    /// was read last, so that bodies keep their state; otherwise the findings of health() are
-    /// forgotten.
+    /// Makes next() return the frames of this chunk alone. `follows`: the chunk directly follows
+    /// the last one read, so that bodies keep their state; otherwise the findings of health() are
+    /// discarded.
     void go_to(const ChunkPlace& place, bool follows = false);
 
   private:
@@ -134,13 +134,13 @@ class RawLogReader {
     Layout layout_;
     std::optional<FrameDecoder> decoder_;
     Unpacker unpacker_;
-    std::span<const std::byte> rest_;  // the records of the chunk that are left
+    std::span<const std::byte> rest_;  // the remaining records of the chunk
     bool ended_ = false;
     frame::Frame frame_;
     LogHealth health_;
-    int64_t damaged_ = 0;     // bytes since the last frame
-    int64_t gone_ = 0;        // chunks since the last frame
-    int64_t read_bytes_ = 0;  // of the chunks whose frames were read
+    int64_t damaged_ = 0;     // damaged bytes since the last frame
+    int64_t gone_ = 0;        // missing chunks since the last frame
+    int64_t read_bytes_ = 0;  // bytes of the chunks whose frames were read
 };
 
 }  // namespace dihaptic::recording

@@ -11,7 +11,7 @@ size_t most_contacts(const LogHead& head) {
     return 64 + 8 * (head.fingers.size() + head.bodies.size());
 }
 
-/// A second of frames, even while the disk is busy.
+/// Room for a second of frames, while the disk is busy.
 size_t ring_frames(const LogHead& head) {
     return static_cast<size_t>(std::ceil(1 / head.tick));
 }

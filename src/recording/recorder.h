@@ -18,8 +18,8 @@ namespace dihaptic::recording {
 enum class Writing { in_place, in_thread };
 
 /// A chunk is packed and passed to the operating system this often, so a crash can lose little more
-/// than that. Equally often a frame has all bodies, changed or not, so that what follows a damaged
-/// chunk can be read.
+/// than that. Equally often a frame has all bodies, changed or not, so that the data after a
+/// damaged chunk can be read.
 constexpr Time kFlushEvery = std::chrono::milliseconds(50);
 /// How often the thread empties the ring.
 constexpr Time kDrainEvery = std::chrono::milliseconds(5);
@@ -35,7 +35,7 @@ class Recorder {
     /// a thread, record() neither waits nor allocates, and a frame that finds the ring full is
     /// dropped and counted too; in place, it throws Error when the disk is full.
     void record(const frame::Frame& frame);
-    /// True once writing has failed: stop the session; finish() then throws the reason.
+    /// True once writing has failed: the session must stop, and finish() throws the reason.
     bool failed() const noexcept { return failed_.load(std::memory_order_relaxed); }
     /// Writes the rest, and the end mark. Throws the error that the thread met, if any.
     void finish();
@@ -51,8 +51,8 @@ class Recorder {
 
     RawLogWriter log_;
     Writing writing_;
-    std::vector<std::byte> encoded_;   // servo's side
-    std::vector<std::byte> received_;  // thread's side
+    std::vector<std::byte> encoded_;   // used by the servo
+    std::vector<std::byte> received_;  // used by the thread
     Time last_whole_{0};
     bool whole_next_ = true;
     Ring ring_;
@@ -62,7 +62,7 @@ class Recorder {
     std::exception_ptr error_;
     std::exception_ptr sync_error_;
     std::thread thread_;
-    std::mutex done_mutex_;  // for the wait of the thread that synchronises
+    std::mutex done_mutex_;  // for the waiting of the synchronising thread
     std::condition_variable done_condition_;
     std::thread sync_thread_;
 };

@@ -5,7 +5,7 @@
 namespace dihaptic::recording {
 namespace {
 
-/// Lists fields; visits one item of each list.
+/// Lists the fields, visiting one item of each list.
 class Lister {
   public:
     template <class T>

@@ -17,7 +17,7 @@
 
 namespace dihaptic::recording {
 
-/// What follows the name of a list.
+/// The text after the name of a list.
 constexpr const char* kEachFollows = "uint16 count, then each:";
 constexpr const char* kChangedFollow =
     "uint16 count, then uint16 index and item of each that changed:";

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kMade[] = {"trials.csv", "phases.csv", "episodes.csv",
                                       "lifts.csv",  "events.csv", "fault.csv"};
-/// Made before the first tick, or while the session ran.
+/// Tables made before the first tick, or while the session ran.
 constexpr std::string_view kGiven[] = {"procedures.csv", "trials-before.csv", "movement-faults.csv",
                                        "shown.csv",      "head.csv",          "heard.csv"};
 
@@ -33,7 +33,7 @@ int rows_of(std::string_view csv) {
     return std::max(0, lines - 1);
 }
 
-/// Throws Error when it cannot be read.
+/// Throws Error when the file cannot be read.
 TableSeal seal_of(const SessionFolder& folder, const std::string& name) {
     const std::string csv = read_bytes(folder.file(name), kMostTable);
     return {name, rows_of(csv), checksum_of(csv)};
@@ -44,7 +44,7 @@ const TableSeal* find(const SessionInfo& info, std::string_view name) {
     return found == info.tables.end() ? nullptr : &*found;
 }
 
-/// The seal of session.yaml's own.
+/// The seal of session.yaml itself.
 std::string seal_of(const SessionInfo& info) {
     std::string all = fmt::format("{}\n{}\n{}\n{}\n{}\n{}\n", info.identity, info.participant.id,
                                   info.seed, info.program, enum_name(info.state), info.ticks);
@@ -57,17 +57,17 @@ std::string seal_of(const SessionInfo& info) {
 
 std::string remedy_for(const SessionFolder& folder, bool can_be_made) {
     if (can_be_made && is_there(folder.raw_log()))
-        return "Make it anew from raw.log: dihaptic recover " + shell_file(folder.path());
-    return "Restore it from a backup. If there is none, the session has to be done again; of a "
-           "simulated person, remove the folder and type the rehearsal's command.";
+        return "Rebuild it from raw.log: dihaptic recover " + shell_file(folder.path());
+    return "Restore it from a backup. If there is none, the session has to be repeated; if a "
+           "simulated person took part, remove the folder and repeat the rehearsal's command.";
 }
 
-/// What is wrong with a table; "" if it is intact.
+/// The fault of a table; "" if it is intact.
 std::string fault_of(const SessionFolder& folder, std::string_view name, const TableSeal* sealed) {
     const std::string file(name);
     const bool there = is_there(folder.file(file));
     if (sealed == nullptr)
-        return there ? "was not there when the session ended: it is of something else" : "";
+        return there ? "did not exist when the session ended: it belongs to something else" : "";
     const std::string then =
         fmt::format("it had {} when the session ended", counted(sealed->rows, "row"));
     if (!there) return "is gone: " + then;
@@ -132,13 +132,12 @@ std::vector<Problem> broken_own_seal(const SessionFolder& folder, const SessionI
                                      Severity severity) {
     if (!is_sealed(info) || seal_of(info) == info.seal) return {};
     const std::string again =
-        "Put it back as it was; if it was changed on purpose, this seals it anew: dihaptic "
-        "recover ";
+        "Restore the old version; if it was changed on purpose, seal it again: dihaptic recover ";
     return {{severity,
              {folder.file("session.yaml"), 0},
              "seal",
-             "does not fit: the session's identity, participant, seed, program, state, ticks, "
-             "inputs or list of tables was changed since it ended",
+             "does not match: the session's identity, participant, seed, program, state, ticks, "
+             "inputs or list of tables has been changed since it ended",
              is_there(folder.raw_log()) ? again + shell_file(folder.path())
                                         : remedy_for(folder, false)}};
 }

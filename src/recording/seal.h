@@ -1,11 +1,11 @@
-// Detects whether the tables of a session, or what session.yaml says about it, changed after it
+// Detects whether the tables of a session, or its description in session.yaml, changed after it
 // ended. Each chunk of raw.log has a checksum, but a rehearsal keeps no log, only tables. Tables
 // are therefore sealed in session.yaml:
 //
-//   tables:                        of each table its rows, and a checksum of its bytes
+//   tables:                        for each table, its rows and a checksum of its bytes
 //     - { file: trials.csv, rows: 24, checksum: 0a1b2c3d }
-//   seal: 4e5f6a7b                 a checksum of session.yaml's own (identity, participant, seed,
-//                                  program, state, ticks, inputs) and of the list above
+//   seal: 4e5f6a7b                 a checksum of session.yaml's own data (identity, participant,
+//                                  seed, program, state, ticks, inputs) and of the list above
 //
 // Checksums reveal damage, a spreadsheet that saved what it should only display, and files of
 // another session. They do not prevent forgery: whoever forges a table can seal it too.
@@ -25,12 +25,13 @@ std::vector<std::string> tables_from_log();
 /// The sealed tables that were made before the first tick, or while the session ran.
 std::vector<std::string> other_tables();
 
-/// Seals a session's tables as they are now. Those that were made before its first tick or while it
-/// ran, and that are already in `info.tables`, keep their seal, because nothing can make them
-/// again.
+/// Seals the current state of a session's tables. Tables that were made before its first tick or
+/// while it ran, and that are already in `info.tables`, keep their seal, because they cannot be
+/// made again.
 void seal(const SessionFolder& folder, SessionInfo& info);
 
-/// Whether the session has seals. It has none while it runs, and if an older version recorded it.
+/// Whether the session has seals. A running session has none, nor has one recorded by an older
+/// version.
 bool is_sealed(const SessionInfo& info);
 
 /// A problem if session.yaml has a seal that does not match.
@@ -42,7 +43,7 @@ std::vector<Problem> broken_own_seal(const SessionFolder& folder, const SessionI
 std::vector<Problem> broken_seals(const SessionFolder& folder, const SessionInfo& info,
                                   Severity severity, std::span<const std::string_view> only = {});
 
-/// As broken_seals(), for the tables that cannot be made again from raw.log.
+/// Like broken_seals(), for the tables that cannot be made again from raw.log.
 std::vector<Problem> broken_for_good(const SessionFolder& folder, const SessionInfo& info,
                                      Severity severity);
 

@@ -24,7 +24,7 @@ namespace dihaptic::recording {
 namespace fs = std::filesystem;
 namespace {
 
-/// End of session.yaml (YAML's mark of a document's end): a file without it was cut off.
+/// Last line of session.yaml (YAML's end-of-document mark): a file without it was cut off.
 constexpr const char* kEnd = "...\n";
 
 /// Text of the file; "" if it cannot be read.
@@ -62,8 +62,8 @@ struct ReadablePart {
     bool given_up = false;  ///< too many keys were damaged: the rest was not examined
 };
 
-/// What can be read of a damaged session.yaml: all keys except the damaged ones, and the first
-/// lines of those.
+/// The readable part of a damaged session.yaml: all intact keys, and the first lines of the damaged
+/// ones.
 ReadablePart readable_part(const std::string& text) {
     ReadablePart out;
     const auto take = [&](const Node& part) {
@@ -72,7 +72,7 @@ ReadablePart readable_part(const std::string& text) {
     const auto begins_key = [&](size_t at) {
         return std::isalpha(static_cast<unsigned char>(text[at])) != 0;
     };
-    constexpr size_t kLongest = 1'000'000;  // bytes of a key; the program writes none so long
+    constexpr size_t kLongest = 1'000'000;  // bytes in a key; the program writes none this long
     constexpr int kMostDamaged = 100;
     int damaged = 0;
     for (size_t from = 0, to = 0; from < text.size(); from = to) {
@@ -98,7 +98,7 @@ std::string iso(const std::tm& local) {
     return fmt::format("{:%Y-%m-%dT%H:%M:%S}{}:{}", local, offset.substr(0, 3), offset.substr(3));
 }
 
-/// When a session began, by its folder's name; "" when it was renamed.
+/// The start of a session according to its folder's name; "" if the folder was renamed.
 std::string start_by_name(const std::string& path) {
     const std::string name = fs::weakly_canonical(path).filename().string();
     std::tm local{};
@@ -141,13 +141,13 @@ SessionFolder SessionFolder::create(const std::string& parent, const std::string
     const std::string own = fmt::format("{:%Y-%m-%d_%H%M%S}_{}", local, tidy);
     const std::string stem = parent + "/" + own;
     if (parent.empty()) {
-        throw Error({"--out", 0}, "", "names no folder",
-                    "Name one, or leave --out away: sessions go to 'sessions' then.");
+        throw Error({"--out", 0}, "", "does not name a folder",
+                    "Name one, or omit --out: sessions then go to 'sessions'.");
     }
     constexpr size_t kLongest = 250;  // most file systems allow 255; "_2" may follow
     if (own.size() > kLongest) {
         throw Error(
-            "the session's folder would be named for its date, experiment and participant "
+            "the name of the session's folder, from date, experiment and participant, would have "
             "in " +
                 fmt::format("{} characters; {} are allowed", own.size(), kLongest),
             "Shorten --participant, or the experiment file's name.");
@@ -160,10 +160,11 @@ SessionFolder SessionFolder::create(const std::string& parent, const std::string
             if (fs::create_directory(path)) return SessionFolder(path);
         }
     } catch (const fs::filesystem_error& e) {
-        throw Error({parent, 0}, "", "no session folder can be made here: " + e.code().message(),
+        throw Error({parent, 0}, "",
+                    "no session folder can be created here: " + e.code().message(),
                     "Choose another folder with --out.");
     }
-    throw Error({parent, 0}, "", "too many sessions of this second",
+    throw Error({parent, 0}, "", "too many sessions in this second",
                 "Choose another folder with --out.");
 }
 
@@ -205,27 +206,26 @@ SessionInfo SessionFolder::read_info(const Setup& setup, Diagnostics& diagnostic
         if (is_lost) lost += (lost.empty() ? "" : ", ") + std::string(what);
     };
     lose("how many ticks it had", info.ticks == 0);
-    lose("its beginning", info.started.empty());
+    lose("its start", info.started.empty());
     lose("command", info.command.empty());
     lose("participant", info.participant.id.empty());
     lose("notes", info.notes.empty());
     if (info.started.empty()) info.started = "1970-01-01T00:00:00+00:00";
-    diagnostics.warning({file("session.yaml"), 0}, "",
-                        why + ". It is made anew from raw.log" +
-                            (when ? "" : " and the folder's name") +
-                            (part.given_up ? "; it had so many damaged keys that what follows "
-                                             "them was not read"
-                                           : "") +
-                            "; not known any more: " + lost,
-                        "Add by hand what you know.");
+    diagnostics.warning(
+        {file("session.yaml"), 0}, "",
+        why + ". It is rebuilt from raw.log" + (when ? "" : " and the folder's name") +
+            (part.given_up ? "; it had so many damaged keys that the rest was not read" : "") +
+            "; lost: " + lost,
+        "Add what you know by hand.");
     return info;
 }
 
 void SessionFolder::check_log(const SessionInfo& info, const Setup& setup) const {
     // sessions of earlier versions have no identity
     if (info.identity.empty() || setup.identity.empty() || info.identity == setup.identity) return;
-    throw Error({raw_log(), 0}, "", "is of another session than session.yaml beside it",
-                "Put this session's own log back, or the session.yaml of the log's.");
+    throw Error({raw_log(), 0}, "",
+                "belongs to a different session from the session.yaml beside it",
+                "Restore this session's own log, or the session.yaml that belongs to the log.");
 }
 
 void SessionFolder::write_info(const SessionInfo& info) const {
@@ -260,8 +260,8 @@ InputFile SessionFolder::input(const std::string& name) const {
 
 uint64_t SessionFolder::seed_of(const SessionInfo& info) const {
     if (const auto seed = whole_number<uint64_t>(info.seed)) return *seed;
-    throw Error({file("session.yaml"), 0}, "seed", "is no whole number",
-                "Put it back as it was; raw.log has it in its first lines.");
+    throw Error({file("session.yaml"), 0}, "seed", "is not a whole number",
+                "Restore the old value; raw.log has it in its first lines.");
 }
 
 std::vector<Problem> SessionFolder::changed(const std::vector<InputFile>& inputs,
@@ -271,7 +271,7 @@ std::vector<Problem> SessionFolder::changed(const std::vector<InputFile>& inputs
         std::string what;
         try {
             if (input(recorded.file).checksum != recorded.checksum)
-                what = "is not what it was when the session was recorded";
+                what = "has changed since the session was recorded";
         } catch (const Error& e) {
             what = e.problems().front().what;
         }
@@ -280,8 +280,8 @@ std::vector<Problem> SessionFolder::changed(const std::vector<InputFile>& inputs
                            {file(recorded.file), 0},
                            "",
                            what,
-                           "Put the recorded one back: a backup has it, or another session of the "
-                           "same experiment."});
+                           "Restore the recorded version from a backup, or from another session of "
+                           "the same experiment."});
         }
     }
     return out;
@@ -294,7 +294,7 @@ SessionLock::SessionLock(const SessionFolder& folder)
         return;
     ::close(descriptor_);
     throw Error({folder.path(), 0}, "", "is in use: another dihaptic records or recovers it",
-                "Wait until that has ended, or end it.");
+                "Wait until it has ended, or end it.");
 }
 
 SessionLock::~SessionLock() {

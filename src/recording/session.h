@@ -1,6 +1,6 @@
 // The folder that holds a session's files. While the session runs, it has:
 //
-//   session.yaml                       who, when, with what; state: running
+//   session.yaml                       participant, time, inputs; state: running
 //   scene.yaml rig.yaml settings.yaml  frozen inputs, every default resolved
 //   settings.csv                       every setting with its origin
 //   raw.log                            every tick
@@ -40,7 +40,7 @@ struct Participant {
     }
 };
 
-/// A table, as it was when the session ended.
+/// The state of a table when the session ended.
 struct TableSeal {
     std::string file;      ///< name in the session's folder
     int rows = 0;          ///< without its header
@@ -63,10 +63,10 @@ struct SessionInfo : Setup {
     std::string command;       ///< as typed
     Participant participant;
     std::string resumes;             ///< folder of the session that this one resumes
-    std::vector<std::string> notes;  ///< warnings given at the start, and what recovering found
+    std::vector<std::string> notes;  ///< warnings given at the start, and findings of the recovery
     std::string finished;            ///< how the session ended, in words
     std::vector<TableSeal> tables;   ///< once the session has ended (recording/seal.h)
-    std::string seal;                ///< checksum of this file's own, once it has ended
+    std::string seal;  ///< checksum of this file's own data, once the session has ended
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -94,7 +94,7 @@ class SessionFolder {
     static SessionFolder open(const std::string& path);
     /// Opens a folder that may have no log, only tables made from it, like a rehearsal's.
     static SessionFolder open_tables(const std::string& path);
-    /// Makes a new folder in `parent`, named by the time and `name`. Throws Error when it cannot.
+    /// Makes a new folder in `parent`, named by the time and `name`. Throws Error when this fails.
     static SessionFolder create(const std::string& parent, const std::string& name);
 
     const std::string& path() const { return path_; }
@@ -103,8 +103,8 @@ class SessionFolder {
     std::string nwb() const { return file("session.nwb"); }
 
     SessionInfo read_info() const;
-    /// Reads what is left of session.yaml and completes it from `setup`, the log's head; warns of
-    /// what is lost. Throws Error when the log belongs to another session.
+    /// Reads the intact part of session.yaml and completes it from `setup`, the log's head; warns
+    /// of the losses. Throws Error when the log belongs to another session.
     SessionInfo read_info(const Setup& setup, Diagnostics& diagnostics) const;
     /// Throws Error when the log with this head belongs to another session than session.yaml.
     void check_log(const SessionInfo& info, const Setup& setup) const;
@@ -116,9 +116,9 @@ class SessionFolder {
     /// disk.
     void sync() const;
 
-    /// A frozen input as it is now. Throws Error when it cannot be read.
+    /// The current state of a frozen input. Throws Error when it cannot be read.
     InputFile input(const std::string& name) const;
-    /// A problem for each of the inputs that has changed or is gone.
+    /// A problem for each input that has changed or is missing.
     std::vector<Problem> changed(const std::vector<InputFile>& inputs, Severity severity) const;
 
   private:
@@ -128,7 +128,7 @@ class SessionFolder {
 };
 
 /// A lock held by the program that writes a session's files; a second program is refused. The lock
-/// ends with its program, in whatever way that ends.
+/// ends with its program, however the program ends.
 class SessionLock {
   public:
     /// Throws Error when another program holds the lock.

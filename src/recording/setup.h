@@ -1,4 +1,4 @@
-// The description of a session that is known before its first tick. It is in session.yaml and in
+// The description of a session, as known before its first tick. It is stored in session.yaml and in
 // the head of raw.log, so that the log alone can be replayed and recovered.
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace dihaptic::recording {
 
-/// A named stretch of a trial, by the session's clock.
+/// A named stretch of a trial, timed by the session's clock.
 struct PhaseInfo {
     std::string name;
     double start = 0;  ///< time from the trial's beginning [s]
@@ -35,7 +35,7 @@ struct DeviceRecord : frame::DeviceInfo {
     template <class Visitor>
     void visit(Visitor& v) {
         v("finger", finger, Field::text().required());
-        // in recordings without it, late ticks did not soften the coupling
+        // in recordings without this value, late ticks did not soften the coupling
         if constexpr (requires { v.mentions("damping"); }) {
             if (!v.mentions("damping")) damping = std::numeric_limits<double>::infinity();
         }
@@ -43,7 +43,7 @@ struct DeviceRecord : frame::DeviceInfo {
     }
 };
 
-/// A frozen input, in its state when the session began.
+/// A frozen input, in its state at the start of the session.
 struct InputFile {
     std::string file;      ///< name in the session's folder
     std::string checksum;  ///< CRC-32, in hexadecimal
@@ -68,11 +68,11 @@ struct Setup {
     std::vector<PhaseInfo> phases;       ///< phases of every trial
     std::vector<std::string> outcomes;   ///< outcomes of trials, by their index in frames
     std::vector<std::string> messages;   ///< messages to the person, by their index in frames
-    std::vector<std::string> variables;  ///< the task's, by their index in frames
-    std::vector<std::string> levels;     ///< numbers that procedures choose; in frames they follow
-    std::vector<std::string> answers;    ///< and after these what states ask for
-    std::vector<std::string> pages;      ///< pages' texts or pictures, by their index in frames
-    std::vector<std::string> sounds;     ///< sounds' names, by their index in frames
+    std::vector<std::string> variables;  ///< the task's variables, by their index in frames
+    std::vector<std::string> levels;  ///< numbers that procedures choose; in frames after variables
+    std::vector<std::string> answers;  ///< answers that states request; in frames after levels
+    std::vector<std::string> pages;    ///< pages' texts or pictures, by their index in frames
+    std::vector<std::string> sounds;   ///< sounds' names, by their index in frames
     std::vector<InputFile> inputs;
 
     /// Planned length of the session [s]; 0: not known.

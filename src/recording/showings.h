@@ -1,6 +1,6 @@
-// Writes and reads shown.csv, which says when each tick's picture came to the subject's screen. It
-// is written while a session with a window runs. A change in a tick was visible from the first
-// picture of that tick or a later one.
+// Writes and reads shown.csv, with the time when each tick's picture appeared on the subject's
+// screen. It is written while a session with a window runs. A change in a tick was visible from the
+// first picture of that tick or a later one.
 #pragma once
 
 #include <fstream>
@@ -18,8 +18,8 @@ struct Showing {
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
-        v("tick", f.tick, "1", "of the picture");
-        v("shown", f.time, "s", "when the picture was handed to the screen");
+        v("tick", f.tick, "1", "tick of the picture");
+        v("shown", f.time, "s", "session time when the picture was handed to the screen");
     }
 };
 
@@ -27,7 +27,7 @@ class ShowingsWriter {
   public:
     explicit ShowingsWriter(const SessionFolder& folder) : file_(folder.file("shown.csv")) {}
     void add(const Showing& showing);
-    /// Passes what was added to the system, so that it survives the end of this program.
+    /// Passes added rows to the system, so that they survive the end of this program.
     void flush() { out_.flush(); }
 
   private:
@@ -41,8 +41,8 @@ class Showings {
     explicit Showings(const SessionFolder& folder);
 
     bool empty() const { return showings_.empty(); }
-    /// When a change in a tick, at `time` [s], came to the screen [s]; NaN if that took longer than
-    /// kSeen, or if there was no picture before tick `until`, in which the change was gone.
+    /// When a change in a tick, at `time` [s], appeared on the screen [s]; NaN if that took longer
+    /// than kSeen, or if no picture was shown before tick `until`, at which the change was undone.
     double onset(int64_t tick, double time, int64_t until = kStays) const;
     static constexpr int64_t kStays = std::numeric_limits<int64_t>::max();
     static constexpr double kSeen = 1;  // [s]

@@ -308,7 +308,7 @@ std::vector<task::Attempt> attempts_made(const task::TaskPlan& plan, const std::
                                          std::string& checksum) {
     const auto bad = [&](const char* what) {
         return Error({file, 0}, "", what,
-                     "Make it anew from raw.log: dihaptic recover, on the session's folder.");
+                     "Rebuild it from raw.log: dihaptic recover, on the session's folder.");
     };
     const std::string text = read_bytes(file, kMostTable);
     checksum = checksum_of(text);

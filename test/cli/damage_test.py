@@ -125,10 +125,10 @@ class Damage(unittest.TestCase):
             rig.write("# moved a little\n")
         replayed = dihaptic("replay", self.folder)
         self.assertEqual(replayed.returncode, 2)
-        self.assertIn("rig.yaml: error: is not what it was when the session was recorded", replayed.stderr)
+        self.assertIn("rig.yaml: error: has changed since the session was recorded", replayed.stderr)
         recovered = dihaptic("recover", self.folder)
         self.assertEqual(recovered.returncode, 0, recovered.stderr)
-        self.assertIn("rig.yaml: warning: is not what it was", recovered.stderr)
+        self.assertIn("rig.yaml: warning: has changed since", recovered.stderr)
 
     def test_a_session_is_complete_only_with_all_of_its_files(self):
         sizes = [os.path.getsize(self.folder + name) for name in ["raw.log", "session.nwb"]]

@@ -263,7 +263,7 @@ class Seals(unittest.TestCase):
         session = out / "sim-001"
         before = (session / "trials.csv").read_bytes()
         rewritten(session / "trials.csv", with_rows(lambda rows: rows.pop()))
-        self.expect_refused(out, self.folder / "none", f"Make it anew from raw.log: dihaptic recover {session}")
+        self.expect_refused(out, self.folder / "none", f"Rebuild it from raw.log: dihaptic recover {session}")
         replay = dihaptic("replay", str(session))
         self.assertEqual((replay.returncode, replay.stderr.count("warning")), (0, 0), replay.stderr)
         export = dihaptic("export", str(session), "--bids", str(self.folder / "bids"))
@@ -279,7 +279,7 @@ class Seals(unittest.TestCase):
         session = out / "sim-001"
         rewritten(session / "session.yaml", lambda text: text.replace("seed: 1\n", "seed: 2\n"))
         replay = dihaptic("replay", str(session))
-        self.assertIn("session.yaml: warning: seal: does not fit", replay.stderr)
+        self.assertIn("session.yaml: warning: seal: does not match", replay.stderr)
 
     def test_what_is_to_be_typed_is_never_a_strangers(self):
         strange = ["touch PWNED", "/bin/dihaptic rehearse /a.yaml; touch PWNED", "/bin/dihaptic rehearse /a.yaml $(touch PWNED)",

@@ -1,6 +1,6 @@
-// A log that nonsense was written over, as it is and with its checksums made right: nonsense with a
-// right checksum is otherwise never found. The input is a list of edits of five bytes each, or,
-// when it begins with the letter D, a log itself.
+// Reads a log that was overwritten in places with nonsense: once as it is, and once with corrected
+// checksums, because a fuzzer would never find nonsense with a correct checksum. The input is a
+// list of edits of five bytes each, or, when it begins with the letter D, a log itself.
 #include "recording/raw_log.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ namespace {
 using namespace dihaptic;
 using Bytes = std::vector<uint8_t>;
 
-/// Five short chunks of two fingers, of which one device measures orientation, and three bodies.
+/// Five short chunks with three bodies and two fingers; one finger's device measures orientation.
 Bytes written() {
     const TemporaryFolder folder;
     const std::string file = folder.file("raw.log");
@@ -47,21 +47,20 @@ Bytes written() {
     writer.finish();
     recording::RawLogReader reader(file);
     for (int i = 0; i < 10; ++i) {
-        if (reader.next() == nullptr)
-            std::abort();  // nothing that is read of it would mean a thing
+        if (reader.next() == nullptr) std::abort();  // nothing read from it would have any meaning
     }
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The same log with its records as they are: there nonsense in a frame is found.
+/// The same log with unpacked records, so that nonsense in a frame is found.
 Bytes unpacked(const Bytes& log) {
     const auto chunks = testing::take_apart({log.begin(), log.end()});
     const testing::Bytes out = testing::put_together(chunks);
     return {out.begin(), out.end()};
 }
 
-/// What an edit does at the place that its bytes 1 and 2 give, with its bytes 3 and 4.
+/// Applies an edit at the position given by its bytes 1 and 2, with its bytes 3 and 4.
 enum class Edit { set_byte, set_word, cut_off, remove, repeat };
 
 void apply(std::span<const uint8_t> edit, Bytes& log) {
@@ -92,7 +91,7 @@ void apply(std::span<const uint8_t> edit, Bytes& log) {
     }
 }
 
-/// And sessions: of each chunk, from the first one on, for as long as one follows the other.
+/// Corrects the session of each chunk too, from the first one on, as long as chunks are adjacent.
 void make_checksums_right(Bytes& log) {
     using recording::ChunkHeader;
     std::optional<uint64_t> session;
@@ -117,7 +116,7 @@ void read(const Bytes& log) {
         }
         (void)reader.share();
     } catch (const Error&) {
-        // said with file, line and remedy: as it should be
+        // an error with file, line and remedy is the intended outcome
     }
 }
 

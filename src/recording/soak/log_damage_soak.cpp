@@ -1,4 +1,4 @@
-// Logs that were damaged in thousands of ways: all of it is told, and none of it crashes.
+// Damages logs in thousands of ways: every fault must be reported, and none may cause a crash.
 #include "recording/test/log_damage.h"
 
 namespace dihaptic::recording {

@@ -13,7 +13,7 @@ TEST(DamagedLog, NoMutationCrashesItsReaderOrPassesForAFrame) {
     expect_mutations_are_borne(300, 1000);
 }
 
-/// One line of what is told.
+/// One line of the report.
 std::string told(const std::string& log, const testing::TemporaryFolder& folder) {
     const LogHealth health = read_damaged(folder.write("damaged.log", log), 1);
     const auto lines = describe(health, 0, 0);
@@ -28,29 +28,29 @@ TEST(DamagedLog, SaysWhatIsWrongFromWhenOnAndWhatWasUsed) {
     EXPECT_EQ(told(log, folder), "nothing");
     auto chunks = whole;
     std::swap(chunks[3], chunks[6]);
-    EXPECT_EQ(told(testing::put_together(chunks), folder),
-              "3 chunks of the log not in place, from 0.099 s on: used in the order of their "
-              "numbers");
+    EXPECT_EQ(
+        told(testing::put_together(chunks), folder),
+        "3 chunks out of place in the log, from 0.099 s on: used in the order of their numbers");
     chunks = whole;
     chunks.insert(chunks.begin() + 5, chunks[2]);
     EXPECT_EQ(told(testing::put_together(chunks), folder),
-              "1 chunk of the log there twice, from 0.199 s on: used once");
+              "1 chunk in the log twice, from 0.199 s on: used once");
     chunks = whole;
     chunks.erase(chunks.begin() + 2);
     EXPECT_EQ(told(testing::put_together(chunks), folder),
-              "50 ticks missing from tick 50 on, between 0.049 s and 0.100 s: 1 chunk of the log "
-              "gone there");
+              "50 ticks missing from tick 50 on, between 0.049 s and 0.100 s: 1 chunk missing from "
+              "the log there");
     chunks = whole;
     chunks.insert(chunks.begin() + 4, others[2]);
     EXPECT_TRUE(told(testing::put_together(chunks), folder)
-                    .starts_with("1 chunk of another session in the log ("));
+                    .starts_with("1 chunk from another session in the log ("));
     EXPECT_NE(told(testing::put_together(chunks), folder).find("from 0.149 s on: left out"),
               std::string::npos);
     chunks = whole;
     chunks.erase(chunks.end() - 2);
     EXPECT_EQ(told(testing::put_together(chunks), folder),
-              "1 chunk gone before the log's end mark, after 0.549 s");
-    EXPECT_EQ(told(log + "123", folder), "3 bytes behind the log's end mark, at 0.599 s: left out");
+              "1 chunk missing before the log's end mark, after 0.549 s");
+    EXPECT_EQ(told(log + "123", folder), "3 bytes after the log's end mark, at 0.599 s: left out");
     chunks = whole;
     chunks[3] += "junk";
     EXPECT_EQ(told(testing::put_together(chunks), folder),
@@ -97,7 +97,7 @@ TEST(DamagedLog, AHeadWithAbsurdNumbersIsRefused) {
     EXPECT_NE(refused("tick_s: 0.001", "tick_s: 1e-300").find("tick"), std::string::npos);
     EXPECT_NE(refused("tick_s: 0.001", "tick_s: .nan").find("tick"), std::string::npos);
     EXPECT_NE(refused("tick_s: 0.001", "tick_s: 1e300").find("tick"), std::string::npos);
-    // a size that the file does not have is believed of no chunk
+    // no chunk may claim a size that the file does not have
     auto chunks = whole;
     auto header = testing::header_of(chunks[0]);
     header.size = 0x7fffffff;
@@ -115,7 +115,7 @@ TEST(DamagedLog, WhatIsMadeToKeepItsReaderBusyEnds) {
     EXPECT_TRUE(reader.read_to_end().damaged(0));
 }
 
-/// As a program before version 2 wrote it.
+/// As programs before version 2 wrote it.
 std::string old_log(const testing::TemporaryFolder& folder, double session) {
     return testing::as_version_1(testing::take_apart(damage_log(folder, session)));
 }

@@ -452,7 +452,7 @@ TEST(LogHealth, SaysWhereTicksAreMissingAndInProperGrammar) {
     health.gaps = {{10, 1, std::chrono::milliseconds(9), std::chrono::milliseconds(11), 700}};
     EXPECT_EQ(describe(health, 100, 0),
               (std::vector<std::string>{
-                  "1 tick missing from tick 10 on, between 0.009 s and 0.011 s: 700 bytes of the "
+                  "1 tick missing from tick 10 on, between 0.009 s and 0.011 s: 700 bytes in the "
                   "log are damaged there",
                   "1 tick missing at the end, after 0.098 s: the session had 100 ticks"}));
     health.gaps.clear();

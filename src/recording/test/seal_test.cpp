@@ -71,7 +71,7 @@ TEST(Seal, TellsWhatHappenedToATable) {
     EXPECT_NE(session.told().find("trials.csv: warning: is a folder"), std::string::npos)
         << session.told();
     session.write("lifts.csv", "a\n1\n");
-    EXPECT_NE(session.told().find("lifts.csv: warning: was not there when the session ended"),
+    EXPECT_NE(session.told().find("lifts.csv: warning: did not exist when the session ended"),
               std::string::npos)
         << session.told();
 }
@@ -83,10 +83,10 @@ TEST(Seal, TheRemedyIsOneThatHelps) {
     EXPECT_EQ(session.told().find("dihaptic recover"), std::string::npos) << session.told();
     session.write("raw.log", "");
     const std::string told = session.told();
-    EXPECT_NE(told.find("Make it anew from raw.log: dihaptic recover " + session.folder.path()),
+    EXPECT_NE(told.find("Rebuild it from raw.log: dihaptic recover " + session.folder.path()),
               std::string::npos)
         << told;
-    // of what was written before the first tick, nothing is in the log
+    // the log contains nothing that was written before the first tick
     const auto for_good = broken_for_good(session.folder, session.info, Severity::warning);
     ASSERT_EQ(for_good.size(), 1u);
     EXPECT_EQ(for_good[0].text().find("dihaptic recover"), std::string::npos) << for_good[0].text();
@@ -97,7 +97,7 @@ TEST(Seal, TellsWhatSessionYamlSaysNow) {
     const auto expect_told = [&](const auto& change) {
         SessionInfo other = session.info;
         change(other);
-        EXPECT_NE(session.told(other).find("session.yaml: warning: seal: does not fit"),
+        EXPECT_NE(session.told(other).find("session.yaml: warning: seal: does not match"),
                   std::string::npos)
             << session.told(other);
     };

@@ -29,7 +29,7 @@ TEST(SessionFolder, SaysWhichNameIsTooLongOrMissing) {
         }
         return std::string("none");
     };
-    EXPECT_NE(message("", "x").find("--out: error: names no folder"), std::string::npos)
+    EXPECT_NE(message("", "x").find("--out: error: does not name a folder"), std::string::npos)
         << message("", "x");
     const std::string longest = message(folder.path(), "x_" + std::string(300, 'S'));
     EXPECT_NE(longest.find("--participant"), std::string::npos) << longest;

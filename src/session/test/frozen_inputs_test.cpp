@@ -168,7 +168,7 @@ TEST(FrozenInputs, AChangedTableOfASessionIsNotResumed) {
         said = e.what();
     }
     EXPECT_NE(said.find("trials.csv: error: has "), std::string::npos) << said;
-    EXPECT_NE(said.find("when the session ended. Make it anew from raw.log: dihaptic recover"),
+    EXPECT_NE(said.find("when the session ended. Rebuild it from raw.log: dihaptic recover"),
               std::string::npos)
         << said;
     // the window offers to go on with it all the same, and then says this
