@@ -204,7 +204,7 @@ class DataSets(unittest.TestCase):
         file.write_text(file.read_text().replace('"Simulated": true', '"Simulated": false'))
         other = self.run_session(self.reaches, "--simulate", "--participant", "sim-003")
         said = dihaptic("export", other, "--bids", persons, code=2)
-        self.assertIn("does not say that the data set is a simulation, and this session is one", said)
+        self.assertIn("does not state that the data set is a simulation, but this session is one", said)
         self.assertIn("Name another folder", said)
 
     def test_tables_of_others_are_kept_and_looked_at(self):
@@ -222,7 +222,7 @@ class DataSets(unittest.TestCase):
         self.assertEqual(rows[2]["participant"], "sim-004")
         # the same label for somebody else
         same = self.run_session(self.reaches, "--simulate", "--participant", "sim-0 04")
-        self.assertIn("is participant sim-004 there, and sim-0 04 here: they are not the same",
+        self.assertIn("is participant sim-004 there, but sim-0 04 here: they are different",
                       dihaptic("export", same, "--bids", study, code=2))
         seed = self.run_session(self.reaches, "--simulate", "--participant", "sim-004", "--seed", "2")
         self.assertIn("is of seed 1 there, and 2 here", dihaptic("export", seed, "--bids", study, code=2))
@@ -233,7 +233,7 @@ class DataSets(unittest.TestCase):
         people.write_text(people.read_text().replace("participant_id", "id", 1))
         task = self.run_session(self.reaches, "--simulate", "--participant", "sim-005")
         said = dihaptic("export", task, "--bids", study, code=2)
-        self.assertIn("participants.tsv:1: error: id: is its first column, where BIDS has participant_id", said)
+        self.assertIn("participants.tsv:1: error: id: is its first column, but BIDS expects participant_id", said)
 
 
 if __name__ == "__main__":

@@ -25,7 +25,7 @@ def read_table(file: str | Path) -> pd.DataFrame:
     >>> lifts.attrs["units"]["peak_grip_N"]
     'N'
     >>> lifts.attrs["meanings"]["peak_grip_N"]
-    'mean of the digits, from touch to lowering'
+    'peak of the mean over digits, from touch to lowering'
     """
     path = Path(file)
     texts = dict.fromkeys(facts()["text_columns"], str)

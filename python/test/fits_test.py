@@ -129,7 +129,7 @@ class Fits(unittest.TestCase):
     def test_bad_input_is_told(self):
         for what, call in [
             ("different lengths", lambda: dh.fit_two_rate([1, 2, 3, 4, 5, 6], [1, 2], [False])),
-            ("not as many measurements as trials", lambda: dh.fit_two_rate([1, 2, 3, 4, 5, 6], [1, 2])),
+            ("the number of measurements differs", lambda: dh.fit_two_rate([1, 2, 3, 4, 5, 6], [1, 2])),
             ("", lambda: dh.fit_two_rate([1, np.nan], [1, 2])),
             ("", lambda: dh.fit_learning_curve([])),
             ("no number in a trial", lambda: dh.fit_single_rate(np.arange(20.0), [np.nan] * 20)),

@@ -19,7 +19,7 @@ using rows::TrialFile;
 using rows::TrialKind;
 using rows::TrialRow;
 
-/// Compensations of the trials that `meant` selects, in their order.
+/// Compensations of the trials that `meant` selects, in order.
 template <class Meant>
 std::vector<double> measured(const std::vector<Trial>& trials, Meant meant) {
     std::vector<double> out;
@@ -80,8 +80,8 @@ bool is_perturbed(const Stretch& s) {
     return has_kind(s, TrialKind::perturbed);
 }
 
-/// Compensations that show what was learned in a block's trials of a kind: those of the channels
-/// among them, or else their own.
+/// Compensations that show the learning in a block's trials of one kind: those of the channels
+/// among them or, without channels, of all.
 std::vector<double> learned_in(const Stretch& stretch, TrialKind kind, bool in_channels) {
     if (!in_channels) return measured_kind(stretch, kind);
     return has_kind(stretch, kind) ? stretch.compensation : std::vector<double>{};
@@ -99,7 +99,7 @@ std::string under(const Stretch& s) {
     return "";
 }
 
-/// Whether both have the same perturbation, as far as is known.
+/// Whether both have the same perturbation, as far as known.
 bool alike(const Stretch& a, const Stretch& b) {
     return under(a) == under(b) && std::abs(a.perturbation - b.perturbation) < kSame;
 }
@@ -134,7 +134,7 @@ Window rebound(const std::vector<Stretch>& stretches) {
     return {};
 }
 
-/// The last attempt at each trial, which alone counts: the others were to be done again.
+/// The last attempt at each trial, which alone counts: earlier attempts had to be repeated.
 std::map<int, int> last_attempts(const TrialFile& trials) {
     std::map<int, int> out;
     for (const TrialRow& row : trials) {
@@ -144,15 +144,15 @@ std::map<int, int> last_attempts(const TrialFile& trials) {
     return out;
 }
 
-/// Takes an adaptation index from an attempt's row. A channel shows no error, and of a trial
-/// without one only the field is known.
+/// Reads an adaptation index from an attempt's row. A channel shows no error, and for a trial
+/// without a channel only the field is known.
 void take_index(Trial& trial, double index, double field_share) {
     trial.compensation = 100 * index;
     trial.clamp = is_clamp(trial.kind) || std::isnan(field_share);
     trial.perturbation = trial.clamp ? 0 : 100 * field_share;
 }
 
-/// Says of what the curves are, in percent.
+/// Describes the curves, which are in percent.
 void name_measure(std::vector<AdaptationCurve>& curves, const char* measure) {
     for (AdaptationCurve& curve : curves) {
         curve.unit = std::string(1, '%');
@@ -160,7 +160,7 @@ void name_measure(std::vector<AdaptationCurve>& curves, const char* measure) {
     }
 }
 
-/// Empties the trial's figures under a perturbation whose learning has no measure, if it acts.
+/// Empties the trial's figures if a perturbation acts whose learning has no measure.
 void leave_out_unmeasured(Trial& trial, double share) {
     if (share == 0) trial.under.clear();
     if (trial.under.empty()) return;
@@ -168,7 +168,7 @@ void leave_out_unmeasured(Trial& trial, double share) {
     trial.perturbation = trial.compensation = kUnmeasured;
 }
 
-/// Takes an angle or an extent; returns whether it is an extent.
+/// Reads an angle or an extent; returns whether it is an extent.
 bool take_reach(Trial& trial, const rows::TrialMeasures& reach) {
     const double way = reach.hand_extent_mm;
     double shown;
@@ -180,7 +180,7 @@ bool take_reach(Trial& trial, const rows::TrialMeasures& reach) {
         trial.compensation = in_percent(reach.wanted_extent_mm, way);
         shown = in_percent(reach.shown_extent_mm, way);
     }
-    // a reach that fell short was not seen to err, and a clamp does not show the true error
+    // a reach that fell short showed no error, and a clamp does not show the true error
     trial.clamp = is_clamp(trial.kind) || std::isnan(trial.compensation);
     trial.perturbation = trial.clamp ? 0 : shown;
     return !std::isnan(way);
@@ -321,17 +321,19 @@ void AdaptationCurve::list_landmarks(FigureLister& row) const {
     const bool known = !trials.empty() && (note().empty() || std::abs(perturbation()) > kSame);
     row("measure", measure, "", "angle, extent, adaptation_index, or the column of errors");
     row("unit", unit, "", "of what follows");
-    row("perturbation", known ? perturbation() : kUnmeasured, "1", "largest by size");
+    row("perturbation", known ? perturbation() : kUnmeasured, "1", "largest in magnitude");
     w.baseline.list(row, "baseline", "mean of the baseline before the first perturbed block");
     w.early.list(row, "early", "first eight trials of the first perturbed block");
-    w.late.list(row, "late", "last eight of the last block that goes on with that perturbation");
+    w.late.list(row, "late",
+                "last eight trials of the last consecutive block with that perturbation");
     w.catch_trials.list(row, "catch", "mean of the catch trials among these blocks");
-    w.clamp_first.list(row, "clamp_first", "first eight of the first clamp block after it");
-    w.clamp_last.list(row, "clamp_last", "last eight of that block");
-    w.washout_first.list(row, "washout_first", "first eight of the first washout block after it");
-    w.savings.list(row, "savings",
-                   "learning it again, after another: first eight trials, less those of the first "
-                   "time");
+    w.clamp_first.list(row, "clamp_first", "first eight trials of the first clamp block after it");
+    w.clamp_last.list(row, "clamp_last", "last eight trials of that block");
+    w.washout_first.list(row, "washout_first",
+                         "first eight trials of the first washout block after it");
+    w.savings.list(
+        row, "savings",
+        "relearning after another perturbation: first eight trials, less those of the first time");
     w.rebound.list(row, "rebound",
                    "last eight of a clamp after the opposite perturbation, less the two before it");
 }
@@ -382,7 +384,7 @@ std::vector<AdaptationCurve> adaptation_curves(const TrialFile& trials,
         } else {
             extents = take_reach(trial, trials[i].measures) || extents;
         }
-        // the error seen in an attempt that is done again stays; its compensation does not count
+        // the error seen in a repeated attempt remains; its compensation does not count
         if (trials[i].measures.attempt < last.at(trial.number)) trial.compensation = kUnmeasured;
         any = any || !std::isnan(trial.compensation);
         trial.under = unmeasured_in(asked.perturbation, unmeasured);
@@ -419,9 +421,9 @@ std::vector<AdaptationCurve> error_curves(const TrialFile& trials, const std::st
         trial.kind = asked.kind;
         const bool acts = !asked.perturbation.empty() && !is_clamp(trial.kind);
         trial.perturbation = acts ? asked.share : 0;
-        trial.compensation = trials.number(i, error);  // the error, so far
-        // a person who did not move saw no error; an attempt that is done again taught something,
-        // and does not count
+        trial.compensation = trials.number(i, error);  // at first, the error
+        // a person who did not move saw no error; a repeated attempt taught something, but does not
+        // count
         trial.clamp = is_clamp(trial.kind) || std::isnan(trial.compensation);
         if (trials[i].measures.attempt < last.at(trial.number)) trial.compensation = kUnmeasured;
     }
@@ -430,7 +432,7 @@ std::vector<AdaptationCurve> error_curves(const TrialFile& trials, const std::st
         curve.errors = scale_of_errors(curve.compensation(), curve.schedule());
         for (Trial& trial : curve.trials) {
             if (!curve.errors && trial.perturbation != 0)
-                trial.under = "a perturbation that does not show in " + column;
+                trial.under = "a perturbation that is not visible in " + column;
             trial.compensation = curve.errors ? 100 * curve.errors->compensation(trial.perturbation,
                                                                                  trial.compensation)
                                               : kUnmeasured;
@@ -443,7 +445,7 @@ std::vector<AdaptationCurve> error_curves(const TrialFile& trials, const std::st
 std::optional<AdaptationFits> fit_adaptation(const AdaptationCurve& curve) {
     constexpr size_t kLeast = 10;
     const auto all = [](const Trial&) { return true; };
-    if (!curve.note().empty()) return std::nullopt;  // some of the errors are not known
+    if (!curve.note().empty()) return std::nullopt;  // some of the errors are unknown
     if (std::abs(curve.perturbation()) < 1e-6 || measured(curve.trials, all).size() < kLeast)
         return std::nullopt;
     AdaptationFits fits;

@@ -40,11 +40,11 @@ class Exporter {
         session_.check_log(info_, log.head());
         tick_ = log.head().tick;
         if (log.head().fingers.empty()) {
-            throw Error({session_.raw_log(), 0}, "", "has no finger, whose motion it would be",
+            throw Error({session_.raw_log(), 0}, "", "has no finger whose motion could be exported",
                         "Give another session.");
         }
         systems_ = bids::tracking_systems(session_, info_, log.head());
-        data_set_.check();  // before the long work
+        data_set_.check();  // before the lengthy work
         make_folders(folder_of_set_, data_set_.subject() + "/motion");
         remove_dead_parts(folder_ + "/.export");
         const Output staging(folder_ + "/.export");
@@ -74,7 +74,7 @@ class Exporter {
     }
 
   private:
-    /// First part of the path of each of the run's files, in the subject's folder.
+    /// Prefix of the paths of the run's files, in the subject's folder.
     std::string stem() const {
         return fmt::format("{}/{}_task-{}", folder_, data_set_.subject(), label(task_));
     }
@@ -84,7 +84,7 @@ class Exporter {
     std::string events_file(const char* extension) const {
         return fmt::format("{}_run-{:02}_events.{}", stem(), run_, extension);
     }
-    /// Path of such a file while it is written.
+    /// Path of such a file while it is being written.
     std::string making(const TrackingSystem& system, const std::string& what) const {
         return fmt::format("{}/{}_{}", making_, label(system.name), what);
     }
@@ -148,13 +148,13 @@ class Exporter {
             // earlier versions wrote the label as the task's name
             if (name.empty() || name == task_ || name == label(task_)) continue;
             throw Error({there, 0}, "TaskName",
-                        fmt::format("is {}, and {} would have the same label in file names: {}",
+                        fmt::format("is {}, but {} would have the same label in file names: {}",
                                     name, task_, label(task_)),
                         "Name another folder, or rename the experiment's file before the session.");
         }
     }
 
-    /// Renames the files. The first finger's motion comes last: if it is there, the run is
+    /// Renames the files. The first finger's motion comes last: if that file exists, the run is
     /// complete.
     void give_names(bool events) const {
         const auto name = [](const std::string& from, const std::string& to) {

@@ -1,7 +1,7 @@
 // Exports a session into a BIDS data set (Motion-BIDS 1.x; Jeung et al. 2024): for each finger, as
-// a tracking system of its own, motion.tsv with a row per tick, its channels and its description;
-// the session's events; the participant's row. Existing files are not replaced: a second session of
-// the same task becomes another run.
+// a separate tracking system, motion.tsv with a row per tick, its channels and its description; the
+// session's events; the participant's row. Existing files are not replaced: a second session of the
+// same task becomes another run.
 #pragma once
 
 #include <functional>
@@ -14,12 +14,12 @@ namespace dihaptic::analysis {
 
 struct Exported {
     std::string folder;            ///< folder of the exported files
-    std::vector<Problem> changed;  ///< what was changed in its tables since it ended: warnings
-    std::vector<std::string> log;  ///< what is wrong with raw.log, in sentences
+    std::vector<Problem> changed;  ///< changes in its tables since it ended: warnings
+    std::vector<std::string> log;  ///< faults of raw.log, in sentences
 };
 
 /// Exports the session to the folder `data_set`. The files get their final names once all are
-/// whole, the first finger's motion last: a run without that file is not complete. Throws Error
+/// complete, the first finger's motion last: a run without that file is incomplete. Throws Error
 /// when the session has not ended, or a file cannot be written.
 Exported export_bids(const recording::SessionFolder& session, const std::string& data_set,
                      const std::function<void(double)>& progress);

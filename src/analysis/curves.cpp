@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* kTrial = "trial";
 
-/// What a tick has of one name: one number, or one for each component.
+/// The values of one quantity in a tick: one number, or one for each component.
 struct Curve {
     std::string name;
     std::string unit;   ///< as people write it
@@ -38,7 +38,8 @@ std::string parts_of() {
     return "";
 }
 
-/// Lists what a tick of a log has, in the order of a TickRow, and the lists that have no curves.
+/// Lists the quantities in a tick of a log, in the order of a TickRow, and the lists that have no
+/// curves.
 class CurveLister {
   public:
     explicit CurveLister(const recording::LogHead& head)
@@ -132,7 +133,7 @@ struct Column {
     size_t index = 0;  ///< in the tick's row
 };
 
-/// All columns that there can be, with the name by which each is asked for.
+/// All possible columns, with the name by which each is requested.
 struct Known {
     std::string asked;
     std::vector<Column> columns;
@@ -167,7 +168,7 @@ std::vector<Column> columns_of(const std::vector<std::string>& names, const Curv
             out.insert(out.end(), found->columns.begin(), found->columns.end());
         } else if (std::ranges::find(lister.lists, name) != lister.lists.end()) {
             diagnostics.error({session, 0}, name, "is a list, which has no curve",
-                              "session.nwb has it as a table.");
+                              "session.nwb contains it as a table.");
         } else {
             std::vector<std::string> candidates;
             for (const Known& each : known) candidates.push_back(each.asked);
@@ -176,7 +177,7 @@ std::vector<Column> columns_of(const std::vector<std::string>& names, const Curv
         }
     }
     diagnostics.throw_if_errors();
-    // each once, and the trial before all others
+    // each once, with the trial before all others
     std::vector<Column> once;
     for (const Column& column : out) {
         const bool there = std::ranges::find(once, column.name, &Column::name) != once.end();
@@ -185,7 +186,7 @@ std::vector<Column> columns_of(const std::vector<std::string>& names, const Curv
     return once;
 }
 
-/// A cell: nine digits, which is more than session.nwb has, and all digits of whole numbers.
+/// A cell: nine digits, which is more than in session.nwb, and all digits of whole numbers.
 void add_cell(std::string& line, double value) {
     line += ',';
     if (std::isnan(value)) return;

@@ -12,7 +12,7 @@ void check_ended(const recording::SessionFolder& session, const recording::Sessi
     }
     if (!is_there(session.raw_log()) && is_there(session.file("trials.csv"))) {
         throw Error({session.path(), 0}, "", "has no recording any more, only tables",
-                    "Rehearse with --keep-recordings to have one.");
+                    "Rehearse with --keep-recordings to keep it.");
     }
 }
 

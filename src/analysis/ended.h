@@ -1,4 +1,4 @@
-// What is exported of a session is its whole recording: it has ended, and has one.
+// Checks that a session can be exported: it has ended, and still has its recording.
 #pragma once
 
 #include "recording/session.h"

@@ -9,10 +9,11 @@ namespace {
 
 using Sample = GraspTrace::Sample;
 
-constexpr double kShortest = 0.02;     // [s]
-constexpr double kLettingGo = 0.05;    // fingers that pressed within this time let it go [s]
-constexpr double kSlideSpeed = 0.001;  // below it, the object creeps or rests [m/s]
-constexpr double kHandSpeed = 0.05;    // below it, the hand stands still [m/s]
+constexpr double kShortest = 0.02;  // [s]
+constexpr double kLettingGo =
+    0.05;  // fingers that pressed within this time before a flight released the object [s]
+constexpr double kSlideSpeed = 0.001;  // speed below which the object creeps or rests [m/s]
+constexpr double kHandSpeed = 0.05;    // speed below which the hand is still [m/s]
 
 /// The kind of episode that a sample is part of, if any.
 struct State {
@@ -99,7 +100,8 @@ void measure_slide(const GraspTrace& trace, const ObjectFacts& object, Episode& 
         // a step's force times the mean of the velocities before and after is the change of energy
         const Vec3 v = (samples[i - 1].v_sliding + s.v_sliding) / 2;
         out.distance += h * v.norm();
-        if (s.support < 0) continue;  // the object left its support for less than an episode
+        if (s.support < 0)
+            continue;  // the object left its support for less than an episode's duration
         Vec3 load = object.mass * object.gravity;
         for (const size_t finger : out.fingers) load -= s.f_sent_W[finger];
         const double mu =
@@ -121,7 +123,7 @@ void measure_flight(const GraspTrace& trace, const ObjectFacts& object, Episode&
     const Vec3 p0 = samples[first].X_WB.p;
     // initial velocity of the parabola through the first two positions
     const Vec3 v0 = (samples[first + 1].X_WB.p - p0) / h - object.gravity * h / 2;
-    // in its first tick in the air it is on its way already
+    // in its first tick in the air, the object is already moving along its path
     const double let_go_at = samples[first > 0 ? first - 1 : 0].X_WB.p.z();
     out.rise = out.off_path = 0;
     for (size_t i = first; i < out.range.last; ++i) {

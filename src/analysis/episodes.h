@@ -1,5 +1,5 @@
 // Finds episodes in which the object is held, slides on something, or flies, from the frames alone,
-// and computes the figures for which mechanics has a closed form.
+// and computes those figures for which mechanics gives a closed form.
 //
 // hold    fingers press the object and nothing else does. Figures: how far they slipped, how far
 //         it sank, and how far it turned with the line between the first two fingers.
@@ -23,22 +23,22 @@
 
 namespace dihaptic::analysis {
 
-/// An episode, with where it was found.
+/// An episode, with its position in the trace.
 struct Episode : rows::EpisodeRow {
     Range range;                  ///< samples of the trace
-    std::vector<size_t> fingers;  ///< that press the object; flight: that let it go
+    std::vector<size_t> fingers;  ///< fingers that press the object; flight: fingers that let it go
 };
 
-/// Properties that the object's mechanics follow from; NaN when not known.
+/// Properties that determine the object's mechanics; NaN when unknown.
 struct ObjectFacts {
     double mass = kUnmeasured;  ///< [kg]
     Vec3 gravity = Vec3::Constant(kUnmeasured);
     std::vector<double> friction;         ///< coefficient with each body of the scene
     std::vector<double> finger_friction;  ///< coefficient with each finger
-    bool flies = true;  ///< what nothing touches falls: no joint and no rail holds it
+    bool flies = true;  ///< an untouched object falls: no joint and no rail holds it
 };
 
-/// Episodes in order of time. A state that lasts less than 20 ms is no episode.
+/// Episodes in order of time. A state that lasts less than 20 ms is not an episode.
 std::vector<Episode> find_episodes(const GraspTrace& trace, const ObjectFacts& object);
 
 }  // namespace dihaptic::analysis

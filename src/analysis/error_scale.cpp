@@ -6,7 +6,7 @@
 namespace dihaptic::analysis {
 namespace {
 
-/// The line y = c + k g through what was measured, and its squared residuals.
+/// The line y = c + k g through the measured values, and its squared residuals.
 struct ErrorLine {
     ErrorScale scale;
     double squares = std::numeric_limits<double>::infinity();

@@ -45,7 +45,7 @@ void EventFinder::say(const frame::Frame& frame, const char* what, std::string d
 }
 
 void EventFinder::add_trial(const frame::Frame& frame) {
-    // a task's trial begins with its first state: before it, the last trial's feedback is shown
+    // a task's trial begins with its first state: before it, the previous trial's feedback is shown
     const bool begun = frame.phase > 0 || frame.task.attempt == 0;
     if (!begun || (frame.trial == trial_ && frame.task.attempt == attempt_)) return;
     trial_ = frame.trial;
@@ -61,7 +61,7 @@ void EventFinder::add_task(const frame::Frame& frame) {
     if (task.marker != 0) say(frame, "marker", number_text(task.marker));
     add_texts(frame);
     add_sounds(frame);
-    if (task.placements.size() > placed_)  // a body that is held is placed in each tick
+    if (task.placements.size() > placed_)  // a body held in place is placed in each tick
         say(frame, "put back", fmt::format("{} bodies", task.placements.size()));
     placed_ = task.placements.size();
     if (task.outcome >= 0) say(frame, "outcome", listed(head_.outcomes, task.outcome));
@@ -130,7 +130,7 @@ bool EventFinder::on_support(const frame::Frame& frame) const {
 }
 
 void EventFinder::add_support(const frame::Frame& frame) {
-    // an object asleep on its support has no contacts in the frame, and has not moved either
+    // an object asleep on its support has no contacts in the frame, and does not move
     if (object_ < 0 || !frame.bodies[static_cast<size_t>(object_)].awake) return;
     const bool supported = on_support(frame);
     if (seen_ && supported_ && !supported) say(frame, "lift-off", name(object_));
@@ -139,11 +139,11 @@ void EventFinder::add_support(const frame::Frame& frame) {
 }
 
 void EventFinder::add_settings(const frame::Frame& frame) {
-    if (!seen_) told_ = last_ = frame;  // the first ticks may be lost
+    if (!seen_) told_ = last_ = frame;  // the first ticks may be missing
     frame::Knobs::visit([&](auto knob, const frame::Knob& is) {
         const auto value = frame.*knob;
         auto& told = told_.*knob;
-        // a change that is eased in is reported once the value has stopped changing
+        // a gradual change is reported once the value has stopped changing
         const bool stays = frame::Knobs::same(value, last_.*knob);
         if (is.key == nullptr || !stays || frame::Knobs::same(value, told)) return;
         say(frame, "setting",

@@ -1,5 +1,5 @@
 // Finds the events of a session in its frames: touches and releases, lift-off and replacement of
-// the object, phases, and what the servo could not do as asked.
+// the object, phases, and faults of the servo.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ class EventFinder {
     /// `object`: index of the body whose lift-off counts; -1 if none. `phases`: their names.
     EventFinder(const recording::LogHead& head, int object, std::vector<std::string> phases);
 
-    /// From the next frame on it is this body whose lift-off counts; it stands at first.
+    /// From the next frame on, the lift-off of this body counts; at first it stands.
     void follow(int object) noexcept {
         supported_ = true;
         object_ = object;
@@ -26,7 +26,7 @@ class EventFinder {
   private:
     std::string name(int body) const;
     void say(const frame::Frame& frame, const char* what, std::string detail);
-    // each adds the events of its kind that are in this frame
+    // each adds this frame's events of one kind
     void add_trial(const frame::Frame& frame);
     void add_task(const frame::Frame& frame);
     void add_texts(const frame::Frame& frame);
@@ -36,7 +36,7 @@ class EventFinder {
     void add_support(const frame::Frame& frame);
     void add_settings(const frame::Frame& frame);
     void add_status(const frame::Frame& frame);
-    /// Whether the object presses on another body than a finger.
+    /// Whether the object presses on a body other than a finger.
     bool on_support(const frame::Frame& frame) const;
 
     recording::LogHead head_;
@@ -44,13 +44,13 @@ class EventFinder {
     std::vector<std::string> phases_;
     std::vector<char> touching_;      // in the last frame: by finger, by body
     std::vector<char> now_touching_;  // in this frame
-    bool seen_ = false;               // there was a frame before this one
+    bool seen_ = false;               // there was a previous frame
     bool supported_ = false;          // on_support() in the last frame
     int trial_ = 0;
     int attempt_ = 0;
     int message_ = -1;
     int page_ = -1;
-    std::vector<int32_t> lines_;  // messages below the message, in the last frame
+    std::vector<int32_t> lines_;  // lines below the message, in the last frame
     bool perturbed_ = false;
     size_t placed_ = 0;  // number of bodies
     int phase_ = -1;

@@ -18,7 +18,7 @@ void FaultRecord::add(const frame::Frame& frame) {
     if (ended_) return;
     const auto old = [&] { return last_.front().time < frame.time - kBefore; };
     if (!last_.empty() && old()) {
-        // This runs in each tick of a session: the oldest frame's memory is used again.
+        // This runs in each tick of a session: the oldest frame's memory is reused.
         last_.splice(last_.end(), last_, last_.begin());
     } else {
         last_.emplace_back();
@@ -40,9 +40,9 @@ void FaultRecord::add(const frame::Frame& frame) {
 Table FaultRecord::table() const {
     Table table;
     table.columns = {{"time_s", "of the tick"},
-                     {"status", "what the tick could not do as asked"},
-                     {"lateness_ms", "of its wake-up; empty on the virtual clock"},
-                     {"last_tick_ms", "how long the one before took"}};
+                     {"status", "faults in the tick"},
+                     {"lateness_ms", "delay of its wake-up; empty on the virtual clock"},
+                     {"last_tick_ms", "duration of the previous tick"}};
     const auto add_columns = [&](const std::string& finger,
                                  std::initializer_list<const char*> fields) {
         for (const char* what : fields) {

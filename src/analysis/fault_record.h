@@ -1,5 +1,5 @@
-// Records what led to a session's faults: the second before force went off, tick by tick, as a
-// table that people can read. All of it is in raw.log too.
+// Records the course of events before a session's faults: the second before force went off, tick by
+// tick, as a readable table. raw.log contains all of it too.
 #pragma once
 
 #include <list>
@@ -17,7 +17,7 @@ class FaultRecord {
     explicit FaultRecord(std::vector<std::string> fingers, std::vector<std::string> turning = {})
         : fingers_(std::move(fingers)), turning_(std::move(turning)) {}
 
-    /// Takes the frames in their order.
+    /// Receives the frames in order.
     void add(const frame::Frame& frame);
     /// Rows from kBefore before each fault to its tick; empty without a fault. A stop by the
     /// operator is not a fault.
@@ -29,7 +29,7 @@ class FaultRecord {
     std::vector<std::string> fingers_;
     std::vector<std::string> turning_;
     std::list<frame::Frame> last_;    // without bodies and contacts
-    bool ended_ = false;              // force is off, until the session goes on
+    bool ended_ = false;              // force is off, until the session continues
     std::list<frame::Frame> faults_;  // frames that led to each fault, one after the other
 };
 

@@ -35,7 +35,8 @@ struct Round {
     bool trained = false;                         // whether a trial was perturbed so far
 };
 
-/// Unit vector of the reach that a trial asks for; `number`: the trial's in the session, from 1.
+/// Unit vector of the reach that a trial demands; `number`: number of the trial in the session,
+/// from 1.
 Vec3 direction_of(const std::vector<task::ReachPlan>& reaches, int number) {
     const auto i = static_cast<size_t>(number - 1);
     if (number < 1 || i >= reaches.size()) return Vec3::Constant(kUnmeasured);

@@ -22,10 +22,11 @@ struct Generalisation {
     static void visit(Self& f, Visitor& v) {
         v("round", f.round, "", "name");
         v("condition", f.condition, "", "name");
-        v("angle_deg", f.angle_deg, "deg", "from the nearest trained direction");
-        v("compensation_deg", f.compensation_deg, "deg", "mean, less the baseline's");
-        v("share", f.share, "1", "of that in the trained directions; empty if none was probed");
-        v("trials", f.trials, "1", "in which no error was seen");
+        v("angle_deg", f.angle_deg, "deg", "angle from the nearest trained direction");
+        v("compensation_deg", f.compensation_deg, "deg", "mean compensation, minus the baseline's");
+        v("share", f.share, "1",
+          "share of the compensation in the trained directions; empty if none was probed");
+        v("trials", f.trials, "1", "trials in which no error was seen");
     }
 };
 

@@ -1,5 +1,5 @@
-// The trace of a grasp, tick by tick, and the figures that follow from it, which both sessions'
-// summaries and benchmarks use.
+// The trace of a grasp, tick by tick, and the figures derived from it, for summaries of sessions
+// and for benchmarks.
 #pragma once
 
 #include <boost/container/small_vector.hpp>
@@ -16,11 +16,11 @@ struct Range {
     size_t size() const { return last > first ? last - first : 0; }
 };
 
-/// One value per finger; up to three need no heap memory, since there is one of these per tick.
+/// One value per finger; up to three need no heap memory, because each tick has such lists.
 template <class T>
 using PerFinger = boost::container::small_vector<T, 3>;
 
-/// Keeps from each Frame what the figures need.
+/// Keeps those quantities of each Frame that the figures need.
 class GraspTrace {
   public:
     /// `object`: index of the body that is held; `tick`: time between samples [s].
@@ -35,8 +35,8 @@ class GraspTrace {
         int phase;
         double grip;      ///< [N]
         double load;      ///< [N]
-        bool on_support;  ///< the object presses on another body than a finger
-        int support;      ///< body that it presses most; -1: none
+        bool on_support;  ///< the object presses on a body other than a finger
+        int support;      ///< body that the object presses hardest; -1: none
         Vec3 n_support;   ///< normal of that contact, into the object
         Vec3 v_sliding;   ///< velocity of the object's point there, along the support [m/s]
         bool awake;       ///< the object is awake
@@ -45,33 +45,32 @@ class GraspTrace {
         PerFinger<Vec3> p_WP;
         PerFinger<Vec3> v_WH;
         PerFinger<Vec3> f_sent_W;  ///< force on the handle
-        double torque;             ///< largest on any handle; NaN without orientation [N*m]
+        double torque;             ///< largest torque on any handle; NaN without orientation [N*m]
         PerFinger<char> touching;  ///< the finger presses the object
         // contact forces between each finger and the object
         PerFinger<double> normal_force;  ///< [N]
-        PerFinger<Vec3> f_tangential_W;  ///< on the finger [N]
+        PerFinger<Vec3> f_tangential_W;  ///< tangential force on the finger [N]
         double friction_scale = 1;       ///< factor on the object's coefficients in the scene
-        bool resumed = false;            ///< the session went on after a pause
+        bool resumed = false;            ///< the session continued after a pause
 
-        /// Some finger presses the object.
+        /// Whether any finger presses the object.
         bool touched() const;
     };
     const std::vector<Sample>& samples() const { return samples_; }
     double tick() const { return tick_; }
     size_t fingers() const { return samples_.empty() ? 0 : samples_.front().p_WP.size(); }
 
-    /// A trace of some of the samples.
+    /// A trace of a part of the samples.
     GraspTrace part(Range range) const;
     /// Samples in [from, to) [s].
     Range between(double from, double to) const;
     Range of_phase(int phase) const;
 
-    /// First sample in which the object presses on nothing but the fingers; samples().size() if
-    /// there is none.
+    /// First sample in which the object presses only on fingers; samples().size() if there is none.
     size_t lift_off() const;
     /// Whether every finger presses the object in every sample.
     bool all_touching(Range range) const;
-    /// Largest distance of a proxy's origin, in the object's frame, from where it was at the
+    /// Largest distance of a proxy's origin, in the object's frame, from its position at the
     /// range's start [m].
     double slip(Range range) const;
     double slip(Range range, size_t finger) const;

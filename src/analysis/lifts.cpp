@@ -12,17 +12,20 @@ namespace dihaptic::analysis {
 namespace {
 
 constexpr double kWindow = 0.062;      // window of the rates [s]
-constexpr double kQuiet = 0.1;         // time at the start, before anything happens [s]
+constexpr double kQuiet = 0.1;         // quiet time at the start, before any event [s]
 constexpr double kLeastHeight = 0.01;  // least height of a lift [m]
 constexpr double kRising = 0.01;       // [m/s]
 constexpr double kSinking = -0.02;     // [m/s]
 constexpr double kLoaded = 0.2;        // [N]
 constexpr double kLagMost = 0.1;       // [s]
 constexpr double kSlipSpeed = 5e-3;    // [m/s]
-constexpr double kLeastRate = 0.2;     // least threshold, as a window without noise has no SD [N/s]
-constexpr double kBounce = 0.05;       // a bounce parts a digit from the object for less [s]
-constexpr double kParting = 0.2;  // between two lifts the object stands untouched for so long [s]
-constexpr double kLoadShare = 0.02;  // a smaller share of the load at lift-off counts as no load
+constexpr double kLeastRate =
+    0.2;  // least threshold, because a window without noise has no SD [N/s]
+constexpr double kBounce =
+    0.05;  // a bounce separates a digit from the object for less than this time [s]
+constexpr double kParting = 0.2;  // between two lifts the object stands untouched for this time [s]
+constexpr double kLoadShare =
+    0.02;  // share of the load at lift-off below which a load counts as none
 
 using Signal = std::vector<double>;
 
@@ -86,13 +89,13 @@ struct Signals {
             height.push_back(-down.dot(s.X_WB.p));
             rise.push_back(-down.dot(s.v_WB));
         }
-        // after missing ticks the object's place is not known
+        // after missing ticks the object's position is unknown
         const auto known =
             std::find_if(height.begin(), height.end(), [](double h) { return std::isfinite(h); });
         const double rest = known == height.end() ? kUnmeasured : *known;
         for (double& h : height) h -= rest;
     }
-    /// Largest height; NaN if it is never known.
+    /// Largest height; NaN if never known.
     double top() const {
         double out = kUnmeasured;
         for (const double h : height) out = std::fmax(out, h);
@@ -102,8 +105,8 @@ struct Signals {
     size_t samples(double time) const { return static_cast<size_t>(std::round(time / tick)); }
 
     double tick;
-    Signal grip, load;                           // [N]
-    Signal height, rise;                         // above where the object lay [m], and rate [m/s]
+    Signal grip, load;    // [N]
+    Signal height, rise;  // height above the initial position [m], and its rate [m/s]
     std::vector<Signal> digit_grip, digit_load;  // by finger [N]
 };
 
@@ -147,7 +150,7 @@ std::optional<size_t> load_onset(const Signals& signals, const Signal& load, siz
     return i;
 }
 
-/// Finds how often digits slid on the object, from when on, and how far at most.
+/// Finds how often digits slid on the object, when they first did, and the largest slip.
 void find_slips(rows::LiftRow& lift, const GraspTrace& trace, Range range) {
     lift.slip = 0;
     for (size_t f = 0; f < trace.fingers(); ++f) {
@@ -213,13 +216,13 @@ double friction_of(const GraspTrace::Sample& sample, std::span<const double> fri
     return count > 0 ? sum / count : kUnmeasured;
 }
 
-/// Whether the object presses on another body than a finger. A sleeping object stands too, though
+/// Whether the object presses on a body other than a finger. A sleeping object stands too, although
 /// it has no contacts.
 bool stands(const GraspTrace::Sample& s) {
     return s.on_support || !s.awake;
 }
 
-/// Sample numbers of the events; a digit's event has one for each digit in which it happened.
+/// Sample numbers of the events; for a digit's event, one for each digit that shows it.
 struct Events {
     size_t lift_off = 0;
     std::vector<size_t> touches;
@@ -270,7 +273,7 @@ class ByForce {
     }
 
   private:
-    /// The sample before the object rises fast; if it left its support earlier, because it was
+    /// The sample before the object rises fast; or, if it left its support earlier because it was
     /// lifted slowly, that sample.
     size_t lift_off() const {
         size_t lifted = high_.first;
@@ -286,13 +289,13 @@ class ByForce {
     std::vector<Signal> rates_;
 };
 
-/// Finds events by contact: each is the sample in which it happened.
+/// Finds events by contact: each is the sample of its occurrence.
 class ByContact {
   public:
     ByContact(const GraspTrace& trace, const Signals& signals, Range high)
         : trace_(trace), signals_(signals), high_(high) {}
 
-    /// Nullopt if the trace does not show the object leave what it stood on.
+    /// Nullopt if the trace does not show the object leaving its support.
     std::optional<Events> find() const {
         Events out;
         out.lift_off = high_.first;
@@ -356,7 +359,7 @@ class ByContact {
     Range high_;
 };
 
-/// Finds the events, and sets the rule that found them.
+/// Finds the events, and stores the rule that found them.
 Events find_events(rows::LiftRow& lift, const GraspTrace& trace, const Signals& signals, Range high,
                    std::optional<rows::EventRule> rule) {
     const auto& samples = trace.samples();
@@ -377,7 +380,7 @@ bool was_paused(const GraspTrace& trace) {
                        [](const GraspTrace::Sample& s) { return s.resumed; });
 }
 
-/// Sample in which the object begins to be lowered; not before lift-off.
+/// Sample in which lowering of the object starts; not before lift-off.
 size_t lowering_of(const Signals& signals, Range high, size_t lift_off) {
     size_t lowered = high.last - 1;
     while (lowered > lift_off && signals.rise[lowered] < kSinking) --lowered;
@@ -450,8 +453,8 @@ bool is_touched(const GraspTrace& trace, Range range) {
     return false;
 }
 
-/// How far the object moved along the digits that touched it throughout; along that one along which
-/// it moved least. 0 if none touched it throughout, as when it is handed over.
+/// Movement of the object along the digits that touched it throughout, for the digit with the least
+/// movement. 0 if none touched it throughout, as when it is handed over.
 double slid_down(const GraspTrace& trace, Range air) {
     std::optional<double> out;
     for (size_t f = 0; f < trace.fingers(); ++f) {
@@ -463,7 +466,7 @@ double slid_down(const GraspTrace& trace, Range air) {
     return out.value_or(0);
 }
 
-/// Finds replacement and release; the mark says which is missing, or "complete". `top`: the
+/// Finds replacement and release; the mark names the missing one, or is "complete". `top`: the
 /// object's largest height.
 void find_end(rows::LiftRow& lift, const GraspTrace& trace, const Events& events, double top) {
     lift.mark = "not put down";
@@ -492,14 +495,14 @@ std::vector<Range> lifts_in(const GraspTrace& trace, const Vec3& gravity) {
     const Signals signals(trace, gravity);
     const size_t parting = signals.samples(kParting);
     std::vector<Range> out(1);
-    double floor = kUnmeasured;  // height of the object where it stood last
+    double floor = kUnmeasured;  // height of the object where it last stood
     bool lifted = false;
     size_t alone = 0;  // samples for which the object has stood untouched
     for (size_t i = 0; i < signals.size(); ++i) {
         const GraspTrace::Sample& sample = trace.samples()[i];
         alone = stands(sample) && !sample.touched() ? alone + 1 : 0;
         if (stands(sample) && !lifted) floor = signals.height[i];
-        // a pause between two lifts is of none of them
+        // a pause between two lifts belongs to neither
         if (sample.resumed && !lifted && alone > 0) out.back().first = i + 1;
         lifted = lifted || signals.height[i] - floor >= kLeastHeight;
         if (!lifted || alone < parting) continue;

@@ -13,7 +13,7 @@
 namespace dihaptic::analysis {
 namespace {
 
-/// What the perturbation is, and how large.
+/// The kind and the size of the perturbation.
 std::string kind_and_size(const task::PerturbationSpec& perturbation) {
     std::vector<std::string> out;
     perturbation.each_effect([&](const auto& effect) { say(effect, out); });
@@ -48,7 +48,7 @@ task::Task read_frozen_task(const std::string& file) {
     if (!is_there(file)) return {};
     task::Task task;
     try {
-        Diagnostics ignored(UnknownKeys::are_left_out);  // what can be read of it tells enough
+        Diagnostics ignored(UnknownKeys::are_left_out);  // the readable part is sufficient
         read_fields(task, read_yaml(file), ignored);
     } catch (const Error&) {
         return {};
@@ -64,7 +64,7 @@ std::string column_of_errors(const task::Task& task) {
 Unmeasured unmeasured_perturbations(const task::Task& task) {
     Unmeasured out;
     collect(task.perturbations, out);
-    // with these they are replaced
+    // replaced by these in a round or condition
     for (const auto* list : {&task.rounds, &task.conditions}) {
         for (const task::Condition& condition : *list) collect(condition.perturbations, out);
     }

@@ -1,5 +1,5 @@
-// Tells from a session's frozen task what its perturbations are, and for the learning of which
-// there is no measure yet: their figures are left empty, with a reason, rather than wrong.
+// Finds the perturbations in a session's frozen task, and those whose learning has no measure yet:
+// their figures are left empty, with a reason, rather than wrong.
 #pragma once
 
 #include <map>
@@ -11,25 +11,26 @@
 
 namespace dihaptic::analysis {
 
-/// A session's frozen task, as far as it can be read: keys that another version had are left out.
-/// A task of nothing if the file is missing or is no YAML.
+/// A session's frozen task, as far as readable: keys from another version are left out. An empty
+/// task if the file is missing or is not YAML.
 task::Task read_frozen_task(const std::string& file);
 
 /// Maps the name of each perturbation whose learning is not measured to a description: "a force
-/// field (curl)", "a force channel", "a mass that differs by direction". The others are measured by
-/// reaches, by lifts or by thresholds.
+/// field (curl)", "a force channel", "a mass that differs by direction". The learning of others is
+/// measured by reaches, lifts or thresholds.
 using Unmeasured = std::map<std::string, std::string>;
 inline constexpr const char* kForceChannel = "a force channel";
 Unmeasured unmeasured_perturbations(const task::Task& task);
-/// The column of trials.csv to whose errors adaptation is fitted; "" if the task names none.
+/// The column of trials.csv with the errors to which adaptation is fitted; "" if the task names
+/// none.
 std::string column_of_errors(const task::Task& task);
 
-/// Kind and size of each perturbation, as a report states them: a row for each, and for each of a
-/// round or condition that replaces it.
+/// Kind and size of each perturbation, as stated in a report: a row for each, and one for each
+/// replacement in a round or condition.
 Table perturbation_table(const task::Task& task);
 
-/// What the perturbation of a trial is, if its learning is not measured; otherwise "". Several are
-/// in the order of their names. `named`: as trials.csv has it, several joined by " + ".
+/// Description of a trial's perturbation, if its learning is not measured; otherwise "". Several
+/// are in the order of their names. `named`: as in trials.csv, where several are joined by " + ".
 std::string unmeasured_in(const std::string& named, const Unmeasured& unmeasured);
 
 /// The kind of a trial. Earlier versions called both kinds of clamp error_clamp, which is read as

@@ -22,7 +22,7 @@ bool is_cut(const std::string& file) {
     return is_there(file) && !read_bytes(file, kMostTable).ends_with('\n');
 }
 
-/// Makes settings.csv anew from settings.yaml, with the origins that settings.csv still has.
+/// Rebuilds settings.csv from settings.yaml, with the origins that settings.csv still contains.
 void mend_settings(const recording::SessionFolder& folder, Diagnostics& diagnostics) {
     frame::Settings settings;
     try {
@@ -37,7 +37,7 @@ void mend_settings(const recording::SessionFolder& folder, Diagnostics& diagnost
         was = read_settings(folder);
         if (is_cut(folder.file("settings.csv")) && !was.rows.empty()) was.rows.pop_back();
     } catch (const Error&) {
-        was.rows.clear();  // all of it is lost
+        was.rows.clear();  // all rows are lost
     }
     Table table = list_fields(settings, {});
     size_t lost = 0;
@@ -50,21 +50,21 @@ void mend_settings(const recording::SessionFolder& folder, Diagnostics& diagnost
     }
     if (lost == 0) return;
     diagnostics.warning({folder.file("settings.csv"), 0}, "",
-                        fmt::format("is damaged or gone. It is made anew from settings.yaml; where "
-                                    "{} of {} settings came from is not known any more",
+                        fmt::format("is damaged or missing. It is rebuilt from settings.yaml; the "
+                                    "origins of {} of {} settings are lost",
                                     lost, table.rows.size()),
                         "");
     write_csv(table, folder.file("settings.csv"));
 }
 
-/// Whether a YAML text has any, or an escape, which may stand for one: a large file is parsed only
-/// then.
+/// Whether a YAML text has any control character, or an escape, which may stand for one: a large
+/// file is parsed only in this case.
 bool may_have_control_characters(const std::string& text) {
     return find_fault(text) || text.find('\\') != std::string::npos;
 }
 
-/// A file of the session that cannot be read for its characters, as a text that can; nullopt if
-/// that is not what is wrong with it.
+/// The readable text of a session's file that cannot be read because of its characters; nullopt if
+/// the file has another fault.
 std::optional<std::string> mended_text(const std::string& file) {
     const bool yaml = file.ends_with(".yaml");
     const int64_t most = yaml ? kMostYaml : kMostTable;
@@ -80,15 +80,16 @@ std::optional<std::string> mended_text(const std::string& file) {
     try {
         const std::string text = mended(read_bytes(file, most));
         if (!yaml) return text;
-        const char* const end = text.ends_with("...\n") ? "...\n" : "";  // of session.yaml
+        const char* const end =
+            text.ends_with("...\n") ? "...\n" : "";  // last line of session.yaml
         return to_yaml(parse_yaml(text, file, Words::mended)) + end;
     } catch (const Error&) {
         return std::nullopt;
     }
 }
 
-/// Copies a file that is made anew to the first free name of its own with .before, .before-2 and so
-/// on behind it, which it returns.
+/// Copies a file that is to be rebuilt to its name followed by .before, .before-2 and so on,
+/// whichever is free, and returns that name.
 std::string keep_before(const std::string& file) {
     std::string name = file + ".before";
     for (int n = 2; is_there(name); ++n) name = fmt::format("{}.before-{}", file, n);
@@ -96,21 +97,22 @@ std::string keep_before(const std::string& file) {
     return std::filesystem::path(name).filename().string();
 }
 
-/// What session.yaml says, or can be known without it; the file is kept if it cannot be read.
+/// The content of session.yaml, or as much as can be known without it; the file is kept if it
+/// cannot be read.
 recording::SessionInfo read_or_mend_info(const recording::SessionFolder& folder,
                                          const recording::Setup& setup, Diagnostics& diagnostics) {
     Diagnostics unreadable;
     recording::SessionInfo info = folder.read_info(setup, unreadable);
     for (Problem problem : unreadable.problems()) {
         if (is_there(problem.place.file))
-            problem.remedy += " " + keep_before(problem.place.file) + " is the file as it was.";
+            problem.remedy += " " + keep_before(problem.place.file) + " is the old file.";
         diagnostics.add({problem});
     }
     return info;
 }
 
 /// Replaces the control characters and broken bytes that versions before 0.3 let into a session's
-/// files. Returns the files that it mended, as they were before.
+/// files. Returns the repaired files in their previous state.
 std::vector<recording::InputFile> mend_texts(const recording::SessionFolder& folder,
                                              Diagnostics& diagnostics) {
     std::vector<recording::InputFile> out;
@@ -124,18 +126,17 @@ std::vector<recording::InputFile> mend_texts(const recording::SessionFolder& fol
             const std::string before = keep_before(file);
             write_file(*text, file);
             diagnostics.warning({file, 0}, "",
-                                "had control characters, or bytes that are not UTF-8 text. U+FFFD "
-                                "is in their place now; " +
-                                    before + " is the file as it was",
-                                "If you know what they stood for, put it in and recover the "
-                                "session again, which makes its "
-                                "tables anew.");
+                                "had control characters, or bytes that are not UTF-8 text. They "
+                                "have been replaced by U+FFFD; " +
+                                    before + " is the old file",
+                                "If you know the original characters, insert them and recover the "
+                                "session again, which rebuilds its tables.");
         }
     }
     return out;
 }
 
-/// Gives inputs that were mended their new checksums, if they were what was recorded before.
+/// Gives repaired inputs their new checksums, if they matched the recording before.
 void renew(std::vector<recording::InputFile>& inputs,
            const std::vector<recording::InputFile>& before,
            const recording::SessionFolder& folder) {
@@ -158,7 +159,7 @@ Recovery recover_session(const recording::SessionFolder& folder,
     const std::vector<recording::InputFile> before = mend_texts(folder, diagnostics);
     out.info = read_or_mend_info(folder, log.head(), diagnostics);
     renew(out.info.inputs, before, folder);
-    // raw.log knows it better than a session.yaml that was changed
+    // raw.log is more reliable than a changed session.yaml
     if (!recording::broken_own_seal(folder, out.info, Severity::warning).empty() &&
         !log.head().seed.empty())
         out.info.seed = log.head().seed;

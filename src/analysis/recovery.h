@@ -1,5 +1,5 @@
-// Recovers sessions that were killed or whose files were damaged: makes anew what can be made, and
-// reports what is lost.
+// Recovers sessions that were killed or whose files were damaged: rebuilds files where possible,
+// and reports losses.
 #pragma once
 
 #include "analysis/session_report.h"
@@ -10,12 +10,12 @@ namespace dihaptic::analysis {
 struct Recovery {
     SessionFigures figures;
     recording::SessionInfo info;
-    bool had_ended = false;         ///< the session had ended, and had its files already
-    std::vector<Problem> warnings;  ///< what was lost or changed, apart from the log
+    bool had_ended = false;         ///< the session had ended, and already had its files
+    std::vector<Problem> warnings;  ///< losses and changes, apart from the log
 };
 
-/// Makes the files of a session, or makes them anew if it has them, from its log and whatever else
-/// is left. Throws Error when it cannot, or while the session runs.
+/// Makes or rebuilds the files of a session from its log and the remaining files. Throws Error when
+/// this fails, or while the session runs.
 Recovery recover_session(const recording::SessionFolder& folder,
                          const std::function<void(double)>& progress);
 

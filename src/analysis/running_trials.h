@@ -1,5 +1,5 @@
-// Reads a session that still runs, as far as its log has been written, for what is found of its
-// trials: the figures that trials.csv will have.
+// Reads a running session, as far as its log has been written, for the results of its trials: the
+// figures that trials.csv will contain.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,12 @@ namespace dihaptic::analysis {
 
 class RunningTrials {
   public:
-    /// Throws Error when the folder is of no session with the trials of a task.
+    /// Throws Error when the folder does not belong to a session with the trials of a task.
     explicit RunningTrials(const std::string& folder);
 
-    /// Reads what has been recorded since the last call. Throws Error when it cannot.
+    /// Reads the recording since the last call. Throws Error when this fails.
     void look();
-    /// A row for each attempt so far; that of an attempt that goes on is not final.
+    /// A row for each attempt so far; the row of an unfinished attempt is not final.
     Table table() const;
     /// Number of attempts that have ended.
     size_t ended() const;
@@ -27,7 +27,7 @@ class RunningTrials {
     recording::SessionInfo info_;
     std::optional<recording::RawLogReader> log_;
     std::optional<SessionReader> reader_;
-    std::optional<recording::ChunkPlace> last_;  // chunk that was read
+    std::optional<recording::ChunkPlace> last_;  // last chunk read
 };
 
 }  // namespace dihaptic::analysis

@@ -8,7 +8,8 @@
 namespace dihaptic::analysis {
 
 /// The derivative of order 0 (the smoothed signal) to 3, in units of the signal over s^order.
-/// `window`: length [s], at least four samples. For a signal shorter than the window it is 0.
+/// `window`: length [s], at least four samples. For a signal shorter than the window, the
+/// derivative is 0.
 std::vector<double> savitzky_golay(std::span<const double> signal, double tick, double window,
                                    int order);
 

@@ -39,7 +39,7 @@ struct Reading {
     std::optional<TrialFinder> trials;  ///< if the session has a task
     std::optional<MeasureFinder> measures;
     std::vector<rows::LiftRow> lifts;
-    std::string why_no_facts;  ///< why ObjectFacts are not known; empty if they are
+    std::string why_no_facts;  ///< reason why ObjectFacts are unknown; empty if they are known
 };
 
 rows::PhaseRow figures_of(const GraspTrace& trace, Range range, double weight) {
@@ -57,7 +57,7 @@ rows::PhaseRow figures_of(const GraspTrace& trace, Range range, double weight) {
     bool carried = held && weight > 0;
     for (size_t i = range.first; i < range.last && carried; ++i)
         carried = !trace.samples()[i].on_support;
-    // after damage to the log the object's pose may not be known
+    // after damage to the log, the object's pose may be unknown
     const bool known = trace.samples()[range.first].X_WB.p.allFinite();
     out.slip = held && known ? trace.slip(range) : kUnmeasured;
     out.weight_felt = carried ? trace.weight_felt(range) / weight : kUnmeasured;
@@ -68,7 +68,8 @@ rows::PhaseRow figures_of(const GraspTrace& trace, Range range, double weight) {
 ObjectFacts facts_of(const std::string& name, const recording::SessionFolder& folder,
                      const recording::LogHead& head, std::string& why) {
     if (name.empty()) return {};
-    const std::string lost = "; what needs the object's weight or friction is left empty";
+    const std::string lost =
+        "; figures that require the object's weight or friction are left empty";
     if (const auto changed = folder.changed(head.inputs, Severity::warning); !changed.empty()) {
         why = changed.front().place.file + " " + changed.front().what + lost;
         return {};
@@ -78,7 +79,7 @@ ObjectFacts facts_of(const std::string& name, const recording::SessionFolder& fo
         const scene::Scene scene = scene::read_scene(folder.file("scene.yaml"), diagnostics);
         const int i = scene.find(name);
         if (diagnostics.has_errors() || i < 0 || !recording::fits(head, scene)) {
-            why = folder.file("scene.yaml") + " is not the scene of raw.log" + lost;
+            why = folder.file("scene.yaml") + " is not the scene in raw.log" + lost;
             return {};
         }
         const scene::Body& object = scene.bodies[static_cast<size_t>(i)];
@@ -165,7 +166,7 @@ struct SessionReader::Pass {
         return found == head.bodies.end() ? -1 : static_cast<int>(found - head.bodies.begin());
     }
 
-    /// Takes the object of the trial that begins.
+    /// Selects the object of the trial that starts.
     void begin_trial() {
         const auto i = static_cast<size_t>(trial - 1);
         if (trial < 1 || i >= objects.size() || objects[i] == object) return;
@@ -218,7 +219,7 @@ struct SessionReader::Pass {
     }
 
     void add(const frame::Frame& frame) {
-        // the feedback of a session's last trial is still said to be of it
+        // the feedback of a session's last trial still belongs to it
         const bool next_trial = frame.trial != trial || frame.task.attempt != attempt ||
                                 (reading.trials && (phase == 0) != (frame.phase == 0));
         if (frame.phase != phase || next_trial) {
@@ -323,7 +324,7 @@ Table trial_table(const SessionFigures& figures, const recording::SessionInfo& i
 
 /// Finds when each event was first seen on the screen.
 void find_shown(std::vector<rows::EventRow>& events, const recording::Showings& showings) {
-    // a message is seen only in pictures from before the next message
+    // a message is seen only in pictures before the next message
     int64_t gone = recording::Showings::kStays;
     for (size_t i = events.size(); i-- > 0;) {
         rows::EventRow& event = events[i];
@@ -360,12 +361,13 @@ Table as_intervals(const Table& events) {
     return table;
 }
 
-/// Latest time in a session's table [s]; 0 if the table cannot be read. `time`: of a row.
+/// Latest time in a session's table [s]; 0 if the table cannot be read. `time`: gives the time of a
+/// row.
 template <class Row, class Time>
 double last_time(const std::string& file, Time time) {
     try {
         double last = 0;
-        // a cell without a number is no time
+        // a cell without a number is not a time
         for (const Row& row : rows::RowFile<Row>(file)) last = std::max(last, time(row));
         return last;
     } catch (const Error&) {
@@ -373,8 +375,8 @@ double last_time(const std::string& file, Time time) {
     }
 }
 
-/// Throws Error when existing files, made before the log was damaged, hold more than the log can
-/// give now.
+/// Throws Error when existing files, made before the log was damaged, contain more than the log now
+/// yields.
 void keep_longer_files(const recording::SessionFolder& folder, const SessionFigures& figures,
                        const std::vector<std::string>& damage) {
     std::vector<Problem> problems;
@@ -382,7 +384,7 @@ void keep_longer_files(const recording::SessionFolder& folder, const SessionFigu
         problems.push_back({Severity::error,
                             {folder.file(name), 0},
                             "",
-                            "has more than the log can give now: " + what,
+                            "contains more than the log now yields: " + what,
                             "Move it away first to have it replaced."});
     };
     const int64_t ticks = recording::ticks_in_nwb(folder);
@@ -392,7 +394,7 @@ void keep_longer_files(const recording::SessionFolder& folder, const SessionFigu
     }
     const auto check = [&](const char* name, double last) {
         if (last > figures.duration + figures.tick / 2) {
-            keep(name, fmt::format("it goes to {:.3f} s; the log ends at {:.3f} s", last,
+            keep(name, fmt::format("it extends to {:.3f} s; the log ends at {:.3f} s", last,
                                    figures.duration));
         }
     };
@@ -424,7 +426,7 @@ namespace {
 Table no_settings() {
     Table table;
     table.columns = {{"setting", "name and unit"},
-                     {"value", "as used"},
+                     {"value", "value used"},
                      {"origin", "file and line, or default"}};
     return table;
 }
@@ -461,20 +463,20 @@ const rows::PhaseRow* SessionFigures::phase(const std::string& name) const {
 
 std::string SessionFigures::describe_imbalance() const {
     return fmt::format(
-        "in {} of {} {}: by {:.2g} J in all, and by at most {:.2g} N*s and {:.2g} N*m*s of a body "
-        "in a tick",
+        "in {} of {} {}: by {:.2g} J in total, and by at most {:.2g} N*s and {:.2g} N*m*s for a "
+        "body in a tick",
         ticks_with(kUnbalanced), counted(frames, "tick"), describe(kUnbalanced).what,
         energy_imbalance, momentum_imbalance, angular_imbalance);
 }
 
 namespace {
 
-/// Has the session, and so its report, say if its objects moved as nothing explains.
+/// Makes the session, and thus its report, state whether its objects moved inexplicably.
 void note_imbalance(recording::SessionInfo& info, const SessionFigures& figures) {
     if (figures.ticks_with(kUnbalanced) > 0) add_note(info, figures.describe_imbalance());
 }
 
-/// Writes all tables except NWB's.
+/// Writes all tables except session.nwb.
 SessionFigures write_tables(const recording::SessionFolder& folder, recording::SessionInfo info,
                             const Reading& reading, const recording::NwbContent& content,
                             const Table& events) {
@@ -489,7 +491,7 @@ SessionFigures write_tables(const recording::SessionFolder& folder, recording::S
     write_csv(events, folder.file("events.csv"));
     if (!reading.fault.rows.empty()) write_csv(reading.fault, folder.file("fault.csv"));
     recording::seal(folder, info);
-    folder.sync();  // all files are on the disk before the state says so
+    folder.sync();  // all files are on the disk before the state changes
     folder.write_info(info);
     return out;
 }

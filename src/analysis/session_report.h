@@ -24,29 +24,29 @@ struct SessionFigures {
     std::optional<Table> trials;    ///< a task's trials, with those of the session's earlier parts
     std::vector<Episode> episodes;  ///< the object's episodes
     int64_t frames = 0;
-    recording::LogHealth log;           ///< what is missing from the log
+    recording::LogHealth log;           ///< gaps in the log
     double tick = 0;                    ///< period of the clock [s]
     double duration = 0;                ///< [s]
     uint32_t status = 0;                ///< all status bits that occurred
     std::vector<int64_t> status_ticks;  ///< number of ticks with each status bit
-    /// What the books of ticks (dynamics/balance.h) leave unexplained: the energy of all ticks
-    /// together [J], and the largest changes of momentum in a tick [N*s], [N*m*s].
+    /// The part of the ticks' balances (dynamics/balance.h) that is unexplained: the energy of all
+    /// ticks together [J], and the largest changes of momentum in a tick [N*s], [N*m*s].
     double energy_imbalance = 0;
     double momentum_imbalance = 0;
     double angular_imbalance = 0;
 
-    /// Whether something was not a number, so that no figure can be trusted.
+    /// Whether a value was not a number, so that no figure can be trusted.
     bool diverged() const { return (status & kNotFinite) != 0; }
-    /// Whether the session diverged, or force was off after another fault, so that what was felt is
-    /// not what was planned. A stop by the operator is an interruption, not a failure.
+    /// Whether the session diverged, or force was off after another fault, so that the felt forces
+    /// differ from the planned ones. A stop by the operator is an interruption, not a failure.
     bool failed() const {
         return diverged() || ((status & kForceOff) != 0 && (status & kStopped) == 0);
     }
     int64_t ticks_with(Status bit) const { return status_ticks[place_of(bit)]; }
     int64_t& ticks_with(Status bit) { return status_ticks[place_of(bit)]; }
-    /// The phase of that name; null if there is none.
+    /// The phase with this name; null if there is none.
     const rows::PhaseRow* phase(const std::string& name) const;
-    /// What kUnbalanced says of the session, in figures.
+    /// The figures behind kUnbalanced for the session.
     std::string describe_imbalance() const;
 
   private:
@@ -57,13 +57,13 @@ struct SessionFigures {
 
 /// Writes session.nwb, trials.csv, phases.csv, episodes.csv, lifts.csv, events.csv and, after a
 /// fault, fault.csv; and last session.yaml with `info` and its state, which becomes `recovered`
-/// when the log is damaged. Throws Error when it cannot, or when existing files hold more than the
-/// log can give now.
+/// when the log is damaged. Throws Error when this fails, or when existing files contain more than
+/// the log now yields.
 SessionFigures finish_session(const recording::SessionFolder& folder, recording::SessionInfo info,
                               const std::function<void(double)>& progress);
 
-/// Takes a session's frames in turn, while it runs or from its log, and computes what the files
-/// need.
+/// Processes a session's frames in order, while it runs or from its log, and computes the contents
+/// of its files.
 class SessionReader {
   public:
     /// `folder` must have the frozen inputs, and `info` the phases, object and participant.
@@ -74,7 +74,7 @@ class SessionReader {
     void add(const frame::Frame& frame);
     /// The attempts at a task's trials so far, as trials.csv will have them; no row without a task.
     Table trials() const;
-    /// Number of these attempts that have ended.
+    /// Number of attempts that have ended.
     size_t ended_trials() const;
 
   private:
@@ -86,12 +86,12 @@ class SessionReader {
     std::unique_ptr<Pass> pass_;
 };
 
-/// Does what finish_session() does for a session without a log that was read while it ran: writes
-/// all tables and session.yaml, but no session.nwb.
+/// Like finish_session(), for a session without a log that was read while it ran: writes all tables
+/// and session.yaml, but no session.nwb.
 SessionFigures finish_tables(const recording::SessionFolder& folder, recording::SessionInfo info,
                              SessionReader reader);
 
-/// Adds a note unless `info` has it already: a session may be recovered more than once.
+/// Adds a note unless `info` already has it: a session may be recovered more than once.
 void add_note(recording::SessionInfo& info, const std::string& note);
 
 /// Every setting of the session with its origin, from settings.csv; no rows if that file is

@@ -20,15 +20,15 @@ namespace {
 
 constexpr const char* kList = "trial-list.csv";
 constexpr const char* kBefore = "trials-before.csv";
-constexpr double kPerDegree = 1 / kDegree;  // of an angle in radians
-constexpr double kPerMm = 1000;             // of a length in m
+constexpr double kPerDegree = 1 / kDegree;  // factor from radians to degrees
+constexpr double kPerMm = 1000;             // factor from m to mm
 
 /// Description of a column of the list.
 std::string listed_as(const std::string& name) {
     for (const Table::Column& c : list_figures(rows::AskedRow{}).columns) {
         if (c.name == name) return c.description;
     }
-    return "of trial-list.csv";
+    return "column of trial-list.csv";
 }
 
 /// Index of the list's column; its number of columns if there is no such column.
@@ -47,8 +47,8 @@ Table::Cell cell(const std::string& text) {
     return value && to_csv(Table::Cell(*value)) == text ? Table::Cell(*value) : Table::Cell(text);
 }
 
-/// Throws Error when the list gives the table columns that cannot be told apart, or that
-/// session.nwb could not have.
+/// Throws Error when the list gives the table columns that cannot be distinguished, or that
+/// session.nwb cannot contain.
 void check_columns(const Table& table, const std::string& list) {
     std::set<std::string> names;
     for (const Table::Column& column : table.columns) {
@@ -56,8 +56,8 @@ void check_columns(const Table& table, const std::string& list) {
                             column.name.find('/') == std::string::npos;
         if (usable && names.insert(column.name).second) continue;
         throw Error({list, 1}, shortened(column.name),
-                    usable ? "is the name of two columns" : "is no name of a column",
-                    "Put back the list that the session was recorded with.");
+                    usable ? "is the name of two columns" : "is not a valid column name",
+                    "Restore the list with which the session was recorded.");
     }
 }
 
@@ -66,14 +66,14 @@ std::vector<Table::Column> columns_of_numbers(const recording::SessionInfo& info
     std::vector<Table::Column> out;
     for (const std::string& name : info.variables) {
         out.push_back({name, "variable, in the trial"});
-        out.push_back({task::next_column(name), "the same, after the trial"});
+        out.push_back({task::next_column(name), "variable, after the trial"});
     }
     for (const std::string& name : info.levels) out.push_back({name, "chosen by a procedure"});
     for (const std::string& name : info.answers) out.push_back({name, "answered"});
     return out;
 }
 
-/// Their values in the trial's first tick, and in its last one.
+/// Their values in the trial's first and last tick.
 std::vector<Table::Cell> cells_of_numbers(const recording::SessionInfo& info,
                                           const std::vector<frame::VariableFrame>& first,
                                           const std::vector<frame::VariableFrame>& last,
@@ -120,7 +120,7 @@ TrialFinder::TrialFinder(const recording::SessionFolder& folder,
         if (plan.finger.empty()) {
             throw Error({folder.file(kList), static_cast<int>(reaches_.size()) + 2},
                         task::kFirstReachColumn, "is missing: the line is cut off",
-                        "Put back the list that the session was recorded with.");
+                        "Restore the list with which the session was recorded.");
         }
         const auto named = std::find(fingers.begin(), fingers.end(), plan.finger);
         const auto finger = static_cast<size_t>(named - fingers.begin());
@@ -130,7 +130,7 @@ TrialFinder::TrialFinder(const recording::SessionFolder& folder,
 
 void TrialFinder::add(const frame::Frame& frame) {
     if (frame.trial < 1) return;
-    if (frame.phase == 0) {  // between trials, where variables may be decided on
+    if (frame.phase == 0) {  // between trials, where variables may be set
         if (!rows_.empty()) rows_.back().decided = frame.task.variables;
         return;
     }
@@ -148,7 +148,7 @@ void TrialFinder::add(const frame::Frame& frame) {
     row.end = seconds(frame.time);
     row.last = frame.task.variables;
     if (frame.task.outcome >= 0) row.outcome = frame.task.outcome;
-    // kept, since the perturbation may not act in all of the trial
+    // kept, since the perturbation may act in only part of the trial
     if (frame.task.share != 0) row.share = frame.task.share;
     rows::TrialMeasures& m = row.measures;
     m.peak_grip = std::fmax(m.peak_grip, frame.grip_force);
@@ -175,8 +175,9 @@ void TrialFinder::measure_angle(Row& row, const Reach& reach, const frame::Frame
     row.measures.shown_angle_deg = kPerDegree * angle_about(reach.plan.axis_W, way, shown);
 }
 
-/// Extents are measured from where the handle set out, since a finger that holds something is not
-/// at the hand's middle. The wanted extent is what is then left of the way from region to region.
+/// Extents are measured from the handle's starting position, since a finger that holds an object is
+/// not at the hand's middle. The wanted extent is the remaining part of the path from region to
+/// region.
 void TrialFinder::measure_extent(Row& row, const Reach& reach, const frame::Frame& frame) const {
     const frame::FingerFrame& finger = frame.fingers[reach.finger];
     const Vec3 shown_W = frame::displayed_handle(frame, reach.finger).p;
@@ -196,7 +197,7 @@ void TrialFinder::measure_extent(Row& row, const Reach& reach, const frame::Fram
 Table TrialFinder::table(const recording::SessionInfo& info) const {
     Table table;
     table.columns = list_figures(rows::TrialHead{}).columns;
-    // how a trial is measured is not repeated
+    // a trial's way of measurement is not repeated
     const size_t listed =
         std::min(column(list_, task::kFirstReachColumn), column(list_, task::kFirstMovementColumn));
     for (size_t k = 0; k < listed; ++k)
@@ -266,15 +267,15 @@ Table with_earlier(const Table& own, const recording::SessionFolder& folder) {
     const size_t number = column(before, "session_num");
     if (outcome == before[0].size() || number == before[0].size()) {
         throw Error({folder.file(kBefore), 1}, "", "has no columns 'outcome' and 'session_num'",
-                    "Put the trials.csv of the session that this one goes on with in its place.");
+                    "Replace it with the trials.csv of the session that this one resumes.");
     }
     Table table{own.columns, {}};
-    // an earlier version's table may lack a column, or have it in another place
+    // an earlier version's table may lack a column, or have it in another position
     std::vector<size_t> places;
     for (const Table::Column& c : own.columns) places.push_back(column(before, c.name));
     for (size_t i = 1; i < before.size(); ++i) {
         if (before[i].size() != before[0].size()) continue;
-        if (before[i][outcome] == rows::kInterrupted) continue;  // done again here
+        if (before[i][outcome] == rows::kInterrupted) continue;  // repeated here
         std::vector<Table::Cell>& row = table.rows.emplace_back();
         for (const size_t place : places)
             row.push_back(cell(place < before[i].size() ? before[i][place] : ""));

@@ -1,5 +1,5 @@
-// Finds a task's trials in the frames: one row per attempt, with what the frozen list of trials
-// (trial-list.csv) says of the trial.
+// Finds a task's trials in the frames: one row per attempt, with the trial's entries in the frozen
+// list of trials (trial-list.csv).
 #pragma once
 
 #include <algorithm>
@@ -55,9 +55,9 @@ class TrialFinder {
         double start = 0;  ///< [s]
         double end = 0;
         double share = 0;                             ///< share of the perturbation
-        std::vector<frame::VariableFrame> variables;  ///< at its start [SI]
-        std::vector<frame::VariableFrame> last;       ///< in its last tick
-        /// At the next trial's start; they differ where something decides between trials.
+        std::vector<frame::VariableFrame> variables;  ///< values at its start [SI]
+        std::vector<frame::VariableFrame> last;       ///< values in its last tick
+        /// At the next trial's start; they differ if a program decides between trials.
         std::vector<frame::VariableFrame> decided;
         rows::TrialMeasures measures;
         FirstStroke stroke;
@@ -79,9 +79,9 @@ class TrialFinder {
 
 /// Number of the last of the sessions that this one resumes; 0 if it resumes none.
 int sessions_before(const recording::SessionFolder& folder);
-/// Numbers a session that resumes others after them.
+/// Numbers a session that resumes others after those.
 void number_session(Table& own, const recording::SessionFolder& folder);
-/// Puts the finished trials of the sessions that this one resumes before its own.
+/// Inserts the finished trials of the sessions that this one resumes before its own.
 Table with_earlier(const Table& own, const recording::SessionFolder& folder);
 
 /// Columns of trials.csv with their descriptions, with a task or without.

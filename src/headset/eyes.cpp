@@ -11,11 +11,11 @@ namespace dihaptic::headset {
 namespace {
 
 constexpr auto kViews = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
-constexpr double kNearest = 0.03, kFurthest = 30;  // from an eye, what is drawn [m]
-constexpr double kPanel = 1;                       // width of the words' panel [m]
-constexpr double kPanelAhead = 1;                  // of the head [m]
+constexpr double kNearest = 0.03, kFurthest = 30;  // limits of drawing, from an eye [m]
+constexpr double kPanel = 1;                       // width of the panel with words [m]
+constexpr double kPanelAhead = 1;                  // distance from the head [m]
 
-/// Names of what a function lists in two calls: how many there are, then which.
+/// Items that a function lists in two calls: first their number, then the items.
 template <class Item, class List>
 std::vector<Item> listed(const List& list, const Item& empty) {
     uint32_t count = 0;
@@ -103,12 +103,13 @@ void Eyes::connect() {
     switch (const XrResult result = xrCreateInstance(&info, instance_.out())) {
         case XR_ERROR_RUNTIME_UNAVAILABLE:
         case XR_ERROR_RUNTIME_FAILURE:
-            throw Error("there is no OpenXR runtime, or it does not run",
-                        "Start the headset's own, such as Monado or SteamVR, and let it make "
-                        "itself the active one: ~/.config/openxr/1/active_runtime.json.");
+            throw Error("there is no OpenXR runtime, or it is not running",
+                        "Start the headset's own runtime, such as Monado or SteamVR, and let it "
+                        "make itself the active one: ~/.config/openxr/1/active_runtime.json.");
         case XR_ERROR_EXTENSION_NOT_PRESENT:
-            throw Error("the active OpenXR runtime takes no pictures by OpenGL",
-                        "Make another the active one: ~/.config/openxr/1/active_runtime.json.");
+            throw Error(
+                "the active OpenXR runtime does not support OpenGL",
+                "Make another runtime the active one: ~/.config/openxr/1/active_runtime.json.");
         default:
             check(result, "xrCreateInstance");
     }
@@ -123,8 +124,8 @@ void Eyes::connect() {
     get.formFactor = XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY;
     const XrResult found = xrGetSystem(instance_, &get, &system_);
     if (found == XR_ERROR_FORM_FACTOR_UNAVAILABLE || found == XR_ERROR_FORM_FACTOR_UNSUPPORTED)
-        throw Error(fmt::format("{} finds no headset", runtime_),
-                    "Connect it, and switch it on; then open the subject's window again.");
+        throw Error(fmt::format("{} does not find a headset", runtime_),
+                    "Connect the headset and switch it on; then open the subject's window again.");
     check(found, "xrGetSystem");
     auto system = xr::made<XrSystemProperties>(XR_TYPE_SYSTEM_PROPERTIES);
     check(xrGetSystemProperties(instance_, system_, &system), "xrGetSystemProperties");
@@ -141,7 +142,7 @@ void Eyes::check_graphics() const {
     const int have = epoxy_gl_version();
     if (XR_MAKE_VERSION(have / 10, have % 10, 0) < needs.minApiVersionSupported)
         throw Error(
-            fmt::format("{} needs OpenGL {}.{}, and the driver has {}.{}", runtime_,
+            fmt::format("{} needs OpenGL {}.{}, but the driver has {}.{}", runtime_,
                         XR_VERSION_MAJOR(needs.minApiVersionSupported),
                         XR_VERSION_MINOR(needs.minApiVersionSupported), have / 10, have % 10),
             "Update the graphics driver.");
@@ -171,8 +172,8 @@ void Eyes::make_space(display::HeadsetSpace kind) {
     const auto wanted = kind == display::HeadsetSpace::stage ? XR_REFERENCE_SPACE_TYPE_STAGE
                                                              : XR_REFERENCE_SPACE_TYPE_LOCAL;
     if (std::find(all.begin(), all.end(), wanted) == all.end())
-        throw Error(place_.place, "space", "is 'stage', and the headset's runtime has none",
-                    "Set the room up in the runtime, or write space: local.");
+        throw Error(place_.place, "space", "is 'stage', but the headset's runtime has no stage",
+                    "Set up the room in the runtime, or write space: local.");
     auto info = xr::made<XrReferenceSpaceCreateInfo>(XR_TYPE_REFERENCE_SPACE_CREATE_INFO);
     info.poseInReferenceSpace = xr::to_xr({});
     info.referenceSpaceType = wanted;
@@ -190,7 +191,7 @@ void Eyes::make_pictures() {
     const auto format =
         std::find_first_of(usable.begin(), usable.end(), formats.begin(), formats.end());
     if (format == usable.end())
-        throw Error(fmt::format("{} takes no pictures of 8 bits a colour", runtime_),
+        throw Error(fmt::format("{} does not support pictures with 8 bits per colour", runtime_),
                     "Use another runtime.");
     const auto views = listed(
         [&](uint32_t room, uint32_t* count, XrViewConfigurationView* out) {
@@ -198,9 +199,9 @@ void Eyes::make_pictures() {
         },
         xr::made<XrViewConfigurationView>(XR_TYPE_VIEW_CONFIGURATION_VIEW));
     if (views.size() != kCount)
-        throw Error(fmt::format("{} does not show a picture for each of two eyes", runtime_),
+        throw Error(fmt::format("{} does not show separate pictures to two eyes", runtime_),
                     "Use another headset.");
-    // one size, since both are drawn at once
+    // the same size, since both are drawn at once
     const auto width =
         std::max(views[0].recommendedImageRectWidth, views[1].recommendedImageRectWidth);
     const auto height =
@@ -263,8 +264,8 @@ void Eyes::take_note_of(XrSessionState state) {
             break;
         case XR_SESSION_STATE_EXITING:
         case XR_SESSION_STATE_LOSS_PENDING:
-            throw Error(fmt::format("{} has ended the pictures in the headset", runtime_),
-                        "Start it anew, then open the subject's window again.");
+            throw Error(fmt::format("{} has ended the display in the headset", runtime_),
+                        "Restart it, then open the subject's window again.");
         default:
             break;
     }
@@ -312,7 +313,7 @@ void Eyes::copy_from(size_t eye, int left) {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D,
                            taken.texture(), 0);
-    // the scene is drawn as sRGB, and the runtime takes it as such
+    // the scene is drawn as sRGB, and the runtime reads it as sRGB
     glDisable(GL_FRAMEBUFFER_SRGB);
     glBlitFramebuffer(left, 0, left + to.width, to.height, 0, 0, to.width, to.height,
                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
@@ -333,7 +334,7 @@ void Eyes::set_words(const Words& words, const Look& look) {
         glTexSubImage2D(GL_TEXTURE_2D, 0, 0, Words::kHeight - 1 - y, Words::kWidth, 1, GL_RGBA,
                         GL_UNSIGNED_BYTE, &words.rgba[static_cast<size_t>(y) * kRow]);
     if (!came) return;
-    // upright, before where the head looks
+    // upright, in front of the head
     const Pose X_SV = X_WS_.inverse() * look.X_WV;
     const Vec3 backward = X_SV.R * Vec3::UnitZ();
     Vec3 right = Vec3::UnitY().cross(backward);
@@ -349,7 +350,7 @@ std::chrono::steady_clock::time_point Eyes::steady(XrTime time) const {
     timespec at{};
     if (to_timespec_ == nullptr || !XR_SUCCEEDED(to_timespec_(instance_, time, &at)))
         return Clock::now();
-    // both are CLOCK_MONOTONIC
+    // both times are CLOCK_MONOTONIC
     return Clock::time_point(std::chrono::seconds(at.tv_sec) +
                              std::chrono::nanoseconds(at.tv_nsec));
 }

@@ -38,7 +38,7 @@ class Eyes {
     int height() const { return pictures_[0].height; }
 
     /// Handles the runtime's events. Returns whether the runtime needs pictures; throws Error when
-    /// the session is over.
+    /// the session has ended.
     bool wants_pictures();
 
     /// The viewpoints for a picture.
@@ -46,16 +46,16 @@ class Eyes {
         XrTime time = 0;
         bool drawn = false;  ///< whether it will be visible
         std::array<view::Viewpoint, kCount> eyes;
-        Pose X_WV;             ///< of the head
+        Pose X_WV;             ///< pose of the head
         bool tracked = false;  ///< whether it was measured
     };
-    /// Waits until it is time for the next picture, and returns its viewpoints.
+    /// Waits until the next picture is due, and returns its viewpoints.
     Look begin_picture();
     /// Copies an eye's picture from the framebuffer bound for reading, starting at `left`.
     void copy_from(size_t eye, int left);
-    /// Draws words again, which hang before the head of the look.
+    /// Redraws words, which hang in front of the head at its pose in the look.
     void set_words(const Words& words, const Look& look);
-    /// Submits the picture; returns the time of its light.
+    /// Submits the picture; returns the time when its light appears.
     std::chrono::steady_clock::time_point end_picture(const Look& look);
 
   private:
@@ -77,13 +77,13 @@ class Eyes {
     xr::Instance instance_;
     XrSystemId system_ = XR_NULL_SYSTEM_ID;
     std::string runtime_, model_;
-    PFN_xrConvertTimeToTimespecTimeKHR to_timespec_ = nullptr;  // null: it does not say
+    PFN_xrConvertTimeToTimespecTimeKHR to_timespec_ = nullptr;  // null: the runtime lacks it
     xr::Session session_;
     xr::Space space_, head_;
     XrEnvironmentBlendMode blend_ = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
     std::array<Pictures, kCount> pictures_;
     Pictures words_;
-    std::optional<Pose> X_SP_;  // of the words' panel; unset: there are none
+    std::optional<Pose> X_SP_;  // pose of the panel with words; unset: no words
     std::array<XrView, kCount> views_{};
     bool running_ = false;
 };

@@ -8,8 +8,8 @@ namespace dihaptic::headset {
 namespace {
 
 [[noreturn]] void fail(const std::string& what) {
-    throw Error("there is no OpenGL 3.3 to draw for a headset with: " + what,
-                "Start the program in a desktop of X11, or of Wayland with XWayland.");
+    throw Error("OpenGL 3.3, which drawing for a headset requires, is missing: " + what,
+                "Start the program on an X11 desktop, or on Wayland with XWayland.");
 }
 
 }  // namespace
@@ -33,7 +33,7 @@ GlxContext::GlxContext() {
         glXChooseFBConfig(display, DefaultScreen(display), wanted.data(), &count);
     if (found != nullptr && count > 0) config_ = found[0];
     if (found != nullptr) XFree(found);
-    if (config_ == nullptr) fail("the display has no pictures in memory");
+    if (config_ == nullptr) fail("the display does not support drawing in memory");
     const std::array<int, 7> version{GLX_CONTEXT_MAJOR_VERSION_ARB,
                                      3,
                                      GLX_CONTEXT_MINOR_VERSION_ARB,
@@ -42,7 +42,7 @@ GlxContext::GlxContext() {
                                      GLX_CONTEXT_CORE_PROFILE_BIT_ARB,
                                      kNone};
     context_ = glXCreateContextAttribsARB(display, config_, nullptr, 1, version.data());
-    if (context_ == nullptr) fail("the driver offers only older ones");
+    if (context_ == nullptr) fail("the driver offers only older versions");
     const std::array<int, 5> size{GLX_PBUFFER_WIDTH, 16, GLX_PBUFFER_HEIGHT, 16, kNone};
     surface_ = glXCreatePbuffer(display, config_, size.data());
     if (glXMakeContextCurrent(display, surface_, surface_, context_) == 0)

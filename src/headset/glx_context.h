@@ -1,5 +1,5 @@
-// An OpenGL context of X11 without a window, for a thread that draws for a headset: OpenXR's
-// runtimes on Linux take pictures from such a context.
+// An OpenGL context on X11 without a window, for a thread that draws for a headset: OpenXR runtimes
+// on Linux accept pictures from such a context.
 #pragma once
 
 #include <memory>

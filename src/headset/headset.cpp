@@ -111,7 +111,7 @@ void Headset::show_until_done() {
     Eyes eyes(place_, gl);
     note(eyes.describe(), false);
     if (view::is_software(view::renderer()))
-        note("there is no graphics card to draw with: the headset's pictures come late", true);
+        note("there is no graphics card: the headset's pictures are late", true);
     Drawing drawing(eyes.width(), eyes.height());
     std::shared_ptr<const Words> words;
     while (!done_) {

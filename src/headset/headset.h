@@ -1,5 +1,5 @@
 // Shows the scene in a headset, through whichever OpenXR runtime the system has, in a thread of its
-// own at the headset's own rate. README.md says what was tried with which headset.
+// own at the headset's own rate. README.md lists the tests and headsets tried.
 #pragma once
 
 #include <atomic>
@@ -20,21 +20,21 @@ namespace dihaptic::headset {
 /// A picture that was handed to the headset.
 struct Showing {
     int64_t tick = 0;  ///< of the frame that it shows
-    /// When its light comes, as the runtime predicts it or, if it does not, when the picture was
-    /// submitted.
+    /// Time when its light appears, as predicted by the runtime; without a prediction, when the
+    /// picture was submitted.
     std::chrono::steady_clock::time_point at;
-    Pose X_WV;             ///< of the head then: V is between the eyes, x right, y up, z backward
+    Pose X_WV;  ///< pose of the head then: V is between the eyes, x right, y up, z backward
     bool tracked = false;  ///< whether X_WV was measured, not guessed
 };
 
-/// Drawn texts, which hang where the head was looking when they came.
+/// Drawn texts, which hang where the head was looking when they appeared.
 struct Words {
     static constexpr int kWidth = 1200, kHeight = 900;  // [pixels]
     /// Red, green, blue and opacity of each pixel, rows from top to bottom; empty: no words.
     std::vector<uint8_t> rgba;
 };
 
-/// What happened, in words.
+/// A message about an event.
 struct Note {
     std::string text;
     bool problem = false;
@@ -44,7 +44,7 @@ class Headset {
   public:
     using Frames = Latest<frame::Frame>;
 
-    /// Begins to show; if it cannot, a Note says so.
+    /// Starts showing; if this fails, a Note reports it.
     explicit Headset(const display::Headset& place);
     ~Headset();
     Headset(const Headset&) = delete;
@@ -56,15 +56,15 @@ class Headset {
     void show(const scene::Scene& scene, std::shared_ptr<Frames> frames);
     void set_words(Words words);
 
-    /// The pictures since the last call. Those of a minute are kept.
+    /// The pictures since the last call, up to a minute of them.
     std::vector<Showing> take_showings();
-    /// What has happened since the last call.
+    /// The events since the last call.
     std::vector<Note> take_notes();
-    /// Whether the headset has stopped showing; a Note says why.
+    /// Whether the headset has stopped showing; a Note gives the reason.
     bool ended() const { return ended_; }
 
   private:
-    /// What is to be shown.
+    /// The content to be shown.
     struct Content {
         std::shared_ptr<const scene::Scene> scene;  // null: nothing yet
         std::shared_ptr<Frames> frames;
@@ -76,7 +76,7 @@ class Headset {
     Content content();
 
     display::Headset place_;
-    std::mutex guard_;  // of what follows
+    std::mutex guard_;  // guards the members below
     Content content_;
     std::vector<Showing> showings_;
     std::vector<Note> notes_;

@@ -14,7 +14,7 @@ void check(XrInstance instance, XrResult result, const char* what) {
     if (instance != XR_NULL_HANDLE && XR_SUCCEEDED(xrResultToString(instance, result, name)))
         said = name;
     throw Error(fmt::format("the headset's runtime refuses {}: {}", what, said),
-                "Look into what the runtime itself says of it, and start it anew.");
+                "Check the runtime's own messages, and restart it.");
 }
 
 XrPosef to_xr(const Pose& X) {

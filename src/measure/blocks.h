@@ -1,4 +1,4 @@
-// Makes the boxes and tables of the benches' scenes.
+// Makes boxes and tables for the scenes of benches.
 #pragma once
 
 #include <string>

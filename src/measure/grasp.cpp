@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array kCalmList{100,  200,  300,  400,  500,  600,  800, 1000,
                                1500, 2000, 3000, 4000, 5000, 6000, 8000};
-constexpr double kLastSeconds = 3;  // end of the hold, which is judged, when all has settled [s]
+constexpr double kLastSeconds = 3;  // judged end of the hold, when everything has settled [s]
 using model::kGravity;
 
 double degrees(double rad) {
@@ -31,8 +31,8 @@ BenchSetup with(BenchSetup setup, double k, Fingering fingering = Fingering::ide
     return setup;
 }
 
-/// Peak force of a spring of stiffness K that acts continuously, without sampling: the least that
-/// the kick can be [N].
+/// Peak force of a spring of stiffness K that acts continuously, without sampling: the lower bound
+/// of the kick [N].
 double perfect_peak(const BenchSetup& setup, double speed) {
     const double h = 1e-6;
     const double mass = 0.075;
@@ -69,7 +69,7 @@ double closed_form_grip(const BenchSetup& setup) {
     return slant * slant * press_force(along);
 }
 
-/// Figures that describe what is measured, without results yet.
+/// Figures that describe the setup, without results yet.
 GraspFigures described(const BenchSetup& base) {
     const frame::Settings& settings = base.settings;
     GraspFigures out;
@@ -140,7 +140,7 @@ bool calm_wall(const BenchSetup& setup) {
 KickFigures measure_kick(BenchSetup setup, double speed) {
     hand::HandSpec hand = wall_hand(setup);
     const double way = kStartGap + setup.squeeze;
-    // a wait first, because real devices let their force rise slowly
+    // first a wait, because real devices raise their force slowly
     hand.script = {{"wait", 0.25, {}, Vec3::Zero(), false},
                    {"press", way / speed, {}, {way, 0, 0}, true},
                    {"stay", 1, {}, Vec3::Zero(), false},

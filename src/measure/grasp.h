@@ -30,12 +30,12 @@ struct HoldFigures {
         v("k", f.k, "", "stiffness of the coupling [N/m]");
         v("fingering", f.fingering, "", "how the fingers hold the block");
         v("held", f.held, "", "from lift-off to opening");
-        v("lift_slip_mm", f.lift_slip_mm, "mm", "of a finger in the lift");
-        v("slip_mm", f.slip_mm, "mm", "of a finger in the hold");
+        v("lift_slip_mm", f.lift_slip_mm, "mm", "slip of a finger in the lift");
+        v("slip_mm", f.slip_mm, "mm", "slip of a finger in the hold");
         v("z_rms_um", f.z_rms_um, "um", "RMS of the block's height");
         v("z_pp_um", f.z_pp_um, "um", "peak to peak of the block's height");
-        v("tilt_rms_deg", f.tilt_rms_deg, "deg", "of the grasp axis about its mean");
-        v("turn_deg", f.turn_deg, "deg", "of the block about the grasp axis");
+        v("tilt_rms_deg", f.tilt_rms_deg, "deg", "turn of the grasp axis about its mean");
+        v("turn_deg", f.turn_deg, "deg", "turn of the block about the grasp axis");
         v("hf_force_n", f.hf_force_n, "N", "handle force above 5 Hz, RMS");
         v("weight_ratio", f.weight_ratio, "1", "vertical handle forces over the weight");
         v("grip_ratio", f.grip_ratio, "1", "pinch force over its closed form");
@@ -52,7 +52,7 @@ struct SlowFigures {
     static void visit(Self& f, Visitor& v) {
         v("k", f.k, "", "stiffness of the coupling [N/m]");
         v("held", f.held, "", "from lift-off to opening");
-        v("slip_mm", f.slip_mm, "mm", "of a finger in the hold");
+        v("slip_mm", f.slip_mm, "mm", "slip of a finger in the hold");
         v("hf_force_n", f.hf_force_n, "N", "handle force above 5 Hz, RMS");
     }
 };
@@ -67,15 +67,15 @@ struct KickFigures {
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
         v("k", f.k, "", "stiffness of the coupling [N/m]");
-        v("speed", f.speed, "m/s", "of the hand");
+        v("speed", f.speed, "m/s", "speed of the hand");
         v("kick_ratio", f.kick_ratio, "1", "peak force over that of a spring in continuous time");
         v("touch_step_n", f.touch_step_n, "N", "force in the first tick beyond the spring's");
-        v("leave_pull_n", f.leave_pull_n, "N", "largest pull toward the wall on leaving it");
+        v("leave_pull_n", f.leave_pull_n, "N", "largest pull toward the wall when leaving it");
     }
 };
 
 struct GraspFigures {
-    // what was measured
+    // setup
     frame::CouplingKind coupling{};
     contact::Solver solver{};
     scene::ProxyKind proxy{};
@@ -98,35 +98,37 @@ struct GraspFigures {
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
-        v("coupling", f.coupling, "", "of handle and proxy");
-        v("solver", f.solver, "", "of contacts");
-        v("proxy", f.proxy, "", "what a finger is");
-        v("point_friction", f.point_friction, "", "where a point's friction is computed");
-        v("damping", f.damping, "", "of the coupling, by its stiffness");
-        v("mass", f.mass, "g", "of the block");
-        v("friction", f.friction, "1", "coefficient");
-        v("rate_hz", f.rate, "Hz", "ticks a second");
+        v("coupling", f.coupling, "", "coupling of handle and proxy");
+        v("solver", f.solver, "", "solver of contacts");
+        v("proxy", f.proxy, "", "model of a finger");
+        v("point_friction", f.point_friction, "", "point at which friction is computed");
+        v("damping", f.damping, "", "damping of the coupling, by its stiffness");
+        v("mass", f.mass, "g", "mass of the block");
+        v("friction", f.friction, "1", "coefficient of friction");
+        v("rate_hz", f.rate, "Hz", "ticks per second");
         v("hold", f.hold, "", "lifting and holding a block");
-        v("slow_dynamics", f.slow_dynamics, "", "the same with the world stepped every 10 ticks");
+        v("slow_dynamics", f.slow_dynamics, "",
+          "lifting and holding with the world stepped every 10 ticks");
         v("calm_k", f.calm_k, "", "highest K that holds the block calmly [N/m]");
-        v("calm_k_delay", f.calm_k_delay, "", "the same with a tick of delay [N/m]");
-        v("calm_k_premium", f.calm_k_premium, "", "the same on a Premium [N/m]");
+        v("calm_k_delay", f.calm_k_delay, "", "as before, with a tick of delay [N/m]");
+        v("calm_k_premium", f.calm_k_premium, "", "as before, on a Premium [N/m]");
         v("wall_k", f.wall_k, "", "highest K that is calm on a wall [N/m]");
-        v("wall_k_delay", f.wall_k_delay, "", "the same with a tick of delay [N/m]");
-        v("wall_k_premium", f.wall_k_premium, "", "the same on a Premium [N/m]");
-        v("torque_turn_deg", f.torque_turn_deg, "deg", "by 0.02 N*m for 0.2 s");
-        v("torque_turn_after_deg", f.torque_turn_after_deg, "deg", "1 s later");
-        v("torsion_limit_ratio", f.torsion_limit_ratio, "1", "over the closed form");
+        v("wall_k_delay", f.wall_k_delay, "", "as before, with a tick of delay [N/m]");
+        v("wall_k_premium", f.wall_k_premium, "", "as before, on a Premium [N/m]");
+        v("torque_turn_deg", f.torque_turn_deg, "deg", "turn by 0.02 N*m for 0.2 s");
+        v("torque_turn_after_deg", f.torque_turn_after_deg, "deg", "turn 1 s later");
+        v("torsion_limit_ratio", f.torsion_limit_ratio, "1",
+          "torque that turns the block, over its closed form");
         v("kick", f.kick, "", "touching and leaving a wall");
-        v("drag_n", f.drag_n, "N", "in free motion");
+        v("drag_n", f.drag_n, "N", "peak force in free motion");
     }
 };
 
 /// Measures one lift and hold, with setup.settings.coupling.stiffness.
 HoldFigures measure_hold(const BenchSetup& setup);
-/// The same in another scene, whose object weighs as much as the setup's.
+/// Measures one lift and hold in another scene, whose object weighs as much as the setup's.
 HoldFigures measure_hold(const BenchSetup& setup, const scene::Scene& scene);
-/// `grip_slack`: share of the grip that the device's friction may take.
+/// `grip_slack`: share of the grip that the device's friction may absorb.
 bool calm_grasp(const HoldFigures& hold, double grip_slack = 0);
 /// Whether one finger that is pressed 15 mm into a fixed wall is calm.
 bool calm_wall(const BenchSetup& setup);
@@ -134,7 +136,8 @@ bool calm_wall(const BenchSetup& setup);
 KickFigures measure_kick(BenchSetup setup, double speed);
 /// Peak handle force on a free minimum-jerk path of 20 cm with a peak of 0.5 m/s [N].
 double measure_drag(const BenchSetup& setup);
-/// Turn by a torque of 0.02 N*m for 0.2 s in the hold: at the torque's end, and 1 s later [deg].
+/// Turn caused by a torque of 0.02 N*m for 0.2 s in the hold: at the torque's end, and 1 s later
+/// [deg].
 std::pair<double, double> measure_torque(const BenchSetup& setup);
 
 /// Moment about the grasp axis that soft contacts of radius r can bear when fingers hold the block

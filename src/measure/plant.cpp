@@ -18,7 +18,7 @@ scene::Finger pad(const std::string& name, double friction) {
     return out;
 }
 
-/// Blocks in rows behind the work, out of the fingers' way.
+/// Blocks in rows behind the held block, out of the fingers' way.
 void add_extra_blocks(scene::Scene& scene, int count, double friction) {
     for (int i = 0; i < count; ++i) {
         const double pitch = 0.05;

@@ -16,8 +16,8 @@ namespace dihaptic::measure {
 /// How the fingers hold the block.
 enum class Fingering {
     ideal,  ///< centred
-    real,   ///< 2 mm off, opposite ways, along the face in both directions; tremor of 0.1 mm at 8-9
-            ///< Hz
+    real,   ///< 2 mm off centre, in opposite directions, along both axes of the face; tremor of 0.1
+            ///< mm at 8-9 Hz
     off_centre,  ///< both 5 mm above the block's centre
     offset,      ///< like real, without tremor
 };
@@ -28,7 +28,7 @@ constexpr auto enum_names(Fingering) {
 /// Imperfections that a device adds to the ideal plant.
 enum class Row { ideal, delay, premium };
 
-/// Parameters of a bench: those that `dihaptic bench` offers, and those that its rows vary.
+/// Parameters of a bench: those that `dihaptic bench` offers, and those that vary between its rows.
 struct BenchSetup {
     frame::Settings settings;
     double mass = 0.1;  ///< mass of the block [kg]
@@ -36,17 +36,17 @@ struct BenchSetup {
     Fingering fingering = Fingering::ideal;
     Row row = Row::ideal;
     std::vector<rig::Device> devices;  ///< simulated devices of thumb and index; empty: ideal ones
-    /// Puts another backend in front of the devices; null: they are used directly.
+    /// Wraps the devices in another backend; null: they are used directly.
     std::function<std::unique_ptr<devices::DeviceGroup>(
         const std::vector<devices::DeviceConfig>& simulated, const devices::Context& context)>
         make_devices;
     hand::Impedance impedance;
-    double squeeze = 0.015;  ///< distance that targets go beyond contact [m]
-    double lift = 0.1;       ///< height to which the hand rises [m]
+    double squeeze = 0.015;  ///< distance of the targets beyond contact [m]
+    double lift = 0.1;       ///< height of the hand's rise [m]
     double rise_time = 1;    ///< [s]
     double hold_time = 5;    ///< [s]
     double soft_radius = 0;  ///< torsion radius of spheres in place of pads; 0: pads [m]
-    int extra_blocks = 0;    ///< number of blocks on the table, behind the work
+    int extra_blocks = 0;    ///< number of blocks on the table, behind the held block
 };
 
 constexpr double kBlockSize = 0.04;      // [m]
@@ -55,7 +55,7 @@ constexpr double kPadThickness = 0.005;  // [m]
 /// Distance from a finger's proxy to its face: half a pad, or 0 for a point [m].
 double reach(const BenchSetup& setup);
 constexpr double kStartGap = 0.03;  // distance of the fingers from the faces at the start [m]
-/// Force of a finger that presses, in closed form [N].
+/// Force of a pressing finger, in closed form [N].
 double press_force(const BenchSetup& setup);
 
 scene::Scene grasp_scene(const BenchSetup& setup);

@@ -20,12 +20,13 @@ namespace {
 using model::kGravity;
 constexpr double kHandSpread = 3;   // impedance of firm over usual, and usual over loose hand
 constexpr double kGripShare = 0.4;  // grip over the weaker device's peak force
-/// The same over the force that it can hold for long, including the weight: hot motors get less
-/// force, and a hold that shook because of this could not be kept with any setting.
+/// Grip including the weight, over the weaker device's continuous force: hot motors get less force,
+/// and a hold that shook for this reason could not be calm with any setting.
 constexpr double kGripForLong = 0.8;
 constexpr double kNotMargin = 1.5;  // stiffness of TuneResult::stiffer over the proposal's
-constexpr double kAsStiff = 0.95;   // this share of the stiffest is enough if it saves damping
-constexpr int kBisections = 3;      // between two stiffnesses of the map
+constexpr double kAsStiff =
+    0.95;  // share of the greatest stiffness that is enough if it saves damping
+constexpr int kBisections = 3;  // bisections between two stiffnesses of the map
 constexpr std::array kAllBurdens{Burden::none, Burden::delay, Burden::light, Burden::loose,
                                  Burden::firm};
 
@@ -35,7 +36,8 @@ bool dual(const TuneSetup& setup) {
 }
 
 /// Calls `work(i)` for every i below `count`, on several threads, and on this thread `done(n)` with
-/// the number that are finished. Each result belongs to its i, so their order makes no difference.
+/// the number of finished calls. Each result belongs to its i, so the order of calls makes no
+/// difference.
 template <class Work, class Done>
 void in_parallel(size_t count, unsigned threads, const std::atomic<bool>& stop, const Work& work,
                  const Done& done) {
@@ -75,12 +77,12 @@ Verdict judge(const TuneSetup& setup, const TunePoint& point, Burden burden) {
     double friction = 0;
     for (const rig::Device& device : setup.devices)
         friction = std::max(friction, simulated_options(device).friction);
-    // a device's friction takes part of the hand's force, in either direction
+    // a device's friction absorbs part of the hand's force, in either direction
     if (calm_grasp(hold, friction / setup.grip)) return Verdict::calm;
     return hold.held ? Verdict::shaking : Verdict::dropped;
 }
 
-/// Judges points: first all without a burden, then the calm ones under each burden.
+/// Judges points: first all points without a burden, then the calm ones under each burden.
 void judge_all(const TuneSetup& setup, std::vector<TunePoint>& points,
                const std::atomic<bool>& stop, const std::function<void(double)>& share) {
     const auto n = static_cast<double>(points.size());
@@ -107,7 +109,7 @@ void judge_all(const TuneSetup& setup, std::vector<TunePoint>& points,
         });
 }
 
-/// Rounded down to two digits, as people write numbers into files.
+/// Rounded down to two digits, as people usually write numbers in files.
 double rounded_down(double k) {
     const double unit = std::pow(10, std::floor(std::log10(k)) - 1);
     return std::floor(k / unit * (1 + 1e-12)) * unit;
@@ -117,11 +119,11 @@ double one_digit_less(double k) {
     return rounded_down(k * 0.99);
 }
 
-/// A row of the map that reaches the highest K, with its last good and its first bad one.
+/// A row of the map that reaches the highest K, with its last good and its first bad stiffness.
 struct Bracket {
     double c;
     double smoothing;
-    double of_map;  ///< last good K of the map
+    double of_map;  ///< last good K on the map
     double good;
     double bad;
 };
@@ -151,7 +153,7 @@ std::function<void(double)> part_of(const Progress& progress, const char* what, 
     };
 }
 
-/// Brings each row's last good and first bad stiffness closer together.
+/// Narrows the gap between each row's last good and first bad stiffness.
 void bisect(const TuneSetup& setup, std::vector<Bracket>& rows, const std::atomic<bool>& stop,
             const Progress& progress) {
     for (int i = 0; i < kBisections && !stop; ++i) {
@@ -171,8 +173,8 @@ void bisect(const TuneSetup& setup, std::vector<Bracket>& rows, const std::atomi
     }
 }
 
-/// The least damped row (damping rises over rows) of those that are about as stiff as the stiffest,
-/// since a damper is felt at every touch.
+/// The least damped row (damping rises over rows) of those about as stiff as the stiffest, since a
+/// damper is felt at every touch.
 const Bracket& least_damped(const std::vector<Bracket>& rows) {
     const double stiffest =
         std::max_element(rows.begin(), rows.end(), [](const Bracket& a, const Bracket& b) {
@@ -182,8 +184,8 @@ const Bracket& least_damped(const std::vector<Bracket>& rows) {
                          [&](const Bracket& row) { return row.good >= kAsStiff * stiffest; });
 }
 
-/// The stiffest K that is calm with margin, found downward in steps of the second digit, because
-/// calm and shaking may alternate; at least the K that the map found calm.
+/// The highest K that is calm with margin, searched downward in steps of the second digit, because
+/// calm and shaking may alternate; at least the K that is calm on the map.
 TunePoint stiffest_calm(const TuneSetup& setup, const Bracket& row, const std::atomic<bool>& stop,
                         const Progress& progress) {
     const auto judged = [&](double k) {
@@ -207,9 +209,10 @@ bool TunePoint::calm_with_margin() const {
 TuneSetup tune_setup(const rig::Rig& rig, const std::vector<std::string>& fingers,
                      const frame::Settings& settings, const hand::Impedance& hand) {
     if (fingers.size() < 2) {
-        throw Error(fmt::format("tuning holds a block between two fingers; the scene has only {}",
-                                fingers.empty() ? "none" : fingers.front()),
-                    "Name a scene or an experiment with two fingers, on a rig with two devices.");
+        throw Error(
+            fmt::format("tuning holds a block between two fingers, but the scene has only {}",
+                        fingers.empty() ? "none" : fingers.front()),
+            "Name a scene or an experiment with two fingers, on a rig with two devices.");
     }
     TuneSetup out;
     out.settings = settings;
@@ -220,7 +223,7 @@ TuneSetup tune_setup(const rig::Rig& rig, const std::vector<std::string>& finger
         const rig::Device& device = rig::device_of(rig, fingers[i]);
         if (device.backend != "simulated") {
             throw Error(device.place, "backend",
-                        fmt::format("'{}' cannot be tuned for: settings are tried on simulated "
+                        fmt::format("'{}' cannot be tuned: settings are tried on simulated "
                                     "devices, before a person holds the real ones",
                                     device.backend),
                         "Write a rig with backend: simulated and the device's mass_g, "
@@ -323,8 +326,8 @@ std::string to_json(const TuneResult& result, const TuneSetup& setup) {
 
 std::string to_table(const TuneResult& result, const TuneSetup& setup) {
     std::string out = fmt::format(
-        "{}, solver {}, {:g} Hz; hand of {:g} N/m and {:g} N*s/m, grip of {:g} N\n\n"
-        "stiffest calm hold of a block of 100 g, N/m\n{}damping N*s/m",
+        "{}, solver {}, {:g} Hz; hand of {:g} N/m and {:g} N*s/m, grip of {:g} N\n\nstiffest calm "
+        "hold of a block of 100 g, N/m\n{}damping N*s/m",
         enum_name(setup.settings.coupling.kind), enum_name(setup.settings.dynamics.solver),
         setup.settings.rate, setup.hand.stiffness, setup.hand.damping, setup.grip,
         dual(setup) ? "smoothing  " : "");
@@ -341,13 +344,15 @@ std::string to_table(const TuneResult& result, const TuneSetup& setup) {
     }
     if (!result.proposal) {
         return out +
-               "\nno setting is calm with a margin: see the map for those that are calm "
-               "as it is\n";
+               "\nno setting is calm with a margin: see the map for settings that are calm without "
+               "one\n";
     }
     out +=
         fmt::format("\nproposal: {:.6g} N/m, {:.6g} N*s/m", result.proposal->k, result.proposal->c);
     if (dual(setup)) out += fmt::format(", smoothing {:g}", result.proposal->smoothing);
-    out += "\n  calm as it is, with a tick more delay, with 10 g, in a loose and in a firm hand\n";
+    out +=
+        "\n  calm unchanged, with another tick of delay, with 10 g, in a loose and in a firm "
+        "hand\n";
     const TunePoint& stiffer = *result.stiffer;
     out += fmt::format("  at {:.6g} N/m:", stiffer.k);
     for (const Burden burden : kAllBurdens) {

@@ -1,5 +1,5 @@
 // The command `dihaptic tune`: finds the stiffness, damping and smoothing that hold a block calmly
-// on a given device in a given hand, and the stiffest that still do under the burdens below
+// on a given device in a given hand, and the highest stiffness that does so under all burdens below
 // (docs/measures.md).
 #pragma once
 
@@ -25,7 +25,7 @@ enum class Burden {
     delay,  ///< forces act one tick later
     light,  ///< a block of 10 g in place of 100 g
     loose,  ///< a hand of a third of the stiffness and damping
-    firm,   ///< a hand of three times both
+    firm,   ///< a hand of three times the stiffness and damping
 };
 constexpr auto enum_names(Burden) {
     return std::array{"as it is", "delay", "10 g", "loose hand", "firm hand"};
@@ -37,7 +37,7 @@ struct TuneSetup {
     std::vector<rig::Device> devices;  ///< simulated devices of thumb and index
     hand::Impedance hand;
     double grip = 0;  ///< grip force with which the block is held [N]
-    // the grid of the search
+    // grid of the search
     std::vector<double> stiffness;  ///< rising [N/m]
     std::vector<double> damping;    ///< rising [N*s/m]
     std::vector<double> smoothing;
@@ -49,7 +49,7 @@ struct TuneSetup {
 TuneSetup tune_setup(const rig::Rig& rig, const std::vector<std::string>& fingers,
                      const frame::Settings& settings, const hand::Impedance& hand);
 
-/// Verdicts by burden; those beyond `none` are only measured if `none` is calm.
+/// Verdicts by burden; the other burdens are measured only if `none` is calm.
 struct Verdicts {
     std::array<std::optional<Verdict>, kBurdens> all;
 
@@ -76,10 +76,10 @@ struct TunePoint {
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
-        v("stiffness_n_m", f.k, "N/m", "");
-        v("damping_ns_m", f.c, "N*s/m", "");
-        v("smoothing", f.smoothing, "1", "of dual springs");
-        v("verdicts", f.verdicts, "", "by burden");
+        v("stiffness_n_m", f.k, "N/m", "stiffness of the coupling");
+        v("damping_ns_m", f.c, "N*s/m", "damping of the coupling");
+        v("smoothing", f.smoothing, "1", "smoothing of dual springs");
+        v("verdicts", f.verdicts, "", "verdicts by burden");
     }
 };
 
@@ -93,24 +93,24 @@ struct TuneResult {
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
-        v("proposal", f.proposal, "", "the stiffest that is calm with every burden");
-        v("stiffer", f.stiffer, "", "1.5 times as stiff");
-        v("map", f.map, "", "every setting of the search");
+        v("proposal", f.proposal, "", "the stiffest setting that is calm under every burden");
+        v("stiffer", f.stiffer, "", "setting 1.5 times as stiff as the proposal");
+        v("map", f.map, "", "all settings of the search");
     }
 };
 
-/// Setup of a hold at one point of the map.
+/// The setup of a hold at one point on the map.
 BenchSetup hold_setup(const TuneSetup& setup, const TunePoint& point, Burden burden);
 
 TuneResult tune(const TuneSetup& setup, const std::atomic<bool>& stop, const Progress& progress);
 
-/// Highest K of a row of the map (one damping and smoothing) up to which every K is calm, both as
-/// it is and under the burden; 0 if there is none.
+/// Highest K of a row of the map (one damping and smoothing) up to which every K is calm, both
+/// without and with the burden; 0 if there is none.
 double calm_limit(const TuneResult& result, double damping, double smoothing, Burden burden);
 
 std::string to_json(const TuneResult& result, const TuneSetup& setup);
 std::string to_table(const TuneResult& result, const TuneSetup& setup);
-/// The proposal as settings in the form of Dihaptic's files.
+/// The proposal as settings, in the format of Dihaptic's files.
 std::string settings_block(const TuneResult& result, const TuneSetup& setup);
 
 /// The map at the proposal's smoothing, as a picture (SVG): tune_map.cpp.

@@ -1,5 +1,6 @@
-// Draws the map of a search: stiffness to the right, damping upward, one cell per setting. Blue is
-// calm, orange shakes, grey fell; each also has a mark, for eyes and printers without colours.
+// Draws the map of a search: stiffness to the right, damping upward, one cell per setting. Blue:
+// calm, orange: shaking, grey: fell; each also has a mark, for colour-blind readers and
+// black-and-white printers.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,7 +35,7 @@ void dot(Picture& picture, double x, double y) {
                  "#ffffff");
 }
 
-/// The burdens that a point does not withstand, one letter each.
+/// The burdens that a point does not withstand, as one letter each.
 std::string lacking(const TunePoint& point) {
     std::string out;
     if (!point.calm(Burden::delay)) out += 'D';
@@ -62,7 +63,7 @@ void draw_point(Picture& picture, double x, double y, const TunePoint& point) {
     }
 }
 
-/// Position of a value among rising ones, as a real index, interpolated by `scale`.
+/// Position of a value among rising values, as a real index, interpolated by `scale`.
 double index_of(const std::vector<double>& values, double value, double (*scale)(double)) {
     const auto above = std::upper_bound(values.begin(), values.end(), value);
     if (above == values.begin()) return 0;
@@ -124,7 +125,7 @@ void draw_axes(Picture& picture, const Grid& grid, const TuneSetup& setup) {
                  fmt::format("transform=\"rotate(-90 36 {:g})\"", middle));
 }
 
-/// Draws the damping that the program takes when none is given.
+/// Draws the program's default damping.
 void draw_default_damping(Picture& picture, const Grid& grid, const TuneSetup& setup) {
     std::string line;
     const double per_k = setup.settings.step() / 2;
@@ -159,21 +160,22 @@ void draw_key(Picture& picture, double y) {
     const double key = kLeft;
     picture.cell(key, y, "#0a5ea8");
     dot(picture, key, y);
-    picture.text(key + 30, y + 5,
-                 "calm with margin: with a tick more delay, 10 g, a loose and a firm hand, too");
+    picture.text(
+        key + 30, y + 5,
+        "calm with margin: also with another tick of delay, 10 g, a loose and a firm hand");
     picture.cell(key + 590, y, "#e69f00");
     cross(picture, key + 590, y);
     picture.text(key + 620, y + 5, "shaking");
     y += 50;
     picture.cell(key, y, "#a9d3f0");
     picture.text(key, y + 4, "DT", "middle", "font-size=\"11\" fill=\"#10364f\"");
-    picture.text(key + 30, y + 5,
-                 "calm as it is, but not with D: delay, T: ten grams, L: loose hand, F: firm hand");
+    picture.text(
+        key + 30, y + 5,
+        "calm unchanged, but not with D: delay, T: ten grams, L: loose hand, F: firm hand");
     picture.cell(key + 590, y, "#777777");
     arrow_down(picture, key + 590, y);
     picture.text(key + 620, y + 5, "dropped");
-    picture.text(key - 22, y + 52,
-                 "black line: the damping that is taken when none is given, k h / 2");
+    picture.text(key - 22, y + 52, "black line: default damping, k h / 2");
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
-// What one process of adaptation (model/adaptation.h) has learned as a function of the direction of
+// The state of one process of adaptation (model/adaptation.h) as a function of the direction of
 // movement in space: a vector for each direction, generalised by a Gaussian of the angle between
-// directions. It is stored as a sum over the directions d_m in which it was taught,
+// directions. It is stored as a sum over the directions d_m of past training,
 //
 //     x(d) = sum over m of x_m g(angle(d, d_m)),    g(a) = exp(-a^2 / (2 w^2))
 //
@@ -30,7 +30,7 @@ class DirectionMemory {
         Vec3 d = Vec3::UnitX();
         Vec3 x = Vec3::Zero();
     };
-    // largest number of directions; once they are used up, the nearest one is taught
+    // largest number of directions; once all are in use, the nearest one is trained
     static constexpr size_t kMost = 64;
     model::SingleRate rate_;
     double width_;

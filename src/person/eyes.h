@@ -1,4 +1,4 @@
-// A simulated person's sight: where the hand and targets were shown, one visual delay ago.
+// A simulated person's sight: the displayed positions of hand and targets, one visual delay ago.
 #pragma once
 
 #include <array>
@@ -12,16 +12,16 @@ namespace dihaptic::person {
 struct Sight {
     int trial = 0;
     int attempt = 0;
-    int phase = 0;             ///< the task's state, which is seen by its targets and message
+    int phase = 0;             ///< the task's state, recognised by its targets and message
     Vec3 hand = Vec3::Zero();  ///< middle of the fingers, as displayed [m]
-    bool hand_shown = false;   ///< one of the fingers is displayed at all
+    bool hand_shown = false;   ///< at least one of the fingers is displayed
     uint32_t shown = 0;        ///< regions that are shown as targets, one bit each
     std::array<Vec3, frame::TaskFrame::kMostTargets> target{};  ///< by region, as displayed [m]
 };
 
 class Eyes {
   public:
-    /// `fingers`: number of the first fingers, which are the hand. `delay`, `tick` [s].
+    /// `fingers`: how many of the first fingers form the hand. `delay`, `tick` [s].
     Eyes(double delay, size_t fingers, double tick)
         : delay_(delay), fingers_(fingers), past_(delay, tick) {}
 
@@ -43,7 +43,7 @@ class Eyes {
         }
         past_.add(sight);
     }
-    /// What is seen now. Not to be called before the first Frame.
+    /// The current sight. Not to be called before the first Frame.
     const Sight& sight() const noexcept { return past_.before(delay_); }
 
   private:
@@ -52,7 +52,7 @@ class Eyes {
     Past<Sight> past_;
 };
 
-/// A position as a person judges it by one look; `noise`: SD per axis [m].
+/// A position as judged by one look; `noise`: SD per axis [m].
 inline Vec3 look(const Vec3& p, double noise, Random& random) noexcept {
     const Vec3 error(random.normal(), random.normal(), random.normal());
     return p + noise * error;

@@ -17,7 +17,7 @@ namespace dihaptic::person {
 
 class ForceMemory {
   public:
-    /// `width`: by which both processes generalise [rad].
+    /// `width`: width of generalisation of both processes [rad].
     ForceMemory(const model::TwoRate& rates, double width)
         : fast_(rates.fast, width), slow_(rates.slow, width) {}
 
@@ -25,12 +25,12 @@ class ForceMemory {
     Vec3 expected(const Vec3& d) const noexcept {
         return slow_.added_to(fast_.added_to(Vec3::Zero(), d), d);
     }
-    /// Learns from a reach that is over. `error`: e [N*s/m].
+    /// Learns from a completed reach. `error`: e [N*s/m].
     void learn(const Vec3& d, const Vec3& error) noexcept {
         fast_.learn(d, error);
         slow_.learn(d, error);
     }
-    /// Whether it was never taught.
+    /// Whether nothing was ever learned.
     bool empty() const noexcept { return fast_.empty(); }
 
   private:

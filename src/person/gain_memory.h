@@ -1,12 +1,11 @@
-// Adaptation to displays that show movements larger or smaller than they are, by the single-rate
-// model (model/adaptation.h). A person expects a movement in direction d (unit) to be shown longer
-// by the factor exp(g(d)),
+// Adaptation to displays that scale movements, by the single-rate model (model/adaptation.h). A
+// person expects a movement in direction d (unit) to be shown longer by the factor exp(g(d)),
 //
 //     g(d) = sum over k of d_k^2 g_k                        k: the world's axes
 //
 // which for small g_k is the logarithm of |S d| for a scaling S = diag(exp(g_k)). A movement that
-// was shown to go too far by the error e (a logarithm) changes the gains of the axes that it went
-// along, so that in the same direction g changes by B e:
+// was shown to go too far by the error e (a logarithm) changes the gains of the axes along which it
+// went, so that g in that direction changes by B e:
 //
 //     g_k <- A g_k + B e d_k^2 / sum over j of d_j^4
 #pragma once
@@ -24,7 +23,7 @@ class GainMemory {
 
     /// g(d).
     double expected(const Vec3& d) const noexcept { return d.cwiseAbs2().dot(gain_); }
-    /// Learns from a movement that is over. `error`: ln(length shown / length wanted).
+    /// Learns from a completed movement. `error`: ln(length shown / length wanted).
     void learn(const Vec3& d, double error) noexcept {
         const Vec3 share = d.cwiseAbs2() / d.cwiseAbs2().squaredNorm();
         gain_ = rate_.retention * gain_ + rate_.learning * error * share;

@@ -9,26 +9,29 @@ namespace {
 
 constexpr double kLongestLatency = 0.3;  // [s]
 constexpr double kMuscle = 0.02;         // time constant of grip force [s]
-constexpr double kAimedAbove = 1.1;      // load force aimed at, over the weight expected
-constexpr double kRise = 1.5e-3;         // fingertips this fast upward: the object came off [m/s]
-constexpr double kProbe = 0.1;           // time between increases of the load force [s]
-constexpr double kProbeShare = 0.35;     // an increase, as a share of the weight expected ...
-constexpr double kLeastProbe = 0.3;      // ... but at least this [N]
-constexpr double kStrongest = 40;        // a load force aimed at is increased no further [N]
-constexpr double kPeakTime = 0.1;        // duration of peak grip, from lift-off [s]
-constexpr double kPeakDecay = 0.25;      // time constant of its decay [s]
-constexpr double kUnload = 0.25;         // duration of the unload phase [s]
-constexpr double kWeighing = 0.3;        // time constant of the weight felt [s]
-constexpr double kCorrection = 0.15;     // time to correct the load force to the weight felt [s]
-constexpr double kWeighed = 0.3;         // time of holding after which a weight is remembered [s]
-constexpr double kSurprise = 1.15;       // grip for the load felt over planned grip, to be answered
-constexpr double kReplaced = 0.7;       // below this share of the weight, something else carries it
-constexpr double kTrust = 0.1;          // share of a doubt that a lift takes away
+constexpr double kAimedAbove = 1.1;      // intended load force over the expected weight
+constexpr double kRise =
+    1.5e-3;  // upward speed of the fingertips at which the object has come off [m/s]
+constexpr double kProbe = 0.1;        // time between increases of the load force [s]
+constexpr double kProbeShare = 0.35;  // an increase, as a share of the expected weight ...
+constexpr double kLeastProbe = 0.3;   // ... but at least this [N]
+constexpr double kStrongest = 40;     // intended load force above which it is not increased [N]
+constexpr double kPeakTime = 0.1;     // duration of peak grip, from lift-off [s]
+constexpr double kPeakDecay = 0.25;   // time constant of its decay [s]
+constexpr double kUnload = 0.25;      // duration of the unload phase [s]
+constexpr double kWeighing = 0.3;     // time constant of the felt weight [s]
+constexpr double kCorrection = 0.15;  // time to correct the load force to the felt weight [s]
+constexpr double kWeighed = 0.3;      // time of holding after which a weight is remembered [s]
+constexpr double kSurprise =
+    1.15;  // grip for the felt load over planned grip at which the person responds
+constexpr double kReplaced =
+    0.7;                        // share of the weight below which something else carries the object
+constexpr double kTrust = 0.1;  // share of a doubt that a lift removes
 constexpr double kReflex = 1.15;        // factor on grip after a slip ...
 constexpr double kStrongestReflex = 2;  // ... and the largest in a hold
 constexpr double kReflexTime = 0.15;    // time before the next slip is a separate one [s]
-constexpr double kDoubt = 0.6;          // least friction that one slip tells, over that expected
-constexpr double kMovement = 0.1;       // least integral of a^2 that tells a mass [m^2/s^3]
+constexpr double kDoubt = 0.6;     // least friction inferred from one slip, over the expected one
+constexpr double kMovement = 0.1;  // least integral of a^2 from which a mass is inferred [m^2/s^3]
 
 Vec3 up() {
     return Vec3::UnitZ();
@@ -62,7 +65,7 @@ void Grip::end() noexcept {
     inertial_ = along_ = Vec3::Zero();
 }
 
-/// Remembers the weight felt, if the hold was long enough. A lift also removes some of the doubt
+/// Remembers the felt weight, if the hold was long enough. A lift also removes some of the doubt
 /// about the surface's friction.
 void Grip::remember() noexcept {
     if (!weighed_) return;
@@ -106,7 +109,7 @@ void Grip::carried() noexcept {
     along_ = Vec3::Zero();
 }
 
-/// Grip force that a force on the object needs, with the safety margin. A force along the grasp
+/// Grip force required by a force on the object, with the safety margin. A force along the grasp
 /// axis unloads one of the fingers.
 double Grip::needed(const Vec3& force_W, const Vec3& axis) const noexcept {
     const double along = force_W.dot(axis);
@@ -120,8 +123,8 @@ bool Grip::lost(double now) const noexcept {
 }
 
 void Grip::feel_skin(double now, const Feeling& newest) noexcept {
-    // the newest sample, not felt(): skin_time is the skin's own delay, and touched_ was late by
-    // latency_
+    // the newest sample, not felt(): skin_time is the skin's own delay, and touched_ already lags
+    // by latency_
     if (traits_.skin_time > 0 && newest.body == body_ &&
         now - touched_ + latency_ > traits_.skin_time)
         memory().friction = misfelt_ * newest.friction;
@@ -136,7 +139,7 @@ void Grip::answer_slip(double now) noexcept {
     reflex_ = now + kReflexTime;
 }
 
-/// Watches whether the object has come off, needs more load force to come off, or rests on
+/// Detects whether the object has come off, needs more load force to come off, or rests on
 /// something again.
 void Grip::watch_lift(double now, Strokes& aim) noexcept {
     const double carried = felt().force_W.dot(up());
@@ -172,14 +175,14 @@ void Grip::feel_mass(const Feeling& newest) noexcept {
     moved_ += a * a;
 }
 
-/// Desired grip force of each finger, for what the plan expects at this load force or, if that
-/// clearly needs more, for what is felt [N].
+/// Desired grip force of each finger [N]: for the plan's expectation at this load force or, if it
+/// clearly requires more, for the felt load.
 double Grip::wanted(double now, double load, const Vec3& axis) const noexcept {
     Vec3 expected = load * up();
     double peak = 1;
     if (phase_ == GripPhase::load) {
         peak = traits_.peak_grip;
-        expected /= kAimedAbove;  // the load aims above the weight that is expected
+        expected /= kAimedAbove;  // the load aims above the expected weight
     }
     if (phase_ == GripPhase::lifted) {
         expected += inertial_;

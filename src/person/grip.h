@@ -13,21 +13,21 @@
 namespace dihaptic::person {
 
 enum class GripPhase {
-    open,     ///< fingers go where they are led
+    open,     ///< fingers follow the aim
     preload,  ///< fingers touch and press; load force has not begun
     ready,    ///< gripped, not lifted
-    load,     ///< grip and load force rise together, until the object is felt to come off
+    load,     ///< grip and load force rise together, until the object comes off
     lifted,   ///< grip force has a peak at first, then is static
     unload,   ///< grip and load force fall together
 };
 
 class Grip {
   public:
-    /// `memory`: for each body of the scene, what its appearance suggests.
+    /// `memory`: for each body of the scene, the knowledge that its appearance suggests.
     Grip(const Traits& traits, std::vector<GripMemory> memory, double tick);
 
     void restart() noexcept;
-    /// Sets this trial's `latency` of reflexes [s]; `strength`: grip force over what it should be;
+    /// Sets this trial's `latency` of reflexes [s]; `strength`: grip force over the right one;
     /// `misfelt`: felt over true friction, for the skin.
     void set(double latency, double strength, double misfelt) noexcept;
 
@@ -37,22 +37,22 @@ class Grip {
     void close(double now, double grip) noexcept;
     /// Begins the load phase, and adds its force to `aim`.
     void lift(double now, Strokes& aim) noexcept;
-    /// Begins to let go.
+    /// Starts letting go.
     void release(double now, Strokes& aim) noexcept;
-    /// Call when a held object begins to be moved along `u`; ends with carried().
+    /// Call when a held object starts moving along `u`; ends with carried().
     void carry(const Vec3& u) noexcept;
-    /// The movement along `u` has ended: the mass that was felt in it is learned.
+    /// The movement along `u` has ended: the mass felt during it is learned.
     void carried() noexcept;
 
     /// One tick. `axis`: unit vector from finger to finger.
     void tick(double now, const Feeling& felt, const Vec3& axis, Strokes& aim) noexcept;
 
-    /// Force with which each finger is to press inward [N].
+    /// Desired inward force of each finger [N].
     double squeeze() const { return squeeze_; }
-    /// Force on the object that the plan expects to be needed, beyond the aim's load [N].
+    /// Force on the object that the plan expects to need, beyond the aim's load [N].
     const Vec3& inertial() const { return inertial_; }
     const GripMemory& memory(int body) const { return memory_[static_cast<size_t>(body)]; }
-    /// What is felt in this tick: the senses a reflex latency ago.
+    /// The sensation in this tick: touch one reflex latency ago.
     const Feeling& felt() const { return past_.before(latency_); }
 
   private:
@@ -84,16 +84,16 @@ class Grip {
     int body_ = 0;
     double touched_ = 0;    // when both fingers were felt to touch [s]
     double since_ = 0;      // when the phase began [s]
-    double probe_ = 0;      // when force is added if a load phase has lifted nothing [s]
-    double reflex_ = 0;     // until then a slip counts as the one that was answered [s]
-    double hold_ = 0;       // squeeze before the load force [N]
+    double probe_ = 0;      // when force is added if the load phase has not lifted the object [s]
+    double reflex_ = 0;     // until then a slip counts as the one already answered [s]
+    double hold_ = 0;       // squeeze before the load force acts [N]
     double squeeze_ = 0;    // [N]
-    double weight_ = 0;     // felt in this hold [N]
+    double weight_ = 0;     // weight felt in this hold [N]
     bool weighed_ = false;  // held long enough for the weight to be remembered
     Vec3 inertial_ = Vec3::Zero();
-    Vec3 along_ = Vec3::Zero();  // direction in which it is carried; zero: it is not
-    double push_ = 0;            // sum of force times acceleration along it
-    double moved_ = 0;           // sum of squared acceleration along it
+    Vec3 along_ = Vec3::Zero();  // direction in which the object is carried; zero: not carried
+    double push_ = 0;            // sum of force times acceleration along that direction
+    double moved_ = 0;           // sum of squared acceleration along that direction
 };
 
 }  // namespace dihaptic::person

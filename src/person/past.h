@@ -17,8 +17,8 @@ class Past {
     void clear() noexcept { count_ = 0; }
     void add(const Sample& sample) noexcept { samples_[count_++ % samples_.size()] = sample; }
     bool empty() const noexcept { return count_ == 0; }
-    /// The sample `delay` seconds before the newest, or the oldest that there is. There has to be
-    /// one.
+    /// The sample `delay` seconds before the newest, or the oldest one available. There must be at
+    /// least one.
     const Sample& before(double delay) const noexcept {
         const auto back = static_cast<size_t>(std::lround(delay / tick_));
         const size_t most = std::min(count_, samples_.size()) - 1;

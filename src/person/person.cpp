@@ -15,7 +15,7 @@ namespace {
 using task::TaskPlan;
 using task::When;
 
-constexpr double kUsualDensity = 1000;  // expected of objects that were not lifted yet [kg/m^3]
+constexpr double kUsualDensity = 1000;  // expected density of objects not yet lifted [kg/m^3]
 constexpr double kReach = 0.03;         // least length of a movement that teaches rotations [m]
 constexpr double kGlance = 0.08;        // share of a reach after which it is corrected ...
 constexpr double kJudged = 0.4;         // ... and after which its error is judged, to learn from
@@ -23,17 +23,17 @@ constexpr double kShortest = 0.2;       // shortest stroke [s]
 constexpr double kSettled = 0.05;       // time after a stroke before its end is judged [s]
 constexpr double kGoodEnough = 4e-3;    // error at the target that needs no correction [m]
 constexpr int kMostCorrections = 4;
-constexpr double kYields = 0.015;   // yielding under each finger before it presses less [m]
-constexpr double kOver = 0.02;      // rise or fall beyond which a hand moves from above [m]
-constexpr double kOverlap = 0.6;    // duration of each part of such a movement, as a share
-constexpr double kGuided = 0.4;     // noise of such a movement, which is led by eye, over a reach's
-constexpr double kOpening = 2e-3;   // increase of the aperture beyond which the hand lets go [m]
-constexpr double kUpward = 2e-3;    // rise beyond which a hand that grips lifts [m]
-constexpr double kIdle = 0.4;       // time between trials before the hand goes to its rest [s]
-constexpr double kRestTime = 0.6;   // duration of that movement [s]
-constexpr double kRetry = 3;        // time in a state before its finished steps are repeated [s]
-constexpr double kGivingUp = 10;    // delay of an attempt that is not made [s]
-constexpr double kWeak = 0.4;       // grip that is too weak, over the right one
+constexpr double kYields = 0.015;  // yielding under each finger above which it presses less [m]
+constexpr double kOver = 0.02;     // rise or fall above which a hand moves in two parts [m]
+constexpr double kOverlap = 0.6;   // share of the duration taken by each part
+constexpr double kGuided = 0.4;    // noise of such a movement, guided by eye, over a reach's noise
+constexpr double kOpening = 2e-3;  // increase of the aperture beyond which the hand lets go [m]
+constexpr double kUpward = 2e-3;   // rise beyond which a hand that grips lifts [m]
+constexpr double kIdle = 0.4;      // time between trials before the hand goes to its rest [s]
+constexpr double kRestTime = 0.6;  // duration of the movement to rest [s]
+constexpr double kRetry = 3;      // time in a state after which its finished steps are repeated [s]
+constexpr double kGivingUp = 10;  // delay of an attempt that is not made [s]
+constexpr double kWeak = 0.4;     // grip that is too weak, over the right one
 constexpr double kDecision = 0.4;   // time to decide on an answer, beyond the reaction [s]
 constexpr double kFeelTime = 0.05;  // kFeelTime of hand/finger.h [s]
 
@@ -55,25 +55,25 @@ std::vector<double> frictions_of(const scene::Scene& scene) {
 }
 
 /// The fingers that the person moves with skill: the scene's first ones, up to those of another
-/// hand. Throws Error if these are not the last.
+/// hand. Throws Error if the fingers of another hand are not the last.
 std::vector<hand::FingerPlace> own_places(const Situation& situation) {
     auto out = hand::finger_places(situation.hand, scene::finger_names(situation.scene));
     const auto of_another = [](const hand::FingerPlace& f) { return f.centre || f.aperture; };
     const auto other = std::find_if(out.begin(), out.end(), of_another);
     const auto wrong = std::find_if_not(other, out.end(), of_another);
     if (other == out.begin() || wrong != out.end()) {
-        throw Error(
-            other->place, other->name,
-            "is of another hand (it has a centre or an aperture of its own), and comes before "
-            "fingers of the hand that a simulated person has",
-            "List the fingers of the scene hand by hand; give those of the first hand no "
-            "centre of their own.");
+        throw Error(other->place, other->name,
+                    "belongs to another hand (it has its own centre or aperture), and precedes "
+                    "fingers of the simulated person's hand",
+                    "List the fingers of the scene hand by hand; do not give the first hand's "
+                    "fingers their own centre.");
     }
     out.erase(other, out.end());
     return out;
 }
 
-/// Objects as they look: of uniform, ordinary density, with about their true friction.
+/// Objects as their appearance suggests: uniform, of ordinary density, with about their true
+/// friction.
 std::vector<GripMemory> looks_of(const scene::Scene& scene, const Traits& traits, uint64_t seed) {
     std::vector<GripMemory> out;
     Random random(seed, fmt::format("looks to {}", traits.id));
@@ -193,7 +193,7 @@ hand::FingerTarget Person::do_target(int finger, double t) const noexcept {
     // fingers press and carry with given forces: targets are off the handles by force / stiffness
     const double k = stiffness();
     const auto count = static_cast<double>(places_.size());
-    // an object that yields under the fingers is pressed less
+    // an object that yields under the fingers is pressed less hard
     const double yields = std::clamp((touched_ - half_ - kYields) / kYields, 0.0, 1.0);
     target.p_WT += (half_ - (1 - yields) * grip_.squeeze() / k) * place.side;
     if (grip_.phase() == GripPhase::load) target.p_WT.z() = centre_.z() + place.offset.z();
@@ -226,7 +226,7 @@ void Person::do_see(const frame::Frame& frame) noexcept {
     const bool held = grip_.holds();
     const bool loads = grip_.phase() == GripPhase::load;
     grip_.tick(now_, touch_.feel(frame), places_.front().side, aim_);
-    // a hand that has opened continues from where it is
+    // a hand that has opened continues from its present position
     if (held && !grip_.holds()) aim_.shift({Vec3::Zero(), 2 * half_ - aim_.at(now_).aperture, 0});
     if (loads && grip_.phase() != GripPhase::load)
         aim_.shift({(centre_.z() - aim_.at(now_).centre.z()) * Vec3::UnitZ(), 0, 0});
@@ -261,8 +261,8 @@ void Person::see_targets(const Sight& sight) noexcept {
     seen_ |= sight.shown;
 }
 
-/// Follows a new state, recognised by its targets and its message. A state that demands no movement
-/// lets the current movement continue.
+/// Follows a new state, recognised by its targets and its message. In a state that demands no
+/// movement, the current movement continues.
 void Person::follow_cues(const Sight& sight) noexcept {
     if (sight.trial < 1 || sight.phase == task::kBetween) return await_trial();
     between_ = false;
@@ -287,8 +287,8 @@ void Person::follow_cues(const Sight& sight) noexcept {
     wait_until_ = begins;
 }
 
-/// Lets go, or takes the hand to its rest: between trials objects are put back, and it is in the
-/// way.
+/// Lets go, or moves the hand to its rest position: between trials objects are put back, and the
+/// hand would be in the way.
 void Person::rest() noexcept {
     end_reach();
     doing_ = Doing::nothing;
@@ -335,7 +335,7 @@ void Person::go_on(const Sight& sight) noexcept {
     }
 }
 
-/// Repeats the steps if the trial does not go on because what the hand did was not enough.
+/// Repeats the steps if the hand's movement was not enough for the trial to continue.
 void Person::try_again(const Sight& sight) noexcept {
     const bool failed = !between_ && trial_ > 0 && phase_ == acting_ && now_ - since_ > kRetry &&
                         !steps().empty() && steps().front().step.reach.index >= 0;
@@ -377,7 +377,7 @@ Vec3 Person::target(const Sight& sight, const TaskPlan::Step& step) const noexce
     const auto region = static_cast<size_t>(step.step.reach.index);
     if ((sight.shown >> region & 1u) != 0) return sight.target[region] + step.step.move;
     if ((seen_ >> region & 1u) != 0) return known_[region] + step.step.move;
-    // never seen: where the plan has it
+    // never seen: its position in the plan
     return numbers_.cell().p_W[region] + step.step.move;
 }
 
@@ -426,7 +426,7 @@ void Person::move(const Aim& way, double duration, const Sight& sight) noexcept 
     pending_ = way;
     doing_ = Doing::moving;
     const double up = way.centre.z();
-    // a movement in two parts has no direction that could be judged
+    // a movement in two parts has no single direction to judge
     if (from_above(way.centre)) reach_.going = false;
     if (reach_.going) {
         reach_.begin = now_;
@@ -451,8 +451,8 @@ bool Person::from_above(const Vec3& displacement) const noexcept {
     return places_.size() > 1 && !grip_.holds() && std::abs(displacement.z()) > kOver;
 }
 
-/// The movement that the hand has to make so that it is shown to move by `displacement`, as far as
-/// this is learned.
+/// The movement that the hand must make to be shown moving by `displacement`, as far as this is
+/// learned.
 Vec3 Person::made_for(const Vec3& displacement) const noexcept {
     if (displacement.norm() < 1e-9) return displacement;
     const auto state = static_cast<size_t>(acting_ - 1);
@@ -482,7 +482,7 @@ Vec3 Person::plan_reach(const Sight& sight, const Vec3& displacement) noexcept {
     return way;
 }
 
-/// Whether a force field pushes the handles, or what the hand holds.
+/// Whether a force field pushes the handles, or the object that the hand holds.
 bool Person::pushed(const frame::Frame& frame) const noexcept {
     const auto bodies = static_cast<int>(frame.bodies.size());
     return std::any_of(
@@ -491,8 +491,8 @@ bool Person::pushed(const frame::Frame& frame) const noexcept {
         });
 }
 
-/// What the hand's strain reveals in this Frame. If the hand was never pushed in this state, and is
-/// not pushed now, small strains are attributed to its own noise.
+/// The push revealed by the hand's strain in this Frame. If the hand was never pushed in this
+/// state, and is not pushed now, small strains are attributed to its own noise.
 Strain Person::strain(const frame::Frame& frame) const noexcept {
     Strain out;
     out.hand = centre_;
@@ -510,17 +510,16 @@ Strain Person::strain(const frame::Frame& frame) const noexcept {
     out.push_W = stiffness() * off + impedance_.damping * drift;
     if (grip_.holds()) {
         out.push_W -= grip_.inertial() / count;
-        out.push_W.z() = 0;  // an object's weight has a memory of its own
+        out.push_W.z() = 0;  // an object's weight has its own memory
     }
-    // a push that was pressed against is no longer felt, but was there nevertheless
+    // a push that the hand pressed against is no longer felt, but acted nevertheless
     out.push_W -= rate.centre.dot(reach_.along) * reach_.presses;
     out.speed = v_WH.dot(reach_.along);
     out.reach = reach_.number;
     return out;
 }
 
-/// Accumulates what pushes the hand. Between trials the push may be gone before the movement has
-/// ended.
+/// Accumulates the push on the hand. Between trials the push may end before the movement does.
 void Person::feel_strain() noexcept {
     const Strain& felt = strains_.before(traits_.visual_delay);
     if (!reach_.going || between_ || felt.reach != reach_.number) return;
@@ -529,7 +528,7 @@ void Person::feel_strain() noexcept {
 }
 
 /// Corrects part of a reach's error once its direction is seen, and judges the direction before the
-/// correction can be seen.
+/// correction becomes visible.
 void Person::watch_reach(const Sight& sight) noexcept {
     if (!reach_.going || reach_.seen || !sight.hand_shown) return;
     const Vec3 shown = sight.hand - reach_.from;
@@ -546,9 +545,10 @@ void Person::watch_reach(const Sight& sight) noexcept {
     reach_.seen = true;
     const Vec3 arm = look(shown, traits_.visual_noise, random_);
     Vec3 wanted = reach_.way;
-    reach_.pushed = reach_.moved > 0;  // later pushes are of the next state, for which this ends
+    reach_.pushed =
+        reach_.moved > 0;  // later pushes belong to the next state, for which this reach ends
     if (reach_.pushed) {
-        // a hand that is pushed is seen where it is felt, turned as expected
+        // a pushed hand is seen where it is felt, with the expected rotation
         const Vec3 felt = strains_.before(traits_.visual_delay).hand - reach_.felt_from;
         wanted = rotated(rotations_[reach_.state].expected(reach_.way.normalized()), felt);
     }
@@ -561,7 +561,7 @@ void Person::judge_extent(const Sight& sight) noexcept {
     reach_.ended = true;
     const double shown =
         look(sight.hand - reach_.from, traits_.visual_noise, random_).dot(reach_.way.normalized());
-    const double least = 0.1 * reach_.way.norm();  // a shorter one says nothing about extent
+    const double least = 0.1 * reach_.way.norm();  // a shorter movement says nothing about extent
     if (shown < least) return;
     const Vec3 d = reach_.way.normalized();
     double wanted = reach_.way.norm();
@@ -582,13 +582,13 @@ void Person::end_reach() noexcept {
     reach_.going = false;
 }
 
-/// Corrects the seen end of a reach by another stroke. Returns whether the reach goes on: with a
+/// Corrects the seen end of a reach by another stroke. Returns whether the reach continues: with a
 /// stroke, or until its end is seen.
 bool Person::correct(const Sight& sight) noexcept {
     const TaskPlan::Step& step = steps()[step_];
     if (step.step.reach.index < 0 || corrections_ >= kMostCorrections) return false;
     if (now_ < aim_.end() + traits_.visual_delay + kSettled) return true;
-    if (!sight.hand_shown) return false;  // it is taken to be where it was meant to go
+    if (!sight.hand_shown) return false;  // an unseen hand is assumed to be at its goal
     judge_extent(sight);
     const Vec3 missed = look(target(sight, step) - sight.hand, traits_.visual_noise, random_);
     if (missed.norm() < kGoodEnough) return false;
@@ -597,8 +597,8 @@ bool Person::correct(const Sight& sight) noexcept {
     return true;
 }
 
-/// Answers whether the last movement was shown larger than it was felt. The first key that the
-/// state waits for says yes, the second no.
+/// Answers whether the last movement was shown larger than it was felt. The first key for which the
+/// state waits means yes, the second no.
 void Person::answer(const Sight& sight) noexcept {
     answer_at_ = -1;
     const TaskPlan::Stage& stage = plan_->stages[static_cast<size_t>(phase_ - 1)];
@@ -621,7 +621,7 @@ void Person::answer(const Sight& sight) noexcept {
     key_ = yes || second == 0 ? first : second;
 }
 
-/// Types a random whole number of the scale, up to a hundred, because there is no model of ratings.
+/// Types a random whole number on the scale, up to a hundred, because there is no model of ratings.
 void Person::rate(const task::Question& question) noexcept {
     const double most = std::min(question.most, question.least + 100);
     const double number = std::ceil(random_.uniform(question.least - 1, std::floor(most)));

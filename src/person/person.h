@@ -1,7 +1,7 @@
-// A simulated person, who sees what is shown, feels the handles, and moves the simulated hand. The
-// person has been told what each state of the task demands (the file's hand steps), but knows
-// nothing about kinds of trials and perturbations, which are seen and felt, or not. Fingers of a
-// second hand do the steps that name them, as the file has them.
+// A simulated person, who sees the display, feels the handles, and moves the simulated hand. The
+// person knows the demands of each state of the task (the file's hand steps), but not the kinds of
+// trials and perturbations, which can only be seen and felt. Fingers of a second hand perform the
+// steps that name them, exactly as in the file.
 #pragma once
 
 #include <memory>
@@ -40,7 +40,7 @@ class Person final : public task::SeeingDriver {
     void restart() override;
 
     const Grip& grip() const { return grip_; }
-    /// What was learned in a state of the task, given by its index.
+    /// The knowledge learned in a state of the task, given by its index.
     const RotationMemory& rotations(size_t state) const { return rotations_[state]; }
     const ForceMemory& forces(size_t state) const { return forces_[state]; }
 
@@ -83,7 +83,7 @@ class Person final : public task::SeeingDriver {
     task::TrialNumbers numbers_;
     std::vector<std::vector<task::TaskPlan::Step>> steps_;  // by state
     std::vector<hand::FingerPlace> places_;
-    std::optional<task::TaskHand> other_;  // moves the fingers of other hands: it has no senses
+    std::optional<task::TaskHand> other_;  // moves the fingers of other hands, without senses
     hand::Impedance impedance_;
     Aim start_;
     uint64_t seed_;
@@ -97,13 +97,13 @@ class Person final : public task::SeeingDriver {
     double half_ = 0;             // half the aperture of the handles [m]
     double touched_ = 0;          // half_ when both fingers touched [m]
     Vec3 centre_ = Vec3::Zero();  // of the handles [m]
-    double felt_ = 0;             // force on a finger, smoothed as its stiffness follows it [N]
-    Past<Strain> strains_;        // delayed as sight is, to be compared with it
-    std::vector<Vec3> known_;     // where each region was last seen [m]
-    uint32_t seen_ = 0;           // regions that have been seen, one bit each
+    double felt_ = 0;          // force on a finger, smoothed like the stiffness that follows it [N]
+    Past<Strain> strains_;     // delayed like sight, for comparison with it
+    std::vector<Vec3> known_;  // where each region was last seen [m]
+    uint32_t seen_ = 0;        // regions that have been seen, one bit each
 
     // memory
-    std::vector<RotationMemory> rotations_;  // by state: what is learned in one stays there
+    std::vector<RotationMemory> rotations_;  // by state: learning in one state stays in it
     std::vector<GainMemory> gains_;          // by state
     std::vector<ForceMemory> forces_;        // by state
     Grip grip_;
@@ -115,44 +115,46 @@ class Person final : public task::SeeingDriver {
     int trial_ = 0;
     int attempt_ = 0;
     int phase_ = 0;
-    int acting_ = 0;       // the state whose steps are being done; later ones without steps keep it
-    bool between_ = true;  // between trials
-    double since_ = 0;     // when the state, the time between trials, or doing nothing began [s]
+    int acting_ =
+        0;  // the state whose steps are being performed; unchanged by later states without steps
+    bool between_ = true;    // between trials
+    double since_ = 0;       // start of the state, of the time between trials, or of idleness [s]
     double wait_until_ = 0;  // [s]
     size_t step_ = 0;
-    Aim pending_;  // the current movement; in a lift it begins when the object comes off
+    Aim pending_;  // the current movement; in a lift it starts when the object comes off
     double pending_time_ = 0;  // duration of that movement [s]
     int corrections_ = 0;
     double delay_ = 0;  // hesitation before this trial's next movement [s]
     struct Reach {
         bool going = false;
-        bool mended = false;  // it was corrected in its course
-        bool seen = false;    // its error of direction was seen
+        bool mended = false;  // the reach was corrected in its course
+        bool seen = false;    // its direction error was seen
         bool ended = false;   // its first stroke has ended, and its extent was judged
         bool pushed = false;  // a push was felt by then
         int number = 0;       // from 1
         size_t state = 0;
-        Vec3 from = Vec3::Zero();       // where the hand was shown at its begin [m]
-        Vec3 felt_from = Vec3::Zero();  // ... and where it was felt [m]
-        Vec3 way = Vec3::Zero();        // displacement that is to be shown [m]
+        Vec3 from = Vec3::Zero();       // displayed position of the hand at the start [m]
+        Vec3 felt_from = Vec3::Zero();  // ... and its felt position [m]
+        Vec3 way = Vec3::Zero();        // displacement to be shown [m]
         Vec3 error = Vec3::Zero();      // rotation vector from `way` to the hand's direction [rad]
 
-        double begin = 0;             // of its first stroke [s]
-        double duration = 0;          // of that stroke; 0: it has not begun [s]
+        double begin = 0;             // start of its first stroke [s]
+        double duration = 0;          // duration of that stroke; 0: not started [s]
         Vec3 along = Vec3::Zero();    // unit direction in which the hand means to move
-        Vec3 strayed = Vec3::Zero();  // way of that stroke off this direction, by noise [m]
-        Vec3 presses = Vec3::Zero();  // force against a push, by speed along it [N*s/m]
+        Vec3 strayed = Vec3::Zero();  // deviation of that stroke from this direction, by noise [m]
+        Vec3 presses = Vec3::Zero();  // force against a push, per speed along it [N*s/m]
         Vec3 push = Vec3::Zero();     // sum of push times speed [N*m/s]
         double moved = 0;             // sum of squared speed; 0: nothing pushed [m^2/s^2]
     };
     Reach reach_;
 
     // answers
-    Vec3 shown_from_ = Vec3::Zero();  // where the last movement long enough began, as shown [m]
-    Vec3 felt_from_ = Vec3::Zero();   // ... and as felt [m]
-    double answer_at_ = -1;           // [s]; negative: nothing is asked
+    Vec3 shown_from_ =
+        Vec3::Zero();  // start of the last movement of sufficient length, as shown [m]
+    Vec3 felt_from_ = Vec3::Zero();  // ... and as felt [m]
+    double answer_at_ = -1;          // time of the answer [s]; negative: no question
     char key_ = 0;
-    std::array<char, 12> typed_{};  // of a rating
+    std::array<char, 12> typed_{};  // digits of a rating
     size_t typed_length_ = 0;
     size_t typed_at_ = 0;
 };

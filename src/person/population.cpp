@@ -20,10 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr size_t kMostGroups = 1000;  // the traits of each are checked
-constexpr double kFarthest = 2.5;     // largest |z|: nobody is further from the median
+constexpr size_t kMostGroups = 1000;  // the traits of each group are checked
+constexpr double kFarthest = 2.5;     // largest |z|: no person is further from the median
 
-/// Traits that are zero in people who make neither noise nor mistakes.
+/// Traits that are zero in people without noise and mistakes.
 constexpr std::array kNoise{"visual_noise",    "reaction_noise", "tempo_noise",  "direction_noise",
                             "adapted_noise",   "extent_noise",   "reflex_noise", "friction_error",
                             "hesitation_rate", "slip_rate",      "give_up_rate"};
@@ -44,14 +44,14 @@ double drawn(const TraitSpread& row, double z) {
     return median;
 }
 
-/// The trait of that name; null if there is none.
+/// The trait with this name; null if there is none.
 auto find(auto& traits, const std::string& name) {
     const auto found = std::find_if(traits.begin(), traits.end(),
                                     [&](const TraitSpread& t) { return t.trait == name; });
     return found == traits.end() ? nullptr : &*found;
 }
 
-/// Replaces in `trait` what `change` gives.
+/// Replaces those members of `trait` that `change` gives.
 void overlay(TraitSpread& trait, const TraitSpread& change) {
     if (change.law) trait.law = change.law;
     if (change.median) trait.median = change.median;
@@ -72,7 +72,7 @@ std::vector<TraitSpread> traits_of(const Population& population, const std::stri
     return out;
 }
 
-/// Traits with these values, by the rows' names and units; what is out of bounds goes to
+/// Traits with these values, by the rows' names and units; values out of bounds are reported to
 /// `diagnostics`.
 Traits traits_with(const std::vector<TraitSpread>& rows, const std::vector<double>& values,
                    Diagnostics& diagnostics) {
@@ -133,8 +133,8 @@ void check_bounds(const Population& population, const std::string& group,
 void check_group(const Population& population, const Group& group, Diagnostics& diagnostics) {
     for (const TraitSpread& change : group.traits) {
         if (find(population.traits, change.trait) == nullptr)
-            diagnostics.error(change.place, change.trait, "is no trait of this population",
-                              "Write its name and unit as under the population's traits.");
+            diagnostics.error(change.place, change.trait, "is not a trait of this population",
+                              "Write its name and unit as in the population's traits.");
     }
     check_bounds(population, group.name, diagnostics);
 }
@@ -162,20 +162,22 @@ void check_correlations(const Population& population, const std::string& file,
     for (const Correlation& c : population.correlations) {
         for (const std::string& name : c.traits) {
             if (find(population.traits, name) == nullptr)
-                diagnostics.error(c.place, name, "is no trait of this population",
-                                  "Write its name and unit as under the population's traits.");
+                diagnostics.error(c.place, name, "is not a trait of this population",
+                                  "Write its name and unit as in the population's traits.");
         }
         const std::set<std::string> pair(c.traits.begin(), c.traits.end());
         if (c.traits.size() != 2 || pair.size() != 2) {
-            diagnostics.error(c.place, "traits", "are not two", "Write e.g. traits: [a, b].");
+            diagnostics.error(c.place, "traits", "are not two traits",
+                              "Write e.g. traits: [a, b].");
         } else if (!pairs.insert(pair).second) {
-            diagnostics.error(c.place, "traits", "have a correlation already", "Keep one of them.");
+            diagnostics.error(c.place, "traits", "already have a correlation", "Keep one of them.");
         }
     }
     if (diagnostics.has_errors() || population.correlations.empty()) return;
     if (Eigen::LLT<Eigen::MatrixXd>(correlations(population)).info() != Eigen::Success)
         diagnostics.error({file, 0}, "correlations", "contradict each other",
-                          "Three traits cannot all be correlated at will: make them smaller.");
+                          "Three or more traits cannot be correlated arbitrarily: make the "
+                          "correlations smaller.");
 }
 
 void check(const Population& population, const std::string& file, Diagnostics& diagnostics) {
@@ -188,17 +190,17 @@ void check(const Population& population, const std::string& file, Diagnostics& d
         const auto& traits = population.traits;
         if (std::none_of(traits.begin(), traits.end(),
                          [&](const TraitSpread& t) { return without_unit(t.trait) == name; }))
-            diagnostics.error({file, 0}, name, "is missing",
-                              "Give every trait, or base the file on another: based_on: "
-                              "adults.yaml.");
+            diagnostics.error(
+                {file, 0}, name, "is missing",
+                "Give every trait, or base the file on another one: based_on: adults.yaml.");
     }
     if (diagnostics.has_errors()) return;
     check_bounds(population, "", diagnostics);
     if (population.groups.size() > kMostGroups) {
         diagnostics.error({file, 0}, "groups",
-                          fmt::format("there are {}, where {} are the most",
+                          fmt::format("there are {}, but at most {} are allowed",
                                       population.groups.size(), kMostGroups),
-                          "Leave some out, or make files of them.");
+                          "Leave some out, or distribute them over several files.");
         return;
     }
     for (const Group& group : population.groups) check_group(population, group, diagnostics);
@@ -211,7 +213,7 @@ Population resolved(Population change, Population base) {
         if (TraitSpread* there = find(base.traits, trait.trait)) {
             overlay(*there, trait);
         } else {
-            base.traits.push_back(trait);  // check() says what is wrong with it
+            base.traits.push_back(trait);  // check() reports its faults
         }
     }
     change.traits = std::move(base.traits);
@@ -247,7 +249,7 @@ Population read_shipped(Objects objects) {
     return checked(std::move(out), "populations", diagnostics);
 }
 
-/// The number that ends an identifier; 1 if there is none, or it has more than nine digits.
+/// The number at the end of an identifier; 1 if there is none, or if it has more than nine digits.
 size_t number_of(const std::string& id) {
     const size_t last = id.find_last_not_of("0123456789");
     const std::string digits = id.substr(last == std::string::npos ? 0 : last + 1);
@@ -263,7 +265,7 @@ Traits with_names(Traits traits, const Population& population, const std::string
     return traits;
 }
 
-/// Reads a file, and those it is based on. `above`: the files that are based on this one.
+/// Reads a file, and the files on which it is based. `above`: the files based on this one.
 Population read_based(std::set<fs::path> above, const std::string& file) {
     Diagnostics diagnostics;
     const Node root = read_yaml(file);
@@ -273,8 +275,9 @@ Population read_based(std::set<fs::path> above, const std::string& file) {
         above.insert(fs::weakly_canonical(file));
         const fs::path base = named_in(fs::path(file).parent_path().string(), out.based_on);
         if (above.contains(fs::weakly_canonical(base)))
-            throw Error(place, "based_on", "leads back to the file itself",
-                        "Name a file that is based on no other, or on another one.");
+            throw Error(
+                place, "based_on", "leads back to the file itself",
+                "Name a file that is not based on any other, or that is based on a different one.");
         check_named(base.string(), place, "based_on");
         out = resolved(std::move(out), read_based(above, base.string()));
     }

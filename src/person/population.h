@@ -1,10 +1,10 @@
 // Populations from which simulated people are drawn, and their files: the median and spread of each
-// trait with their source, correlations between traits, and groups that differ.
+// trait with their source, correlations between traits, and differing groups.
 //
 // A person's trait is drawn by its law from a normal number z, which is cut at 2.5. Correlated
 // traits have z = L u, with u independent and R = L L^T the matrix of correlations. Each u comes
-// from a random stream of its own, named for the person and the trait: a person is the same
-// whichever others are drawn.
+// from its own random stream, named after the person and the trait: a person is the same whichever
+// others are drawn.
 #pragma once
 
 #include <array>
@@ -29,10 +29,10 @@ constexpr auto enum_names(Law) {
     return std::array{"normal", "log_normal", "logit", "forgetting"};
 }
 
-/// The spread of one trait. What it leaves out is taken from the population, for a trait of a
-/// group, or from the file on which the population is based.
+/// The spread of one trait. Omitted members are taken from the population, for a trait of a group,
+/// or from the file on which the population is based.
 struct TraitSpread {
-    std::string trait;  ///< its key in person.yaml, with the unit if it has one
+    std::string trait;  ///< its key in person.yaml, with its unit, if any
     std::optional<Law> law;
     std::optional<double> median;  ///< in that unit
     std::optional<double> spread;  ///< multiplies z in the law
@@ -43,12 +43,11 @@ struct TraitSpread {
     void visit(Visitor& v) {
         v("trait", trait,
           Field::text().required().says(
-              "Name of the trait as in person.yaml, with its unit if it has one."));
+              "Name of the trait as in person.yaml, with its unit, if any."));
         v("law", law, says("Distribution of the trait over people."));
         v("median", median, says("Median of the trait, in that unit."));
-        v("spread", spread,
-          Field::number().within(0, 10).says("How much z changes the trait, in the law."));
-        v("source", source, says("Where these numbers are from."));
+        v("spread", spread, Field::number().within(0, 10).says("Factor of z in the law."));
+        v("source", source, says("Source of these numbers."));
         if constexpr (requires { v.place(); }) place = v.place();
     }
 };
@@ -68,7 +67,7 @@ struct Correlation {
 
 struct Group {
     std::string name;
-    std::vector<TraitSpread> traits;  ///< those that differ from the population's
+    std::vector<TraitSpread> traits;  ///< traits that differ from the population's
     Place place;
 
     template <class Visitor>
@@ -81,36 +80,37 @@ struct Group {
 
 struct Population {
     std::string title;
-    std::string about;     ///< description, for a reader
-    std::string based_on;  ///< path, from this file's folder, of the file it changes; empty: none
+    std::string about;  ///< description, for a reader
+    std::string
+        based_on;  ///< path of the file that this one changes, relative to its folder; empty: none
     Objects objects = Objects::device;
     std::vector<TraitSpread> traits;
     std::vector<Correlation> correlations;
-    std::vector<Group> groups;  ///< people belong to each in turn; may be empty
+    std::vector<Group> groups;  ///< groups to which people are assigned in turn; may be empty
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("title", title, Field::text().required().says("Title of the population."));
-        v("about", about, says("What it is, for a reader."));
+        v("about", about, says("Description for a reader."));
         v("based_on", based_on,
           says("Population file that this one changes, relative to this file."));
         v("objects", objects,
           says("Whether people feel objects directly or through a haptic device."));
         v("traits", traits, says("Distribution of each trait."));
         v("correlations", correlations, says("Correlations between traits."));
-        v("groups", groups, says("Groups that people are assigned to, in turn."));
+        v("groups", groups, says("Groups to which people are assigned in turn."));
     }
 
-    /// Name of a person's group, by the number that ends `id`; empty without groups.
+    /// Name of a person's group, by the number at the end of `id`; empty without groups.
     std::string group_of(const std::string& id) const;
-    /// Number of a person within the group, from 1. Counterbalanced orders use it, because with the
-    /// number in `id` groups would have different orders.
+    /// Number of a person within the group, from 1. Counterbalanced orders use it, because the
+    /// number in `id` would give groups different orders.
     int number_in_group(const std::string& id) const;
 };
 
-/// Reads a population file, with the file that it is based on. Throws Error with everything that is
-/// wrong: a trait that is unknown or missing, or that leaves its bounds at z = 2.5 or -2.5;
-/// correlations that contradict each other.
+/// Reads a population file and the file on which it is based. Throws Error with all faults: unknown
+/// or missing traits, traits that exceed their bounds at z = 2.5 or -2.5, and contradictory
+/// correlations.
 Population read_population(const std::string& file);
 /// The population of populations/adults.yaml, or of adults-real-objects.yaml, as built into the
 /// program.
@@ -119,7 +119,7 @@ const Population& shipped_population(Objects objects);
 /// The population of a file; "": the shipped one.
 Population population_of(const std::string& file, Objects objects);
 
-/// The median person of a group, who makes neither noise nor mistakes.
+/// The median person of a group, without noise and mistakes.
 Traits median_person(const Population& population, const std::string& group = "");
 /// Draws person `id` of the population with this seed: always the same, whichever others are drawn.
 Traits draw_person(const Population& population, uint64_t seed, const std::string& id);

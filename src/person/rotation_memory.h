@@ -9,19 +9,19 @@ namespace dihaptic::person {
 
 class RotationMemory {
   public:
-    /// `width`: by which the slow process generalises [rad].
+    /// `width`: width of generalisation of the slow process [rad].
     RotationMemory(const model::TwoRate& rates, double width)
         : rate_(rates.fast), slow_(rates.slow, width) {}
 
-    /// Rotation vector by which the person expects a reach toward the unit vector d to be shown
-    /// turned [rad].
+    /// Rotation vector of the displayed turn that the person expects in a reach toward the unit
+    /// vector d [rad].
     Vec3 expected(const Vec3& d) const noexcept { return slow_.added_to(fast_, d); }
-    /// Magnitude of what both processes have learned there: |fast| + |slow(d)| [rad].
+    /// Magnitude of the learning of both processes there: |fast| + |slow(d)| [rad].
     double learned(const Vec3& d) const noexcept {
         return fast_.norm() + (expected(d) - fast_).norm();
     }
-    /// Learns from a reach that is over. `error`: rotation vector from the target's direction to
-    /// that in which the hand was seen to go [rad].
+    /// Learns from a completed reach. `error`: rotation vector from the target's direction to the
+    /// direction in which the hand was seen to move [rad].
     void learn(const Vec3& d, const Vec3& error) noexcept {
         fast_ = rate_.retention * fast_ + rate_.learning * error;
         slow_.learn(d, error);

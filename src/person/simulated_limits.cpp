@@ -10,9 +10,10 @@ namespace dihaptic::person {
 namespace {
 
 constexpr const char* kRemedy =
-    "Rehearse the order and the time of trials with it, and take no figure of it for people's.";
+    "Rehearse the order and the timing of trials with it, but do not treat its figures as human "
+    "data.";
 
-/// Whether the perturbation shows movements longer or shorter than they are.
+/// Whether the perturbation scales displayed movements.
 bool scales(const task::PerturbationSpec& perturbation) {
     if (!perturbation.visual) return false;
     const auto& moves = perturbation.visual->moves;
@@ -20,7 +21,7 @@ bool scales(const task::PerturbationSpec& perturbation) {
            perturbation.visual->scale != FormulaVec3{1, 1, 1};
 }
 
-/// Number of keys that a state waits for: two or more are a question.
+/// Number of keys for which a state waits: two or more form a question.
 size_t keys_of(const task::TaskPlan::Stage& stage) {
     std::set<std::string> keys;
     for (const task::TaskPlan::Way& way : stage.ways) {
@@ -40,7 +41,7 @@ void warn_of_fields(const task::TaskPlan& plan, std::vector<Problem>& out) {
         if (perturbation.all_loads().empty()) continue;
         out.push_back({Severity::warning, perturbation.place, perturbation.name,
                        "is a force field, which simulated people (--simulate, rehearse) learn only "
-                       "in hand steps that reach a region, and there is none",
+                       "in hand steps that reach a region, but there is no such step",
                        kRemedy});
     }
 }
@@ -50,7 +51,7 @@ void warn_of_delays(const task::TaskPlan& plan, std::vector<Problem>& out) {
         if (!perturbation.visual || perturbation.visual->delay == Formula{0}) continue;
         out.push_back({Severity::warning, perturbation.place, perturbation.name,
                        "is shown late: simulated people see it late, but learn from it as much as "
-                       "they would without the delay, where people learn less",
+                       "without the delay, whereas real people learn less",
                        kRemedy});
     }
 }
@@ -65,7 +66,7 @@ void warn_of_thresholds(const task::TaskPlan& plan, std::vector<Problem>& out) {
             });
         if (scaled && procedure.level.empty()) continue;
         const std::string what = procedure.level.empty()
-                                     ? fmt::format("'{}', which scales nothing that is shown",
+                                     ? fmt::format("'{}', which does not scale the display",
                                                    fmt::join(names, task::kBetweenNames))
                                      : procedure.level;
         out.push_back({Severity::warning, procedure.place, procedure.name,
@@ -93,11 +94,11 @@ void warn_of_answers(const task::TaskPlan& plan, std::vector<Problem>& out) {
                                        keys),
                            kRemedy});
         } else if (!lengths && plan.task.procedures.empty()) {
-            out.push_back({Severity::warning, state.place, state.name,
-                           "asks a question, and nothing is shown scaled: simulated people judge "
-                           "only whether a movement was shown longer than they made it, and their "
-                           "answers are arbitrary",
-                           kRemedy});
+            out.push_back(
+                {Severity::warning, state.place, state.name,
+                 "asks a question, but no display is scaled: simulated people judge only whether a "
+                 "movement was shown longer than they made it, and their answers are arbitrary",
+                 kRemedy});
         }
     }
 }

@@ -1,5 +1,5 @@
-// Warns of what simulated people (src/person) cannot do in a task. A rehearsal would still run to
-// its end, and give figures that look like any others.
+// Warns of abilities that a task requires and simulated people (src/person) lack. A rehearsal would
+// still run to its end, and give figures that look like any others.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,7 @@
 namespace dihaptic::person {
 
 /// Warnings of force fields that no reach meets, then of thresholds and answers that are not
-/// judgements of lengths, then of buttons; each kind in the file's order.
+/// judgements of length, then of buttons; each kind in the file's order.
 std::vector<Problem> simulated_limits(const task::TaskPlan& plan);
 
 }  // namespace dihaptic::person

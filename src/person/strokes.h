@@ -3,7 +3,7 @@
 //
 //     x(t) = x0 + sum d_i share((t - t_i) / T_i)
 //
-// with d_i the displacement of a stroke, t_i its begin, T_i its duration, and share() of
+// with d_i the displacement of a stroke, t_i its start, T_i its duration, and share() of
 // model/minimum_jerk.h.
 #pragma once
 
@@ -14,8 +14,8 @@
 
 namespace dihaptic::person {
 
-/// What a hand aims at: its centre, its aperture, and the force with which it carries objects. Also
-/// holds differences of aims, and their rates of change.
+/// The aim of a hand: its centre, its aperture, and the force with which it carries objects. Also
+/// used for differences of aims, and their rates of change.
 struct Aim {
     Vec3 centre = Vec3::Zero();  ///< [m]
     double aperture = 0;         ///< [m]
@@ -40,8 +40,8 @@ class Strokes {
         end_ = 0;
     }
 
-    /// Adds a stroke that begins `delay` after `now`. If there are kMost already, the first is
-    /// taken as done.
+    /// Adds a stroke that begins `delay` after `now`. If there are already kMost, the first counts
+    /// as completed.
     void add(const Aim& way, double now, double duration, double delay = 0) noexcept {
         size_t kept = 0;
         for (size_t i = 0; i < count_; ++i) {

@@ -6,7 +6,7 @@ namespace dihaptic::person {
 namespace {
 
 constexpr double kLeastForce = 0.03;        // least force that is felt [N]
-constexpr double kSlipSpeed = 1e-3;         // slower sliding does not count [m/s]
+constexpr double kSlipSpeed = 1e-3;         // speed below which sliding does not count [m/s]
 constexpr double kSlipDistance = 1e-4;      // least slip that is felt [m]
 constexpr double kPad = 0.01;               // size of a fingertip's pad [m]
 constexpr double kAccelerationTime = 0.02;  // time constant by which accelerations are smoothed [s]
@@ -69,7 +69,7 @@ Feeling Touch::feel(const frame::Frame& frame) noexcept {
             out.slips = true;
             const double normal = std::abs(contact->f_B_W.dot(n_W));
             const double across = (contact->f_B_W - contact->f_B_W.dot(n_W) * n_W).norm();
-            // a body that turns under the finger slips too, but does not tell its friction
+            // a body that turns under the finger slips too, but does not reveal its friction
             const bool turns = body.w_WB.norm() * kPad > slip.norm() / 2;
             out.slip_friction = normal > 0 && !turns ? across / normal : 0;
         }

@@ -8,25 +8,26 @@
 namespace dihaptic::person {
 
 struct Feeling {
-    Vec3 force_W = Vec3::Zero();  ///< of all fingers together on what they hold [N]
-    double grip = 0;              ///< force with which fingers press inward, their mean [N]
+    Vec3 force_W = Vec3::Zero();  ///< total force of the fingers on the object [N]
+    double grip = 0;              ///< mean inward force of the fingers [N]
     bool held = false;            ///< two fingers or more press
-    bool slips = false;           ///< a finger slides over what it presses
-    double slip_friction = 0;  ///< tangential over normal force there; 0: it turns under the finger
-    double rise = 0;           ///< upward speed of the fingertips, their mean [m/s]
-    Vec3 acceleration_W = Vec3::Zero();  ///< of the hand [m/s^2]
-    double friction = 0;                 ///< of the skin on what it touches; 0: touches nothing
-    int body = -1;                       ///< index of the body that fingers press; -1: none
+    bool slips = false;           ///< a finger slides over the body that it presses
+    double slip_friction =
+        0;            ///< tangential over normal force there; 0: the body turns under the finger
+    double rise = 0;  ///< mean upward speed of the fingertips [m/s]
+    Vec3 acceleration_W = Vec3::Zero();  ///< acceleration of the hand [m/s^2]
+    double friction = 0;                 ///< friction of the skin on the touched body; 0: no touch
+    int body = -1;                       ///< index of the body that the fingers press; -1: none
 };
 
 class Touch {
   public:
-    /// `sides`: unit directions of the fingers from the hand's centre. `frictions`: of a finger on
-    /// each body of the scene, unperturbed. `tick` [s].
+    /// `sides`: unit directions of the fingers from the hand's centre. `frictions`: unperturbed
+    /// friction of a finger on each body of the scene. `tick` [s].
     Touch(std::vector<Vec3> sides, std::vector<double> frictions, double tick);
 
     void restart() noexcept;
-    /// What is felt in this Frame. Every Frame has to be passed, in order.
+    /// The sensation in this Frame. Every Frame must be passed, in order.
     Feeling feel(const frame::Frame& frame) noexcept;
 
   private:

@@ -1,4 +1,4 @@
-// The traits of one simulated person; population.h has their spread over people.
+// The traits of one simulated person; population.h defines their spread over people.
 #pragma once
 
 #include <array>
@@ -18,22 +18,23 @@ constexpr auto enum_names(Objects) {
     return std::array{"real", "device"};
 }
 
-/// README.md says what each trait does; populations/ has medians, spreads and their sources.
+/// README.md explains the effect of each trait; populations/ gives medians, spreads and their
+/// sources.
 struct Traits {
     std::string id;
-    std::string population;  ///< title of the population that the person was drawn from
-    std::string group;       ///< in that population; empty without groups
+    std::string population;  ///< title of the population from which the person was drawn
+    std::string group;       ///< group in that population; empty without groups
     Objects objects = Objects::device;
 
-    double visual_delay = 0;       ///< from the screen to the movement that follows [s]
-    double visual_noise = 0;       ///< SD of a position that is looked at, per axis [m]
+    double visual_delay = 0;       ///< delay from the screen to the resulting movement [s]
+    double visual_noise = 0;       ///< SD of a seen position, per axis [m]
     double reaction_time = 0;      ///< from the cue to the movement [s]
-    double reaction_noise = 0;     ///< SD over trials, share of it
+    double reaction_noise = 0;     ///< SD over trials, as a share
     double tempo = 0;              ///< movement times over those in the experiment file
-    double tempo_noise = 0;        ///< SD over movements, share of it
+    double tempo_noise = 0;        ///< SD over movements, as a share
     double direction_noise = 0;    ///< SD of a reach's direction, per axis across it [rad]
-    double adapted_noise = 0;      ///< SD of a direction, share of what was learned about it
-    double extent_noise = 0;       ///< SD of a movement's length, share of it
+    double adapted_noise = 0;      ///< SD of a direction, as a share of the learning about it
+    double extent_noise = 0;       ///< SD of a movement's length, as a share
     double online_correction = 0;  ///< share of a seen error that is corrected within the reach
 
     double fast_retention = 0;  ///< per reach; of the two processes of adaptation to rotations
@@ -56,21 +57,21 @@ struct Traits {
     double peak_grip = 0;        ///< grip force at lift-off over static grip force
     double preload_time = 0;     ///< from touch to the onset of load force [s]
     double load_time = 0;        ///< duration of the load phase for an expected weight of 0 [s]
-    double load_time_rise = 0;   ///< its rise with the weight expected [s/N]
-    double reflex_latency = 0;   ///< from a touch, slip, or load to the response [s]
+    double load_time_rise = 0;   ///< its rise with the expected weight [s/N]
+    double reflex_latency = 0;   ///< time from a touch, slip, or load to the response [s]
     double reflex_noise = 0;     ///< SD over trials [s]
-    double weight_learning = 0;  ///< share of a weight's error that is learned by the next lift
+    double weight_learning = 0;  ///< share of an error in weight that is corrected by the next lift
     double friction_error = 0;   ///< SD of the log of a surface's seen or felt over true friction
-    double skin_time = 0;        ///< from touch until the skin tells the friction; 0: never [s]
-    double mass_retention = 0;   ///< per movement; of adaptation to a mass beyond the weight's
+    double skin_time = 0;  ///< time from touch until the skin senses the friction; 0: never [s]
+    double mass_retention = 0;  ///< per movement; of adaptation to a mass beyond the weight's
     double mass_learning = 0;
 
-    double answer_bias = 0;   ///< log of displayed over felt movement at which the two look equal
+    double answer_bias = 0;   ///< log of displayed over felt movement at which the two seem equal
     double answer_sd = 0;     ///< SD of the psychometric function
     double answer_lapse = 0;  ///< share of wrong answers, however clear the difference
 
-    double hesitation_rate = 0;  ///< share of trials that are begun late
-    double hesitation_time = 0;  ///< mean delay of these [s]
+    double hesitation_rate = 0;  ///< share of trials that start late
+    double hesitation_time = 0;  ///< mean delay of these trials [s]
     double slip_rate = 0;        ///< share of grips that are too weak
     double give_up_rate = 0;     ///< share of attempts that are not made
 

@@ -1,4 +1,4 @@
-// A row of episodes.csv. How episodes are found is told in analysis/episodes.h.
+// A row of episodes.csv. analysis/episodes.h describes how episodes are found.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ constexpr auto enum_names(EpisodeKind) {
     return std::array{"hold", "slide", "flight"};
 }
 
-/// One episode, in SI units. Figures that its kind does not have are NaN.
+/// One episode, in SI units. Figures that do not apply to its kind are NaN.
 struct EpisodeRow {
     EpisodeKind kind = EpisodeKind::hold;
     double start = 0, end = 0;
@@ -30,22 +30,25 @@ struct EpisodeRow {
         v("start_time", f.start, "s", "in the session");
         v("stop_time", f.end, "s", "in the session");
         v("episode", f.kind, "", "hold, slide or flight of the object");
-        v("fingers", f.finger_names, "", "that pressed it; flight: that let it go");
-        v("slip", f.slip, "mm", "hold: largest slip of these fingers on it");
+        v("fingers", f.finger_names, "",
+          "fingers that pressed the object; flight: fingers that let it go");
+        v("slip", f.slip, "mm", "hold: largest slip of these fingers on the object");
         v("least_slip", f.least_slip, "mm",
-          "hold: of the finger that slipped least; in a hand-over, of the one that takes it");
-        v("sag", f.sag, "mm", "hold: its lowest height, from that at the start; at most 0");
+          "hold: slip of the finger that slipped least; in a hand-over, of the receiving finger");
+        v("sag", f.sag, "mm",
+          "hold: lowest height of the object, relative to the start; at most 0");
         v("turn", f.turn, "deg",
-          "hold: of the object, when the line between its first two fingers had turned most");
-        v("hand_turn", f.hand_turn, "deg", "hold: of that line");
+          "hold: turn of the object when the line between its first two fingers had turned most");
+        v("hand_turn", f.hand_turn, "deg", "hold: turn of that line");
         v("distance", f.distance, "mm", "slide: length of the path");
         v("friction_ratio", f.friction_ratio, "1",
-          "slide: work of friction over mu N times the distance, which is 1 for a body that does "
-          "not turn, pushed or free");
-        v("release_speed", f.release_speed, "m/s", "flight: when let go");
+          "slide: work of friction over mu N times the distance; 1 for a body that does not turn, "
+          "pushed or free");
+        v("release_speed", f.release_speed, "m/s", "flight: speed at release");
         v("release_ratio", f.release_ratio, "1",
-          "flight: that velocity along the mean of the handles that let it go, over that mean");
-        v("rise", f.rise, "mm", "flight: largest height above where it was let go");
+          "flight: component of that velocity along the mean velocity of the releasing handles, "
+          "over that mean");
+        v("rise", f.rise, "mm", "flight: largest height above the point of release");
         v("off_path", f.off_path, "mm",
           "flight: largest distance of its origin from the ballistic path of the first step");
     }

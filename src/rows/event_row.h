@@ -9,9 +9,9 @@
 
 namespace dihaptic::rows {
 
-/// Something that happened in a tick.
+/// An event in a tick.
 struct EventRow {
-    int64_t tick = 0;  ///< of the log; not in the table
+    int64_t tick = 0;  ///< tick in the log; not in the table
     double time = 0;   ///< [s]
     int trial = 0;
     std::string name;  ///< "touch", "release", "lift-off", "replaced", "phase", "limit", "setting",
@@ -23,12 +23,12 @@ struct EventRow {
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
-        v("time", f.time, "s", "of its tick");
-        v("trial", f.trial, "1", "number, from 1");
-        v("event", f.name, "", "what happened");
-        v("detail", f.detail, "", "to whom, or what");
-        v("shown", f.shown, "s", "when the first picture of it came to the screen; empty: none");
-        v("heard", f.heard, "s", "when the sound left the loudspeaker; empty: it was not played");
+        v("time", f.time, "s", "time of its tick");
+        v("trial", f.trial, "1", "trial number, from 1");
+        v("event", f.name, "", "kind of event");
+        v("detail", f.detail, "", "fingers, bodies or values concerned");
+        v("shown", f.shown, "s", "when its first picture appeared on the screen; empty: none");
+        v("heard", f.heard, "s", "when the sound left the loudspeaker; empty: not played");
     }
 };
 

@@ -1,4 +1,4 @@
-// A row of lifts.csv. How a lift's events are found is told in analysis/lifts.h.
+// A row of lifts.csv. analysis/lifts.h describes how a lift's events are found.
 #pragma once
 
 #include <array>
@@ -37,25 +37,27 @@ struct LiftRow {
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
         v("trial_num", f.trial, "1", "number in the session, from 1");
-        v("attempt", f.attempt, "1", "at the trial, from 1; without a task: the lift's number");
+        v("attempt", f.attempt, "1",
+          "attempt at the trial, from 1; without a task: the lift's number");
         v("lift", f.mark, "",
-          "complete, or what is missing: no touch, not lifted, dropped, no hold, not put down, not "
+          "complete, or the missing event: no touch, not lifted, dropped, no hold, not put down, "
+          "not "
           "released; paused; place not known, if ticks are missing");
         v("events_by", f.rule, "", "rule by which the times were found: contact or force");
-        v("touch", f.touch, "s", "of the first digit, in the session");
-        v("load_onset", f.load_onset, "s", "of the first digit");
-        v("lift_off", f.lift_off, "s", "when the object left what it stood on");
-        v("replacement", f.replacement, "s", "when the object stood again");
-        v("release", f.release, "s", "by the last digit");
-        v("preload", f.preload, "s", "from touch to load onset");
-        v("loading", f.loading, "s", "from the last digit's load onset to lift-off");
-        v("releasing", f.releasing, "s", "from replacement to release");
-        v("peak_grip", f.peak_grip, "N", "mean of the digits, from touch to lowering");
-        v("peak_grip_time", f.peak_grip_time, "s", "from lift-off");
-        v("peak_load", f.peak_load, "N", "sum of the digits, from touch to lowering");
-        v("peak_grip_rate", f.peak_grip_rate, "N/s", "before lift-off");
-        v("peak_load_rate", f.peak_load_rate, "N/s", "before lift-off");
-        v("lift_off_grip", f.lift_off_grip, "N", "at lift-off");
+        v("touch", f.touch, "s", "touch of the first digit, in the session");
+        v("load_onset", f.load_onset, "s", "load onset of the first digit");
+        v("lift_off", f.lift_off, "s", "when the object left its support");
+        v("replacement", f.replacement, "s", "when the object stood on its support again");
+        v("release", f.release, "s", "release by the last digit");
+        v("preload", f.preload, "s", "time from touch to load onset");
+        v("loading", f.loading, "s", "time from the last digit's load onset to lift-off");
+        v("releasing", f.releasing, "s", "time from replacement to release");
+        v("peak_grip", f.peak_grip, "N", "peak of the mean over digits, from touch to lowering");
+        v("peak_grip_time", f.peak_grip_time, "s", "time of the peak, from lift-off");
+        v("peak_load", f.peak_load, "N", "peak of the sum over digits, from touch to lowering");
+        v("peak_grip_rate", f.peak_grip_rate, "N/s", "largest rise before lift-off");
+        v("peak_load_rate", f.peak_load_rate, "N/s", "largest rise before lift-off");
+        v("lift_off_grip", f.lift_off_grip, "N", "grip at lift-off");
         v("static_grip", f.static_grip, "N",
           "mean in the hold: from 600 to 200 ms before lowering");
         v("static_load", f.static_load, "N", "mean in the hold");
@@ -65,14 +67,14 @@ struct LiftRow {
         v("grip_load_r", f.grip_load_r, "1", "r of the rates of grip and load while loading");
         v("grip_load_r_peak", f.grip_load_r_peak, "1",
           "largest r with the grip shifted by up to 100 ms");
-        v("grip_load_lag", f.grip_load_lag, "s", "that shift; positive: grip follows load");
-        v("slope", f.slope, "1", "of the line grip = offset + slope load, while loading");
-        v("offset", f.offset, "N", "of that line");
-        v("height", f.height, "mm", "mean in the hold, above where the object lay");
-        v("overshoot", f.overshoot, "mm", "largest height beyond that");
-        v("slip", f.slip, "mm", "of the digit that slipped most, from lift-off to lowering");
-        v("slips", f.slips, "1", "times that a digit slid faster than 5 mm/s");
-        v("first_slip", f.first_slip, "s", "when the first of these began, in the session");
+        v("grip_load_lag", f.grip_load_lag, "s", "shift with that r; positive: grip follows load");
+        v("slope", f.slope, "1", "slope of the line grip = offset + slope load, while loading");
+        v("offset", f.offset, "N", "offset of that line");
+        v("height", f.height, "mm", "mean in the hold, above the object's height at the start");
+        v("overshoot", f.overshoot, "mm", "largest height above that mean");
+        v("slip", f.slip, "mm", "slip of the digit that slipped most, from lift-off to lowering");
+        v("slips", f.slips, "1", "number of times that a digit slid faster than 5 mm/s");
+        v("first_slip", f.first_slip, "s", "start of the first of these slips, in the session");
     }
 
     bool complete() const { return mark == "complete"; }

@@ -19,10 +19,10 @@ struct PhaseRow {
     static void visit(Self& f, Visitor& v) {
         v("start_time", f.start, "s", "in the session");
         v("stop_time", f.end, "s", "in the session");
-        v("trial", f.trial, "1", "number, from 1");
-        v("phase", f.name, "", "name");
+        v("trial", f.trial, "1", "trial number, from 1");
+        v("phase", f.name, "", "name of the phase");
         v("mean_grip", f.mean_grip, "N",
-          "pinch component of the normal forces, mean of the digits; empty with one finger");
+          "pinch component of the normal forces, mean over digits; empty with one finger");
         v("peak_grip", f.peak_grip, "N", "largest grip force");
         v("mean_load", f.mean_load, "N",
           "tangential contact forces along gravity, summed over the digits");
@@ -31,7 +31,7 @@ struct PhaseRow {
         v("slip", f.slip, "mm",
           "largest slip of a finger on the object; empty unless all held it throughout");
         v("weight_felt", f.weight_felt, "1",
-          "vertical handle forces over the object's weight; empty unless carried");
+          "vertical handle forces over the object's weight; empty unless it is carried");
         v("mean_torque", f.mean_torque, "N*m",
           "largest torque on any handle, mean; empty without orientation");
         v("peak_torque", f.peak_torque, "N*m", "largest torque on any handle");

@@ -1,4 +1,4 @@
-// A row of procedures.csv: a procedure of the task's, as the analysis of its answers takes it.
+// A row of procedures.csv: a procedure of the task, as used in the analysis of its answers.
 #pragma once
 
 #include <string>
@@ -24,20 +24,20 @@ struct ProcedureRow {
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
-        v("procedure", f.procedure, "", "name");
+        v("procedure", f.procedure, "", "name of the procedure");
         v("kind", f.kind, "", "staircase, quest, quest_plus or constant");
-        v("perturbation", f.perturbation, "", "whose share it chooses, or that acts");
+        v("perturbation", f.perturbation, "", "perturbation whose share it chooses, or that acts");
         v("logarithmic", f.logarithmic, "", "the share, or the number, is 10^level");
-        v("yes", f.yes, "", "outcome that grows likelier with the level");
-        v("no", f.no, "", "the other");
-        v("sigmoid", f.sigmoid, "", "of the psychometric function");
+        v("yes", f.yes, "", "outcome that becomes more likely as the level rises");
+        v("no", f.no, "", "the other outcome");
+        v("sigmoid", f.sigmoid, "", "sigmoid of the psychometric function");
         v("shape", f.shape, "1",
-          "its shape, where the procedure takes it as known; empty: it is fitted");
-        v("guess", f.guess, "1", "its lower end");
-        v("guess_is_lapse", f.guess_is_lapse, "", "or the lapse rate is");
+          "shape of that function, if the procedure assumes it; empty: fitted");
+        v("guess", f.guess, "1", "lower end of that function");
+        v("guess_is_lapse", f.guess_is_lapse, "", "whether the lower end is the lapse rate");
         v("level", f.level, "",
           "column of trials.csv with the number that it chooses; empty: share");
-        v("standard", f.standard, "1", "of that number");
+        v("standard", f.standard, "1", "standard value of that number");
     }
 };
 

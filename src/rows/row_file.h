@@ -1,5 +1,6 @@
-// Reads a session's table into the structs that it was written from. A row's struct lists its
-// figures once (base/figure.h): figure_table() writes a table of them, and RowFile reads it.
+// Reads a session's table into the structs that it was written from. Each row struct lists its
+// figures once (base/figure.h): figure_table() writes a table of them, and RowFile reads that
+// table.
 #pragma once
 
 #include <cmath>
@@ -20,7 +21,8 @@
 
 namespace dihaptic::rows {
 
-/// Lists a vector's components: of "reach_from" reach_from_x and so on, which share a sentence.
+/// Lists a vector's components, e.g. reach_from_x and so on for "reach_from", with one description
+/// for all.
 template <class Visitor, class Vector>
 void visit_vector(Visitor& v, const std::string& name, Vector& value, std::string_view unit,
                   std::string_view what) {
@@ -29,14 +31,14 @@ void visit_vector(Visitor& v, const std::string& name, Vector& value, std::strin
     v(name + "_z", value.z(), unit, what);
 }
 
-/// Finds the columns that a struct lists, in the order in which it does, and reads rows of them. A
-/// column that the table lacks, as that of an earlier version may, and an empty cell leave the
-/// member as it is; so does a cell of a whole number that holds none.
+/// Finds the columns that a struct lists, in its order, and reads rows of them. A column that the
+/// table lacks (an earlier version's may) leaves the member unchanged, and so does an empty cell,
+/// or an invalid one where a whole number belongs.
 class RowReader {
   public:
     explicit RowReader(const CsvFile& table) : table_(table) {}
 
-    /// Throws Error where a cell holds a word that is none of those of its column.
+    /// Throws Error if a cell holds a word that its column does not allow.
     template <class Row>
     Row read(size_t row) {
         Row out;
@@ -93,8 +95,8 @@ class RowReader {
         std::string words;
         for (const char* name : names) words += (words.empty() ? "" : ", ") + std::string(name);
         throw Error(table_.place(row_), table_.columns()[column],
-                    "is '" + shortened(text) + "', and not one of: " + words,
-                    "Put a backup of the table in its place, or make it anew: dihaptic recover.");
+                    "is '" + shortened(text) + "', which is not one of: " + words,
+                    "Replace the table with a backup, or rebuild it: dihaptic recover.");
     }
 
     const CsvFile& table_;
@@ -102,11 +104,12 @@ class RowReader {
     size_t row_ = 0, slot_ = 0;
 };
 
-/// A session's table: a Row for each of its lines, and further columns, if it has any.
+/// A session's table: a Row for each of its lines, and any further columns.
 template <class Row>
 class RowFile {
   public:
-    /// Throws Error when the file cannot be read, or has a word in it that it cannot have.
+    /// Throws Error when the file cannot be read, or contains a word that its column does not
+    /// allow.
     explicit RowFile(const std::string& file) : RowFile(CsvFile(file)) {}
     explicit RowFile(CsvFile table) : table_(std::move(table)) {
         RowReader reader(table_);
@@ -121,13 +124,13 @@ class RowFile {
     auto end() const { return rows_.end(); }
     const Row& back() const { return rows_.back(); }
 
-    /// A column by its name, which a task or a person chose; nullopt if there is none.
+    /// The column with this name, which a task or a person chose; nullopt if there is none.
     std::optional<size_t> column(const std::string& name) const { return table_.column(name); }
     const std::string& text(size_t row, std::optional<size_t> column) const {
         static const std::string none;
         return column ? table_.text(row, *column) : none;
     }
-    /// NaN where the cell holds no number, and without a column.
+    /// NaN if the cell holds no number, or without a column.
     double number(size_t row, std::optional<size_t> column) const {
         return column ? table_.number(row, *column) : kUnmeasured;
     }

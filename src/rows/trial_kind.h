@@ -1,4 +1,4 @@
-// What a trial is for the analysis.
+// The role of a trial in the analysis.
 #pragma once
 
 #include <array>
@@ -7,8 +7,8 @@
 
 namespace dihaptic::rows {
 
-/// visual_clamp: what is shown cannot err, and the hand is free; force_channel: the hand is held to
-/// a line, and what it presses against is measured.
+/// visual_clamp: the displayed hand cannot err, and the real hand is free; force_channel: the hand
+/// is held to a line, and the force with which it presses is measured.
 enum class TrialKind {
     practice,
     baseline,
@@ -25,11 +25,11 @@ constexpr auto enum_names(TrialKind) {
 /// Both kinds of clamp had this name in the files and recordings of earlier versions.
 constexpr OldName old_name(TrialKind) {
     return {"error_clamp",
-            "Write visual_clamp, where what is shown follows a line (toward), or force_channel, "
-            "where the hand is held to one."};
+            "Write visual_clamp if the displayed hand follows a line (toward), or force_channel if "
+            "the hand is held to one."};
 }
-/// What the old name is read as in a table. A trial of that kind in which a force channel acted was
-/// a force_channel (analysis/perturbations.h).
+/// The kind that replaces the old name when a table is read. A trial of that kind in which a force
+/// channel acted was a force_channel (analysis/perturbations.h).
 constexpr TrialKind old_value(TrialKind) {
     return TrialKind::visual_clamp;
 }

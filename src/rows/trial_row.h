@@ -1,4 +1,4 @@
-// A row of trials.csv: what was asked for in an attempt at a trial, and what was measured.
+// A row of trials.csv: the demands of an attempt at a trial, and its measures.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace dihaptic::rows {
 
-/// What a row of trials.csv begins with.
+/// The first columns of trials.csv.
 struct TrialHead {
     double start = 0, end = 0;
     std::string experiment;
@@ -23,11 +23,11 @@ struct TrialHead {
         v("experiment", f.experiment, "", "title");
         v("ppid", f.participant, "", "participant");
         v("session_num", f.session, "1",
-          "number, from 1; a session that goes on with another has the next");
+          "number, from 1; a session that resumes another continues its numbers");
     }
 };
 
-/// What the task asks for in a trial: the columns that trial-list.csv begins with.
+/// The demands of a trial: the first columns of trial-list.csv.
 struct AskedRow {
     int trial = 0;  ///< 0: the row has no number
     int block_number = 1;
@@ -42,21 +42,22 @@ struct AskedRow {
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
         v("trial_num", f.trial, "1", "number in the session, from 1");
-        v("block_num", f.block_number, "1", "number, from 1");
-        v("block", f.block, "", "name");
-        v("trial_num_in_block", f.in_block, "1", "number, from 1");
+        v("block_num", f.block_number, "1", "block number, from 1");
+        v("block", f.block, "", "name of the block");
+        v("trial_num_in_block", f.in_block, "1", "number in the block, from 1");
         v("kind", f.kind, "",
           "practice, baseline, perturbed, catch, visual_clamp, force_channel or washout");
-        v("round", f.round, "", "name");
-        v("condition", f.condition, "", "name");
+        v("round", f.round, "", "name of the round");
+        v("condition", f.condition, "", "name of the condition");
         v("perturbation", f.perturbation, "", "name, or names joined by ' + '; empty: none");
-        v("share", f.share, "1", "of the perturbation that acts; empty: the procedure's to say");
+        v("share", f.share, "1",
+          "share of the perturbation that acts; empty: chosen by the procedure");
         v("procedure", f.procedure, "", "name; empty: none");
     }
 };
 
-/// What is measured in every attempt, in SI units; but reaches in the units of their columns, so
-/// that what is computed of them is what every reader of the table computes, to the last bit.
+/// The measures of every attempt, in SI units; but reaches are in the units of their columns, so
+/// that every reader of the table computes the same results from them, to the last bit.
 struct TrialMeasures {
     int attempt = 0;  ///< 0: the session has no task
     std::string outcome;
@@ -69,22 +70,24 @@ struct TrialMeasures {
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
-        v("attempt", f.attempt, "1", "at the trial, from 1");
-        v("outcome", f.outcome, "", "what ended it; interrupted: nothing did");
+        v("attempt", f.attempt, "1", "attempt at the trial, from 1");
+        v("outcome", f.outcome, "", "outcome that ended the attempt; 'interrupted' if none did");
         v("peak_grip", f.peak_grip, "N", "largest grip force");
         v("peak_force", f.peak_force, "N", "largest force on any finger");
-        v("reach_time", f.reach_time, "s", "from its start until the reach was measured");
+        v("reach_time", f.reach_time, "s",
+          "time from the attempt's start until the reach was measured");
         v("hand_angle_deg", f.hand_angle_deg, "deg",
-          "of the handle then, from the target's direction, about the axis");
-        v("shown_angle_deg", f.shown_angle_deg, "deg", "the same of where the handle was shown");
+          "direction error of the handle at that time, from the target's direction, about the "
+          "axis");
+        v("shown_angle_deg", f.shown_angle_deg, "deg", "as before, for the displayed handle");
         v("hand_extent_mm", f.hand_extent_mm, "mm",
-          "of the handle's first stroke, toward the target");
-        v("shown_extent_mm", f.shown_extent_mm, "mm", "the same of where the handle was shown");
+          "length of the handle's first stroke, toward the target");
+        v("shown_extent_mm", f.shown_extent_mm, "mm", "as before, for the displayed handle");
         v("wanted_extent_mm", f.wanted_extent_mm, "mm",
-          "that would have led to the target, from where the handle was first shown");
+          "length that would have led to the target, from the handle's first displayed position");
     }
 };
-/// The outcome of an attempt that nothing ended.
+/// The outcome of an attempt that no outcome ended.
 inline constexpr const char* kInterrupted = "interrupted";
 
 /// An attempt at a task's trial. Variables, levels, answers and the task's own measures have
@@ -115,8 +118,8 @@ struct PlainTrialRow {
     static void visit(Self& f, Visitor& v) {
         TrialHead::visit(f.head, v);
         v("trial_num", f.trial, "1", "number in the session, from 1");
-        v("block_num", f.block, "1", "number, from 1");
-        v("trial_num_in_block", f.trial, "1", "number, from 1");
+        v("block_num", f.block, "1", "block number, from 1");
+        v("trial_num_in_block", f.trial, "1", "number in the block, from 1");
         v("outcome", f.outcome, "", "done, interrupted, diverged, or force off");
         v("peak_grip", f.peak_grip, "N", "largest grip force");
         v("peak_force", f.peak_force, "N", "largest force on any finger");

@@ -88,7 +88,7 @@ class Freezer {
                            const std::string& read) {
         if (copied == read) return;
         throw Error({file.string(), 0}, "", "was changed while it was read for this session",
-                    "Start again once nothing writes it any more.");
+                    "Start again once no program is writing to it.");
     }
 
     /// Copies and lists a file. Returns the name that it has in the session's folder.

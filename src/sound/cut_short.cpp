@@ -16,10 +16,10 @@ uint64_t number(std::string_view bytes, size_t at, size_t count) {
     return out;
 }
 
-/// Looks for the chunk of samples (Microsoft, IBM 1991; RF64: EBU Tech 3306, whose size is in a
-/// chunk of its own).
+/// Looks for the chunk of samples (Microsoft, IBM 1991; RF64, EBU Tech 3306, gives its size in a
+/// separate chunk).
 std::string cut_wav(std::string_view bytes) {
-    constexpr size_t kHead = 8;  // of a chunk: name, size
+    constexpr size_t kHead = 8;  // head of a chunk: name, size
     uint64_t large = 0;
     for (size_t at = 12; at + kHead <= bytes.size();) {
         const std::string_view name = bytes.substr(at, 4);
@@ -30,7 +30,7 @@ std::string cut_wav(std::string_view bytes) {
             if (bytes.starts_with("RF64")) size = large;
             const uint64_t left = bytes.size() - at;
             if (size <= left) return "";
-            return fmt::format("has {} bytes of samples, where its head says {}", left, size);
+            return fmt::format("has {} bytes of samples, but its head states {}", left, size);
         }
         at += size + size % 2;
     }

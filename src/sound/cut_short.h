@@ -1,5 +1,5 @@
-// Checks whether a sound file is complete. The library that reads sound files silently accepts what
-// is left of a file that was cut by a full disk or an interrupted copy.
+// Checks whether a sound file is complete. The library that reads sound files silently accepts the
+// remains of a file that was cut by a full disk or an interrupted copy.
 #pragma once
 
 #include <string>

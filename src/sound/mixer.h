@@ -1,5 +1,4 @@
-// Mixes sounds into a stream of samples. Each begins a fixed time after it was ordered, to the
-// sample.
+// Mixes sounds into a stream of samples. Each begins a fixed time after its request, to the sample.
 #pragma once
 
 #include <array>
@@ -11,16 +10,16 @@
 
 namespace dihaptic::sound {
 
-/// An order for a sound to begin or to end.
+/// A request for a sound to start or to end.
 struct Order {
     int64_t tick = 0;
     int32_t sound = -1;
     bool begins = true;
     double asked = 0;  ///< session time [s]
-    int64_t at = 0;    ///< the same by the clock of the stream [ns]
+    int64_t at = 0;    ///< that time by the clock of the stream [ns]
 };
 
-/// When a sound began to be heard.
+/// The onset of a sound, as heard.
 struct Onset {
     int64_t tick = 0;
     int32_t sound = -1;
@@ -30,11 +29,11 @@ struct Onset {
 
 class Mixer {
   public:
-    /// `delay`: from an order to the sound [s].
+    /// `delay`: from a request to the sound [s].
     Mixer(std::vector<Wave> waves, double rate, double delay);
 
-    /// From one thread: adds an order; neither waits nor allocates. False when too many are
-    /// waiting.
+    /// From one thread: adds a request; neither waits nor allocates. False when too many are
+    /// pending.
     bool order(const Order& order) noexcept { return orders_.push(order); }
     /// From a second thread: the next samples of the stream. `first`: when the first of them is
     /// heard, by the stream's clock [ns]. Neither waits nor allocates.

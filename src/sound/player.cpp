@@ -32,7 +32,7 @@ void check(const std::vector<task::SoundSpec>& sounds, const display::SoundOutpu
             diagnostics.error(sound.place, "tone",
                               fmt::format("{:g} Hz is too high for {:g} samples a second",
                                           *sound.tone, output.rate),
-                              "Lower it, or raise rate_Hz in the rig's sound:.");
+                              "Lower it, or raise rate_Hz under 'sound' in the rig.");
         if (sound.file.empty()) continue;
         try {
             make_wave(sound, output.rate, 0);
@@ -85,7 +85,7 @@ std::vector<std::string> Player::finish() {
     std::vector<std::string> out = sink_->finish();
     tend();
     if (const int64_t lost = lost_.load() + sink_->mixer().left_out(); lost > 0)
-        out.push_back(fmt::format("{} left out: too many were to be heard at once.",
+        out.push_back(fmt::format("{} left out: too many would have played at once.",
                                   lost == 1 ? "1 sound was" : fmt::format("{} sounds were", lost)));
     sink_.reset();
     return out;

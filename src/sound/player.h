@@ -1,5 +1,5 @@
-// Plays a task's sounds while its session runs. It takes the ticks' orders from the servo, which
-// never waits for it, and writes heard.csv, which says when each sound was heard.
+// Plays a task's sounds while its session runs. It receives requests from the servo, which never
+// waits for it, and writes heard.csv, with the time when each sound was heard.
 #pragma once
 
 #include <thread>
@@ -37,7 +37,7 @@ class Player {
 
     /// In the tick. On the real clock it neither waits nor allocates.
     void hear(const frame::Frame& frame) noexcept;
-    /// After the last tick: returns what went wrong, in words.
+    /// After the last tick: returns a message about any failure.
     std::vector<std::string> finish();
 
   private:

@@ -1,4 +1,4 @@
-// Where a mixer's stream goes: to speakers, or to a file.
+// The destination of a mixer's stream: speakers, or a file.
 #pragma once
 
 #include <memory>
@@ -18,20 +18,20 @@ class Sink {
     virtual Mixer& mixer() noexcept = 0;
     /// In a tick at this session time: the time by the stream's clock [ns].
     virtual int64_t clock(Time session) const noexcept = 0;
-    /// In the tick, once its orders are given. Neither waits nor allocates.
+    /// In the tick, after its requests. Neither waits nor allocates.
     virtual void pass(Time) noexcept {}
     /// Call every few milliseconds, from a thread that is not the servo's.
     virtual void tend() {}
-    /// Call after the last tick: returns what went wrong, in words.
+    /// Call after the last tick: returns a message about any failure.
     virtual std::vector<std::string> finish() = 0;
 };
 
-/// Opens the system's sound device, or the named one. Throws Error when it cannot.
+/// Opens the system's sound device, or the named one. Throws Error when this fails.
 std::unique_ptr<Sink> open_speakers(const std::vector<task::SoundSpec>& sounds, uint64_t seed,
                                     const display::SoundOutput& output);
 
-/// Writes a WAV file of one channel in which the session's time is counted from its beginning.
-/// Throws Error when it cannot be written.
+/// Writes a WAV file of one channel in which the session's time is counted from the start of the
+/// file. Throws Error when it cannot be written.
 std::unique_ptr<Sink> open_file(const std::vector<task::SoundSpec>& sounds, uint64_t seed,
                                 const display::SoundOutput& output, const std::string& file);
 

@@ -24,7 +24,7 @@ class SoundFile final : public Sink {
         if (!file_)
             throw Error(output.place, "to",
                         fmt::format("{} cannot be written: {}", file, sf_strerror(nullptr)),
-                        "Make room on the disk.");
+                        "Free space on the disk.");
     }
 
     Mixer& mixer() noexcept override { return mixer_; }

@@ -14,7 +14,7 @@
 namespace dihaptic::sound {
 namespace {
 
-constexpr unsigned long kBuffer = 128;  // samples that are asked for at a time
+constexpr unsigned long kBuffer = 128;  // samples requested at a time
 constexpr int kChannels = 2;
 
 /// A snd_lib_error_handler_t.
@@ -48,7 +48,7 @@ class System {
     System& operator=(const System&) = delete;
 };
 
-/// The index of the output device whose name has this in it; if it is empty, the default.
+/// The index of the output device whose name contains this text; if empty, the default.
 PaDeviceIndex find_device(const display::SoundOutput& output) {
     std::vector<std::string> names;
     for (PaDeviceIndex i = 0; i < Pa_GetDeviceCount(); ++i) {
@@ -60,10 +60,10 @@ PaDeviceIndex find_device(const display::SoundOutput& output) {
     }
     if (names.empty())
         throw Error(output.place, "device", "there is no sound device",
-                    "Plug one in; aplay -l lists those that the system has.");
+                    "Plug one in; 'aplay -l' lists the system's devices.");
     if (!output.device.empty())
         throw Error(output.place, "device", fmt::format("there is no '{}'", output.device),
-                    fmt::format("There are: {}.", fmt::join(names, "; ")));
+                    fmt::format("Available devices: {}.", fmt::join(names, "; ")));
     return Pa_GetDefaultOutputDevice();
 }
 
@@ -108,10 +108,10 @@ class Speakers final : public Sink {
         close();
         std::vector<std::string> out;
         if (const int64_t broken = broken_.load(); broken > 0)
-            out.push_back(fmt::format(
-                "The sound was broken off {}: the computer did not make it in time. Onsets in "
-                "heard.csv may be wrong then.",
-                counted(broken, "time")));
+            out.push_back(
+                fmt::format("The sound was interrupted {}: the computer could not keep up. Onsets "
+                            "in heard.csv may be wrong at those times.",
+                            counted(broken, "time")));
         return out;
     }
 
@@ -122,8 +122,8 @@ class Speakers final : public Sink {
         if (failed == paNoError) return;
         throw Error(output.place, "device",
                     fmt::format("{} cannot be opened: {}", name, Pa_GetErrorText(failed)),
-                    "Close other programs that play, or name another device or rate_Hz in the "
-                    "rig's sound:.");
+                    "Close other programs that play sound, or choose another device or rate_Hz "
+                    "under 'sound' in the rig.");
     }
     static int call(const void*, void* out, unsigned long samples,
                     const PaStreamCallbackTimeInfo* time, PaStreamCallbackFlags flags,
@@ -153,7 +153,7 @@ class Speakers final : public Sink {
     }
     void close() noexcept {
         if (stream_ == nullptr) return;
-        Pa_StopStream(stream_);  // once what it has was heard
+        Pa_StopStream(stream_);  // once its buffered samples have been heard
         Pa_CloseStream(stream_);
         stream_ = nullptr;
     }

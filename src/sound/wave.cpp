@@ -18,10 +18,10 @@ namespace dihaptic::sound {
 namespace {
 
 constexpr double kTurn = 2 * std::numbers::pi;
-constexpr double kLoop = 10;      // noise and tones that go on are repeated after this time [s]
-constexpr double kJoin = 0.5;     // in which the end of pink noise becomes its beginning [s]
-constexpr double kLowest = 10;    // frequency to which pink noise is pink [Hz]
-constexpr double kLongest = 600;  // sound file [s]
+constexpr double kLoop = 10;      // continuous noise and tones repeat after this time [s]
+constexpr double kJoin = 0.5;     // time in which the end of pink noise fades into its start [s]
+constexpr double kLowest = 10;    // lowest frequency at which pink noise is pink [Hz]
+constexpr double kLongest = 600;  // longest sound file [s]
 
 size_t count(double time, double rate) {
     return static_cast<size_t>(std::llround(time * rate));
@@ -67,8 +67,8 @@ std::vector<double> pink(size_t n, double rate, Random& random) {
     return out;
 }
 
-/// Makes noise that can be repeated: its end, `joint` samples longer than needed, turns into its
-/// beginning at even power.
+/// Makes repeatable noise: its end, `joint` samples longer than needed, is cross-faded into its
+/// start at constant power.
 void join(std::vector<double>& samples, size_t joint) {
     const size_t n = samples.size() - joint;
     for (size_t i = 0; i < joint; ++i) {
@@ -119,7 +119,7 @@ std::vector<float> resampled(const std::vector<float>& samples, double from, dou
     data.src_ratio = to / from;
     if (const int failed = src_simple(&data, SRC_SINC_BEST_QUALITY, 1); failed != 0)
         throw Error(sound.place, "file",
-                    fmt::format("{} cannot be brought from {:g} to {:g} samples a second: {}",
+                    fmt::format("{} cannot be resampled from {:g} to {:g} samples per second: {}",
                                 sound.file, from, to, src_strerror(failed)),
                     "Convert it, e.g. with sox.");
     out.resize(static_cast<size_t>(data.output_frames_gen));
@@ -134,7 +134,7 @@ void check_whole(const task::SoundSpec& sound, const std::string& fault) {
                 fmt::format("{} was cut short, or made by a program that did not fill in its "
                             "length: it {}",
                             sound.file, fault),
-                "Copy it again; if it is all there, write it anew, e.g. with sox FILE NEW.wav.");
+                "Copy it again; if it is complete, rewrite it, e.g. with sox FILE NEW.wav.");
 }
 
 std::vector<float> from_file(const task::SoundSpec& sound, double rate) {
@@ -144,14 +144,14 @@ std::vector<float> from_file(const task::SoundSpec& sound, double rate) {
     };
     const std::string bytes = read_bytes(sound.file, task::SoundSpec::kLargest);
     if (!sound.checksum.empty() && checksum_of(bytes) != sound.checksum)
-        throw Error(sound.place, "file", sound.file + " was changed since it was read first",
-                    "Start again once nothing writes it any more.");
+        throw Error(sound.place, "file", sound.file + " has changed since it was first read",
+                    "Start again once no program is writing to it.");
     SF_INFO info{};
     const std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> file(
         sf_open(sound.file.c_str(), SFM_READ, &info), sf_close);
     // the library opens the rest of a WAV or FLAC file, but not always that of an Ogg file
     if (file || bytes.starts_with("OggS")) check_whole(sound, cut_short(bytes));
-    if (!file) refuse(fmt::format("is no sound file: {}", sf_strerror(nullptr)));
+    if (!file) refuse(fmt::format("is not a sound file: {}", sf_strerror(nullptr)));
     if (info.frames <= 0) refuse("has no samples");
     if (static_cast<double>(info.frames) > kLongest * info.samplerate)
         refuse(fmt::format("is longer than {:g} s", kLongest));
@@ -166,7 +166,7 @@ std::vector<float> from_file(const task::SoundSpec& sound, double rate) {
         for (size_t k = 0; k < channels; ++k)
             mean[i] += all[i * channels + k] / static_cast<float>(channels);
         // a file of floats may contain any value
-        if (!std::isfinite(mean[i])) refuse(fmt::format("has no number for sample {}", i));
+        if (!std::isfinite(mean[i])) refuse(fmt::format("has an invalid value for sample {}", i));
     }
     return resampled(mean, info.samplerate, rate, sound);
 }

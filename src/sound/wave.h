@@ -11,14 +11,14 @@ namespace dihaptic::sound {
 struct Wave {
     std::vector<float> samples;  ///< of one channel, from -1 to 1
     bool goes_on = false;        ///< the first sample follows the last one
-    double ramp = 0;             ///< in which a wave that goes on swells and fades [s]
+    double ramp = 0;             ///< time in which a continuous wave swells and fades [s]
 };
 
 /// Largest error of the frequency of a continuous tone, which is adjusted so that a whole number of
 /// periods fits into its samples.
 constexpr double kDetuned = 1e-6;
 
-/// `rate`: samples in a second. `seed`: of noise. Throws Error when the sound's file cannot be
+/// `rate`: samples per second. `seed`: for noise. Throws Error when the sound's file cannot be
 /// read.
 Wave make_wave(const task::SoundSpec& sound, double rate, uint64_t seed);
 

@@ -21,7 +21,7 @@ Orbit orbit_of(const Camera& camera) {
     const Vec3 d = camera.position - camera.look_at;
     const double across = std::hypot(d.x(), d.y());
     const double distance = std::hypot(across, d.z());
-    // straight above, or without any direction: the azimuth of the person's side
+    // straight above, or without a direction: the azimuth of the person's side
     const double azimuth = across > 1e-9 * distance ? std::atan2(d.x(), -d.y()) : 0;
     return {distance, azimuth, std::atan2(d.z(), across)};
 }
@@ -34,7 +34,7 @@ Camera with(const Camera& camera, const Orbit& o) {
     return out;
 }
 
-/// A point a little above the middle of the bodies that can move, since bodies are lifted.
+/// A point a little above the middle of the movable bodies, since bodies are lifted.
 Vec3 middle(const scene::Scene& scene) {
     Vec3 sum = Vec3::Zero();
     int count = 0;
@@ -46,7 +46,7 @@ Vec3 middle(const scene::Scene& scene) {
     return (count > 0 ? Vec3(sum / count) : Vec3::Zero()) + Vec3(0, 0, 0.03);
 }
 
-/// Radius about `centre` that holds the bodies that can move, and the hands around them [m].
+/// Radius about `centre` that encloses the movable bodies, and the hands around them [m].
 double reach(const scene::Scene& scene, const Vec3& centre) {
     double out = 0.12;
     for (const scene::Body& body : scene.bodies) {
@@ -84,9 +84,9 @@ Camera find_camera(const std::vector<Camera>& cameras, const std::string& name) 
         if (camera.name == name) return camera;
         names.push_back(camera.name);
     }
-    throw Error(
-        fmt::format("there is no camera '{}'", name),
-        fmt::format("There are {}; a scene may have more, under cameras.", fmt::join(names, ", ")));
+    throw Error(fmt::format("there is no camera '{}'", name),
+                fmt::format("Available cameras: {}; a scene may define more, under 'cameras'.",
+                            fmt::join(names, ", ")));
 }
 
 Camera orbited(const Camera& camera, double azimuth, double elevation) {

@@ -19,17 +19,17 @@ namespace dihaptic::view {
 
 using scene::Camera;
 
-/// The scene's own cameras, followed by those of the following that it does not replace by name:
-/// front, as the seated person sees it; above; and side, from the person's right. Never empty.
+/// The scene's own cameras, followed by the standard cameras whose names it does not use: front,
+/// the seated person's view; above; and side, from the person's right. Never empty.
 std::vector<Camera> cameras(const scene::Scene& scene);
-/// The camera of that name. Throws an Error that lists the names if there is none.
+/// The camera with this name. Throws an Error that lists the names if there is none.
 Camera find_camera(const std::vector<Camera>& cameras, const std::string& name);
 
-/// The camera turned about the point that it looks at by these angles [rad]; the elevation stays
+/// The camera, turned by these angles about the point that it looks at [rad]; the elevation stays
 /// between straight up and straight down.
 Camera orbited(const Camera& camera, double azimuth, double elevation);
 /// The camera and the point that it looks at, moved so that the scene at that depth follows a mouse
-/// that went this far right and up, as shares of the picture's height.
+/// movement to the right and up, given as shares of the picture's height.
 Camera panned(const Camera& camera, double right, double up);
 /// The camera with its distance multiplied by a factor, between 1 cm and 100 m.
 Camera zoomed(const Camera& camera, double factor);

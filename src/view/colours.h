@@ -1,6 +1,6 @@
 // Colours of bodies and fingers. Those without a colour in the scene file get one of Okabe and
-// Ito's "Color Universal Design" (2008), which people with any kind of colour vision can tell
-// apart.
+// Ito's "Color Universal Design" (2008), which people with any kind of colour vision can
+// distinguish.
 #pragma once
 
 #include <string>

@@ -74,7 +74,7 @@ inline Renderbuffer make_renderbuffer() {
     return Renderbuffer(n);
 }
 
-/// A picture that repeats, for shaders to read in linear light.
+/// A repeating picture, which shaders read in linear light.
 Texture make_texture(const Image& image);
 
 /// A vertex and a fragment shader, linked; given as source without the line "#version 330 core".

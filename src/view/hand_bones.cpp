@@ -98,7 +98,8 @@ std::vector<Bone> hand_bones(const Vec3& thumb, const Vec3& index) {
     add(out, finger(thumb_root, thumb_tip, kThumb, -axes.a - 0.3 * axes.n), 0.0095);
 
     struct Other {
-        double root_a, root_f, tip_a, tip_f;  // from the palm, from the index finger's tip [m]
+        double root_a, root_f, tip_a,
+            tip_f;  // offsets from the palm, from the index finger's tip [m]
         Lengths lengths;
         double radius;
     };

@@ -8,7 +8,7 @@
 namespace dihaptic::view {
 namespace {
 
-constexpr double kThick = 0.0016;  // of axes and rods [m]
+constexpr double kThick = 0.0016;  // thickness of axes and rods [m]
 constexpr double kHalfAxis = 0.014;
 constexpr double kBall = 0.004;
 const char* const kMetal = "#30363f";
@@ -88,7 +88,7 @@ void JointMark::add_slider(Solids& out, const Pose& X_WA, const Pose& X_WB) cons
     const Vec3 axis = X_WA.R * axis_A_;
     const Vec3 from = X_WA * from_A_;
     const Vec3 stretch = axis * axis.dot(X_WB.p - from);
-    constexpr double kShort = 0.002;  // no spring would be seen
+    constexpr double kShort = 0.002;  // length below which a spring is not visible
     if (springs_ && stretch.norm() > kShort) {
         add_spring(out, from, from + stretch);
         return;

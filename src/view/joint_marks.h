@@ -1,4 +1,4 @@
-// Marks that show a scene's joints: axes, points, rods, and springs, stretched as they are.
+// Marks that show a scene's joints: axes, points, rods, and springs with their present stretch.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace dihaptic::view {
 
-/// One joint, with its place on the bodies that it joins.
+/// One joint, with its position on the bodies that it joins.
 class JointMark {
   public:
     JointMark(const scene::Joint& joint, const scene::Scene& scene);
-    /// Where the frame's bodies are shown; `ball` is one of radius 1.
+    /// The displayed poses of the frame's bodies; `ball`: a ball of radius 1.
     void add_to(Solids& out, const frame::Frame& frame, const gl::Model& ball) const;
 
   private:
@@ -22,12 +22,12 @@ class JointMark {
     scene::JointKind kind_;
     bool springs_;
     int a_;        // index of the first body; -1: the world
-    int b_;        // of the second one
+    int b_;        // index of the second body
     Vec3 p_A_;     // the joint's point on the first body
-    Vec3 p_B_;     // on the second one
+    Vec3 p_B_;     // the joint's point on the second body
     Vec3 axis_A_;  // unit vectors
     Vec3 second_B_;
-    Vec3 from_A_;  // where a slider's spring begins
+    Vec3 from_A_;  // start of a slider's spring
 };
 
 std::vector<JointMark> joint_marks(const scene::Scene& scene);

@@ -34,7 +34,7 @@ int start(const std::vector<std::string>& words, int in, int err, int& process) 
     posix_spawn_file_actions_adddup2(&files, err, STDERR_FILENO);
     posix_spawnattr_t how;
     posix_spawnattr_init(&how);
-    // Ctrl-C is for this program only: ffmpeg would end its file as if it were whole
+    // Ctrl-C is for this program only: ffmpeg would end its file as if it were complete
     posix_spawnattr_setflags(&how, POSIX_SPAWN_SETPGROUP);
     const int error = posix_spawnp(&process, "ffmpeg", &files, &how, arguments.data(), environ);
     posix_spawnattr_destroy(&how);
@@ -48,9 +48,9 @@ Movie::Movie(const std::string& file, int width, int height, int frames_per_seco
     : file_(file), output_(file) {
     remove_dead_parts(file);
     if (width % 2 != 0 || height % 2 != 0)
-        throw Error(fmt::format("a video cannot be {}x{}", width, height),
-                    "Give an even width and height by --size.");
-    // a socket, because writing to a pipe whose reader is gone would end this program
+        throw Error(fmt::format("a video cannot have the size {}x{}", width, height),
+                    "Give an even width and height with --size.");
+    // a socket, because writing to a pipe without a reader would end this program
     std::array<int, 2> ends{-1, -1};
     said_ = memfd_create("ffmpeg", MFD_CLOEXEC);
     int error = 0;
@@ -120,8 +120,9 @@ void Movie::fail() {
     const ssize_t size = pread(said_, text.data(), text.size(), 0);
     std::string why(text.data(), size > 0 ? static_cast<size_t>(size) : 0);
     why = why.substr(0, why.find('\n'));
-    throw Error({file_, 0}, "", "ffmpeg could not make it: " + (why.empty() ? "it ended" : why),
-                "Check that there is space, and that the folder can be written to.");
+    throw Error({file_, 0}, "",
+                "ffmpeg could not make the video: " + (why.empty() ? "it ended" : why),
+                "Check that the disk has space, and that the folder is writable.");
 }
 
 void Movie::add(const Image& image) {

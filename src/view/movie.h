@@ -8,17 +8,18 @@
 
 namespace dihaptic::view {
 
-/// An MP4 file (H.264) that is being made. It appears under its name once it is complete.
+/// An MP4 file (H.264) under construction. It appears under its name once it is complete.
 class Movie {
   public:
-    /// Throws Error when ffmpeg is missing, or when width or height is odd, which players refuse.
+    /// Throws Error when ffmpeg is missing, or when width or height is odd, because players refuse
+    /// odd sizes.
     Movie(const std::string& file, int width, int height, int frames_per_second);
     /// Leaves no file unless finish() was called.
     ~Movie();
     Movie(const Movie&) = delete;
     Movie& operator=(const Movie&) = delete;
 
-    /// Throws an Error with ffmpeg's message when ffmpeg has ended too early.
+    /// Throws an Error with ffmpeg's message when ffmpeg has ended prematurely.
     void add(const Image& image);
     void finish();
 

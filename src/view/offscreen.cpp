@@ -13,7 +13,7 @@ namespace dihaptic::view {
 namespace {
 
 [[noreturn]] void fail(const std::string& what) {
-    throw Error("there is no OpenGL 3.3 to draw with: " + what,
+    throw Error("OpenGL 3.3, which drawing requires, is missing: " + what,
                 "Install the Debian packages libegl1, libegl-mesa0 and libgl1-mesa-dri.");
 }
 
@@ -32,7 +32,7 @@ struct Offscreen::Context {
             eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
             eglDestroyContext(display, context);
         }
-        // the display belongs to the process: another Offscreen may use it
+        // the display belongs to the process: another Offscreen may be using it
     }
 };
 
@@ -40,7 +40,7 @@ Offscreen::Offscreen(int width, int height)
     : context_(std::make_unique<Context>()), width_(width), height_(height) {
     Context& c = *context_;
     if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless"))
-        fail("EGL knows no drawing without a window");
+        fail("EGL does not support drawing without a window");
     c.display = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
     if (c.display == EGL_NO_DISPLAY || eglInitialize(c.display, nullptr, nullptr) == EGL_FALSE)
         fail("EGL cannot be started");
@@ -55,7 +55,7 @@ Offscreen::Offscreen(int width, int height)
     c.context = eglCreateContext(c.display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, wanted.data());
     if (c.context == EGL_NO_CONTEXT ||
         eglMakeCurrent(c.display, EGL_NO_SURFACE, EGL_NO_SURFACE, c.context) == EGL_FALSE)
-        fail("the driver offers only older ones");
+        fail("the driver offers only older versions");
     c.framebuffer = gl::make_framebuffer();
     c.colour = gl::make_renderbuffer();
     glBindRenderbuffer(GL_RENDERBUFFER, c.colour);

@@ -8,11 +8,11 @@
 
 namespace dihaptic::view {
 
-/// An OpenGL 3.3 core context of Mesa, current in the thread that made it, and a framebuffer to
-/// draw into. Mesa uses a graphics card if it may, and otherwise draws in software.
+/// An OpenGL 3.3 core context from Mesa, current in the thread that made it, and a framebuffer to
+/// draw into. Mesa uses a graphics card if permitted, and otherwise draws in software.
 class Offscreen {
   public:
-    /// Throws Error, with the package to install, when there is no such OpenGL.
+    /// Throws Error, naming the package to install, when there is no such OpenGL.
     Offscreen(int width, int height);
     ~Offscreen();
     Offscreen(const Offscreen&) = delete;

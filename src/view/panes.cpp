@@ -6,13 +6,14 @@
 namespace dihaptic::view {
 namespace {
 
-constexpr double kNearestShare = 0.05;  // distance at which things begin, over that of the screen
+constexpr double kNearestShare =
+    0.05;  // distance of the nearest visible things, over that of the screen
 
 Viewpoint viewpoint(const display::Display& display, const Vec3& eye_W, double beyond) {
     Mat3 edges;
     edges << display.right(), display.up(), display.lower_left - eye_W;
     const Mat3 shares = edges.inverse();  // alpha, beta, gamma
-    // the depth from -1, at the nearest, to 1
+    // depth from -1, at the nearest, to 1
     const Vec3 normal = display.right().cross(display.up()).normalized();
     const double furthest = 1 + beyond / std::abs(normal.dot(display.lower_left - eye_W));
     const double depth = (furthest + kNearestShare) / (furthest - kNearestShare);

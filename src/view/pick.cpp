@@ -37,12 +37,12 @@ double length_to(const Triangles& surface, const Vec3& from, const Vec3& along) 
     return nearest;
 }
 
-/// Nobody drags anything farther away, toward the horizon [m].
+/// Largest distance toward the horizon at which bodies can be dragged [m].
 constexpr double kHorizon = 5;
-/// If the horizontal part of a line of sight is shorter than this, heights cannot be judged.
+/// Least horizontal part of a line of sight from which heights can be judged.
 constexpr double kSteep = 0.05;
 
-/// Where a ray meets a plane; nullopt: nowhere, or beyond the horizon.
+/// The point where a ray meets a plane; nullopt: none, or beyond the horizon.
 std::optional<Vec3> meeting(const Ray& ray, const Vec3& through_W, const Vec3& normal) {
     const double toward = ray.along_W.dot(normal);
     const double length = (through_W - ray.from_W).dot(normal) / toward;
@@ -64,7 +64,7 @@ std::optional<Seen> seen_first(const scene::Scene& scene, const frame::Frame& fr
     double nearest = std::numeric_limits<double>::infinity();
     for (size_t i = 0; i < scene.bodies.size(); ++i) {
         if (!frame::is_displayed(frame, i)) continue;
-        // in the measure of the body, which may be shown larger
+        // in the body's own scale, since it may be shown enlarged
         const Pose X_BW = frame::displayed_body(frame, i).inverse();
         const double size = frame::displayed_size(frame, i);
         const double length = size * length_to(triangles(scene.bodies[i]), X_BW * ray.from_W / size,
@@ -77,7 +77,7 @@ std::optional<Seen> seen_first(const scene::Scene& scene, const frame::Frame& fr
 }
 
 std::optional<Vec3> dragged(const Vec3& held_W, const Ray& from, const Ray& to, bool upright) {
-    // along z it is the pointer's way in the upright plane that faces the viewer
+    // along z, the pointer's path in the upright plane that faces the viewer
     const Vec3 level(to.along_W.x(), to.along_W.y(), 0);
     if (upright && level.norm() < kSteep) return {};
     const Vec3 normal = upright ? Vec3(level.normalized()) : Vec3(Vec3::UnitZ());

@@ -23,7 +23,7 @@ namespace dihaptic::view {
 namespace {
 
 constexpr int kSamples = 4;
-constexpr int kShadowMap = 512;  // texels across; half of them for pictures in less detail
+constexpr int kShadowMap = 512;  // width in texels; half as many for pictures in less detail
 constexpr double kArrowPerNewton = 0.025;  // [m/N]
 constexpr double kDepthRange = 4;          // of the light [m]
 
@@ -36,10 +36,10 @@ Mat3 light_rotation() {
     return R_WL.transpose();
 }
 
-constexpr double kRod = 0.01;      // so thin that its round ends have no length
-constexpr double kKnuckle = 1.04;  // over a bone's radius: hides where the two meet
+constexpr double kRod = 0.01;      // so thin that its round ends have no visible length
+constexpr double kKnuckle = 1.04;  // over a bone's radius: hides the seam between two bones
 
-/// The matrix that scales a model and puts it at a pose.
+/// The matrix that scales a model and places it at a pose.
 Eigen::Matrix4d placed(const Pose& X, const Vec3& scale = Vec3::Ones()) {
     Eigen::Matrix4d out = gl::matrix(X);
     out.topLeftCorner<3, 3>() *= scale.asDiagonal();
@@ -94,7 +94,7 @@ gl::Program surface_program(Shadows shadows, const std::string& defined) {
 
 void check_version() {
     if (epoxy_gl_version() >= 33) return;
-    throw Error("OpenGL 3.3 is needed, and this context offers an older one",
+    throw Error("OpenGL 3.3 is required, but this context offers an older version",
                 "Update the graphics driver, or draw in software: LIBGL_ALWAYS_SOFTWARE=1 "
                 "dihaptic ...");
 }
@@ -119,19 +119,19 @@ struct SceneView::Parts {
     std::vector<Thing> fingers;
     Shadows kind;
     std::vector<JointMark> joints;
-    gl::Model floor;  // below everything, in the shadow map only: the depth beyond a table's edge
+    gl::Model floor;  // below everything, only in the shadow map: the depth beyond a table's edge
     Pose X_WF;
-    double table_top = 0;       // of what the bodies stand on [m]
-    Vec3 start = Vec3::Zero();  // middle of the bodies that throw shadows, at the start
-    double start_radius = 0.1;  // of a ball about it that holds them [m]
+    double table_top = 0;       // height of the surface on which the bodies stand [m]
+    Vec3 start = Vec3::Zero();  // middle of the bodies that cast shadows, at the start
+    double start_radius = 0.1;  // radius of a ball about it that encloses them [m]
     ShadowMap shadow_map{kShadowMap};
     gl::Program surface;
-    std::optional<gl::Program> looks;  // the same of metals, pictures and own colours
+    std::optional<gl::Program> looks;  // program for metals, pictures and own colours
     std::map<const Image*, gl::Texture> pictures;
     gl::Program background;
     gl::VertexArray nothing;
-    gl::Model ball;  // of radius 1
-    gl::Model rod;   // of radius kRod, from the origin to 1 along z
+    gl::Model ball;  // ball of radius 1
+    gl::Model rod;   // rod of radius kRod, from the origin to 1 along z
     Thing skin;      // the hand's colour
     int thumb = -1;  // indices of fingers; -1: there is none
     int index = -1;
@@ -175,7 +175,7 @@ struct SceneView::Parts {
         find_start(scene);
     }
 
-    /// Each picture is one texture, however many bodies wear it.
+    /// Each picture is one texture, however many bodies use it.
     GLuint texture_of(const std::optional<scene::Picture>& picture) {
         if (!picture || !picture->image) return 0;
         gl::Texture& texture = pictures[picture->image.get()];
@@ -199,9 +199,9 @@ struct SceneView::Parts {
         start_radius += 0.05;  // room for the fingers around them
     }
 
-    /// Half of the shadow map's width: the smallest of a series of steps that holds everything that
-    /// throws shadows. Steps keep shadows from swimming as bodies move. Things too far away are
-    /// left out.
+    /// Half of the shadow map's width: the smallest of a series of steps that encloses everything
+    /// that casts shadows. Steps keep shadows from swimming as bodies move. Distant things are left
+    /// out.
     double reach(const frame::Frame& frame, const Mat3& R_LW) const {
         double needed = start_radius;
         const double most = 4 * start_radius + 0.5;
@@ -250,8 +250,7 @@ struct SceneView::Parts {
                                   resolved_colour);
     }
 
-    /// Prepares a program to draw a thing; `tint` is the colour that an experiment gives it, or
-    /// null.
+    /// Prepares a program to draw a thing; `tint`: the colour given by an experiment, or null.
     using Prepare = std::function<const gl::Program&(const Thing&, const Vec3* tint)>;
 
     void draw_hand(const frame::Frame& frame, const Prepare& prepare) const {
@@ -381,7 +380,7 @@ Shown SceneView::Parts::draw(const frame::Frame& frame, std::span<const Pane> al
     if (detail == 1) {
         copy(samples, target.name(), width, height, GL_NEAREST);
     } else {
-        // samples cannot be enlarged
+        // a multisampled picture cannot be enlarged
         copy(samples, resolved, width, height, GL_NEAREST);
         copy(resolved, target.name(), new_width, new_height, GL_LINEAR);
     }
@@ -395,7 +394,7 @@ void SceneView::set_detail(double share) {
     parts_->detail = share;
 }
 
-/// Needs the scissor test.
+/// Requires the scissor test.
 void SceneView::Parts::draw_patch(const PatchLook& look) const {
     using display::Corner;
     const int edge = static_cast<int>(std::lround(look.patch.size * height));
@@ -473,7 +472,7 @@ void SceneView::Parts::draw_surfaces(const frame::Frame& frame, const Viewpoint&
     surface.use();
 }
 
-/// Draws targets transparent, so that what is in them can be seen.
+/// Draws targets transparent, so that things inside them are visible.
 void SceneView::Parts::draw_targets(const frame::Frame& frame) const {
     surface.set("gloss", 0.4);
     surface.set("alpha", 0.45);
@@ -491,7 +490,8 @@ void SceneView::Parts::draw_targets(const frame::Frame& frame) const {
     glDepthMask(GL_TRUE);
 }
 
-/// Draws ghosts over everything, since the handle of a finger that presses a body is inside it.
+/// Draws ghosts over everything, since the handle of a finger that presses a body lies inside the
+/// body.
 void SceneView::Parts::draw_ghosts(const frame::Frame& frame) const {
     glDepthFunc(GL_ALWAYS);
     glDepthMask(GL_FALSE);
@@ -544,7 +544,7 @@ void SceneView::Parts::draw_solids(const Solids& solids) const {
     draw_all();
 }
 
-/// Lines that show above which place of the table the fingers are, and how high.
+/// Lines that show the point on the table below each finger, and its height.
 void SceneView::Parts::add_drop_lines(Solids& out, const frame::Frame& frame) const {
     constexpr double kRadius = 4e-4, kFoot = 3e-3;  // [m]
     for (size_t i = 0; i < fingers.size(); ++i) {
@@ -557,7 +557,7 @@ void SceneView::Parts::add_drop_lines(Solids& out, const frame::Frame& frame) co
     }
 }
 
-/// A box a little larger than the body, so that its edges lie free.
+/// A box a little larger than the body, so that its edges are visible.
 void SceneView::Parts::add_picked(Solids& out, const frame::Frame& frame, size_t body) const {
     constexpr double kFree = 0.002, kRadius = 0.0005;  // [m]
     const Thing& thing = bodies[body];

@@ -1,6 +1,6 @@
 // Draws a scene in the state that a Frame holds: bodies and proxies with the soft shadows of
-// README.md and, if asked for, overlays of what cannot be seen in the world. It does not care where
-// the Frame comes from or where the picture goes.
+// README.md and, on request, overlays of invisible quantities. It does not depend on the source of
+// the Frame or the destination of the picture.
 //
 // SceneView needs OpenGL 3.3 core: the same context has to be current whenever one of its functions
 // is called, the destructor included. It draws to the framebuffer that is bound for drawing, which
@@ -27,41 +27,41 @@ struct Workspace {
     Vec3 size = Vec3::Zero();  ///< edges [m]
 };
 
-/// The rig's patch, as it is now.
+/// The present state of the rig's patch.
 struct PatchLook {
     display::Patch patch;
     bool white = false;
 };
 
-/// What is drawn besides bodies and proxies.
+/// Items drawn besides bodies and proxies.
 struct Overlays {
     bool handles = false;                   ///< a ghost of each proxy at its handle
     bool forces = false;                    ///< contact forces on each finger, 25 mm/N
-    bool contacts = false;                  ///< points where bodies and fingers touch
+    bool contacts = false;                  ///< points of contact between bodies and fingers
     bool grip_axis = false;                 ///< from the first finger to the middle of the others
     bool joints = false;                    ///< axes, points and springs of joints
-    std::span<const Vec3> path;             ///< of a body, in W [m]
-    std::span<const Workspace> workspaces;  ///< of devices
-    std::optional<PatchLook> patch;         ///< once, whatever the panes
+    std::span<const Vec3> path;             ///< path of a body, in W [m]
+    std::span<const Workspace> workspaces;  ///< workspaces of devices
+    std::optional<PatchLook> patch;         ///< drawn once, whatever the panes
     bool drop_lines = false;                ///< from each proxy down to the table
-    bool hand = false;                      ///< one whose thumb and index finger the proxies are
-    std::optional<size_t> picked;           ///< a body that gets a box about it
+    bool hand = false;             ///< a hand with the proxies as its thumb and index finger
+    std::optional<size_t> picked;  ///< a body marked by a box
 };
 
-/// The number of the frame that was shown, and its time.
+/// The number and the time of the displayed frame.
 struct Shown {
     int64_t sequence = 0;
     Time time{0};
 };
 
 enum class Shadows {
-    variance,  ///< soft, and softer the higher the body that throws them
-    plain,     ///< hard, by one comparison of depths: to measure the cost of soft ones
+    variance,  ///< soft, and softer the higher the body that casts them
+    plain,     ///< hard, by one comparison of depths: for measuring the cost of soft shadows
 };
 
-/// OpenGL's name of what draws in the current context.
+/// OpenGL's name of the renderer in the current context.
 std::string renderer();
-/// Whether a renderer of that name uses the processor, not a graphics card.
+/// Whether a renderer with this name uses the processor, not a graphics card.
 bool is_software(const std::string& renderer);
 
 class SceneView {
@@ -76,15 +76,15 @@ class SceneView {
     /// and returns its stamp.
     Shown draw(const frame::Frame& frame, const Camera& camera, int width, int height,
                const Overlays& overlays = {});
-    /// The same as the eyes see it on a display.
+    /// Draws the frame as the eyes see it on a display.
     Shown draw(const frame::Frame& frame, const display::Display& display, int width, int height,
                const Overlays& overlays = {});
-    /// The same in parts, each from its own viewpoint.
+    /// Draws the frame in parts, each from its own viewpoint.
     Shown draw(const frame::Frame& frame, std::span<const Pane> panes, int width, int height,
                const Overlays& overlays = {});
 
-    /// Pictures are drawn at this share of their width and height, and enlarged, for machines that
-    /// draw in software. 1 at the beginning.
+    /// Share of their width and height at which pictures are drawn before they are enlarged, for
+    /// machines that draw in software. Initially 1.
     void set_detail(double share);
 
     /// Unit vector toward the main light, in W.

@@ -37,7 +37,7 @@ void main() {
 )";
 
 // The binomial weights 1 4 6 4 1 are a Gaussian of one texel. Two neighbours are read at once, at
-// the place where linear interpolation gives them these weights.
+// the point where linear interpolation gives them these weights.
 const char* const kBlurFragment = R"(
 in vec2 uv;
 uniform sampler2D source;

@@ -87,8 +87,8 @@ void ShadowMap::render(const Eigen::Matrix4d& light_from_world, double depth_ran
 }
 
 /// Blurs along rows into the other texture, and along columns back. Below the finest level the rows
-/// are read from the next finer level: a step of two of its texels is one of this level's, and
-/// linear interpolation gives their mean.
+/// are read from the next finer level: two of its texels make one texel of this level, and linear
+/// interpolation gives their mean.
 void ShadowMap::blur(int level) const {
     const int size = size_ >> level;
     const int from = level > 0 ? level - 1 : 0;

@@ -15,10 +15,10 @@ class ShadowMap {
     explicit ShadowMap(int size);
 
     /// Renders moments. `light_from_world` takes W to x, y from -1 to 1 over the map and z, the
-    /// depth along the light [m]. `draw` draws everything that throws and receives shadows, and
-    /// sets world_from_model for each model. `depth_range`: largest depth [m]; `texel`: size of one
-    /// of the finest level [m]. Without `blurred` only the finest level is rendered, and left as it
-    /// is. Leaves another framebuffer bound.
+    /// depth along the light [m]. `draw` draws everything that casts and receives shadows, and sets
+    /// world_from_model for each model. `depth_range`: largest depth [m]; `texel`: size of a texel
+    /// of the finest level [m]. Without `blurred`, only the finest level is rendered, and it is
+    /// left unblurred. Leaves another framebuffer bound.
     void render(const Eigen::Matrix4d& light_from_world, double depth_range, double texel,
                 bool blurred, const std::function<void(const gl::Program&)>& draw) const;
 

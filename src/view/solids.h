@@ -1,4 +1,4 @@
-// The solids from which overlays are made: tubes, arrows and balls over the picture of a scene.
+// Solids for overlays: tubes, arrows and balls over the picture of a scene.
 #pragma once
 
 #include <array>
@@ -23,14 +23,14 @@ class Solids {
         Eigen::Matrix4d world_from_model;
         Vec3 colour;
     };
-    /// `model` has to outlive this object.
+    /// `model` must outlive this object.
     void add(const gl::Model& model, const Eigen::Matrix4d& world_from_model, const Vec3& tint) {
         all_.push_back({&model, world_from_model, tint});
     }
     void add(const Triangles& what, const Pose& X, const Vec3& tint) {
         add(made_.emplace_back(what), gl::matrix(X), tint);
     }
-    /// `ball` is one of radius 1.
+    /// `ball`: a ball of radius 1.
     void add_ball(const gl::Model& ball, const Vec3& p, double radius, const Vec3& tint) {
         Eigen::Matrix4d world_from_ball = gl::matrix({Quat::Identity(), p});
         world_from_ball.topLeftCorner<3, 3>() *= radius;

@@ -1,4 +1,4 @@
-// A body or a finger as SceneView draws it: its triangles, and how they look. For the sources of
+// A body or a finger as SceneView draws it: its triangles and their appearance. For the sources of
 // this folder only.
 #pragma once
 
@@ -19,11 +19,11 @@ struct Thing {
     Vec3 low_B = Vec3::Constant(std::numeric_limits<double>::infinity());  // its box [m]
     Vec3 high_B = -low_B;
     Vec3 colour = Vec3::Ones();
-    bool own_colours = false;  // the model's, in place of `colour`
-    bool ground = false;       // on which others stand
+    bool own_colours = false;  // the model's colours, in place of `colour`
+    bool ground = false;       // other bodies stand on it
     double gloss = 1;          // of its coat, 0 to 1
-    double grid = 0;           // how dark the lines on its upper side are, 0 to 1
-    double fade = 0;           // distance at which it has become the background; 0: never [m]
+    double grid = 0;           // darkness of the lines on its upper side, 0 to 1
+    double fade = 0;           // distance at which it has faded into the background; 0: never [m]
     bool metal = false;
     GLuint picture = 0;                                           // 0: none
     Eigen::Vector2d picture_size = Eigen::Vector2d::Constant(1);  // [m]
@@ -32,10 +32,10 @@ struct Thing {
     /// A thing drawn as `all`, in the colour `tone`; `X_WB` is its pose at the start.
     Thing(Triangles all, const Pose& X_WB, const Vec3& tone);
 
-    /// Sets up a program to draw this thing. `tint`: the colour that an experiment gives it now, in
-    /// place of its colours and its picture; null: none.
+    /// Sets up a program to draw this thing. `tint`: the colour that an experiment currently gives
+    /// it, in place of its colours and its picture; null: none.
     void set(const gl::Program& program, const Vec3* tint) const;
-    /// Whether set() needs a program with metals, pictures and own colours (LOOKS).
+    /// Whether set() requires a program with metals, pictures and own colours (LOOKS).
     bool has_looks(const Vec3* tint) const;
 };
 

@@ -135,7 +135,7 @@ Triangles cylinder(double radius, double length) {
 Triangles cone(double radius, double length) {
     const double b = bevel(std::min(2 * radius, length));
     const double lean = std::atan2(radius, length);
-    // where the edge's round is as far from the side as from the base
+    // point where the rounded edge is as far from the side as from the base
     const double r = ((length - b) * std::sin(lean) - b) / std::cos(lean);
     std::vector<Profile> profile{{0, -length / 2, 0, -1}};
     add_arc(profile, r, -length / 2 + b, b, -pi / 2, lean, 2 * kBevel);

@@ -254,7 +254,7 @@ class Kept(unittest.TestCase):
         self.assertEqual((session / "session.yaml.before").read_text(), "precious")
         self.assertEqual((session / "session.yaml.before-2").read_text(), damaged)
         self.assertEqual(result.stderr.count("session.yaml: warning: "), 1, result.stderr)
-        self.assertIn("session.yaml.before-2 is the file as it was", result.stderr)
+        self.assertIn("session.yaml.before-2 is the old file", result.stderr)
         self.assertIn("id: sim-S7", (session / "session.yaml").read_text())
 
     def test_no_output_replaces_what_it_shows(self):

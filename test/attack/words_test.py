@@ -379,7 +379,7 @@ class OlderSessions(unittest.TestCase):
                 self.assertEqual(dihaptic(command, str(session)).returncode, 2)
             mended = dihaptic("recover", str(session))
             self.assertEqual(mended.returncode, 0, mended.stderr)
-            self.assertIn("session.yaml.before is the file as it was", mended.stderr + mended.stdout)
+            self.assertIn("session.yaml.before is the old file", mended.stderr + mended.stdout)
             self.assertEqual((session / "session.yaml.before").read_bytes(), info.replace(b"id: sim-S1", b'id: "sim-S\\e1"').replace(b"first-trials", b"f\xfcrst"))
             self.assertIn("id: sim-S\ufffd1", (session / "session.yaml").read_text().replace('"', ""))
             self.assertEqual(dihaptic("report", str(session)).returncode, 0)

@@ -48,7 +48,7 @@ class Damage(unittest.TestCase):
 
         refused = dihaptic("recover", self.folder)
         self.assertEqual(refused.returncode, 2)
-        self.assertIn(f"session.nwb: error: has more than the log can give now: {TICKS} ticks", refused.stderr)
+        self.assertIn(f"session.nwb: error: contains more than the log now yields: {TICKS} ticks", refused.stderr)
         self.assertIn("Move it away", refused.stderr)
         self.assertIn(gap, refused.stderr)
         self.assertEqual(was, {name: pathlib.Path(self.folder + name).read_bytes() for name in MADE})
@@ -75,7 +75,7 @@ class Damage(unittest.TestCase):
         refused = dihaptic("recover", self.folder)
         self.assertEqual(refused.returncode, 2)
         for name in ["trials.csv", "phases.csv", "events.csv"]:
-            self.assertIn(name + ": error: has more than the log can give now", refused.stderr)
+            self.assertIn(name + ": error: contains more than the log now yields", refused.stderr)
             os.remove(self.folder + name)
         recovered = dihaptic("recover", self.folder)
         self.assertEqual(recovered.returncode, 0, recovered.stderr)

@@ -98,7 +98,7 @@ class Commands(unittest.TestCase):
             self.assertEqual(result.returncode, 2)
             self.assertIn("ffmpeg, which makes videos, is missing. Install it: sudo apt-get install ffmpeg", result.stderr)
             result = dihaptic("video", "scenes/block-on-table.yaml", "--size", "65x48", "-o", folder + "/x.mp4")
-            self.assertIn("a video cannot be 65x48. Give an even width and height", result.stderr)
+            self.assertIn("a video cannot have the size 65x48. Give an even width and height", result.stderr)
             result = dihaptic("video", "scenes/block-on-table.yaml", "--size", "64x48", "-o", folder + "/none/x.mp4")
             self.assertEqual(result.returncode, 2)
             self.assertIn("/none/x.mp4: error: cannot be written: No such file or directory", result.stderr)

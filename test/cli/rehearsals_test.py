@@ -52,7 +52,7 @@ class Rehearsals(unittest.TestCase):
         self.assertIn("state: interrupted", pathlib.Path(ended + "session.yaml").read_text())
         report = dihaptic("report", out)
         self.assertEqual(report.returncode, 0, report.stderr)
-        self.assertRegex(report.stdout, r"left out: .*sim-002: it ended before its trials were done; dihaptic resume goes on with it")
+        self.assertRegex(report.stdout, r"left out: .*sim-002: it ended before its trials were done; dihaptic resume continues it")
         self.assertEqual([row["ppid"] for row in self.rows(out, "population-people.csv")], ["sim-001"])
 
     def test_jobs_and_shards_give_the_same_tables_to_the_byte(self):

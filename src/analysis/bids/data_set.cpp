@@ -17,7 +17,7 @@
 namespace dihaptic::analysis::bids {
 namespace {
 
-/// Without what an export that was killed left of it.
+/// Without the remains of a killed export.
 void write_anew(const std::string& text, const std::string& file) {
     remove_dead_parts(file);
     write_file(text, file);
@@ -27,12 +27,12 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 constexpr const char* kSimulated = "Simulated";  // key in dataset_description.json: true or false
 
-/// Whether dataset_description.json says that the data are simulated; nullopt if it does not say,
-/// as in files of earlier versions and of other programs.
+/// Whether dataset_description.json states that the data are simulated; nullopt if it does not, as
+/// in files from earlier versions and other programs.
 std::optional<bool> says_simulated(const std::string& file) {
     const Json json = Json::parse(read_text_file(file), nullptr, false);
     if (json.is_discarded() || !json.is_object()) {
-        throw Error({file, 0}, "", "is no JSON object", "Mend it, or name another folder.");
+        throw Error({file, 0}, "", "is not a JSON object", "Repair it, or name another folder.");
     }
     if (!json.contains(kSimulated) || !json[kSimulated].is_boolean()) return std::nullopt;
     return json[kSimulated].get<bool>();
@@ -40,34 +40,23 @@ std::optional<bool> says_simulated(const std::string& file) {
 
 std::string readme(const recording::SessionInfo& info, bool simulated) {
     const std::string who =
-        simulated
-            ? "THIS DATA SET IS A SIMULATION. No person took part in it: the hand was moved by a\n"
-              "simulated person, a script or a recorded movement, as the column moved_by of\n"
-              "participants.tsv says.\n"
-            : "Persons took part in it, at force-feedback devices, or by mouse at simulated ones, "
-              "as\n"
-              "the column moved_by of participants.tsv says.\n";
+        simulated ? "THIS DATA SET IS A SIMULATION. No person took part in it: the hand was moved "
+                    "by a\nsimulated person, a script or a recorded movement, as the column "
+                    "moved_by of\nparticipants.tsv states.\n"
+                  : "Persons took part in it, at force-feedback devices, or by mouse at simulated "
+                    "ones, as\nthe column moved_by of participants.tsv states.\n";
     return info.title + "\n\n" + who +
-           "\nEach run has the motion of each finger as a tracking system of its own: the device's "
-           "handle,\n"
-           "the finger in the virtual world (proxy), the force on the handle and the force of what "
-           "is\n"
-           "touched. The tracking system `objects` has the virtual objects that can move. All are "
-           "in the\n"
-           "world's axes: x to the right, y away from the person, z up, origin on the table top; "
-           "in SI\n"
-           "units. Rows without a recording after damage are left out: the LATENCY column has each "
-           "row's\n"
-           "time.\n"
-           "\nevents.tsv has a row for each attempt at a trial (trial_type `trial`), with its "
-           "block,\n"
-           "condition, perturbation, outcome and measures, and a row for each moment: phases, "
-           "touches,\n"
-           "messages, markers, outcomes. events.json says what each column is.\n"
-           "\nAuthors, licence and funding stand in dataset_description.json as far as they are "
-           "known:\n"
-           "complete them before you share the data.\n"
-           "\nMade by " +
+           "\nEach run has the motion of each finger as a separate tracking system: the device's "
+           "handle,\nthe finger in the virtual world (proxy), the force on the handle and the "
+           "force of what is\ntouched. The tracking system `objects` has the virtual objects that "
+           "can move. All are in the\nworld's axes: x to the right, y away from the person, z up, "
+           "origin on the table top; in SI\nunits. Rows without a recording after damage are left "
+           "out: the LATENCY column has each row's\ntime.\n\nevents.tsv has a row for each attempt "
+           "at a trial (trial_type `trial`), with its block,\ncondition, perturbation, outcome and "
+           "measures, and a row for each moment: phases, touches,\nmessages, markers, outcomes. "
+           "events.json describes each column.\n\nAuthors, licence and funding are in "
+           "dataset_description.json as far as they are known:\ncomplete them before you share the "
+           "data.\n\nMade by " +
            info.program + " with `dihaptic export`.\n";
 }
 
@@ -83,20 +72,21 @@ const Json kParticipantColumns{
       {"Levels", {{"right", "right-handed"}, {"left", "left-handed"}, {"both", "ambidextrous"}}}}},
     {"simulated",
      {{"Description", "whether no person took part"},
-      {"Levels", {{"yes", "no person took part"}, {"no", "a person did"}}}}},
+      {"Levels", {{"yes", "no person took part"}, {"no", "a person took part"}}}}},
     {"moved_by",
-     {{"Description", "what moved the hand; several, with commas, in different runs"},
+     {{"Description",
+       "source of the hand's movement; if runs differ, several, separated by commas"},
       {"Levels",
        {{"devices", "a person held the devices"},
         {"mouse", "a person moved simulated devices by mouse"},
         {"recorded_movement", "a recording pulled the fingers of simulated devices"},
         {"script", "a script moved simulated devices"},
         {"simulated_person", "a model of a person moved simulated devices"}}}}},
-    {"program", {{"Description", "that simulated the person"}}},
-    {"population", {{"Description", "that the simulated person was drawn from"}}},
-    {"seed", {{"Description", "by which it was drawn"}}}};
+    {"program", {{"Description", "program that simulated the person"}}},
+    {"population", {{"Description", "population from which the simulated person was drawn"}}},
+    {"seed", {{"Description", "seed with which the person was drawn"}}}};
 
-/// Adds an item to a list with commas in one cell, unless it is in there.
+/// Adds an item to a comma-separated list in one cell, unless the list contains it.
 std::string with(const std::string& list, const std::string& item) {
     if (item.empty() || ("," + list + ",").find("," + item + ",") != std::string::npos) return list;
     return list.empty() ? item : list + "," + item;
@@ -106,7 +96,7 @@ std::string with(const std::string& list, const std::string& item) {
 
 Lock::Lock(const std::string& folder)
     : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    // on a file system without locks there is nothing to wait for
+    // on a file system without locks, waiting is pointless
     if (descriptor_ >= 0) ::flock(descriptor_, LOCK_EX);
 }
 
@@ -139,9 +129,9 @@ void DataSet::check_kind() const {
     if (there == simulated || (!there && !simulated)) return;
     throw Error({description, 0}, kSimulated,
                 simulated
-                    ? "does not say that the data set is a simulation, and this session is one"
-                    : "says that the data set is a simulation, and this session is none",
-                "Name another folder: simulations and persons have data sets of their own.");
+                    ? "does not state that the data set is a simulation, but this session is one"
+                    : "states that the data set is a simulation, but this session is not one",
+                "Name another folder: simulations and persons have separate data sets.");
 }
 
 void DataSet::check_participant() const {
@@ -152,9 +142,9 @@ void DataSet::check_participant() const {
         if (there.empty() || here.empty() || there == here) return;
         throw Error(
             {name, 0}, subject_,
-            fmt::format("is {} {} there, and {} here: they are not the same", what, there, here),
-            "Name another folder, or give one of them another identifier: labels of BIDS "
-            "have letters and digits only.");
+            fmt::format("is {} {} there, but {} here: they are different", what, there, here),
+            "Name another folder, or give one of them another identifier: BIDS labels have letters "
+            "and digits only.");
     };
     same("participant", info_.participant.id, "participant");
     same("population", info_.moved_by.population, "of population");
@@ -169,7 +159,7 @@ void DataSet::check_recordings() const {
         if (scans_table.text(i, "session") != own || !is_there(file(subject_ + "/" + recording)))
             continue;
         throw Error({scans(), 0}, own, "is in the data set: " + recording,
-                    "Export another session, or take this one out of the data set first.");
+                    "Export another session, or remove this one from the data set first.");
     }
 }
 
@@ -214,7 +204,7 @@ void DataSet::add_participant() const {
         row.insert(row.end(), {by.program, by.population, by.seed});
     }
     if (people.has(subject_)) {
-        // what the data set says of a participant is kept, and only added to
+        // existing facts on a participant are kept, and only added to
         for (size_t i = 1; i < columns.size(); ++i) {
             const std::string there = people.text(subject_, columns[i]);
             if (columns[i] != "moved_by" && !there.empty()) row[i] = there;

@@ -1,4 +1,4 @@
-// The files by which a BIDS data set describes itself and its participants:
+// The files with which a BIDS data set describes itself and its participants:
 // dataset_description.json, README, participants.tsv, and a table of recordings per participant.
 #pragma once
 
@@ -30,7 +30,8 @@ class DataSet {
     /// E.g. "sub-S07".
     const std::string& subject() const { return subject_; }
     /// Throws Error when the session cannot be added: a simulation to people's data or a person to
-    /// simulated data; a participant whose label is another's; a recording that is there already.
+    /// simulated data; a participant whose label belongs to another; a recording that the data set
+    /// already contains.
     void check() const;
     /// Adds the participant, and the recordings, whose paths begin at the subject's folder.
     void add(const std::vector<std::string>& recordings) const;

@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kLift = "lift_";  // prefix of the names of columns of lifts.csv
 
-/// A column of the data set's table, and where its cells come from.
+/// A column of the data set's table, and the source of its cells.
 struct Column : Table::Column {
     enum class Of { asked, measured, lift };
     Of of = Of::asked;
@@ -37,7 +37,8 @@ struct Attempt {
     size_t row = 0;
 };
 
-/// Attempts of this session alone: trials.csv begins with those of the sessions that it resumes.
+/// Attempts of this session alone: trials.csv starts with the attempts of the sessions that it
+/// resumes.
 std::vector<Attempt> attempts_of(const rows::TrialFile& trials,
                                  const recording::SessionFolder& session) {
     const int earlier = sessions_before(session);
@@ -56,13 +57,13 @@ std::vector<Column> columns_for(const rows::TrialFile& trials, const rows::LiftF
     const auto add = [&](const auto& file, const Table::Column& column, Column::Of of) {
         if (const auto from = file.column(column.name)) out.push_back({column, of, *from});
     };
-    // rows of moments in a trial have what is known before it begins, too
+    // rows of moments in a trial also have the data known before its start
     std::vector<Table::Column> asked = list_figures(rows::AskedRow{}).columns;
     std::vector<Table::Column> measured = list_figures(rows::TrialMeasures{}).columns;
-    asked.insert(asked.begin() + 1, measured.front());  // the number of the attempt
+    asked.insert(asked.begin() + 1, measured.front());  // the attempt's number
     measured.erase(measured.begin());
     for (const Table::Column& c : asked) add(trials, c, Column::Of::asked);
-    // what happened or was measured in a trial: only the trial's own row has it
+    // events and measures of a trial: only the trial's own row has them
     const task::Task task = read_frozen_task(session.file("task.yaml"));
     for (Table::Column& c : measure_columns_of(task)) measured.push_back(std::move(c));
     for (const Table::Column& c : measured) add(trials, c, Column::Of::measured);
@@ -80,29 +81,30 @@ std::vector<Column> columns_for(const rows::TrialFile& trials, const rows::LiftF
 }
 
 Json sidecar(const std::vector<Column>& columns, const recording::SessionInfo& info) {
-    Json json{{"onset", {{"Description", "from the first tick of the recording"}, {"Units", "s"}}},
-              {"duration", {{"Description", "of a trial; n/a: a moment"}, {"Units", "s"}}},
-              {"trial_type",
-               {{"Description", "what began or happened; outcomes and markers are the task's own"},
-                {"Levels",
-                 {{"trial", "an attempt at a trial, with what was asked for and what was measured"},
-                  {"phase", "value: the state that began"},
-                  {"outcome", "value: how the trial ended"},
-                  {"message", "value: what the participant was shown"},
-                  {"line", "value: what the participant was shown below the message"},
-                  {"page", "value: text or picture of the page that was shown"},
-                  {"sound", "value: the sound that began"},
-                  {"sound ends", "value: the sound that ended"},
-                  {"marker", "value: the code that was sent"},
-                  {"perturbation", "value: on or off"},
-                  {"touch", "value: the finger, and what it touched"},
-                  {"release", "value: the finger, and what it let go"},
-                  {"lift-off", "value: the object"},
-                  {"replaced", "value: the object"},
-                  {"limit", "value: the limit of force that was reached"}}}}},
-              {"value", {{"Description", "of what happened, as said at trial_type"}}},
-              {"moved_by", {{"Description", info.moved_by.describe()}}},
-              {"simulated", {{"Description", recording::kMovedByColumns[0].description}}}};
+    Json json{
+        {"onset", {{"Description", "time from the first tick of the recording"}, {"Units", "s"}}},
+        {"duration", {{"Description", "duration of a trial; n/a: a moment"}, {"Units", "s"}}},
+        {"trial_type",
+         {{"Description", "kind of event; outcomes and markers are the task's own"},
+          {"Levels",
+           {{"trial", "an attempt at a trial, with its demands and measures"},
+            {"phase", "value: the state that began"},
+            {"outcome", "value: how the trial ended"},
+            {"message", "value: what the participant was shown"},
+            {"line", "value: line shown to the participant below the message"},
+            {"page", "value: text or picture of the page shown"},
+            {"sound", "value: the sound that began"},
+            {"sound ends", "value: the sound that ended"},
+            {"marker", "value: the code sent"},
+            {"perturbation", "value: on or off"},
+            {"touch", "value: the finger, and the object touched"},
+            {"release", "value: the finger, and the object released"},
+            {"lift-off", "value: the object"},
+            {"replaced", "value: the object"},
+            {"limit", "value: the limit of force that was reached"}}}}},
+        {"value", {{"Description", "value of the event, as described under trial_type"}}},
+        {"moved_by", {{"Description", info.moved_by.describe()}}},
+        {"simulated", {{"Description", recording::kMovedByColumns[0].description}}}};
     for (const Column& c : columns) {
         json[c.name]["Description"] = c.description;
         if (!c.unit.empty()) json[c.name]["Units"] = c.unit;
@@ -126,7 +128,7 @@ class EventRows {
         row.insert(row.end(), {"simulated", "moved_by"});
         return row;
     }
-    /// Row of an attempt, with all that is known of it.
+    /// Row of an attempt, with all its data.
     Row trial(const Attempt& attempt) const {
         const rows::TrialRow& of = trials_[attempt.row];
         Row row{number_text(of.head.start), fmt::format("{:.6g}", attempt.stop - attempt.start),
@@ -164,7 +166,7 @@ class EventRows {
     const rows::TrialFile& trials_;
     const rows::LiftFile* lifts_;
     const recording::MovedBy& by_;
-    std::vector<Column> columns_;  // the first has the number of the trial
+    std::vector<Column> columns_;  // the first holds the trial number
     std::map<std::pair<int, int>, size_t> lift_of_;
 };
 

@@ -1,6 +1,6 @@
-// A session's events in BIDS form: events.tsv has a row for each attempt at a trial, with all that
-// was asked for and measured in it, and a row for each momentary event, with the trial that it was
-// in; events.json describes the columns.
+// A session's events in BIDS form: events.tsv has a row for each attempt at a trial, with all its
+// demands and measures, and a row for each momentary event, with its trial; events.json describes
+// the columns.
 #pragma once
 
 #include <optional>
@@ -17,8 +17,8 @@ struct Events {
     std::string json;
 };
 
-/// Makes them from events.csv, trials.csv and lifts.csv; nullopt without events.csv. Throws Error
-/// when one of these files cannot be read.
+/// Makes the events from events.csv, trials.csv and lifts.csv; nullopt without events.csv. Throws
+/// Error when one of these files cannot be read.
 std::optional<Events> events_of(const recording::SessionFolder& session,
                                 const recording::SessionInfo& info);
 

@@ -49,7 +49,7 @@ std::vector<Channel> channels_of(const std::string& finger, size_t f) {
     vector("proxy_position", "POS", "m", &FingerFrame::p_WP, "of the finger in the virtual world");
     vector("force_sent", "MISC", "N", &FingerFrame::f_sent_W, "force on the handle");
     vector("contact_force", "MISC", "N", &FingerFrame::f_contact_W,
-           "force of what is touched on the finger in the virtual world");
+           "force of the touched bodies on the finger in the virtual world");
     out.push_back(latency(finger));
     return out;
 }
@@ -110,7 +110,7 @@ std::vector<TrackingSystem> tracking_systems(const recording::SessionFolder& ses
             throw Error(
                 {session.path(), 0}, finger,
                 "has the label of another finger, or of the objects: " + label(finger),
-                "Labels of BIDS have letters and digits only: name it otherwise in the scene.");
+                "BIDS labels have letters and digits only: give it another name in the scene.");
         }
         std::string model = "unknown";
         for (const recording::DeviceRecord& device : info.devices) {
@@ -156,7 +156,7 @@ std::string motion_json(const TrackingSystem& system, const std::string& task,
     std::map<std::string, int> counts;
     for (const Channel& c : system.channels) ++counts[c.type];
     Json json{{"TaskName", task},
-              // says who moved the hand too, for which the schema has no key
+              // also states who moved the hand, for which the schema has no key
               {"TaskDescription", info.title + ". " + info.moved_by.describe()},
               {"SamplingFrequency", 1 / tick},
               {"TrackingSystemName", label(system.name)},

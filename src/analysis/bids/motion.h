@@ -23,14 +23,14 @@ struct Channel {
 
 struct TrackingSystem {
     std::string name;   ///< name of the finger, or "objects"
-    std::string model;  ///< model of the device that measured it
+    std::string model;  ///< model of the device that measured the motion
     std::vector<Channel> channels;
     int points = 0;  ///< number of tracked points
 };
 
-/// Fingers in the log's order, then the objects; files get their names in the opposite order.
-/// Objects are the bodies that can move in the frozen scene, or all bodies if the scene cannot be
-/// read. Throws Error when two fingers have the same label.
+/// Fingers in the log's order, then the objects; files are renamed in the opposite order. Objects
+/// are the bodies that can move in the frozen scene, or all bodies if the scene cannot be read.
+/// Throws Error when two fingers have the same label.
 std::vector<TrackingSystem> tracking_systems(const recording::SessionFolder& session,
                                              const recording::SessionInfo& info,
                                              const recording::LogHead& head);
@@ -41,7 +41,7 @@ std::string channels_json();
 std::string motion_json(const TrackingSystem& system, const std::string& task,
                         const recording::SessionInfo& info, double tick, int64_t ticks);
 
-/// BIDS label of a text: its letters and digits only.
+/// BIDS label for a text: its letters and digits only.
 std::string label(const std::string& text);
 
 }  // namespace dihaptic::analysis::bids

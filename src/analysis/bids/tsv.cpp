@@ -53,16 +53,16 @@ Tsv::Tsv(const std::string& file, const std::string& key) : file_(file), columns
         if (number == 1) {
             columns_ = split(line);
             if (columns_.front() == key) continue;
-            throw Error({file, 1}, columns_.front(), "is its first column, where BIDS has " + key,
+            throw Error({file, 1}, columns_.front(), "is its first column, but BIDS expects " + key,
                         "Put that column first, or name another folder.");
         }
         if (line.empty()) continue;
         rows_.push_back(split(line));
         if (rows_.back().size() == columns_.size()) continue;
-        throw Error(
-            {file, number}, "",
-            fmt::format("has {} cells, and its header {}", rows_.back().size(), columns_.size()),
-            "Mend the line: a cell for each column, with a tab between.");
+        throw Error({file, number}, "",
+                    fmt::format("has {} cells, but its header has {}", rows_.back().size(),
+                                columns_.size()),
+                    "Repair the line: one cell per column, separated by tabs.");
     }
 }
 
@@ -100,7 +100,7 @@ void Tsv::put(const std::vector<std::string>& columns, const Row& cells) {
 void Tsv::write() const {
     std::vector<Row> all{columns_};
     all.insert(all.end(), rows_.begin(), rows_.end());
-    remove_dead_parts(file_);  // of an export that was killed
+    remove_dead_parts(file_);  // remains of a killed export
     write_file(to_tsv(all), file_);
 }
 

@@ -1,5 +1,5 @@
-// Reads and writes tables of BIDS: tab-separated, with a header, without quotes, n/a for what is
-// not known.
+// Reads and writes BIDS tables: tab-separated, with a header, without quotes, n/a for unknown
+// values.
 #pragma once
 
 #include <string>
@@ -9,29 +9,29 @@ namespace dihaptic::analysis::bids {
 
 using Row = std::vector<std::string>;
 
-/// Text of a table; the header is its first row. Tabs and line ends in a cell become blanks, an
+/// Text of a table; the header is its first row. Tabs and line breaks in a cell become blanks; an
 /// empty cell becomes n/a.
 std::string to_tsv(const std::vector<Row>& rows);
 
-/// A table of a data set that other programs may have written too: it may have unknown columns, and
-/// lack some of ours.
+/// A table of a data set to which other programs may have written too: it may have unknown columns,
+/// and lack some of ours.
 class Tsv {
   public:
     /// A file that does not exist gives an empty table. Throws Error when it cannot be read, when
     /// its first column is not `key`, or when a row does not have one cell for each column.
     Tsv(const std::string& file, const std::string& key);
 
-    /// Cell of the row with that key; "" when there is no such row or column, or it is n/a.
+    /// Cell in the row with this key; "" when there is no such row or column, or the cell is n/a.
     std::string text(const std::string& key, const std::string& column) const;
     bool has(const std::string& key) const { return find(key) < rows_.size(); }
     /// Adds the row, or replaces the named cells of the row with this key. The first column is the
-    /// key. New columns are n/a in the other rows; columns not named are n/a in a new row.
+    /// key. New columns are n/a in other rows; unnamed columns are n/a in a new row.
     void put(const std::vector<std::string>& columns, const Row& cells);
     size_t rows() const { return rows_.size(); }
     const Row& columns() const { return columns_; }
     std::string text(size_t row, const std::string& column) const;
 
-    /// Replaces the file as a whole. Throws Error when it cannot.
+    /// Replaces the whole file. Throws Error when this fails.
     void write() const;
 
   private:

@@ -92,8 +92,8 @@ class LeastSquares {
 
 void check_numbers(std::span<const double> measured, std::span<const AdaptationTrial> trials) {
     if (measured.size() != trials.size())
-        throw Error("there are not as many measurements as trials",
-                    "give one for each trial, NaN where there is none");
+        throw Error("the number of measurements differs from the number of trials",
+                    "give one per trial, NaN if it is missing");
 }
 
 LearningCurveFit fit_learning_curve(std::span<const double> measured) {

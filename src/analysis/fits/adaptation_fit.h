@@ -1,6 +1,6 @@
 // Fits learning curves (model/learning_curve.h) and single-rate adaptation (model/adaptation.h) to
-// what a person did in each trial, by least squares, with profile intervals: for each parameter,
-// the values at which, with all others fitted anew,
+// a person's compensation in each trial, by least squares, with profile intervals: for each
+// parameter, the values at which, with all others refitted,
 //
 //     (n - p) ln(SSE / SSE_min) <= 3.84
 //
@@ -20,7 +20,7 @@ namespace dihaptic::analysis {
 /// Results of every fit. Predictions are for every trial, measured or not.
 struct CurveFit {
     std::vector<double> predicted;
-    double mean_square = 0;  ///< SSE / n, in the unit of the data, squared
+    double mean_square = 0;  ///< SSE / n, in the square of the data's unit
     double residual_sd = 0;  ///< sqrt(SSE / (n - p))
 };
 

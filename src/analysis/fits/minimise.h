@@ -26,7 +26,7 @@ using Cost = std::function<double(std::span<const double>)>;
 Minimum minimise(const Cost& cost, std::span<const Variable> variables, std::vector<double> start,
                  double tolerance = 1e-7);
 
-/// 95 % point of chi-squared with one degree of freedom: how far twice the log likelihood falls at
+/// 95 % point of chi-squared with one degree of freedom: the fall of twice the log likelihood at
 /// the ends of a 95 % profile interval.
 inline constexpr double kChiSquared95 = 3.841458820694124;
 
@@ -35,8 +35,9 @@ struct Interval {
     double high = 0;
 };
 
-/// Where a profile that is least at `best` and rises to both sides passes `limit`, to half a
-/// percent of the distance from `best`; or the end of the range if the profile does not pass it.
+/// The point where a profile that is least at `best` and rises to both sides passes `limit`, to
+/// half a percent of the distance from `best`; the end of the range if the profile does not pass
+/// it.
 Interval profile_interval(const std::function<double(double)>& profile, double best,
                           const Variable& range, double limit);
 

@@ -1,5 +1,4 @@
-// Lists the parameters of each fit by the names that the command `fit` and the package for Python
-// give them.
+// Lists the parameters of each fit by their names in the command `fit` and the package for Python.
 #pragma once
 
 #include <vector>

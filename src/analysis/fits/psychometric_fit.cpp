@@ -14,7 +14,7 @@ namespace {
 using model::Psychometric;
 using model::Sigmoid;
 
-/// The search for the most likely function. Its variables are the threshold, ln of the spread (the
+/// Searches for the most likely function. Its variables are the threshold, ln of the spread (the
 /// shape, or one over it if the shape is a slope), and the lapse rate. Weibull functions are
 /// searched in log10 of the level, where threshold and slope hardly depend on each other.
 class Search {
@@ -36,7 +36,7 @@ class Search {
         free_ = {true, !settings_.shape, settings_.max_lapse > 0};
         for (double share = -0.5; share < 1.55; share += 0.1)
             coarse_places_.push_back(low_ + share * span_);
-        // a step function fits equally well at any place between two levels
+        // a step function fits equally well at any point between two levels
         places_ = coarse_places_;
         std::vector<double> levels;
         for (const LevelCount& c : counts_) levels.push_back(c.level);
@@ -55,7 +55,7 @@ class Search {
     std::vector<LevelCount>& counts() { return counts_; }
 
     /// The least of the minima found from the best point of a grid at each spread, since flat and
-    /// steep functions have minima of their own.
+    /// steep functions have separate minima.
     Minimum run() const {
         constexpr double kFine = 1e-7;
         const Minimum least = least_of(starts(places_, spreads_, lapses_), free_);
@@ -66,8 +66,8 @@ class Search {
     Minimum run_quickly() const {
         return least_of(few(starts(coarse_places_, spreads_, {lapses_.data(), 1})), free_);
     }
-    /// Where the profile of one variable, the others searched anew, rises by half of the 95 % point
-    /// of chi-squared.
+    /// The points where the profile of one variable, with the others searched again, rises by half
+    /// of the 95 % point of chi-squared.
     Interval interval(size_t variable, const std::vector<double>& best) const {
         if (!free_[variable]) return {best[variable], best[variable]};
         return profile_interval([&](double v) { return profile(variable, v); }, best[variable],
@@ -83,7 +83,7 @@ class Search {
         }
         return f;
     }
-    /// The variables of a function, the other way round.
+    /// The variables of a function, inversely.
     std::vector<double> variables(const Psychometric& f) const {
         return {linear_weibull() ? std::log10(f.threshold) : f.threshold,
                 std::log(slope() ? 1 / f.shape : f.shape), f.lapse};
@@ -165,7 +165,7 @@ class Search {
 
     static bool less(const Minimum& a, const Minimum& b) { return a.value < b.value; }
     bool linear_weibull() const { return settings_.sigmoid == Sigmoid::weibull; }
-    /// Whether the shape is a slope, so one over the spread.
+    /// Whether the shape is a slope, i.e. one over the spread.
     bool slope() const { return linear_weibull() || settings_.sigmoid == Sigmoid::weibull_log10; }
 
     Psychometric searched(std::span<const double> x) const {
@@ -180,7 +180,7 @@ class Search {
         const Psychometric f = searched(x);
         double sum = 0;
         for (const LevelCount& c : counts_) {
-            // answers that are impossible under a function cost much, but not infinitely much
+            // answers that are impossible under a function have a large but finite cost
             const double p = std::clamp(f.probability(c.level), 1e-12, 1 - 1e-12);
             sum -= c.yes * std::log(p) + (c.trials - c.yes) * std::log1p(-p);
         }
@@ -201,25 +201,25 @@ class Search {
 void check(std::span<const LevelCount> counts, const PsychometricFitSettings& settings) {
     for (const LevelCount& c : counts) {
         if (!std::isfinite(c.level) || c.yes < 0 || c.trials < 1 || c.yes > c.trials)
-            throw Error("the answers at a level cannot be counted",
-                        "give finite levels, each with a trial or more");
+            throw Error("the counts of answers at a level are invalid",
+                        "give finite levels, each with at least one trial");
         if (!model::takes(settings.sigmoid, c.level))
             throw Error("a Weibull function has no level of 0 or below",
                         "fit another sigmoid, or weibull_log10 to logarithms");
     }
     if (std::all_of(counts.begin(), counts.end(),
                     [&](const auto& c) { return c.level == counts.front().level; }))
-        throw Error("answers at fewer than two levels tell of no psychometric function",
+        throw Error("answers at fewer than two levels do not determine a psychometric function",
                     "measure at two levels or more");
     if (!(settings.max_lapse >= 0 && settings.max_lapse < 0.5 && settings.guess >= 0 &&
           settings.guess + settings.max_lapse < 1))
-        throw Error("guess and lapse rates leave nothing between them",
+        throw Error("guess and lapse rates leave no range between them",
                     "give a guess rate and a max_lapse in [0, 0.5), below 1 together");
     if (settings.shape && !(*settings.shape > 0))
-        throw Error("a known shape is not above 0", "give the slope or spread of the sigmoid");
+        throw Error("a known shape must be above 0", "give the slope or spread of the sigmoid");
 }
 
-/// Negative log likelihood when each level has the share of "yes" that was counted.
+/// Negative log likelihood when each level has its counted share of "yes".
 double saturated(std::span<const LevelCount> counts) {
     double sum = 0;
     for (const LevelCount& c : counts) {
@@ -238,7 +238,7 @@ std::vector<LevelCount> count(std::span<const Answer> answers) {
               [](const Answer& a, const Answer& b) { return a.level < b.level; });
     std::vector<LevelCount> counts;
     if (sorted.empty()) return counts;
-    // sums of steps come back to a level only up to rounding
+    // sums of steps return to a level only up to rounding
     const double same = 1e-9 * (sorted.back().level - sorted.front().level);
     for (const Answer& answer : sorted) {
         if (counts.empty() || answer.level > counts.back().level + same)

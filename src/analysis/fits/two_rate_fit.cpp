@@ -82,7 +82,7 @@ struct Data {
 ///     low held at v    high = v + (1 - v) z_high
 ///     high held at v                            low = v z_low
 ///
-/// The z of a held parameter means nothing.
+/// The z of a held parameter is meaningless.
 class Cube {
   public:
     explicit Cube(int held = kFree, double value = 0) : held_(held), value_(value) {}
@@ -148,7 +148,7 @@ struct Found {
     double squares;
 };
 
-/// Levenberg-Marquardt within the cube: a point on a face that is pulled outward stays on it.
+/// Levenberg-Marquardt within the cube: a point on a face that is pulled outward stays on the face.
 Found descend(const Data& data, const Cube& cube, const Vec4& start, int steps) {
     Vec4 z = cube.point(start);
     Found best{cube.parameters(z), 0};
@@ -193,7 +193,7 @@ Found descend(const Data& data, const Cube& cube, const Vec4& start, int steps) 
 
 constexpr size_t kRatesEach = 77;  // pairs of learning rates in the lattice, per pair of retentions
 
-/// Points of the whole space, denser where people's parameters are: the shares forgotten and
+/// Points in the whole space, denser where people's parameters are: the shares forgotten and
 /// learned in a trial span powers of ten.
 std::vector<Vec4> lattice() {
     constexpr double kSlow[] = {0, 1e-4, 1e-3, 3e-3, 0.01, 0.03, 0.1, 0.3, 0.7};  // 1 - A_slow
@@ -211,14 +211,15 @@ std::vector<Vec4> lattice() {
 }
 
 // The search descends from the best points of the lattice and from the best point of each pair of
-// retentions: if many points are good, the least minimum may not be below any of the best.
+// retentions: if many points are good, the least minimum may not be near any of the best.
 constexpr size_t kScouts = 48;
 constexpr int kScoutSteps = 12;   // steps of each scout
-constexpr size_t kPolished = 12;  // best scouts, which go on for kSteps
+constexpr size_t kPolished = 12;  // best scouts, which continue for kSteps
 constexpr int kSteps = 400;
-constexpr double kSamePlace = 1e-3;  // minima no further apart are one
+constexpr double kSamePlace = 1e-3;  // minima no further apart are the same
 
-/// Minima, the least first. Several are kept: with a parameter held, another may be the least.
+/// Minima, the least first. Several are kept, because with a parameter held another may be the
+/// least.
 std::vector<Found> minima(const Data& data) {
     static const std::vector<Vec4> points = lattice();
     std::vector<Found> found;

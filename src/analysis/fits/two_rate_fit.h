@@ -1,10 +1,10 @@
-// Fits the two-rate model (model/adaptation.h) to what a person did in each trial: finds the
+// Fits the two-rate model (model/adaptation.h) to a person's compensation in each trial: finds the
 // globally least sum of squared residuals within
 //
 //     0 <= A_fast <= A_slow <= 1        0 <= B_slow <= B_fast <= 1
 //
-// and profile intervals of the parameters. The result depends on no chosen start: the search takes
-// a lattice over the whole space, and runs Levenberg-Marquardt from the best of its points.
+// and profile intervals of the parameters. The result does not depend on a chosen start: the search
+// evaluates a lattice over the whole space, and runs Levenberg-Marquardt from its best points.
 #pragma once
 
 #include <span>
@@ -23,7 +23,7 @@ struct TwoRateFit : CurveFit {
 TwoRateFit fit_two_rate(std::span<const double> measured,
                         std::span<const model::AdaptationTrial> trials);
 
-/// Sum of squared residuals of the model found by descending from one start, by which tests judge
+/// Sum of squared residuals of the model found by descending from one start, with which tests judge
 /// the search.
 double squares_downhill(std::span<const double> measured,
                         std::span<const model::AdaptationTrial> trials,

@@ -27,7 +27,7 @@ size_t place_of(const Table& table, const char* name) {
                                table.columns.begin());
 }
 
-/// Null if they cannot be taken.
+/// Null if they cannot be computed.
 std::unique_ptr<task::OwnMeasures> own_measures(const task::Task& task,
                                                 const recording::SessionFolder& folder) {
     Diagnostics problems(UnknownKeys::are_left_out);

@@ -1,5 +1,5 @@
-// Takes a task's measures (task/plan/measures.h) of each attempt at a trial, while the frames go
-// by.
+// Computes a task's measures (task/plan/measures.h) in each attempt at a trial, while the frames
+// arrive.
 #pragma once
 
 #include <memory>
@@ -14,13 +14,13 @@
 
 namespace dihaptic::analysis {
 
-/// Columns of all measures that trials.csv of a session with this task may have: those that have
-/// names, those of the task's own, and what is not measured.
+/// Columns of all measures that trials.csv may have in a session with this task: named measures,
+/// the task's own measures, and unmeasured ones.
 std::vector<Table::Column> measure_columns_of(const task::Task& task);
 
 class MeasureFinder {
   public:
-    /// Nullopt if the session's task lists no measures, or its files cannot be read.
+    /// Nullopt if the session's task lists no measures, or if its files cannot be read.
     static std::optional<MeasureFinder> of(const recording::SessionFolder& folder,
                                            const recording::LogHead& head,
                                            const std::vector<std::string>& phases);
@@ -41,21 +41,21 @@ class MeasureFinder {
     std::unique_ptr<task::OwnMeasures> own_;  // null if there are none
     task::Movement options_;
     MeasurePhases phases_;
-    std::vector<task::MovementPlan> plans_;  // by trial; empty if no measure needs a movement
-    int finger_ = -1;                        // that moves; -1: the body, or all fingers
+    std::vector<task::MovementPlan> plans_;  // by trial; empty if no measure requires a movement
+    int finger_ = -1;                        // finger that moves; -1: the body, or all fingers
     int body_ = -1;
     double tick_ = 1e-3;
 
     struct Row {
         int trial = 0;
-        int number = 0;  // of the attempt at the trial
+        int number = 0;  // number of the attempt at the trial
         std::vector<Table::Cell> cells;
     };
     std::vector<Row> rows_;
     Attempt attempt_;
     int trial_ = 0;
     int number_ = 0;
-    int64_t sequence_ = -1;  // of the last frame
+    int64_t sequence_ = -1;  // sequence number of the last frame
 };
 
 }  // namespace dihaptic::analysis

@@ -12,17 +12,17 @@
 namespace dihaptic::analysis {
 namespace {
 
-constexpr double kLeastPeak = 0.05;        // slower is tremor and noise [m/s]
-constexpr double kGripBefore = 0.2;        // time before a load step from which grip is known [s]
+constexpr double kLeastPeak = 0.05;        // slower movement is tremor or noise [m/s]
+constexpr double kGripBefore = 0.2;        // time before a load step that gives the usual grip [s]
 constexpr double kLeastGripBefore = 0.05;  // [s]
-constexpr double kLasts = 0.01;            // time for which grip stays above the threshold [s]
+constexpr double kLasts = 0.01;            // time for which grip must stay above the threshold [s]
 constexpr double kGripSpreads = 3;         // threshold in standard deviations
-constexpr double kLeastRise = 0.05;        // least threshold, as grip without noise has no SD [N]
+constexpr double kLeastRise = 0.05;  // least threshold, because grip without noise has no SD [N]
 constexpr double kToMm2 = 1e6;
 
 using Values = std::vector<double>;
 
-/// Largest by size, with its sign.
+/// The value largest in magnitude, with its sign.
 double largest_by_size(std::span<const double> x) {
     return *std::max_element(x.begin(), x.end(),
                              [](double a, double b) { return std::abs(a) < std::abs(b); });
@@ -96,7 +96,7 @@ std::string AttemptMeasures::find_movement(const MeasurePhases& phases) {
     if (!(peak >= options_.onset_speed.value_or(kLeastPeak))) return "no movement";
     onset_ = peak_;
     while (onset_ > 0 && speed_[onset_ - 1] >= threshold) --onset_;
-    // pauses that are shorter belong to it
+    // shorter pauses belong to the movement
     const auto pause = static_cast<size_t>(std::round(options_.end_still / tick_));
     end_ = run_.size();
     size_t slow = 0;
@@ -115,7 +115,7 @@ void AttemptMeasures::find_lines() {
     for (const MotionSample& s : run_) {
         left_.push_back((s.p_W - attempt_.plan.from_W).dot(left_W_));
         force_.push_back(s.f_W.dot(left_W_));
-        // the hand has to push against the field
+        // the hand must push against the field
         ideal_.push_back(-left_W_.dot(attempt_.plan.ideal * s.v_W));
     }
 }
@@ -135,7 +135,7 @@ MeasuredValues AttemptMeasures::measure(const task::MeasureRow& row) const {
     struct Rule {
         const char* name;
         Values (*compute)(const A&);
-        const char* otherwise;  // why the first value is missing, if it is; null: the lift's mark
+        const char* otherwise;  // reason why the first value is missing; null: the lift's mark
     };
     static constexpr const char* kNever = "not to be computed";
     static constexpr const char* kAxis = "the axis lies along the line";
@@ -178,7 +178,7 @@ MeasuredValues AttemptMeasures::measure(const task::MeasureRow& row) const {
         if (std::isnan(out.values.front()))
             out.why = rule.otherwise != nullptr ? rule.otherwise : "lift: " + lift().mark;
     }
-    // known whether or not something moved
+    // known with or without a movement
     if (row.needs & task::MeasureRow::ideal)
         out.values.back() = attempt_.plan.field_share * attempt_.share;
     return out;
@@ -255,7 +255,7 @@ double spectral_arc_length(std::span<const double> speed, double tick) {
     const auto powers =
         static_cast<int>(std::ceil(std::log2(static_cast<double>(speed.size())))) + kPadding;
     const double step = 1 / (tick * std::ldexp(1.0, powers));  // between frequencies [Hz]
-    // a speed is nowhere negative, so that its largest amplitude is that at 0
+    // a speed is never negative, so its largest amplitude is at frequency 0
     const double most = std::accumulate(speed.begin(), speed.end(), 0.0);
     if (!(most > 0)) return kUnmeasured;
     Values amplitude;

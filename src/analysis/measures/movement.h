@@ -1,5 +1,5 @@
 // Computes the measures of a movement (task/plan/measures.h) from the trace of one attempt at a
-// trial. docs/measures-of-behaviour.md has the rules and equations.
+// trial. docs/measures-of-behaviour.md gives the rules and equations.
 #pragma once
 
 #include <span>
@@ -11,13 +11,13 @@
 
 namespace dihaptic::analysis {
 
-/// What is kept of a tick.
+/// The data kept from a tick.
 struct MotionSample {
     double time;  ///< [s]
     int phase;
     Vec3 p_W;
     Vec3 v_W;
-    Vec3 f_W;        ///< force of the hand on what pushes it, a channel [N]
+    Vec3 f_W;        ///< force of the hand on the channel that pushes it [N]
     double grip;     ///< [N]
     bool continues;  ///< no tick is missing before it, and no pause
 };
@@ -27,21 +27,21 @@ struct Attempt {
     std::vector<MotionSample> samples;  ///< from its first tick to its last
     task::MovementPlan plan;
     const rows::LiftRow* lift = nullptr;  ///< null: no object, or one finger
-    double share = 0;                     ///< of the perturbation that acted
+    double share = 0;                     ///< share of the perturbation that acted
 };
 
-/// Phases of the states that measures are taken in; -1: none.
+/// Phases of the states in which measures are computed; -1: none.
 struct MeasurePhases {
     std::vector<int> during;
     int go = -1;
     int step = -1;
 };
 
-/// Values of a measure's columns, in SI units unless a column's name says otherwise; NaN where
-/// there is none.
+/// Values of a measure's columns, in SI units unless a column's name states another; NaN if
+/// missing.
 struct MeasuredValues {
     std::vector<double> values;
-    std::string why;  ///< why one is missing; empty if none is
+    std::string why;  ///< reason why one is missing; empty if none is missing
 };
 
 /// Computes the measures of one attempt.
@@ -54,7 +54,7 @@ class AttemptMeasures {
 
   private:
     using Values = std::vector<double>;
-    /// Why a movement, or a whole one, was not found; empty if it was.
+    /// Reason why no complete movement was found; empty if one was found.
     std::string find_movement(const MeasurePhases& phases);
     void find_lines();
     std::string why_missing(const task::MeasureRow& row) const;
@@ -79,15 +79,15 @@ class AttemptMeasures {
     double go_;                          // time of the go signal [s]
     double step_;                        // time of the load step [s]
     std::span<const MotionSample> run_;  // the samples in the movement's states
-    std::string no_onset_;               // why it has no onset; empty if it has one
+    std::string no_onset_;  // reason why the movement has no onset; empty if it has one
     std::string no_end_;
     size_t onset_ = 0, peak_ = 0, end_ = 0;
     Vec3 along_W_, left_W_;
     std::vector<double> speed_, left_, force_, ideal_;  // in the run
 };
 
-/// Spectral arc length of a speed profile (Balasubramanian et al. 2015): frequencies up to 10 Hz
-/// whose amplitude is 5 % of the largest at least, from zero padding by a factor of 16.
+/// Spectral arc length of a speed profile (Balasubramanian et al. 2015): over frequencies up to 10
+/// Hz whose amplitude is at least 5 % of the largest, after zero padding by a factor of 16.
 double spectral_arc_length(std::span<const double> speed, double tick);
 
 }  // namespace dihaptic::analysis

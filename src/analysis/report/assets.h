@@ -1,5 +1,5 @@
-// Scripts and styles that every page contains; the build makes them from the charting library's
-// files (dygraphs) and from the files in this folder.
+// Scripts and styles in every page; the build makes them from the charting library's files
+// (dygraphs) and the files in this folder.
 #pragma once
 
 #include <string_view>

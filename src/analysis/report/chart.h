@@ -1,4 +1,4 @@
-// A chart of a report's page: describes what is drawn, not how.
+// A chart on a report's page: describes its content, not its drawing.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace dihaptic::analysis {
 
-/// faint: a thin line behind the others, which the legend leaves out.
+/// faint: a thin line behind the others, without an entry in the legend.
 enum class Drawn { line, steps, points, faint };
 constexpr auto enum_names(Drawn) {
     return std::array{"line", "steps", "points", "faint"};
@@ -27,7 +27,7 @@ struct Series {
     bool empty() const;  ///< whether it has no finite value
 };
 
-/// A line across the chart, where something changes.
+/// A line across the chart that marks a change.
 struct Mark {
     double x = 0;
     std::string text;

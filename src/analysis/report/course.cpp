@@ -9,16 +9,16 @@
 namespace dihaptic::analysis {
 namespace {
 
-constexpr double kLongest = 60;       // longest session that is drawn as a whole [s]
-constexpr double kBeside = 0.3;       // drawn before and after a lift [s]
-constexpr size_t kMostPoints = 1500;  // most points of a curve over time
+constexpr double kLongest = 60;       // longest session that is drawn completely [s]
+constexpr double kBeside = 0.3;       // time drawn before and after a lift [s]
+constexpr size_t kMostPoints = 1500;  // most points on a curve over time
 
 Series line(const std::string& name, const char* colour) {
     return {name, Drawn::line, {}, {}, {}, {}, colour};
 }
 
-/// Thins a curve to the least and largest value of each stretch, in their order, so that it keeps
-/// every peak.
+/// Thins a curve to the least and largest value in each stretch, in their order, so that every peak
+/// remains.
 void thin(Series& series) {
     if (series.x.size() <= kMostPoints) return;
     const size_t stretch = (2 * series.x.size() + kMostPoints - 1) / kMostPoints;

@@ -1,5 +1,5 @@
-// The part of a session's page that shows forces and height over time: of a short session as a
-// whole, of a long one in its first complete lift.
+// The part of a session's page that shows forces and height over time: in all of a short session,
+// or in the first complete lift of a long one.
 #pragma once
 
 #include <optional>
@@ -17,7 +17,7 @@ class CourseCharts {
 
     /// Call for each frame of the log, in order.
     void see(const frame::Frame& frame);
-    /// Adds the charts; nothing of a long session without a complete lift.
+    /// Adds the charts; none for a long session without a complete lift.
     void add_to(Page& page, const std::string& origin);
 
   private:
@@ -31,7 +31,7 @@ class CourseCharts {
 
     const SessionData& session_;
     std::optional<Excerpt> excerpt_;
-    bool two_;                    // fingers at least: there is a grip
+    bool two_;                    // at least two fingers: there is a grip
     std::ptrdiff_t object_ = -1;  // among the bodies; -1: none
     int phase_ = -1;
     Series grip_, load_, height_;

@@ -14,13 +14,13 @@ namespace dihaptic::analysis {
 namespace {
 
 constexpr size_t kMostCharts = 16;
-constexpr size_t kMostDrawn = 24;  // lifts that are drawn one by one in a chart; the mean is of all
+constexpr size_t kMostDrawn = 24;  // lifts drawn individually in a chart; the mean is over all
 
 double time_of(size_t point) {
     return -LiftCurves::kBefore + LiftCurves::kStep * static_cast<double>(point);
 }
 
-/// By trial and attempt: its condition, perturbation, and whether it was a catch trial.
+/// By trial and attempt: condition, perturbation, and whether it was a catch trial.
 std::map<std::pair<int, int>, std::string> conditions_of(const rows::TrialFile& trials) {
     std::map<std::pair<int, int>, std::string> out;
     for (const rows::TrialRow& row : trials) {
@@ -130,7 +130,7 @@ void LiftCurves::add_to(Page& page, const std::string& origin) const {
     for (size_t i = 0; i < conditions.size() && i < kMostCharts; ++i)
         page.chart(chart_of(conditions[i], origin));
     if (conditions.size() > kMostCharts)
-        page.text(fmt::format("{} further conditions are not drawn: lifts.csv has their lifts.",
+        page.text(fmt::format("{} further conditions are not drawn: their lifts are in lifts.csv.",
                               conditions.size() - kMostCharts));
 }
 

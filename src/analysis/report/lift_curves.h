@@ -10,16 +10,16 @@ namespace dihaptic::analysis {
 
 class LiftCurves {
   public:
-    /// Its lifts are those of lifts.csv that are complete. `tick`: of the session [s].
+    /// Shows the complete lifts in lifts.csv. `tick`: tick of the session [s].
     LiftCurves(const SessionData& session, double tick);
 
     /// Call for each frame of the log, in order.
     void see(const frame::Frame& frame);
-    /// Adds a chart for each condition and perturbation; nothing if there were no lifts.
+    /// Adds a chart for each condition and perturbation; none if there were no lifts.
     void add_to(Page& page, const std::string& origin) const;
 
-    static constexpr double kBefore = 0.6;  ///< drawn before lift-off [s]
-    static constexpr double kAfter = 1.0;   ///< and after it [s]
+    static constexpr double kBefore = 0.6;  ///< time drawn before lift-off [s]
+    static constexpr double kAfter = 1.0;   ///< time drawn after lift-off [s]
     static constexpr double kStep = 0.01;   ///< between points [s]
 
   private:
@@ -39,7 +39,7 @@ class LiftCurves {
 
     double tick_;
     std::vector<Lift> lifts_;  // in the order of their lift-offs
-    size_t first_ = 0;         // all before this one are read
+    size_t first_ = 0;         // all earlier lifts have been read
 };
 
 }  // namespace dihaptic::analysis

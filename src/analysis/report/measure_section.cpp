@@ -16,7 +16,8 @@
 namespace dihaptic::analysis {
 namespace {
 
-/// How often a measure is missing, by why: "no movement (3), not over when its states ended (1)".
+/// How often a measure is missing, by reason: "no movement (3), not over when its states ended
+/// (1)".
 std::string reasons(const rows::TrialFile& trials, const std::string& measure) {
     const auto column = trials.column(task::kNotMeasured);
     std::vector<std::string> order;
@@ -38,7 +39,7 @@ std::string reasons(const rows::TrialFile& trials, const std::string& measure) {
     return out;
 }
 
-/// A measure trial by trial, by condition.
+/// A measure, trial by trial, by condition.
 Chart measure_chart(const SessionData& session, const Table::Column& column) {
     const rows::TrialFile& trials = session.trials;
     const auto measured = trials.column(column.name);
@@ -69,7 +70,7 @@ Chart measure_chart(const SessionData& session, const Table::Column& column) {
     return chart;
 }
 
-/// Names of the task's factors, as the trials' columns are named.
+/// Names of the task's factors, as used in columns of trials.
 std::vector<std::string> factors_of(const SessionData& session) {
     std::vector<std::string> out;
     for (const task::Factor& factor : session.task.cross) out.push_back(factor.factor);
@@ -80,7 +81,7 @@ std::vector<std::string> factors_of(const SessionData& session) {
     return out;
 }
 
-/// Levels of factors: numbers in the order of their size, texts in that of the alphabet.
+/// Levels of factors: numbers in ascending order, texts in alphabetical order.
 using Levels = std::vector<std::pair<double, std::string>>;
 
 Levels levels_of(const rows::TrialFile& trials, size_t i, const std::vector<std::string>& factors) {
@@ -107,8 +108,8 @@ Series series_of(const Levels& levels, const std::map<double, std::vector<double
     return out;
 }
 
-/// Means of a measure over a factor of numbers, by the levels of the other factors: over trials, or
-/// of several people, who count once each. Has no series if no factor has numbers.
+/// Means of a measure by the levels of a numeric factor, for each combination of the other factors:
+/// over trials, or over several people, who count once each. Has no series if no factor is numeric.
 Chart factor_chart(std::span<const SessionData* const> sessions, const Table::Column& column,
                    const std::string& origin) {
     std::vector<std::string> factors = factors_of(*sessions.front());
@@ -158,9 +159,9 @@ Chart factor_chart(std::span<const SessionData* const> sessions, const Table::Co
 std::vector<Table::Column> measured_columns(const SessionData& session) {
     const rows::TrialFile& trials = session.trials;
     std::vector<Table::Column> out = measure_columns_of(session.task);
-    out.pop_back();  // what is not measured
+    out.pop_back();  // the column of missing measures
     std::erase_if(out, [&](const Table::Column& c) { return !trials.column(c.name); });
-    // of a session without the measures, a column of the same name is another
+    // in a session without the measures, a column with this name is a different one
     if (!trials.column(task::kNotMeasured)) out.clear();
     return out;
 }
@@ -170,14 +171,14 @@ void add_measures(Page& page, const SessionData& session) {
     if (columns.empty()) return;
     page.heading("Measures");
     page.text(
-        "The task's measures of each attempt, as docs/measures-of-behaviour.md defines them. What "
-        "could not be computed is left out, and not zero.");
+        "The task's measures of each attempt, as defined in docs/measures-of-behaviour.md. Values "
+        "that could not be computed are left out, not zero.");
     Table table{{{"measure", ""},
                  {"unit", ""},
-                 {"attempts", "with a value"},
+                 {"attempts", "attempts with a value"},
                  {"mean", ""},
                  {"SD", ""},
-                 {"missing", "how often, and why"}},
+                 {"missing", "numbers and reasons"}},
                 {}};
     for (const Table::Column& column : columns) {
         std::string measure = column.name;

@@ -27,7 +27,7 @@ std::string number(double value) {
     return fmt::format("{:.3g}", value);
 }
 
-/// Value of a setting; "" if it is not there, or its default is chosen by the program.
+/// Value of a setting; "" if it is missing, or if the program chooses its default.
 std::string setting(const Table& settings, const std::string& name) {
     for (const auto& row : settings.rows) {
         if (std::get<std::string>(row[0]) == name) return std::get<std::string>(row[1]);
@@ -60,14 +60,14 @@ std::string apparatus(const SessionData& session) {
     const std::string stiffness = setting(settings, "coupling.stiffness_N_m");
     out += ". ";
     if (!stiffness.empty())
-        out += fmt::format("Between device and virtual finger stood a virtual coupling of {} N/m. ",
-                           stiffness);
+        out += fmt::format(
+            "Device and virtual finger were connected by a virtual coupling of {} N/m. ",
+            stiffness);
     return out + fmt::format("Contact and friction were solved with the method {}.",
                              setting(settings, "dynamics.solver"));
 }
 
-/// The blocks in their order, with the number of their trials; of several rounds those of the
-/// first.
+/// The blocks in order, with their numbers of trials; of several rounds, the first round's blocks.
 std::vector<std::string> blocks_of(const SessionData& session) {
     std::vector<std::string> order;
     std::map<std::string, std::pair<std::string, int>> blocks;
@@ -88,7 +88,7 @@ std::vector<std::string> blocks_of(const SessionData& session) {
     return out;
 }
 
-/// Different texts of a column, in the order in which they come.
+/// Distinct texts in a column, in order of first appearance.
 std::vector<std::string> texts_of(const rows::TrialFile& trials,
                                   std::string rows::AskedRow::*column) {
     std::vector<std::string> out;
@@ -135,8 +135,7 @@ std::string measures_defined(const SessionData& session) {
     std::vector<std::string> all;
     for (const Table::Column& column : measured_columns(session))
         all.push_back(fmt::format("{} ({})", column.name, column.description));
-    return all.empty() ? ""
-                       : fmt::format("Of each attempt was measured: {}.", fmt::join(all, "; "));
+    return all.empty() ? "" : fmt::format("Measures of each attempt: {}.", fmt::join(all, "; "));
 }
 
 std::string outcomes(const SessionData& session) {
@@ -172,7 +171,7 @@ std::string measured(const SessionData& session, const Table::Column& column) {
     return texts.empty() ? "" : fmt::format("{}: {}.", column.name, fmt::join(texts, "; "));
 }
 
-/// How far a round's compensation got, window by window.
+/// A round's compensation, window by window.
 std::string adapted(const AdaptationCurve& curve, const Table& windows) {
     std::vector<std::string> texts;
     for (const auto& row : windows.rows) {
@@ -186,7 +185,7 @@ std::string adapted(const AdaptationCurve& curve, const Table& windows) {
                        curve.unit, listed(texts));
 }
 
-/// A row of a table as "COLUMN VALUE, COLUMN VALUE", without what was not measured.
+/// A row of a table as "COLUMN VALUE, COLUMN VALUE", without unmeasured values.
 std::string row_in_words(const Table& table, const std::vector<Table::Cell>& row, size_t first) {
     std::vector<std::string> out;
     for (size_t i = first; i < row.size(); ++i) {

@@ -1,5 +1,5 @@
-// The part of a session's page that says in sentences what was done and found, with the figures of
-// the page: a beginning for a paper's sections on methods and results.
+// The part of a session's page that describes methods and results in sentences, with the figures of
+// the page: a start for the corresponding sections of a paper.
 #pragma once
 
 #include <string>
@@ -14,8 +14,8 @@ struct MethodsText {
     std::vector<std::string> results;
 };
 
-/// `page`: its tables of fits and thresholds are made. `windows`: of adaptation, and `lifts`: of
-/// the lifts' figures, as the page shows them.
+/// `page`: must have its tables of fits and thresholds. `windows`: table of adaptation; `lifts`:
+/// table of the lifts' figures; both as on the page.
 MethodsText methods_text(const SessionData& session, const SessionPage& page, const Table& windows,
                          const Table& lifts);
 

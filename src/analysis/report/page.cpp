@@ -22,7 +22,7 @@ Json numbers(const std::vector<double>& values) {
     return out;
 }
 
-/// Four significant digits. A value small enough to be rounding is shown as 0.
+/// Four significant digits. A value as small as a rounding error is shown as 0.
 std::string in_short(double value) {
     if (std::isnan(value)) return "-";
     return fmt::format("{:.4g}", std::abs(value) < 1e-6 ? 0 : value);
@@ -84,7 +84,7 @@ void Page::folded_table(const std::string& title, const Table& table) {
 void Page::chart(Chart chart) {
     std::erase_if(chart.series, [](const Series& s) { return s.empty(); });
     if (chart.series.empty()) {
-        text(chart.title + ": nothing was measured.");
+        text(chart.title + ": no values were measured.");
         return;
     }
     Json json{{"title", chart.title}, {"x_label", chart.x_label}, {"y_label", chart.y_label}};
@@ -101,7 +101,7 @@ void Page::chart(Chart chart) {
     json["marks"] = Json::array();
     for (const Mark& mark : chart.marks)
         json["marks"].push_back({{"x", mark.x}, {"text", mark.text}});
-    // a name from a file may not be valid UTF-8: it is shown with a replacement character
+    // a name from a file may be invalid UTF-8: it is shown with a replacement character
     const std::string data = json.dump(-1, ' ', false, Json::error_handler_t::replace);
     body_ += fmt::format(
         "<figure><div class=\"chart\" data-chart=\"{}\"></div><div class=\"legend\"></div>"
@@ -119,7 +119,7 @@ void Page::picture(const std::string& svg, const std::string& caption) {
 std::string Page::html() const {
     const std::string hint =
         charts_ > 0 ? "<p class=\"hint caption\">Drag across a chart to zoom, Shift and drag to "
-                      "move, double-click to see all of it again.</p>\n"
+                      "move, double-click to see the whole chart again.</p>\n"
                     : "";
     const std::string who = fmt::format("<p class=\"who\">{}</p>\n", escaped_markup(who_));
     return fmt::format(

@@ -17,20 +17,20 @@ namespace {
 
 using Sessions = std::vector<const SessionData*>;
 
-/// Says in sentences who moved the hands.
+/// States in sentences who moved the hands.
 std::string who_moved(const Sessions& sessions) {
     std::set<std::string> who;
     for (const SessionData* session : sessions) who.insert(session->info.moved_by.describe());
     return fmt::format("{}", fmt::join(who, " "));
 }
 
-/// A session's participant; sessions that name none are of different people.
+/// A session's participant; sessions without a name count as different people.
 std::string person_of(const SessionData& session) {
     const std::string& id = session.info.participant.id;
     return id.empty() ? session.folder.path() : id;
 }
 
-/// Values of people. Who did several sessions counts once, with the mean of their values.
+/// Values of people. A person with several sessions counts once, with the mean of their values.
 class ByPerson {
   public:
     void add(const std::string& person, double value) {
@@ -65,7 +65,7 @@ std::string origin_of(const Sessions& sessions, const std::string& folder) {
                        fmt::join(programs, ", "));
 }
 
-/// Adds to the table's rows from `first` on what moved the hands of their sessions.
+/// Adds the source of the hands' movement to the table's rows from `first` on.
 void mark(Table& table, size_t first, const recording::MovedBy& by) {
     for (size_t i = first; i < table.rows.size(); ++i) {
         table.rows[i].emplace_back(by.simulated());
@@ -90,7 +90,7 @@ void add_person(PopulationPage& out, const std::string& title, const SessionData
     row("round", curve.round, "", "name");
     curve.list_landmarks(row);
     list_fits(row, fits, false);
-    row("note", note, "", "what is not measured");
+    row("note", note, "", "unmeasured quantity");
     row("session", session.folder.path(), "", "folder");
     add_row(out.people, row);
 }
@@ -104,8 +104,8 @@ void list(FigureLister& row, const Sample& people) {
     row("mean_high", people.mean_interval.high, "1", "its upper end");
 }
 
-/// Adds the mean over people, trial by trial. Catch trials, which come at different places for each
-/// person, and all but the last attempt at a trial are left out.
+/// Adds the mean over people, trial by trial. Catch trials, whose positions differ between people,
+/// and all but the last attempt at a trial are left out.
 void add_mean_curve(PopulationPage& out, const std::string& title, const std::string& round,
                     const std::vector<PersonCurve>& people, const std::string& origin) {
     std::map<int, ByPerson> by_place;
@@ -139,8 +139,8 @@ void add_mean_curve(PopulationPage& out, const std::string& title, const std::st
         FigureLister row;
         row("experiment", title, "", "title");
         row("round", round, "", "name");
-        row("unit", people.front().curve->unit, "", "of the means");
-        row("trial", place, "1", "of the round, from 1");
+        row("unit", people.front().curve->unit, "", "unit of the means");
+        row("trial", place, "1", "trial number in the round, from 1");
         row("block", block, "", "name");
         list(row, all);
         add_row(out.adaptation, row);
@@ -156,13 +156,14 @@ void add_mean_curve(PopulationPage& out, const std::string& title, const std::st
     out.page.chart(chart);
 }
 
-/// Adds statistics over people of the numbers of one round, which begin at `first` in
-/// population-people.csv, a row for each of these sessions.
+/// Adds statistics over people for one round, whose rows start at `first` in population-people.csv,
+/// one for each of these sessions.
 void sum_up(Table& table, const std::string& round, const std::vector<PersonCurve>& sessions,
             const Table& people, size_t first) {
     for (size_t c = 0; c < people.columns.size(); ++c) {
         const std::string& name = people.columns[c].name;
-        if (name.ends_with("_low") || name.ends_with("_high")) continue;  // intervals of one person
+        if (name.ends_with("_low") || name.ends_with("_high"))
+            continue;  // limits of one person's interval
         ByPerson values;
         for (size_t i = 0; i < sessions.size(); ++i) {
             if (const auto* value = std::get_if<double>(&people.rows[first + i][c]))
@@ -176,7 +177,7 @@ void sum_up(Table& table, const std::string& round, const std::vector<PersonCurv
     }
 }
 
-/// Adds what has no figure in these sessions, and why.
+/// Adds the quantities without figures in these sessions, with the reasons.
 void add_not_measured(PopulationPage& out, const std::string& title, const Sessions& sessions) {
     std::set<std::string> all;
     for (const SessionData* session : sessions) {
@@ -188,10 +189,10 @@ void add_not_measured(PopulationPage& out, const std::string& title, const Sessi
             add_person(out, title, *session, none, {}, "not measured: " + session->not_measured());
     }
     if (all.empty()) return;
-    out.page.text(fmt::format(
-        "Dihaptic has no measure yet of what is learned of these perturbations: {}. Figures of "
-        "trials under them are empty.",
-        fmt::join(all, "; ")));
+    out.page.text(
+        fmt::format("Dihaptic does not yet measure the learning of these perturbations: {}. "
+                    "Figures of trials under them are empty.",
+                    fmt::join(all, "; ")));
 }
 
 void add_adaptation(PopulationPage& out, const std::string& title, const Sessions& sessions,
@@ -212,7 +213,7 @@ void add_adaptation(PopulationPage& out, const std::string& title, const Session
             add_person(out, title, *p.session, *p.curve, p.fits, p.curve->note());
         sum_up(table, round, people, out.people, first);
     }
-    out.page.table(table, "Over people; population-people.csv has each session. " + origin);
+    out.page.table(table, "Over people; population-people.csv lists each session. " + origin);
 }
 
 void add_thresholds(PopulationPage& out, const std::string& title, const Sessions& sessions,
@@ -231,13 +232,13 @@ void add_thresholds(PopulationPage& out, const std::string& title, const Session
             row("ppid", session->participant(), "", "participant");
             row("procedure", track.procedure, "", "name");
             row("perturbation", track.perturbation, "", "name");
-            row("chooses", track.what(), "", "what the levels are of");
+            row("chooses", track.what(), "", "quantity of the levels");
             row("trials", track.answers.size(), "1", "answers");
             row("threshold_share", track.share(f.threshold), "1",
-                "of the perturbation; or the number, in the unit of its name");
-            row("shape", f.shape, "1", "of the sigmoid");
+                "share of the perturbation; or the number, in the unit of its name");
+            row("shape", f.shape, "1", "shape of the sigmoid");
             row("lapse", f.lapse, "1", "share of answers that do not depend on the level");
-            row("note", threshold.note, "", "why there is no fit, or more");
+            row("note", threshold.note, "", "reason for a missing fit, or a remark");
             row("session", session->folder.path(), "", "folder");
             add_row(out.thresholds, row);
             const bool counts = threshold.fit && !threshold.outside;
@@ -259,9 +260,8 @@ void add_thresholds(PopulationPage& out, const std::string& title, const Session
         "names. ";
     if (not_counted > 0) {
         caption += fmt::format(
-            "{} not counted, since there is no fit or the threshold lies outside of the levels "
-            "that "
-            "were shown: population-thresholds.csv says which, and why. ",
+            "{} not counted, because there is no fit or the threshold lies outside the levels that "
+            "were shown: population-thresholds.csv gives the reasons. ",
             not_counted == 1 ? "One is" : fmt::format("{} are", not_counted));
     }
     out.page.table(table, caption + origin);
@@ -269,7 +269,7 @@ void add_thresholds(PopulationPage& out, const std::string& title, const Session
 
 void add_lifts(PopulationPage& out, const std::string& title, const Sessions& sessions,
                const std::string& origin) {
-    // each session's median comes first, since people differ more than lifts do
+    // first each session's median, because people differ more than lifts
     std::vector<std::string> groups;
     std::map<std::string, std::map<std::string, ByPerson>> medians;
     int lifts = 0;
@@ -334,8 +334,8 @@ void add_group(PopulationPage& out, const std::string& title, const std::string&
                               fmt::join(names, ", ")));
     if (sessions.size() > people) {
         out.page.text(
-            "Several sessions are of the same participant, who counts once in the means below, "
-            "with the mean of these sessions. population-people.csv has each session.");
+            "Some participants have several sessions and count once in the means below, with the "
+            "mean of these sessions. population-people.csv lists each session.");
     }
     add_not_measured(out, title, sessions);
     add_adaptation(out, title, sessions, origin);

@@ -21,7 +21,7 @@ constexpr double kTitle = 24;      // height above a panel [px]
 constexpr double kUnit = 150;      // length of the line from start to target [px]
 constexpr double kStart = 45;      // height of the start above the panel's lower edge [px]
 constexpr int64_t kEach = 5;       // ticks between points of a path
-constexpr double kFarthest = 1.5;  // of what is drawn, from the start, over the line's length
+constexpr double kFarthest = 1.5;  // largest distance drawn, from the start, over the line's length
 
 /// The colours of the kinds of trials, in the order of enum_names(rows::TrialKind).
 constexpr std::array kKindColours{"#999999", "#555555", "#d55e00", "#000000",
@@ -142,12 +142,11 @@ void ReachPaths::add_to(Page& page, const std::string& origin) const {
     page.heading("Each reach");
     page.picture(
         svg.take(),
-        fmt::format(
-            "Paths of the hand in each block{}, turned so that each start is below and its "
-            "target above; left is to the left, seen from the tip of the axis of the "
-            "angles. In brackets: attempts. Grey: practice and baseline; orange: perturbed; "
-            "black: catch; blue: visual clamps; pink: channels; green: washout. {}",
-            all.size() > drawn ? fmt::format(" (the first {})", drawn) : "", origin));
+        fmt::format("Paths of the hand in each block{}, turned so that each start is below and its "
+                    "target above; left is to the left, seen from the tip of the angles' axis. In "
+                    "brackets: attempts. Grey: practice and baseline; orange: perturbed; black: "
+                    "catch; blue: visual clamps; pink: channels; green: washout. {}",
+                    all.size() > drawn ? fmt::format(" (the first {})", drawn) : "", origin));
 }
 
 }  // namespace dihaptic::analysis

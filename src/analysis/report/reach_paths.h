@@ -10,8 +10,8 @@ namespace dihaptic::analysis {
 
 class ReachPaths {
   public:
-    /// Its reaches are what the task's `reach` measures, or else its `movement`, if a finger makes
-    /// it.
+    /// Shows the reaches measured by the task's `reach`, or else by its `movement`, if a finger
+    /// makes it.
     ReachPaths(const SessionData& session, const recording::LogHead& head);
 
     /// Call for each frame of the log, in order.
@@ -46,7 +46,7 @@ class ReachPaths {
     };
     std::vector<Shown> trials_;  // by trial
     std::vector<Line> lines_;    // by trial
-    std::vector<int> phases_;    // in which a reach is made
+    std::vector<int> phases_;    // phases in which a reach is made
     size_t finger_ = 0;
     int64_t next_ = 0;  // tick of the next point
     std::vector<Path> paths_;

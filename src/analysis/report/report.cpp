@@ -49,8 +49,8 @@ Error none_ended(const std::string& folder, const std::vector<std::string>& left
     std::vector<Problem> problems{{Severity::error,
                                    {folder, 0},
                                    "",
-                                   "has no sessions that have ended",
-                                   "Name a session's folder, or one with sessions in it."}};
+                                   "contains no completed sessions",
+                                   "Name a session's folder, or a folder that contains sessions."}};
     for (const std::string& why : left_out)
         problems.push_back({Severity::warning, {folder, 0}, "", why, ""});
     return Error(problems);
@@ -69,7 +69,7 @@ ReportResult report_folder(const std::string& folder, const std::string& command
         }
         if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(paths.size()));
     }
-    // a session that another one resumes is part of that one
+    // a session that is resumed by another one is part of it
     std::set<std::string> earlier;
     for (const SessionData& session : sessions) {
         if (!session.info.resumes.empty())
@@ -80,16 +80,16 @@ ReportResult report_folder(const std::string& folder, const std::string& command
         const std::string name = fs::path(session.folder.path()).filename().string();
         const std::string& identity = session.info.identity;
         const auto [first, is_new] = folders.emplace(identity, session.folder.path());
-        // on the virtual clock a session that is run twice is the same to the bit, and no copy
+        // on the virtual clock, a session that is run twice is identical to the bit, but not a copy
         if (!is_new && !identity.empty() && session.info.clock == "real") {
             result.left_out.push_back(session.folder.path() + ": it is the same session as " +
                                       first->second);
         } else if (earlier.contains(name)) {
-            result.left_out.push_back(session.folder.path() + ": another session goes on with it");
+            result.left_out.push_back(session.folder.path() + ": another session resumes it");
         } else if (session.is_cut_short()) {
-            result.left_out.push_back(session.folder.path() +
-                                      ": it ended before its trials were done; dihaptic resume "
-                                      "goes on with it");
+            result.left_out.push_back(
+                session.folder.path() +
+                ": it ended before its trials were done; dihaptic resume continues it");
         } else {
             return false;
         }
@@ -115,7 +115,7 @@ ReportResult report_folder(const std::string& folder, const std::string& command
 
 ReportResult write_report(const std::string& path, const std::string& command,
                           const std::function<void(double)>& progress) {
-    std::error_code unreadable;  // report_session() then says that it is no session
+    std::error_code unreadable;  // report_session() then reports that it is not a session
     const bool is_folder = fs::is_directory(path, unreadable);
     if (!is_folder || is_there(path + "/session.yaml") || is_there(path + "/raw.log"))
         return report_session(path, command, progress);

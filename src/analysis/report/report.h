@@ -15,15 +15,15 @@ struct ReportResult {
     std::vector<std::string> tables;  ///< tables written beside the page
     int sessions = 0;
     std::vector<std::string> left_out;  ///< sessions left out, each with the reason
-    std::vector<Problem> changed;       ///< what was changed in sessions since they ended
-    std::vector<std::string> log;       ///< what is wrong with a session's raw.log, in sentences
+    std::vector<Problem> changed;       ///< changes in sessions since they ended
+    std::vector<std::string> log;       ///< faults of a session's raw.log, in sentences
 };
 
 /// For one session, writes report.html in its folder, with adaptation.csv and fits.csv if it has
 /// reaches. For a folder with sessions in it, at any depth, writes report.html there, with
 /// population-people.csv, population-adaptation.csv, population-thresholds.csv and
-/// population-lifts.csv. `command`: the command line, which the report shows. Throws Error when
-/// there is no session.
+/// population-lifts.csv. `command`: the command line, shown in the report. Throws Error when there
+/// is no session.
 ReportResult write_report(const std::string& path, const std::string& command,
                           const std::function<void(double)>& progress);
 

@@ -26,7 +26,7 @@ std::vector<Problem> changed_of(const recording::SessionFolder& folder,
     return out;
 }
 
-/// Throws Error when the table cannot be read, with what is known of how it was.
+/// Throws Error when the table cannot be read, with the known facts about its original state.
 rows::TrialFile trials_of(const recording::SessionFolder& folder,
                           const std::vector<Problem>& changed) {
     try {
@@ -76,9 +76,9 @@ SessionData SessionData::read(const std::string& path) {
     const bool in_errors = !errors.empty() && data.trials.column(errors);
     if (in_errors) {
         data.curves = error_curves(data.trials, errors);
-        data.unmeasured.clear();  // the curves say what does not show
+        data.unmeasured.clear();  // the curves state what is not visible
     }
-    // what a channel or a field does to the hand does not show what was learned
+    // the effect of a channel or a field on the hand does not show the learning
     if (!data.curves.empty() && !in_channels && !in_errors && data.unmeasured.empty() &&
         is_there(folder.file("trial-list.csv")))
         data.generalisation =
@@ -92,7 +92,7 @@ SessionData SessionData::read(const std::string& path) {
 bool SessionData::is_cut_short() const {
     if (!is_there(folder.file("trial-list.csv"))) return false;
     if (info.state == recording::SessionState::interrupted) return true;
-    // for a session that was killed, the last trial tells
+    // for a killed session, the last trial decides
     return info.state == recording::SessionState::recovered &&
            (trials.empty() || trials.back().measures.outcome == rows::kInterrupted);
 }
@@ -124,7 +124,7 @@ std::vector<std::string> groups_of_lifts(const SessionData& session) {
         };
         add(row.asked.round);
         add(row.asked.block);
-        // a block often has the name of its kind, and without a task there is neither
+        // a block often has the name of its kind, and without a task both are missing
         const std::string_view kind = enum_name(row.asked.kind);
         if (!row.asked.block.empty() && !group.ends_with(kind)) add(kind);
         add(row.asked.condition);

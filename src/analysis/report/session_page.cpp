@@ -100,7 +100,7 @@ Table windows_of(const SessionData& session) {
     for (const AdaptationCurve& curve : session.curves) {
         FigureLister list;
         curve.list_landmarks(list);
-        // after measure, unit and perturbation, each mean has a column, and its interval two
+        // after measure, unit and perturbation, each mean has one column, and its interval two
         for (size_t i = 3; i + 2 < list.cells.size(); i += 3) {
             const auto at = [&](size_t k) { return std::get<double>(list.cells[k]); };
             if (std::isnan(at(i))) continue;
@@ -152,7 +152,7 @@ void add_curve(SessionPage& out, const SessionData& session, const AdaptationCur
         row("unit", curve.unit, "", "of what follows");
         row("perturbation", trial.perturbation, "1", "0 where no error was seen");
         row("error_seen", std::string(trial.clamp ? "no" : "yes"), "",
-            "no in clamps, reaches that fell short, and where it is not known");
+            "no in clamps, in reaches that fell short, and if unknown");
         row("compensation", trial.compensation, "1", "of the hand");
         row("two_rate", fitted, "1", "fitted");
         row("single_rate", single, "1", "fitted");
@@ -172,29 +172,30 @@ void add_curve(SessionPage& out, const SessionData& session, const AdaptationCur
 void add_adaptation(SessionPage& out, const SessionData& session) {
     out.page.heading("Adaptation");
     out.page.text(
-        "Compensation is the angle of the hand against the perturbation when it had gone the "
-        "measured distance, or the logarithm by which its first stroke fell short [%], or, for a "
-        "force field, the adaptation index: the force on a channel over the force that would "
-        "cancel the field [%]. It is 0 before anything is learned, the perturbation itself when "
-        "all of it is. Models are fitted to it less the baseline's mean, by least squares, with "
-        "95 % profile intervals; the valley of the two-rate model is flat, so compare its curve "
-        "rather than its parameters.");
+        "Compensation is the angle of the hand against the perturbation after the measured "
+        "distance, or the logarithm by which its first stroke fell short [%], or, for a force "
+        "field, the adaptation index: the force on a channel over the force that would cancel the "
+        "field [%]. It is 0 before learning, and equals the perturbation after complete learning. "
+        "Models are fitted to it less the baseline's mean, by least squares, with 95 % profile "
+        "intervals; the valley of the two-rate model is flat, so compare its curve rather than its "
+        "parameters.");
     std::vector<std::optional<AdaptationFits>> all_fits;
     for (const AdaptationCurve& curve : session.curves) {
         const auto& fits = all_fits.emplace_back(fit_adaptation(curve));
         add_curve(out, session, curve, fits);
         if (curve.errors)
             out.page.text(fmt::format(
-                "{}: {} is {:.4g} more (standard error {:.2g}) for who has learned nothing of the "
-                "perturbation than for who needs not, {:.4g}. Compensation is what is missing of "
-                "that; the intervals of rates take these figures as known.",
+                "{}: without any learning of the perturbation, {} is {:.4g} more (standard error "
+                "{:.2g}) than without the perturbation, {:.4g}. Compensation is the part of this "
+                "difference that has disappeared; the intervals of rates treat these figures as "
+                "known.",
                 curve.round.empty() ? "All trials" : curve.round, curve.measure,
                 curve.errors->effect, curve.errors->standard_error, curve.errors->offset));
         FigureLister row;
         row("round", curve.round, "", "name");
         curve.list_landmarks(row);
         list_fits(row, fits, true);
-        row("note", curve.note(), "", "what is not measured");
+        row("note", curve.note(), "", "unmeasured quantity");
         add_row(out.fits, row);
     }
     if (const Table windows = windows_of(session); !windows.rows.empty())
@@ -273,30 +274,28 @@ FigureLister threshold_row(const SessionData& session, const ThresholdTrack& tra
     row("procedure", track.procedure, "", "name");
     row("kind", track.kind, "", "staircase, quest, quest_plus or constant");
     row("perturbation", track.perturbation, "", "name");
-    row("chooses", track.what(), "", "what the levels are of");
+    row("chooses", track.what(), "", "quantity of the levels");
     row("trials", track.answers.size(), "1", "answers");
     row("threshold", f.threshold, "1", "level");
-    row("threshold_95", threshold_95, "", "its interval, of the profile likelihood");
+    row("threshold_95", threshold_95, "", "its interval, from the profile likelihood");
     row("threshold_share", track.share(f.threshold), "1",
-        "of the perturbation; or the number, in the unit of its name");
-    row("shape", f.shape, "1", "of the sigmoid");
-    row("shape_95", shape_95, "", "its interval, of the profile likelihood");
+        "share of the perturbation; or the number, in the unit of its name");
+    row("shape", f.shape, "1", "shape of the sigmoid");
+    row("shape_95", shape_95, "", "its interval, from the profile likelihood");
     row("lapse", f.lapse, "1", "share of answers that do not depend on the level");
     row("deviance_share", deviance, "1", "below 0.05: the function does not fit");
-    row("note", threshold.note, "", "why there is no fit, or what is to be known of it");
+    row("note", threshold.note, "", "reason for a missing fit, or a remark");
     return row;
 }
 
 void add_thresholds(SessionPage& out, const SessionData& session) {
     out.page.heading("Thresholds");
     out.page.text(
-        "Each procedure chose the share of its perturbation, or a number, as a rule by the answers "
-        "before. The function is "
-        "fitted to all of its answers by maximum likelihood, with lapses up to 5 %. A 95 % "
-        "interval "
-        "holds the values with which the others, fitted anew, make the answers hardly less likely "
-        "(twice the log likelihood falls by 3.84 at its ends). The share of the deviance is of 500 "
-        "bootstrap samples.");
+        "Each procedure chose the share of its perturbation, or a number, usually by the preceding "
+        "answers. The function is fitted to all of its answers by maximum likelihood, with lapses "
+        "up to 5 %. A 95 % interval contains the values with which the other parameters, refitted, "
+        "make the answers hardly less likely (twice the log likelihood falls by 3.84 at its ends). "
+        "The share of the deviance is from 500 bootstrap samples.");
     for (const ThresholdTrack& track : session.tracks) {
         const ThresholdFit threshold = fit_threshold(track);
         const auto& fitted = threshold.fit;
@@ -345,8 +344,8 @@ void add_lifts(SessionPage& out, const SessionData& session) {
     const rows::LiftFile& lifts = *session.lifts;
     out.page.heading("Grip and lift");
     out.page.table(transposed(lift_summary(session)),
-                   "Medians over attempts; what was no whole lift counts where it has the figure. "
-                   "lifts.csv has each of them, and says what is missing of it. " +
+                   "Medians over attempts; an incomplete lift counts for the figures that it has. "
+                   "lifts.csv lists each attempt, with its missing event. " +
                        origin_of(session));
     if (lifts.size() < 3) return;
     const auto curve = [&](const char* name, double rows::LiftRow::*figure,
@@ -376,16 +375,16 @@ void add_lifts(SessionPage& out, const SessionData& session) {
     chart("Durations", "s",
           {curve("preload", &rows::LiftRow::preload), curve("loading", &rows::LiftRow::loading)});
     if (const auto effect = previous_weight(lifts)) {
-        out.page.text(fmt::format(
-            "Weight of the lift before: the largest rate of load force grows by {:.3g} +- {:.2g} "
-            "N/s for each N that the last object weighed ({} pairs of lifts), {:.0f} % of what "
-            "both weights say.",
-            effect->effect, effect->error, effect->lifts, 100 * effect->share));
+        out.page.text(
+            fmt::format("Weight of the previous lift: the largest rate of load force increases by "
+                        "{:.3g} +- {:.2g} N/s for each N of the previous object's weight ({} pairs "
+                        "of lifts), {:.0f} % of the effect of both weights.",
+                        effect->effect, effect->error, effect->lifts, 100 * effect->share));
     }
 }
 
-/// Adds what the log shows, and what is wrong with it: it may have been damaged since the tables
-/// were made.
+/// Adds the content of the log, and its faults: it may have been damaged since the tables were
+/// made.
 void add_log(SessionPage& out, const SessionData& session,
              const std::function<void(double)>& progress) {
     recording::RawLogReader log(session.folder.raw_log());
@@ -406,17 +405,17 @@ void add_log(SessionPage& out, const SessionData& session,
     for (const std::string& what : recording::describe_version(health)) out.page.text(what + ".");
     if (!health.damaged(session.info.ticks)) return;
     out.log = recording::describe(health, session.info.ticks, log.head().planned());
-    out.page.heading("The log is not whole");
+    out.page.heading("The log is incomplete");
     for (const std::string& what : out.log) out.page.text(what + ".");
 }
 
-/// Adds what was done and found in sentences.
+/// Adds methods and results in sentences.
 void add_text(SessionPage& out, const SessionData& session) {
     const bool lifted = session.lifts && !session.lifts->empty();
     const MethodsText text =
         methods_text(session, out, windows_of(session), lifted ? lift_summary(session) : Table{});
     out.page.heading("In words");
-    out.page.text("A beginning for a paper's methods and results: the figures are those above.");
+    out.page.text("A start for a paper's methods and results, with the figures from above.");
     for (const std::string& paragraph : text.methods) out.page.text(paragraph);
     for (const std::string& paragraph : text.results) out.page.text(paragraph);
 }
@@ -437,18 +436,17 @@ SessionPage session_page(const SessionData& session, const std::string& command,
     out.page.table(facts(session), "");
     out.page.problems("Changed since the session ended", session.changed);
     out.page.heading("Trials");
-    out.page.table(outcomes(session),
-                   "Attempts at trials by how they ended. " + origin_of(session));
+    out.page.table(outcomes(session), "Attempts at trials by outcome. " + origin_of(session));
     if (const Table all = perturbation_table(session.task); !all.rows.empty())
-        out.page.table(all, "Perturbations; share in trials.csv says how much of one acts. " +
-                                origin_of(session));
+        out.page.table(
+            all, "Perturbations; the column share in trials.csv states how much of each acts. " +
+                     origin_of(session));
     if (!session.unmeasured.empty()) {
         out.page.heading("Not measured");
-        out.page.text(
-            "Dihaptic has no measure yet of what is learned of these perturbations: " +
-            session.not_measured() +
-            ". Figures of trials under them are empty. What the hand did is in trials.csv, and all "
-            "of it in session.nwb.");
+        out.page.text("Dihaptic does not yet measure the learning of these perturbations: " +
+                      session.not_measured() +
+                      ". Figures of trials under them are empty. The hand's movement is in "
+                      "trials.csv, and in full in session.nwb.");
     }
     add_measures(out.page, session);
     if (!session.curves.empty()) add_adaptation(out, session);
@@ -459,7 +457,7 @@ SessionPage session_page(const SessionData& session, const std::string& command,
     if (is_there(session.folder.raw_log())) add_log(out, session, progress);
     add_text(out, session);
     out.page.heading("Settings");
-    out.page.folded_table("All settings, with where each came from", read_settings(session.folder));
+    out.page.folded_table("All settings, with their origins", read_settings(session.folder));
     return out;
 }
 

@@ -20,7 +20,7 @@ struct SessionPage {
     Table blocks{};                  ///< a row per block of reaches
     Table thresholds{};              ///< a row per procedure
     Table generalisation{};          ///< a row per direction
-    std::vector<std::string> log{};  ///< what is wrong with raw.log, in sentences
+    std::vector<std::string> log{};  ///< faults of raw.log, in sentences
 };
 
 /// Throws Error when the session's log cannot be read.

@@ -20,7 +20,7 @@ struct Sample {
 
 Sample sample(std::span<const double> values);
 
-/// Half of the 95 % interval of the difference of two samples' means, whose spreads may differ
+/// Half of the 95 % interval of the difference between two samples' means, whose spreads may differ
 /// (Welch 1947).
 double welch_half_width(const Sample& a, const Sample& b);
 

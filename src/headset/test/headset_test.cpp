@@ -412,8 +412,8 @@ TEST_F(HeadsetTest, SaysWhatIsMissing) {
         ASSERT_EQ(notes.size(), 1);
         EXPECT_TRUE(notes[0].problem);
         EXPECT_EQ(notes[0].text,
-                  "error: the tests' runtime finds no headset. Connect it, and switch it on; then "
-                  "open the subject's window again.");
+                  "error: the tests' runtime does not find a headset. Connect the headset and "
+                  "switch it on; then open the subject's window again.");
     }
     pretence.has_headset = true;
     pretence.has_stage = false;
@@ -466,10 +466,9 @@ TEST_F(HeadsetTest, EndsWithItsRuntime) {
     pretence.ends = true;
     pretend(pretence);
     const std::vector<Note> notes = notes_at_the_end(headset);
-    EXPECT_EQ(
-        notes.back().text,
-        "error: the tests' runtime has ended the pictures in the headset. Start it anew, then "
-        "open the subject's window again.");
+    EXPECT_EQ(notes.back().text,
+              "error: the tests' runtime has ended the display in the headset. Restart it, then "
+              "open the subject's window again.");
     EXPECT_EQ(messages(), "");
 }
 

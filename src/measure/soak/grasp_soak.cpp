@@ -1,9 +1,10 @@
-// Solves grasps that differ in everything that an experiment may vary, a million solves in a row,
-// to count how often a solver falls back to another, and whether a solve ever misses its tolerance.
+// Solves grasps that vary in every parameter that an experiment may vary, a million solves in a
+// row, to count how often a solver falls back to another, and whether a solve ever misses its
+// tolerance.
 //
 // The points where newton starts again (kNewtonStarts) were chosen on the first family, so that
-// family shows how well they were chosen; the others judge them. Their seeds and ranges were fixed
-// before they were run.
+// family shows the fit, and the others test the choice. The seeds and ranges of the others were
+// fixed before their first run.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +18,7 @@ namespace {
 enum class Family {
     chosen_on,    ///< the grasps on which newton's starts were chosen
     other_seed,   ///< other draws from the same ranges
-    other_grips,  ///< squeezed by 2 to 30 mm, in gusts, by fingers that are further off centre
+    other_grips,  ///< squeezed by 2 to 30 mm, in gusts, by fingers further off centre
 };
 constexpr auto enum_names(Family) {
     return std::array{"chosen_on", "other_seed", "other_grips"};
@@ -58,7 +59,7 @@ TEST_P(Soak, AMillionSolvesOfGrasps) {
     const contact::Solver solver = GetParam().solver;
     Random random = scenes();
     int64_t solves = 0;
-    int64_t fallbacks = 0;  // with newton all; with other solvers those with up to 12 contacts
+    int64_t fallbacks = 0;  // with newton, all; with other solvers, those with up to 12 contacts
     int64_t missed = 0;
     int64_t not_finite = 0;
     std::array<int64_t, enum_names(contact::Route{}).size()> routes{};
@@ -91,7 +92,7 @@ TEST_P(Soak, AMillionSolvesOfGrasps) {
         const frame::Director shake = [&](const frame::Frame& frame, std::span<const frame::Handle>,
                                           frame::Commands& commands) {
             contacts = 0;
-            // gusts of 50 ms in every 200, five times as strong
+            // gusts of 50 ms in every 200 ms, five times as strong
             const bool gust = is_other() && frame.sequence % 200 < 50;
             const double size = setup.mass * (gust ? 25 : 5);
             frame::add(commands.task.loads,

@@ -1,5 +1,5 @@
-// Compares the whole of `dihaptic bench grasp` on Inverse3 devices behind a fake service with the
-// same simulated devices used directly.
+// Compares all of `dihaptic bench grasp` on Inverse3 devices behind a fake service with the same
+// devices simulated directly.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-// Tests that the whole of bench grasp through fakes of the makers' libraries gives the same figures
-// as on the simulated devices themselves. src/measure/test/makers_test.cpp has the main ones.
+// Tests that all of bench grasp through fakes of the makers' libraries gives the same figures as on
+// the simulated devices themselves. src/measure/test/makers_test.cpp has the main ones.
 #include "measure/test/alike.h"
 #include "measure/test/makers.h"
 

@@ -1,4 +1,4 @@
-// Tests ten minutes of play with every solver.
+// Tests ten minutes of play with each solver.
 #include "measure/test/bars.h"
 #include "measure/test/play.h"
 

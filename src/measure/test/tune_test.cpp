@@ -111,7 +111,7 @@ TEST(Tune, RefusesWhatItCannotSimulate) {
         }
         return "";
     };
-    EXPECT_NE(message(kFingers).find("rig.yaml:7: error: backend: 'replay' cannot be tuned for"),
+    EXPECT_NE(message(kFingers).find("rig.yaml:7: error: backend: 'replay' cannot be tuned"),
               std::string::npos)
         << message(kFingers);
     EXPECT_NE(message({"thumb", "toe"}).find("the scene's finger 'toe' holds no device"),

@@ -1,5 +1,4 @@
-// Tests what the analysis finds in lifts of people who sometimes grip too weakly, give up or
-// hesitate.
+// Tests the analysis of lifts by people who sometimes grip too weakly, give up or hesitate.
 #include <fmt/format.h>
 
 #include <map>
@@ -16,7 +15,7 @@ TEST(Lifts, OfPeopleWhoSlipAndGiveUpAreFoundAndTheRestMarked) {
     int found = 0;
     int others = 0;
     int rows = 0;
-    std::map<std::string, int> marked;  // number of other attempts, by how they are marked
+    std::map<std::string, int> marked;  // number of other attempts, by mark
     for (int i = 1; i <= 6; ++i) {
         session::Plan plan = sitting.plan(static_cast<uint64_t>(i));
         Traits traits = draw_person(Objects::real, 5, fmt::format("P{:03d}", i));

@@ -1,7 +1,7 @@
 // Tests the shipped population on the schedule to which its rates were calibrated,
 // TwoRateProprioception's (64 baseline, 160 at 30 degrees, 16 reversed, 48 clamped), through the
 // whole program: means and standard deviations over people against those of its 32 people.
-// README.md says what that shows.
+// README.md discusses the result.
 #include <fmt/format.h>
 
 #include <array>

@@ -1,5 +1,5 @@
-// Tests the shipped population on schedules to which nothing was calibrated. README.md has what
-// people do there, and the rules that these tests apply.
+// Tests the shipped population on schedules to which nothing was calibrated. README.md describes
+// people's behaviour there, and the rules that these tests apply.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -96,7 +96,7 @@ TEST(Schedule, OfSeventeenOthers) {
 Sample interference(int first, std::vector<double>& initial) {
     const auto all = curves(block("", 20) + block("rotation", first) + block("reversal", 80));
     const size_t begin = 20 + static_cast<size_t>(first);
-    // where the mean curve crosses the baseline
+    // trial where the mean curve crosses the baseline
     size_t cross = begin;
     const auto mean = [&](size_t i) {
         double sum = 0;

@@ -112,7 +112,7 @@ TEST(Population, ThatCannotBeIsRefusedWithFileLineAndRemedy) {
         "traits:\n  - { trait: answer_lapse, law: normal, median: 0.2, spread: 0.2 }\n");
     EXPECT_NE(bounds.find("p.yaml:4: error: answer_lapse"), std::string::npos) << bounds;
     EXPECT_NE(file.refused("groups:\n  - { name: a, traits: [{ trait: tempoo, median: 1 }] }\n")
-                  .find("is no trait of this population"),
+                  .find("is not a trait of this population"),
               std::string::npos);
     EXPECT_NE(file.refused(R"(correlations:
   - { traits: [tempo, slow_learning], r: 0.9 }
@@ -128,7 +128,7 @@ TEST(Population, ThatCannotBeIsRefusedWithFileLineAndRemedy) {
   - { traits: [tempo, slow_learning], r: 0.5 }
   - { traits: [slow_learning, tempo], r: 0.1 }
 )")
-                  .find("p.yaml:5: error: traits: have a correlation already"),
+                  .find("p.yaml:5: error: traits: already have a correlation"),
               std::string::npos);
     try {
         read_population(file.folder.write("alone.yaml", "title: Alone\n"));

@@ -112,9 +112,10 @@ TEST(RowFile, AWordThatAColumnCannotHaveIsAnErrorThatSaysWhere) {
         const Problem& problem = e.problems().front();
         EXPECT_EQ(problem.place.line, 3);
         EXPECT_EQ(problem.key, "kind");
-        EXPECT_EQ(problem.what,
-                  "is 'cacth', and not one of: practice, baseline, perturbed, catch, visual_clamp, "
-                  "force_channel, washout");
+        EXPECT_EQ(
+            problem.what,
+            "is 'cacth', which is not one of: practice, baseline, perturbed, catch, visual_clamp, "
+            "force_channel, washout");
     }
 }
 

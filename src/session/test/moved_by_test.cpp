@@ -112,7 +112,7 @@ TEST(Report, OfAFolderCountsAParticipantWithSeveralSessionsOnce) {
     EXPECT_EQ(curves.number(0, "people"), 2);
     EXPECT_EQ(CsvFile(folder + "/population-people.csv").rows(), 3u);
     const std::string page = testing::read_file(report.page);
-    EXPECT_NE(page.find("who counts once"), std::string::npos);
+    EXPECT_NE(page.find("count once in the means"), std::string::npos);
     EXPECT_NE(page.find("of 2 participants: sim-001, sim-002"), std::string::npos);
 }
 

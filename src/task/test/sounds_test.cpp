@@ -91,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{kTone, "tone_Hz: 1000, lasts: ever", "'ever' is not known"},
                       Mistake{kTone, "noise: brown", "'brown' is not known"},
                       Mistake{kTone, "file: none.wav", "there is no file"},
-                      Mistake{kTone, "file: words.wav", "is no sound file"},
+                      Mistake{kTone, "file: words.wav", "is not a sound file"},
                       Mistake{"name: good,", "name: go,", "'go'"},
                       Mistake{"sounds: hum", "sounds: ham", "Did you mean hum?"},
                       Mistake{"sounds: hum", "sounds: [wind]", "lasts throughout the session"},

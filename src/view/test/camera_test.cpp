@@ -96,8 +96,8 @@ TEST(Camera, EverySceneHasFrontAboveAndSideAndAFileMayReplaceThem) {
         FAIL();
     } catch (const Error& e) {
         EXPECT_STREQ(e.what(),
-                     "error: there is no camera 'below'. There are above, front, side; a scene may "
-                     "have more, under cameras.");
+                     "error: there is no camera 'below'. Available cameras: above, front, side; a "
+                     "scene may define more, under 'cameras'.");
     }
 }
 

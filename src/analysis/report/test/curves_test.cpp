@@ -172,8 +172,8 @@ TEST(MethodsText, SaysWhatWasDoneAndFound) {
     EXPECT_EQ(text.methods[0],
               "Participant S07 (24 years, sex F, right-handed) took part. Forces were computed and "
               "recorded 2000 times a second by dihaptic 9, and rendered to index (Premium 1.0) "
-              "through its device. Between device and virtual finger stood a virtual coupling of "
-              "700 N/m. Contact and friction were solved with the method newton.");
+              "through its device. Device and virtual finger were connected by a virtual coupling "
+              "of 700 N/m. Contact and friction were solved with the method newton.");
     EXPECT_EQ(
         text.methods[1],
         "The session (\"Reaches\", seed 7) had 2 rounds (one and two), each with 1 block: "
