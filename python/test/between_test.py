@@ -177,8 +177,8 @@ class Deciding(unittest.TestCase):
         for what in (
             "chose 2 times a trial that was not left in the block",
             "chooses trial 99, which there is not, after trial 2",
-            "sets 'weight', which is no variable of the task, after trial 3",
-            "says what is no answer, after trial 5",
+            "sets 'weight', which is not a variable of the task, after trial 3",
+            "sends an invalid answer, after trial 5",
             "failed (ValueError: 'two' is not in list)",
             "failed (ValueError: could not convert string to float: 'large')",
         ):
@@ -232,7 +232,9 @@ class Deciding(unittest.TestCase):
 
         done = self.against(silent)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("waiting: What decides between trials has not answered for 5 s, after trial 0.", done.stderr)
+        self.assertIn(
+            "waiting: The program that decides between trials has not answered for 5 s, after trial 0.", done.stderr
+        )
 
     @unittest.skipUnless(os.geteuid() == 0, "wants to be another user")
     def test_another_users_program_decides_nothing(self):
@@ -247,7 +249,7 @@ class Deciding(unittest.TestCase):
         stranger(self, answers, path)
         done = subprocess.run([program(), "run", self.file(), "--between", path], capture_output=True, text=True)
         self.assertEqual(done.returncode, 2, done.stdout)
-        self.assertRegex(done.stderr, r"is another user's: python3.* \(process \d+ of user nobody")
+        self.assertRegex(done.stderr, r"belongs to another user: python3.* \(process \d+ of user nobody")
 
     def test_in_real_time_a_slow_one_holds_nothing_up(self):
         """One that takes 50 ms is waited for; one that takes longer than the patience is not."""
@@ -291,7 +293,7 @@ class Deciding(unittest.TestCase):
 
         done = self.against(leave)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("went away: the trials went on as the file has them", done.stdout)
+        self.assertIn("left: the trials continued as in the file", done.stdout)
         self.assertIn("session: ", done.stdout)
 
     def test_what_decides_nothing_is_refused(self):
@@ -326,9 +328,9 @@ class Deciding(unittest.TestCase):
 
     def test_nonsense_is_refused(self):
         for said, what in [
-            (b"hello\n", "does not begin with its messages"),
-            (b'{"messages": 3}\n', "does not begin with its messages"),
-            (b'{"messages": [3]}\n', "has a message that is no text"),
+            (b"hello\n", "does not start with its messages"),
+            (b'{"messages": 3}\n', "does not start with its messages"),
+            (b'{"messages": [3]}\n', "has a message that is not text"),
             (b"", "does not greet"),
             (b"x" * 100_000, "does not greet"),
         ]:
@@ -339,13 +341,13 @@ class Deciding(unittest.TestCase):
         answers = b'{"messages": []}\n' + b"no json\n[]\n{}\n" + b'{"number": 1, "set": 3, "next": "x", "message": 1.5}\n'
         done = self.against(lambda server: self.say_and_close(server, answers))
         self.assertEqual(done.returncode, 0)
-        self.assertIn("says what is no answer", done.stdout)
+        self.assertIn("sends an invalid answer", done.stdout)
         done = subprocess.run([program(), "run", self.file(), "--between", "/nowhere"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 2)
         self.assertIn("/nowhere: error: does not answer: No such file or directory", done.stderr)
 
     def test_without_trials_there_is_nothing_to_decide(self):
-        with self.assertRaisesRegex(dh.Error, "nothing between trials to decide"):
+        with self.assertRaisesRegex(dh.Error, "there is nothing to decide"):
             dh.run("scenes/block-on-table.yaml", out=self.folder.name, between=ByQuest(), progress=False)
 
     def say_and_close(self, server, said):

@@ -294,7 +294,7 @@ class Sessions(unittest.TestCase):
         self.assertEqual(session.info["state"], "interrupted")
         self.assertEqual(session.trials.trial_num.tolist(), [1, 2, 3])
         self.assertGreater(len(session["grip_force"]), 150)
-        with self.assertRaisesRegex(dh.Error, "whom Python moved"):
+        with self.assertRaisesRegex(dh.Error, "moved by Python"):
             dh.resume(session)
 
 

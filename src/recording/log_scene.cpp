@@ -18,7 +18,7 @@ void check_fits(const LogHead& head, const scene::Scene& scene, const std::strin
     if (fits(head, scene)) return;
     throw Error({file, 0}, "",
                 "has different fingers, bodies or joints from the session's scene.yaml",
-                "Put this session's own log back.");
+                "Restore this session's own log.");
 }
 
 }  // namespace dihaptic::recording

@@ -12,8 +12,8 @@
 namespace dihaptic::session {
 namespace {
 
-/// Reports what would be wrong with a movement in any experiment. Its axes, which the experiment
-/// chooses, make no difference here.
+/// Reports faults that a movement would have in any experiment. Its axes, which the experiment
+/// chooses, do not matter here.
 void check_movement(const std::string& file, Diagnostics& diagnostics) {
     const std::vector<std::string> usual{"thumb", "index", "middle", "ring", "little"};
     const hand::Movement movement =
@@ -21,16 +21,16 @@ void check_movement(const std::string& file, Diagnostics& diagnostics) {
     for (const std::string& finger : movement.fingers) {
         if (std::find(usual.begin(), usual.end(), finger) != usual.end()) continue;
         const std::string guess = nearest(finger, usual);
-        diagnostics.warning({file, 1}, finger, "is no usual name of a finger",
-                            guess.empty() ? "The scene must name its finger so too: thumb and "
-                                            "index, if it names none."
+        diagnostics.warning({file, 1}, finger, "is not a usual name for a finger",
+                            guess.empty() ? "The scene must use the same name; without names, its "
+                                            "fingers are thumb and index."
                                           : fmt::format("Did you mean {}?", guess));
     }
     if (diagnostics.has_errors()) return;
     if (movement.fingers.size() < 2) {
         diagnostics.warning({file, 1}, "",
                             fmt::format("there is only one finger, {}", movement.fingers.front()),
-                            "A recorded grasp needs two.");
+                            "A recorded grasp requires two.");
     }
     const hand::Path path = hand::repair(movement);
     for (const hand::Fault& fault : path.faults) {
@@ -39,12 +39,13 @@ void check_movement(const std::string& file, Diagnostics& diagnostics) {
     }
     warn_of_bridges(path, file, diagnostics);
     if (path.p_WH.size() > 1 && !hand::find_grasp(path)) {
-        diagnostics.warning({file, 0}, "", kNoGrasp,
-                            "An experiment must say when they closed: movement: grasp_at_s.");
+        diagnostics.warning(
+            {file, 0}, "", kNoGrasp,
+            "An experiment must give the time when they closed: movement: grasp_at_s.");
     }
 }
 
-/// Warns of states that never end if what they wait for does not come.
+/// Warns of states that never end if the event for which they wait does not come.
 std::vector<Problem> endless_states(const task::TaskPlan& task) {
     std::vector<Problem> out;
     for (size_t i = 0; i < task.stages.size(); ++i) {
@@ -54,8 +55,8 @@ std::vector<Problem> endless_states(const task::TaskPlan& task) {
         if (ends) continue;
         const task::State& state = task.task.states[i];
         out.push_back({Severity::warning, state.place, state.name,
-                       "waits for ever when what it waits for does not come; a simulated session "
-                       "is ended after a minute of it",
+                       "waits forever if the awaited event does not come; a simulated session is "
+                       "ended after a minute of waiting",
                        "Add an exit by time, e.g. - { when: time, after_s: 10, outcome: too late, "
                        "redo: yes }."});
     }
@@ -65,10 +66,10 @@ std::vector<Problem> endless_states(const task::TaskPlan& task) {
 void warn_of_shares(const Plan& plan, Diagnostics& diagnostics) {
     const frame::CouplingSettings& coupling = plan.settings.coupling;
     if (!coupling.stiffness_share && !coupling.damping_share) return;
-    diagnostics.warning(plan.rig.place, "coupling",
-                        "has a share of what the devices render at most, which they say only once "
-                        "they are open",
-                        "The share is resolved, and checked, when a session begins.");
+    diagnostics.warning(
+        plan.rig.place, "coupling",
+        "is a share of the devices' maximum, which they report only once they are open",
+        "The share is resolved, and checked, when a session starts.");
 }
 
 }  // namespace
@@ -104,7 +105,7 @@ Checked check_file(const std::string& file, Diagnostics& diagnostics, const std:
                 return {"population", {}};
             case task::FileKind::unknown:
                 diagnostics.error(
-                    {file, 0}, "", "is no file that Dihaptic knows",
+                    {file, 0}, "", "is not a file that Dihaptic knows",
                     "A scene has 'bodies:', a rig 'devices:', an experiment "
                     "'scene:', a population 'traits:'; a movement ends in .csv or .tsv.");
                 return {"unknown", {}};

@@ -9,13 +9,13 @@
 namespace dihaptic::session {
 
 struct Checked {
-    std::string what;                 ///< kind of the file, in words
-    std::vector<std::string> limits;  ///< force limits that differ from the defaults, and who set
-                                      ///< them: describe_safety()
+    std::string what;                 ///< kind of the file, as text
+    std::vector<std::string> limits;  ///< force limits that differ from the defaults, with their
+                                      ///< origins: describe_safety()
 };
 
-/// Reads any file that Dihaptic knows, with the files that it names; problems go to `diagnostics`.
-/// `rig`: a rig file to use in place of the experiment's; may be empty.
+/// Reads any file that Dihaptic knows, with the files that it names; problems are reported to
+/// `diagnostics`. `rig`: a rig file to use in place of the experiment's; may be empty.
 Checked check_file(const std::string& file, Diagnostics& diagnostics, const std::string& rig = "");
 
 }  // namespace dihaptic::session

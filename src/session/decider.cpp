@@ -32,15 +32,16 @@ constexpr size_t kLongestLine = 64 * 1024;  // [bytes]
 constexpr size_t kMostMessages = 64;
 constexpr size_t kMostNotes = 10;
 constexpr size_t kLongestReason = 200;         // [bytes]
-constexpr std::chrono::seconds kSilence{5};    // after which it is told that one waits
-constexpr std::chrono::seconds kReminder{20};  // after which it is told again
+constexpr std::chrono::seconds kSilence{5};    // silence after which the user is told of the wait
+constexpr std::chrono::seconds kReminder{20};  // time after which the user is told again
 
 Error refused(const std::string& socket, const std::string& what) {
     return Error({socket, 0}, "", what,
-                 "Start what decides between trials first; dihaptic.run() of Python does both.");
+                 "First start the program that decides between trials; dihaptic.run() in Python "
+                 "starts both.");
 }
 
-/// Why it failed, in one line that any file can have.
+/// The reason for the failure, in one line that is valid in any file.
 std::string reason(std::string text) {
     if (text.size() > kLongestReason) {
         size_t end = kLongestReason;
@@ -50,7 +51,7 @@ std::string reason(std::string text) {
     return mended(text, Lines::one);
 }
 
-/// The lines that come through a socket.
+/// The lines received through a socket.
 class Lines {
   public:
     explicit Lines(const std::string& path) : descriptor_(socket(AF_UNIX, SOCK_STREAM, 0)) {
@@ -66,20 +67,20 @@ class Lines {
         }
         if (const auto peer = peer_of(descriptor_); !peer || !peer->is_trusted()) {
             close(descriptor_);
-            throw refused(path,
-                          "is another user's: " + (peer ? peer->describe() : "whose, is unknown"));
+            throw refused(
+                path, "belongs to another user: " + (peer ? peer->describe() : "unknown owner"));
         }
     }
     ~Lines() { close(descriptor_); }
     Lines(const Lines&) = delete;
     Lines& operator=(const Lines&) = delete;
 
-    /// Sends a line; a reader that is gone, or does not read, loses it.
+    /// Sends a line; a reader that has left, or does not read, loses it.
     void send(const Json& line) const {
         const std::string text = line.dump() + "\n";
         ::send(descriptor_, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     }
-    /// Waits for a line, for so long; nullopt: none came. `gone`: nothing will come any more.
+    /// Waits for a line, up to a time limit; nullopt: none came. `gone`: no more lines will come.
     std::optional<std::string> read(std::chrono::microseconds wait, bool& gone) {
         if (auto line = take()) return line;
         pollfd what{descriptor_, POLLIN, 0};
@@ -105,7 +106,7 @@ class Lines {
     std::string read_;
 };
 
-/// A variable of the task, which goes out in its own unit.
+/// A variable of the task, sent in its own unit.
 struct Variable {
     std::string name;
     double si = 1;
@@ -127,7 +128,8 @@ struct Decider::Parts {
     std::vector<std::string> notes;
     std::function<void(const std::string&)> waiting;
     std::chrono::steady_clock::time_point asked_at;
-    std::chrono::steady_clock::duration told_after{};  // from asked_at; zero: it has answered
+    std::chrono::steady_clock::duration
+        told_after{};  // from asked_at; zero: the question has been answered
     std::atomic<bool> ended{false};
     std::thread thread;
 
@@ -147,8 +149,8 @@ struct Decider::Parts {
     }
     void note(const std::string& what) {
         if (notes.size() < kMostNotes)
-            notes.push_back(
-                fmt::format("What decides between trials {}, after trial {}.", what, asked_trial));
+            notes.push_back(fmt::format(
+                "The program that decides between trials {}, after trial {}.", what, asked_trial));
     }
 };
 
@@ -160,9 +162,9 @@ void Decider::Parts::greet() {
         const Json json = parse_json(*line);
         if (!json.is_object() || !json.contains("messages") || !json["messages"].is_array() ||
             json["messages"].size() > kMostMessages)
-            throw refused(path, "does not begin with its messages");
+            throw refused(path, "does not start with its messages");
         for (const Json& message : json["messages"]) {
-            if (!message.is_string()) throw refused(path, "has a message that is no text");
+            if (!message.is_string()) throw refused(path, "has a message that is not text");
             messages.push_back(message.get<std::string>());
             if (const auto fault = find_fault(messages.back()))
                 throw refused(path, "has a message that " + fault->what);
@@ -195,9 +197,9 @@ void Decider::Parts::set(const Json& values, task::Decision& out) {
     for (const auto& [name, value] : values.items()) {
         const auto found = std::ranges::find(variables, name, &Variable::name);
         if (found == variables.end()) {
-            note(fmt::format("sets '{}', which is no variable of the task", name));
+            note(fmt::format("sets '{}', which is not a variable of the task", name));
         } else if (!value.is_number() || !std::isfinite(value.get<double>())) {
-            note(fmt::format("sets {} to what is no number", name));
+            note(fmt::format("sets {} to a value that is not a number", name));
         } else {
             out.variables[static_cast<size_t>(found - variables.begin())] =
                 value.get<double>() * found->si;
@@ -205,14 +207,14 @@ void Decider::Parts::set(const Json& values, task::Decision& out) {
     }
 }
 
-/// Which trial is next, and what is shown.
+/// Reads the next trial and the message to show.
 void Decider::Parts::choose(const Json& json, task::Decision& out) {
     if (json.contains("next") && json["next"].is_number_integer()) {
         const auto next = json["next"].get<int64_t>();
         if (next >= 1 && next <= static_cast<int64_t>(trials)) {
             out.next = static_cast<int32_t>(next);
         } else {
-            note(fmt::format("chooses trial {}, which there is not", next));
+            note(fmt::format("chooses trial {}, which does not exist", next));
         }
     }
     if (json.contains("message") && json["message"].is_number_integer()) {
@@ -220,7 +222,7 @@ void Decider::Parts::choose(const Json& json, task::Decision& out) {
         if (message >= 0 && message < static_cast<int64_t>(messages.size())) {
             out.message = first_message + static_cast<int>(message);
         } else {
-            note(fmt::format("shows message {}, which there is not", message));
+            note(fmt::format("shows message {}, which does not exist", message));
         }
     }
 }
@@ -228,29 +230,30 @@ void Decider::Parts::choose(const Json& json, task::Decision& out) {
 void Decider::Parts::take(const std::string& line) {
     const Json json = parse_json(line);
     if (!json.is_object() || !json.contains("number") || !json["number"].is_number_integer()) {
-        note("says what is no answer");
+        note("sends an invalid answer");
         decide({});
         return;
     }
-    if (json["number"].get<int64_t>() != asked) return;  // too late: the director has counted it
+    if (json["number"].get<int64_t>() != asked)
+        return;  // too late: the director has counted this answer as missing
     task::Decision out;
     if (json.contains("failed") && json["failed"].is_string())
-        note(fmt::format("failed ({}): the trials went on as the file has them",
+        note(fmt::format("failed ({}): the trials continued as in the file",
                          reason(json["failed"].get<std::string>())));
     if (json.contains("set") && json["set"].is_object()) set(json["set"], out);
     choose(json, out);
     decide(out);
 }
 
-/// On the virtual clock the session stands still until the answer comes.
+/// On the virtual clock the session stands still until the answer arrives.
 void Decider::Parts::tell_of_silence() {
     const auto silent = std::chrono::steady_clock::now() - asked_at;
     if (told_after == told_after.zero() || silent < told_after || between->gone()) return;
     told_after += kReminder;
     if (!waiting) return;
     waiting(fmt::format(
-        "What decides between trials has not answered for {:.0f} s, after trial {}. After {} s the "
-        "session goes on without it; Ctrl-C ends it.",
+        "The program that decides between trials has not answered for {:.0f} s, after trial {}. "
+        "After {} s the session continues without it; Ctrl-C ends the session.",
         std::chrono::duration<double>(silent).count(), asked_trial,
         task::Between::kLongest.count()));
 }
@@ -263,7 +266,7 @@ void Decider::Parts::run(bool waits) noexcept {
         if (const auto line = lines.read(pause, gone)) take(*line);
         if (waits) tell_of_silence();
     }
-    if (gone) note("went away: the trials went on as the file has them");
+    if (gone) note("left: the trials continued as in the file");
     between->leave();
 }
 
@@ -277,7 +280,8 @@ Decider::~Decider() {
 
 void Decider::prepare(Plan& plan) {
     if (!plan.task) {
-        throw Error({plan.file, 0}, "task", "is missing: there is nothing between trials to decide",
+        throw Error({plan.file, 0}, "task",
+                    "is missing: without trials, there is nothing to decide",
                     "Name an experiment with trials.");
     }
     auto task = std::make_shared<task::TaskPlan>(*plan.task);
@@ -319,14 +323,14 @@ std::vector<std::string> Decider::finish() {
     const task::Between& between = *parts_->between;
     if (between.late() > 0) {
         out.push_back(
-            fmt::format("What decides between trials was too late {}, or gone: the trials went on "
-                        "as the file has them.",
+            fmt::format("The program that decides between trials was too late {}, or had left: the "
+                        "trials continued as in the file.",
                         counted(between.late(), "time")));
     }
     if (between.refused() > 0) {
         out.push_back(
-            fmt::format("What decides between trials chose {} a trial that was not left in the "
-                        "block: the file's next was done.",
+            fmt::format("The program that decides between trials chose {} a trial that was not "
+                        "left in the block: the next one in the file was done.",
                         counted(between.refused(), "time")));
     }
     return out;

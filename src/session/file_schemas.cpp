@@ -18,7 +18,7 @@
 namespace dihaptic::session {
 namespace {
 
-/// Mappings of a file whose keys are names that the file itself gives.
+/// Mappings in a file whose keys are names chosen in the file itself.
 Json by_name(const Json& value) {
     return {{"type", {"object", "null"}}, {"additionalProperties", value}};
 }

@@ -7,17 +7,17 @@
 namespace dihaptic::session {
 
 struct FileSchema {
-    const char* name;       ///< of the kind of file, and of its schema's file
+    const char* name;       ///< name of the kind of file, and of its schema's file
     std::string (*json)();  ///< the schema's text
 };
 
-/// All of them.
+/// All schemas.
 std::span<const FileSchema> file_schemas();
-/// The schema of that name. Throws Error when there is none.
+/// The schema with this name. Throws Error when there is none.
 const FileSchema& file_schema(const std::string& name);
 
-/// A comment by which an editor finds the schema of a file that begins with it, with the end of its
-/// line; "" if the schemas are not there.
+/// A first line, with its line end, from which an editor finds a file's schema; "" if the schemas
+/// are missing.
 std::string schema_line(const std::string& name);
 
 }  // namespace dihaptic::session

@@ -23,7 +23,7 @@ Table fault_table(const MovementReport& movement) {
     faults.columns = {{"start_s", "last good frame before"},
                       {"end_s", "first good frame after"},
                       {"finger", "empty: all"},
-                      {"fault", "what the tracker lost"},
+                      {"fault", "gaps in the tracking"},
                       {"line", "of movement.csv"},
                       {"distance_mm", "between the good frames"}};
     for (const hand::Fault& fault : movement.faults) {
@@ -36,14 +36,14 @@ Table fault_table(const MovementReport& movement) {
     return faults;
 }
 
-/// Freezes one plan's inputs, in the order in which they are to be listed.
+/// Freezes one plan's inputs, in the order of their list.
 class Freezer {
   public:
     Freezer(const Plan& plan, const recording::SessionFolder& folder)
         : plan_(plan), folder_(folder), scene_(plan.scene) {}
 
     std::vector<recording::InputFile> run() {
-        scene_.settings = {};  // settings.yaml has the resolved settings
+        scene_.settings = {};  // the resolved settings are in settings.yaml
         scene_.hand = write_fields(plan_.hand);
         freeze_meshes();
         freeze_textures();
@@ -67,9 +67,9 @@ class Freezer {
   private:
     void list(const std::string& name) { inputs_.push_back(folder_.input(name)); }
 
-    /// Copies a file that was read for the plan to the session's folder. Throws Error when it is
-    /// not the same any more: the session would not be run by what is in its folder. `read`: the
-    /// checksum of what was read.
+    /// Copies a file that was read for the plan to the session's folder. Throws Error when it has
+    /// changed: the session would differ from the files in its folder. `read`: the checksum of the
+    /// text that was read.
     void copy(const fs::path& file, const std::string& name, const std::string& read) const {
         copy_file(file, name);
         check_same(file, folder_.input(name).checksum, read);
@@ -80,14 +80,14 @@ class Freezer {
         if (failed) {
             throw Error({file.string(), 0}, "",
                         "cannot be copied to the session's folder: " + failed.message(),
-                        "Check that it is still there, and the space on the disk of " +
+                        "Check that it still exists, and that there is space on the disk of " +
                             folder_.path() + ".");
         }
     }
     static void check_same(const fs::path& file, const std::string& copied,
                            const std::string& read) {
         if (copied == read) return;
-        throw Error({file.string(), 0}, "", "was changed while it was read for this session",
+        throw Error({file.string(), 0}, "", "has changed while it was read for this session",
                     "Start again once no program is writing to it.");
     }
 
@@ -100,7 +100,7 @@ class Freezer {
         return name;
     }
 
-    /// Freezes the materials whose colours a mesh has beside the copy of the mesh, which is of that
+    /// Freezes the materials that give a mesh its colours, beside the mesh's copy, which has this
     /// name.
     void freeze_materials(const scene::Mesh* mesh, const std::string& name) {
         if (mesh == nullptr || mesh->colours.empty() || mesh->materials.empty()) return;
@@ -109,7 +109,7 @@ class Freezer {
         list(beside);
     }
 
-    /// Each of these makes the scene, or the task, name the copies.
+    /// Each of these changes the names in the scene, or in the task, to the copies.
     void freeze_meshes() {
         size_t count = 0;
         const std::function<void(scene::Shape&)> freeze_one = [&](scene::Shape& shape) {
@@ -135,7 +135,7 @@ class Freezer {
                 freeze(of_scene(texture.file), "texture", ++count, texture.picture->checksum());
         }
     }
-    /// A picture is copied once, whatever wears it.
+    /// A picture is copied once, however many bodies use it.
     void freeze_looks() {
         std::map<std::string, std::string> pictures;
         size_t meshes = 0;
@@ -177,7 +177,7 @@ class Freezer {
         if (!plan_.movement) return;
         const MovementReport& movement = *plan_.movement;
         copy_file(movement.file, "movement.csv");
-        // read_text_file() leaves a byte order mark out
+        // read_text_file() omits a byte order mark
         check_same(movement.file, checksum_of(read_text_file(folder_.file("movement.csv"))),
                    movement.checksum);
         list("movement.csv");

@@ -1,5 +1,5 @@
-// Copies everything that a session was made from into its folder, so that the session can be run
-// again as it was, and so that later changes to the original files can be told.
+// Copies all inputs of a session into its folder, so that the session can be run again unchanged,
+// and so that later changes to the original files can be detected.
 #pragma once
 
 #include <vector>
@@ -11,7 +11,7 @@ namespace dihaptic::session {
 
 /// Writes the plan's scene with its meshes and pictures, its rig, settings, movement, task and
 /// person to the session's folder. Returns the files written. Throws Error when one of them cannot
-/// be, or when a file that the plan was made from was changed since it was read.
+/// be written, or when an input of the plan has changed since it was read.
 std::vector<recording::InputFile> freeze_inputs(const Plan& plan,
                                                 const recording::SessionFolder& folder);
 

@@ -21,7 +21,8 @@ void KnobTurner::turn(const frame::Frame& last, double h, frame::Knobs& now) noe
     });
     goal_ = *wanted;
     if (anew) left_ = kEase;
-    // this share of the remaining change in each tick gives a straight line that ends on time
+    // taking this share of the remaining change in each tick gives a straight line that ends on
+    // time
     const double share = left_ > h ? h / left_ : 1;
     left_ = std::max(0.0, left_ - h);
     Knobs next = goal_;

@@ -1,4 +1,4 @@
-// KnobTurner turns the knobs of a running session toward those that another thread asks for.
+// KnobTurner turns the knobs of a running session toward values that another thread requests.
 #pragma once
 
 #include <optional>
@@ -11,23 +11,23 @@ namespace dihaptic::session {
 
 class KnobTurner {
   public:
-    /// From one thread: the knobs to reach; until then those of the session stay. Some are eased
-    /// toward it, so that what is held stays held. Another kind of proxy is taken, if
-    /// settings.proxy.changeable, once all fingers are clear of all bodies, so that no finger lets
-    /// go of what it holds or pushes away what it overlaps. The workspaces turn to the angle; the
-    /// rate follows from it.
+    /// From one thread: the knobs to reach; before the first call, the session's own knobs apply.
+    /// Some change gradually, so that a held object stays held. A different kind of proxy, if
+    /// settings.proxy.changeable, is adopted once all fingers are clear of all bodies, so that no
+    /// finger drops an object or pushes away a body that it overlaps. The workspaces turn to the
+    /// angle; the rate follows from it.
     void publish(const frame::Knobs& knobs) { wanted_.publish(knobs); }
     static constexpr double kEase = 0.2;  // [s]
 
     /// Call before the first tick.
     void prepare(const servo::Servo& servo, const scene::Scene& scene);
-    /// In the tick of h [s]: turns `now`, the knobs ordered last, toward those to reach.
+    /// In a tick of length h [s]: turns `now`, the last knobs ordered, toward those to reach.
     void turn(const frame::Frame& last, double h, frame::Knobs& now) noexcept;
 
   private:
     Latest<std::optional<frame::Knobs>> wanted_;
     task::Clearance clearance_;
-    bool changeable_ = false;  // the kind of the proxies
+    bool changeable_ = false;  // whether the kind of the proxies may change
     frame::Knobs goal_;        // newest of wanted_
     double left_ = 0;          // time until goal_ is reached [s]
 };

@@ -31,7 +31,8 @@ void Live::note_shown(int64_t tick, Clock::time_point at) noexcept {
 }
 
 void Live::note_shown(int64_t tick, Clock::time_point at, const Pose& X_WV, bool tracked) noexcept {
-    if (tick != shown_tick_) note_shown(tick, at);  // a picture more of the same tick, of a pause
+    if (tick != shown_tick_)
+        note_shown(tick, at);  // another picture of the same tick, during a pause
     shown_tick_ = tick;
     const Vec3& p = X_WV.p;
     const Quat& R = X_WV.R;
@@ -39,7 +40,7 @@ void Live::note_shown(int64_t tick, Clock::time_point at, const Pose& X_WV, bool
         {tick, session_time(at), {p.x(), p.y(), p.z()}, {R.w(), R.x(), R.y(), R.z()}, tracked});
 }
 
-/// Hands over an attempt in its last tick, the only one that has its outcome.
+/// Hands over an attempt in its last tick, the only one with its outcome.
 void Live::note_trial(const frame::Frame& now) noexcept {
     if (now.trial < 1) return;
     if (now.trial != trial_.trial || now.task.attempt != trial_.attempt) {
@@ -63,7 +64,7 @@ void Live::note_trial(const frame::Frame& now) noexcept {
 void Live::show(const frame::Frame& now) noexcept {
     note_zero(now.time);
     note_trial(now);
-    // in a pause each tick was asked for by itself
+    // in a pause, each tick was requested separately
     if (now.sequence == 0 || now.time - shown_ >= kInterval || paused) {
         shown_ = now.time;
         frame.publish(now);

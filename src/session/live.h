@@ -32,7 +32,7 @@ struct CurveSample {
 
 /// An attempt at a trial that has just ended.
 struct TrialEnd {
-    static constexpr size_t kNumbers = 8;  ///< further ones are left out
+    static constexpr size_t kNumbers = 8;  ///< further numbers are left out
 
     int32_t trial = 0;
     int32_t attempt = 0;
@@ -40,31 +40,32 @@ struct TrialEnd {
     double start = 0;       ///< [s]
     double stop = 0;        ///< [s]
     double peak_grip = 0;   ///< [N]
-    double peak_force = 0;  ///< sent to any finger [N]
-    /// What the task's variables, levels of procedures, and answers were, in this order; NaN behind
+    double peak_force = 0;  ///< largest force sent to any finger [N]
+    /// Values of the task's variables, levels of procedures, and answers, in this order; NaN after
     /// the last.
     std::array<double, kNumbers> numbers{};
 };
 
 struct Live {
-    /// Shortest time between frames handed over: a screen shows no more.
+    /// Shortest time between frames handed over: screens are no faster.
     static constexpr Time kInterval = std::chrono::milliseconds(4);
     /// Shortest time between samples of the curves.
     static constexpr Time kCurveInterval = std::chrono::milliseconds(10);
 
     Latest<frame::Frame> frame;  ///< the newest; its `sequence` is -1 before the first
-    /// If set before the session starts: the same for a second thread, such as a headset's.
+    /// If set before the session starts: the frame for a second thread, such as a headset's.
     std::shared_ptr<Latest<frame::Frame>> second;
     /// While set, time stands still. On the real clock no force acts, from the next tick on, and a
-    /// trial that a pause interrupts begins anew.
+    /// trial interrupted by a pause starts again.
     std::atomic<bool> paused{false};
-    std::atomic<double> pace{1};     ///< virtual clock: session time over time; 0: as it can be
-    std::atomic<int> steps{0};       ///< virtual clock: ticks to be done though it is paused
-    std::atomic<bool> ended{false};  ///< asks the session to end in an orderly way
-    std::atomic<bool> skip{false};   ///< asks the running trial to end in the next tick
-    /// Share of a question's line that was clicked, until a tick takes it.
+    std::atomic<double> pace{
+        1};  ///< virtual clock: session time over wall time; 0: as fast as possible
+    std::atomic<int> steps{0};       ///< virtual clock: ticks to perform despite a pause
+    std::atomic<bool> ended{false};  ///< requests an orderly end of the session
+    std::atomic<bool> skip{false};   ///< requests the end of the running trial in the next tick
+    /// Clicked position as a share of a question's line, until a tick takes it.
     std::atomic<double> clicked{task::Rating::kNowhere};
-    std::atomic<double> done{0};  ///< share of the trials that are over
+    std::atomic<double> done{0};  ///< share of completed trials
     KnobTurner knobs;
 
     Live() {
@@ -82,32 +83,31 @@ struct Live {
 
     using Clock = std::chrono::steady_clock;
     /// The watching thread may hang, and with it every key that switches force off. After its first
-    /// call it must keep calling this: force is switched off when a call is more than
-    /// kLongestSilence overdue, or, for this one time, more than kLongestSilence + `more` [s].
+    /// call it must keep calling this function: force is switched off when a call is more than
+    /// kLongestSilence overdue, or, once, more than kLongestSilence + `more` [s].
     void note_alive(double more = 0) noexcept {
         const Clock::time_point last = Clock::now() + from_seconds(more);
         alive_.store(last.time_since_epoch().count(), std::memory_order_relaxed);
     }
     static constexpr double kLongestSilence = 1;  // [s]
-    /// In the tick: how long the watching thread has been silent, if that is too long; otherwise 0
-    /// [s].
+    /// In the tick: duration of the watching thread's silence, if too long; otherwise 0 [s].
     double abandoned() const noexcept;
 
-    /// From the session's thread: tells why it paused by itself, and what to do. Sets `paused`; the
-    /// session goes on when the watching thread clears it.
+    /// From the session's thread: gives the reason why it paused by itself, and the remedy. Sets
+    /// `paused`; the session continues when the watching thread clears it.
     void tell(const std::string& why);
-    /// What tell() said since the last call; "" if nothing.
+    /// The text from tell() since the last call; "" if none.
     std::string take_told();
 
-    /// From the session's thread: the folder that it is recorded in, before its first tick.
+    /// From the session's thread: the folder of its recording, before its first tick.
     void set_folder(const std::string& folder);
-    /// That folder, for who takes it; "" before it is set, and once it was taken.
+    /// The folder; "" before it is set, and after the first call that returned it.
     std::string take_folder();
 
     /// From the window's thread: the picture of a tick was handed to the screen at `at`.
     void note_shown(int64_t tick, Clock::time_point at) noexcept;
-    /// The same in a headset, or on a screen to tracked eyes. `X_WV`: of the head then, see
-    /// HeadSeen. `tracked`: it was measured, not guessed.
+    /// A picture shown in a headset, or on a screen to tracked eyes. `X_WV`: pose of the head at
+    /// that time, see HeadSeen. `tracked`: the pose was measured, not guessed.
     void note_shown(int64_t tick, Clock::time_point at, const Pose& X_WV, bool tracked) noexcept;
     /// From one other thread: the oldest showing not yet taken.
     std::optional<recording::Showing> take_showing() { return showings_.pop(); }
@@ -121,7 +121,7 @@ struct Live {
     static constexpr Clock::rep kNever = 0;
     std::atomic<Clock::rep> alive_{kNever};  // time of the last note_alive(), plus its `more`
 
-    std::mutex told_guard_;  // of both
+    std::mutex told_guard_;  // guards both
     std::string told_;
     std::string folder_;
 
@@ -129,10 +129,10 @@ struct Live {
         std::numeric_limits<Clock::rep>::max()};    // of the session's clock
     ValueRing<recording::Showing> showings_{4000};  // a minute's worth
     ValueRing<recording::HeadSeen> heads_{4000};
-    int64_t shown_tick_ = -1;              // window's thread: last in a headset
+    int64_t shown_tick_ = -1;              // window's thread: last tick in a headset
     ValueRing<CurveSample> samples_{400};  // a window that hangs for longer has a gap in its curves
     ValueRing<TrialEnd> trial_ends_{400};
-    TrialEnd trial_;  // that runs
+    TrialEnd trial_;  // the running attempt
     int object_ = -1;
     Time shown_{0};
     Time sampled_{0};

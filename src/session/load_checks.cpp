@@ -13,15 +13,15 @@
 namespace dihaptic::session {
 namespace {
 
-constexpr double kFastReach = 0.5;  // speed that hands reach at [m/s]
+constexpr double kFastReach = 0.5;  // speed of a fast reach [m/s]
 
-/// Checks the loads of all conditions; what is said of one of them is said once.
+/// Checks the loads of all conditions; each fault is reported once.
 class LoadChecks {
   public:
     LoadChecks(const Plan& plan, Diagnostics& diagnostics)
         : plan_(plan), diagnostics_(diagnostics) {}
 
-    /// The loads of all conditions, and those whose numbers are formulas in every trial.
+    /// The loads of all conditions; loads with formulas are resolved for every trial.
     void check() {
         for (const task::TaskPlan::Cell& cell : plan_.task->cells) check(cell, false);
         if (plan_.task->formulas.empty()) return;
@@ -44,7 +44,8 @@ class LoadChecks {
     void check(const task::Load& load) {
         if (load.is_computed() && load.stiffness() < 0 && !load.spec().zone)
             say({Severity::error, load.spec().place, "stiffness",
-                 "is negative in a trial: the load would grow without end as it drives away",
+                 "is negative in a trial: the load would grow without limit as it drives the hand "
+                 "away",
                  "Add e.g. safe_within_mm: 50, beyond which it fades to zero."});
         const Demand demand = load.demand();
         const auto bodies = static_cast<int>(plan_.scene.bodies.size());
@@ -66,7 +67,7 @@ class LoadChecks {
         say({Severity::warning, load.spec().place, key, what, remedy});
     }
 
-    /// What differs by its numbers alone is said once.
+    /// Faults that differ only in their numbers are reported once.
     void say(const Problem& problem) {
         std::string text = problem.text();
         std::erase_if(text,
@@ -79,7 +80,7 @@ class LoadChecks {
         return fmt::format("a {} load", enum_name(load.spec().kind));
     }
 
-    /// By the limits of a coupling's stiffness and damping.
+    /// Checks against the limits of a coupling's stiffness and damping.
     void check_loop(const task::Load& load, const Demand& demand, const frame::DeviceInfo& info) {
         const double period = plan_.settings.tick() + 2 * (info.delay + load.delay());
         const double stiffest = model::passive_stiffness(info.damping, period);
@@ -88,32 +89,32 @@ class LoadChecks {
                  fmt::format("{} of {:.4g} N/m is above {:.0f} N/m (2 b / T), up to which the "
                              "hand's damping of {:g} N*s/m surely keeps {} calm",
                              a(load), demand.stiffness, stiffest, info.damping, info.model),
-                 "Lower it, or look whether the handle shakes; where a load fades, raise fade_mm.");
+                 "Lower it, or check whether the handle shakes; if a load fades, raise fade_mm.");
         }
         const double most_damped = 2 * info.mass / period;
         if (info.mass > 0 && demand.damping > most_damped) {
             warn(load, "damping",
-                 fmt::format("{} of {:.4g} N*s/m is more than a handle of {:g} g can bear: about "
-                             "{:.0f} N*s/m (2 m / T)",
+                 fmt::format("{} of {:.4g} N*s/m is more than a handle of {:g} g can withstand: "
+                             "about {:.0f} N*s/m (2 m / T)",
                              a(load), demand.damping, info.mass * 1e3, most_damped),
                  "Lower it.");
         }
         if (info.damping > 0 && demand.driving > info.damping) {
             warn(load, "damping",
                  fmt::format("{} drives the hand on by {:.4g} N*s/m, more than the {:g} N*s/m that "
-                             "the hand's own damping takes: it runs away",
+                             "the hand's own damping absorbs: it runs away",
                              a(load), demand.driving, info.damping),
                  "Make it weaker.");
         }
     }
 
-    /// Against the largest force that reaches the hand.
+    /// Checks against the largest force that reaches the hand.
     void check_force(const task::Load& load, const Demand& demand, const frame::DeviceInfo& info) {
         const double most = plan_.settings.safety.largest_force(info.peak_force, info.scale);
         if (std::isfinite(demand.force) && demand.force > most && !demand.holds) {
             warn(load, "force",
                  fmt::format("{} reaches {:.3g} N, more than the {:.3g} N that {} may give: it is "
-                             "cut off there",
+                             "limited to that",
                              a(load), demand.force, most, info.model),
                  "Make it weaker, or use a rig with a stronger device.");
         }
@@ -122,15 +123,15 @@ class LoadChecks {
             if (demand.stiffness * reach > most)
                 warn(load, "force",
                      fmt::format("{} of {:.4g} N/m reaches the {:.3g} N that {} may give at {:.0f} "
-                                 "mm, and is cut off beyond: the workspace goes to {:.0f} mm",
+                                 "mm, and is limited beyond: the workspace extends to {:.0f} mm",
                                  a(load), demand.stiffness, most, info.model,
                                  most / demand.stiffness * 1e3, reach * 1e3),
-                     "Lower its stiffness, or give it a zone by safe_within_mm.");
+                     "Lower its stiffness, or limit its zone with safe_within_mm.");
         }
         if (demand.springs || demand.damping * kFastReach <= most) return;
         warn(load, "damping",
              fmt::format("{} of {:.4g} N*s/m reaches the {:.3g} N that {} may give at {:.2g} m/s, "
-                         "and is cut off beyond: fast reaches move at {:g} m/s",
+                         "and is limited beyond: fast reaches move at {:g} m/s",
                          a(load), demand.damping, most, info.model, most / demand.damping,
                          kFastReach),
              "Lower it, or use a rig with a stronger device.");

@@ -12,7 +12,7 @@
 namespace dihaptic::session {
 namespace {
 
-/// The largest ratio of masses that a solver holds in a stack (src/dynamics/README.md).
+/// The largest mass ratio in a stack that a solver can hold (src/dynamics/README.md).
 double most_ratio(contact::Solver solver) {
     switch (solver) {
         case contact::Solver::sequential_impulse:
@@ -46,14 +46,14 @@ void check_ratio(const Plan& plan, Diagnostics& diagnostics) {
     const bool other = ratio <= most_ratio(contact::Solver::staggered_projections);
     diagnostics.warning(
         heavy->place, heavy->name,
-        fmt::format("has {:.3g} times the mass of {}: above {:g} times, {} lets what rests on "
-                    "something so light push it aside, or through what is below",
+        fmt::format("has {:.3g} times the mass of {}: above {:g} times, with {}, a body on "
+                    "something so light may push it aside, or through its support",
                     ratio, light->name, most_ratio(solver), enum_name(solver)),
         other ? "Choose the solver staggered_projections, or make their masses more alike."
               : "Make their masses more alike.");
 }
 
-/// Bodies and what they are joined to, as a tree that hangs on what does not move.
+/// Bodies and their joints, as a tree suspended from immovable bodies.
 class Mechanisms {
   public:
     explicit Mechanisms(const scene::Scene& scene) : scene_(scene) {
@@ -61,7 +61,7 @@ class Mechanisms {
         links_.resize(count);
         std::vector<size_t> order;
         for (size_t at = 0; order.size() < count;) {
-            if (at == order.size()) {  // another mechanism, from the joint that is fixed
+            if (at == order.size()) {  // another mechanism, starting from its fixed joint
                 if (!hang_next(order)) break;
                 continue;
             }
@@ -74,8 +74,8 @@ class Mechanisms {
         }
     }
 
-    /// How fast what hangs on a link turns it, and what it carries: sqrt(T l / I) for the tension T
-    /// and the distance l between its joints.
+    /// The rate at which a suspended load turns a link, sqrt(T l / I), for the tension T and the
+    /// distance l between its joints; and the tension.
     struct Turned {
         double rate = 0;     // [rad/s]
         double tension = 0;  // [N]
@@ -106,11 +106,11 @@ class Mechanisms {
         bool hung = false;
         std::optional<size_t> above;
         std::optional<Vec3> hangs_at;    // in the world [m]
-        std::optional<Vec3> carries_at;  // where the heaviest thing below is joined
-        double carries = 0;              // with its own mass [kg]
+        std::optional<Vec3> carries_at;  // joint with the heaviest load below
+        double carries = 0;              // carried mass, with its own [kg]
     };
 
-    /// The body's index, or none for what does not move.
+    /// The body's index, or none for an immovable body.
     std::optional<size_t> moving(const std::string& name) const {
         const auto i = static_cast<size_t>(scene_.find(name));
         if (i >= scene_.bodies.size() || !moves(scene_.bodies[i])) return std::nullopt;
@@ -169,11 +169,11 @@ void check_links(const Plan& plan, Diagnostics& diagnostics) {
     const scene::Body& body = plan.scene.bodies[fastest];
     diagnostics.warning(
         body.place, body.name,
-        fmt::format("is so light that the {:.3g} N that hang on it turn it at {:.0f} rad/s: above "
-                    "{:.0f} rad/s (2 / step) its joints come apart",
+        fmt::format("is so light that the suspended load of {:.3g} N turns it at {:.0f} rad/s: "
+                    "above {:.0f} rad/s (2 / step) its joints come apart",
                     worst.tension, worst.rate, most),
-        fmt::format("Make it {:.0f} times as heavy, or settings: rate_Hz: {:.0f} or more, or hang "
-                    "less on it.",
+        fmt::format("Make it {:.0f} times as heavy, or settings: rate_Hz: {:.0f} or more, or "
+                    "reduce the load on it.",
                     std::ceil(std::pow(worst.rate / most, 2)),
                     std::ceil(plan.settings.rate * worst.rate / most / 100) * 100));
 }

@@ -8,7 +8,7 @@
 namespace dihaptic::session {
 namespace {
 
-constexpr double kClearance = 1.5e-3;  // distance at which a finger passes the block's edge [m]
+constexpr double kClearance = 1.5e-3;  // distance at which a finger clears the block's edge [m]
 constexpr double kThinnest = 2e-3;     // least width of a block [m]
 
 /// Half extents of a proxy along the grasp, across it, and up.
@@ -17,7 +17,7 @@ Vec3 half_extents(const scene::Shape& shape) {
     return Vec3::Constant(scene::extent(shape) / 2);
 }
 
-/// Least distance from the middle, along the grasp axis, of a finger while it passed the block's
+/// Least distance of a finger from the middle, along the grasp axis, while it passed the block's
 /// edge on its way to the face [m]. `half` and `reach` are the block's half extents, without and
 /// with the finger's. `side` is -1 or +1 along the axis.
 double passing_distance(const std::vector<Vec3>& path, const hand::GraspSite& site,
@@ -41,9 +41,9 @@ struct Faces {
     double second = 0;
 };
 
-/// Both recorded fingers should go `squeeze` beyond the faces. A finger that slid to its place
-/// along the face, as the index finger does in a precision grip, would then run into the block's
-/// edge: the face on its side moves back to where it passed, and the other finger squeezes more.
+/// Both recorded fingers should go `squeeze` beyond the faces. A finger that slid into position
+/// along the face, like the index finger in a precision grip, would then run into the block's edge:
+/// the face on its side moves back to the finger's path, and the other finger squeezes more.
 Faces fit_faces(const hand::Path& path, const hand::GraspSite& site, const Quat& R_WB,
                 const Vec3& block, const scene::Scene& scene, double squeeze) {
     std::array<double, 2> wanted{};
@@ -66,7 +66,7 @@ Faces fit_faces(const hand::Path& path, const hand::GraspSite& site, const Quat&
     return {face[0], face[1]};
 }
 
-/// The scene's box of that name; null if there is none.
+/// The scene's box with this name; null if there is none.
 scene::Body* find_box(scene::Scene& scene, const std::string& name) {
     const int i = scene.find(name);
     if (i < 0) return nullptr;
@@ -87,7 +87,8 @@ std::optional<hand::GraspSite> grasp_of(const hand::Path& path, const task::Move
     }
     const auto site = hand::find_grasp(path, spec.grasp_at);
     if (!site)
-        diagnostics.error({file, 0}, "", kNoGrasp, "Say when they closed: movement: grasp_at_s.");
+        diagnostics.error({file, 0}, "", kNoGrasp,
+                          "Give the time when they closed: movement: grasp_at_s.");
     return site;
 }
 
@@ -107,11 +108,11 @@ void warn_of_faults(const hand::Path& path, const std::string& file, Diagnostics
 
 void warn_of_bridges(const hand::Path& path, const std::string& file, Diagnostics& diagnostics) {
     if (path.bridged_share() <= hand::kMuchBridged) return;
-    diagnostics.warning({file, 0}, "",
-                        fmt::format("{:.0f} % of the movement is bridged: more guessed than "
-                                    "measured",
-                                    100 * path.bridged_share()),
-                        "Record it again, or leave it out of the analysis.");
+    diagnostics.warning(
+        {file, 0}, "",
+        fmt::format("{:.0f} % of the movement is bridged: more guessed than measured",
+                    100 * path.bridged_share()),
+        "Record it again, or leave it out of the analysis.");
 }
 
 std::shared_ptr<const hand::Driver> place_movement(const task::MovementSpec& spec,
@@ -132,7 +133,7 @@ std::shared_ptr<const hand::Driver> place_movement(const task::MovementSpec& spe
     if (scene.fingers.size() != 2) {
         diagnostics.error(asked_at, "movement",
                           fmt::format("the scene has {} fingers", scene.fingers.size()),
-                          "A recorded grasp needs two.");
+                          "A recorded grasp requires two.");
     }
     if (diagnostics.has_errors()) return nullptr;
 
@@ -151,11 +152,11 @@ std::shared_ptr<const hand::Driver> place_movement(const task::MovementSpec& spe
     block->rotation = {0, 0, yaw};
     block->shape.size.x() = faces.first + faces.second;
     if (block->shape.size.x() < kThinnest) {
-        diagnostics.error(
-            {file, 0}, "",
-            fmt::format("the fingers closed to {:.0f} mm, where no block fits between the proxies",
-                        site->aperture * 1e3),
-            "Make the proxies thinner, or give movement: width_mm.");
+        diagnostics.error({file, 0}, "",
+                          fmt::format("the fingers closed to {:.0f} mm, which leaves no room for a "
+                                      "block between the proxies",
+                                      site->aperture * 1e3),
+                          "Make the proxies thinner, or give movement: width_mm.");
         return nullptr;
     }
     for (scene::Finger& finger : scene.fingers) finger.rotation.z() += yaw;

@@ -38,20 +38,21 @@ using Json = nlohmann::json;
 using Wall = std::chrono::steady_clock;
 
 constexpr Time kInterval = std::chrono::milliseconds(2);  // shortest, between frames
-constexpr int kBusy = 2, kIdle = 50;  // between looks, at frames and for a newcomer [ms]
-constexpr auto kLastPatience = std::chrono::seconds(1);  // with readers, once the session is over
-constexpr size_t kLongestMessage = 64 * 1024;            // [bytes]
+constexpr int kBusy = 2, kIdle = 50;  // interval of checks, for frames and for newcomers [ms]
+constexpr auto kLastPatience =
+    std::chrono::seconds(1);                   // patience with readers after the session's end
+constexpr size_t kLongestMessage = 64 * 1024;  // [bytes]
 constexpr size_t kMostOnlookers = 16;
-constexpr const char* kNames = "dihaptic/session/";  // how all names begin
+constexpr const char* kNames = "dihaptic/session/";  // prefix of all names
 constexpr int64_t kLongestName = 100;
 constexpr size_t kMostWatched = 64;
 
-/// What an onlooker asks for that cannot be done.
+/// A request by an onlooker that cannot be granted.
 struct Refusal {
     std::string why;
 };
 
-/// A name that nobody can foresee: another user would take it first.
+/// An unpredictable name: another user would otherwise take it first.
 std::string fresh_name() {
     std::array<unsigned char, 16> chance{};
     if (getrandom(chance.data(), chance.size(), 0) != static_cast<ssize_t>(chance.size()))
@@ -65,11 +66,12 @@ std::string name_file(const std::string& folder) {
 
 Error cannot_be_watched(const std::string& why) {
     return Error(fmt::format("No other program can watch this session: {}", why),
-                 "It runs all the same.");
+                 "The session runs nevertheless.");
 }
 
-/// Its address is of the abstract kind: a killed program leaves none that is in the way, and the
-/// folder may be on any file system, its path of any length. A file of this user's says the name.
+/// The socket's address is abstract: a killed program leaves none behind that is in the way, and
+/// the folder may be on any file system, with a path of any length. A file of this user contains
+/// the name.
 class Listening {
   public:
     explicit Listening(const std::string& folder)
@@ -96,7 +98,7 @@ class Listening {
     Listening& operator=(const Listening&) = delete;
 
     int descriptor() const { return socket_; }
-    /// The socket of a newcomer, if there is one, whom this user has started; else -1.
+    /// The socket of a newcomer started by this user, if any; else -1.
     int accept() const {
         const int newcomer = accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC);
         if (newcomer < 0) return -1;
@@ -106,7 +108,7 @@ class Listening {
     }
 
   private:
-    /// Writes the name where this user's programs look for it.
+    /// Writes the name to the file in which this user's programs look for it.
     bool publish(const std::string& name) const {
         const int file = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
                                 S_IRUSR | S_IWUSR);
@@ -135,15 +137,15 @@ struct Onlooker {
     Onlooker(const Onlooker&) = delete;
     Onlooker& operator=(const Onlooker&) = delete;
 
-    std::deque<Json> owed;  // what must not be lost, until there is room for it
+    std::deque<Json> owed;  // messages that must not be lost, until there is room for them
 
-    /// Returns whether there was room for it; one that does not read loses it.
+    /// Returns whether there was room for the message; an onlooker that does not read loses it.
     bool send(const Json& message) const {
         const std::string text =
             message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
         return ::send(socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT) >= 0;
     }
-    /// Sends what is owed, as far as there is room.
+    /// Sends owed messages, as far as there is room.
     void settle() {
         while (!owed.empty() && send(owed.front())) owed.pop_front();
     }
@@ -158,7 +160,7 @@ struct Ended {
     int32_t outcome = 0;
 };
 
-/// Sets a knob as it was asked; throws Refusal.
+/// Sets a knob as requested; throws Refusal.
 template <class T>
 void turn(T& knob, const frame::Knob& is, const Json& value) {
     if constexpr (std::is_same_v<T, double>) {
@@ -210,7 +212,7 @@ struct Onlookers::Parts {
     std::atomic<int> trigger{0};
     std::atomic<bool> end{false};
 
-    // of the thread
+    // used by the thread
     frame::Knobs knobs;
     std::list<Onlooker> onlookers;
     size_t came = 0, keys = 0, triggers = 0, turns = 0;
@@ -257,7 +259,7 @@ void Onlookers::Parts::run() {
     say_goodbye();
 }
 
-/// Gives those who read late what they are owed, for a while.
+/// Sends slow readers their owed messages, for a while.
 void Onlookers::Parts::say_goodbye() {
     look(Wall::time_point::max());
     const auto owes = [](const Onlooker& onlooker) { return !onlooker.owed.empty(); };
@@ -275,7 +277,7 @@ void Onlookers::Parts::welcome() {
     if (socket < 0) return;
     const Onlooker& newcomer = onlookers.emplace_back(socket);
     if (onlookers.size() > kMostOnlookers) {
-        newcomer.send({{"refused", fmt::format("{} watch already.", kMostOnlookers)}});
+        newcomer.send({{"refused", fmt::format("{} onlookers already watch.", kMostOnlookers)}});
         onlookers.pop_back();
         return;
     }
@@ -289,7 +291,7 @@ void Onlookers::Parts::welcome() {
 void Onlookers::Parts::hear(Onlooker& onlooker, const std::string& text) {
     try {
         const Json asked = parse_json(text);
-        if (!asked.is_object()) throw Refusal{"A message is an object of JSON: {\"key\": \"y\"}."};
+        if (!asked.is_object()) throw Refusal{"A message is a JSON object: {\"key\": \"y\"}."};
         if (asked.contains("watch")) {
             watch(onlooker, asked);
         } else {
@@ -344,8 +346,8 @@ void Onlookers::Parts::steer(const Json& asked) {
             end = true;
         } else {
             throw Refusal{
-                fmt::format("{}: {} is not understood. There are watch, key (one "
-                            "character), trigger (1 to 255), turn (knobs) and end (true).",
+                fmt::format("{}: {} is not understood. Valid keys are watch, key (one character), "
+                            "trigger (1 to 255), turn (knobs) and end (true).",
                             what, value.dump())};
         }
     }
@@ -418,8 +420,8 @@ Json Onlookers::Parts::picture_of(const frame::Frame& frame, Onlooker& onlooker)
 std::string socket_name(const std::string& folder) {
     const std::string name = read_text_file(name_file(folder), kLongestName);
     if (name.starts_with(kNames)) return name;
-    throw Error({name_file(folder), 0}, "", "names no socket of a session",
-                "Remove it: a session that runs writes its own.");
+    throw Error({name_file(folder), 0}, "", "does not name a session's socket",
+                "Remove it: a running session writes its own.");
 }
 
 Onlookers::Onlookers(const Plan& plan, const std::string& folder, bool real, bool knobs_elsewhere)

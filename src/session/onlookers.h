@@ -1,9 +1,9 @@
 // Onlookers are other programs that watch a running session, and may steer it: dihaptic.observe()
-// of Python, or one's own. They connect to a UNIX socket of the kind SOCK_SEQPACKET, in which every
-// message is a whole one; only programs of the same user can. Its address is an abstract one that
-// nobody can foresee: while the session runs, the file `onlookers` in its folder, which this user
-// alone may read, has it, without the zero before it. Whoever connects asks the kernel whose
-// program answers (SO_PEERCRED): a folder may come from anywhere.
+// in Python, or a program of your own. They connect to a UNIX socket of the type SOCK_SEQPACKET,
+// which keeps messages whole; only programs of the same user can connect. Its address is abstract
+// and unpredictable: while the session runs, the file `onlookers` in its folder, readable by this
+// user alone, contains the address without the leading zero. A connecting program asks the kernel
+// for the owner of the answering program (SO_PEERCRED), because a folder may come from anywhere.
 // Both sides send objects of JSON:
 //
 //   session  {"session": "sessions/...", "clock": "real", "states": [...], "outcomes": [...]}
@@ -20,12 +20,12 @@
 //   session  {"refused": "..."}
 //   session  {"over": true}
 //
-// Moments come again and again, in real time; what is refused says why, and what to do.
+// Moments arrive repeatedly, in real time; a refusal gives the reason and the remedy.
 //
-// What is watched is any expression of what is recorded (task/run/recorded.h). Knobs have the names
-// of the log's columns, and their units. A reader that is slow misses moments, but no end of an
-// attempt, and holds nobody up: the tick copies its frame for the thread that does all this, and
-// only while somebody watches.
+// Onlookers can watch any expression of recorded quantities (task/run/recorded.h). Knobs have the
+// names and units of the log's columns. A slow reader misses moments, but no end of an attempt, and
+// delays no other program: the tick copies its frame for the thread that does all this, and only
+// while a program is watching.
 #pragma once
 
 #include <memory>
@@ -36,33 +36,33 @@
 
 namespace dihaptic::session {
 
-/// Name of the socket of a session that runs in that folder, behind a zero. Throws Error when none
-/// does.
+/// Name of the socket of the session running in this folder, after a zero. Throws Error when none
+/// is running.
 std::string socket_name(const std::string& folder);
 
 class Onlookers {
   public:
-    /// `knobs_elsewhere`: the operator's window turns them, and no onlooker can.
+    /// `knobs_elsewhere`: the operator's window turns the knobs, so that no onlooker can.
     Onlookers(const Plan& plan, const std::string& folder, bool real, bool knobs_elsewhere);
     ~Onlookers();
     Onlookers(const Onlookers&) = delete;
     Onlookers& operator=(const Onlookers&) = delete;
 
-    /// Call before the first tick: reserves memory, and lets others connect. Throws Error when
-    /// there can be no socket.
+    /// Call before the first tick: reserves memory, and lets programs connect. Throws Error when no
+    /// socket can be made.
     void open(const servo::Servo& servo, const std::vector<std::string>& states,
               const std::vector<std::string>& outcomes);
 
-    // In the tick; none of them waits or allocates.
+    // Called in the tick; none of these waits or allocates.
     void show(const frame::Frame& frame) noexcept;
-    /// What an onlooker pressed since the last call; 0: nothing.
+    /// The key that an onlooker pressed since the last call; 0: none.
     char take_key() noexcept;
-    /// The trigger that one sent since the last call; 0: none.
+    /// The trigger that an onlooker sent since the last call; 0: none.
     int take_trigger() noexcept;
     bool ended() const noexcept;
     void turn_knobs(const frame::Frame& last, double h, frame::Knobs& now) noexcept;
 
-    /// Tells them that the session is over; returns what they did, in sentences.
+    /// Tells onlookers that the session is over; returns their actions, in sentences.
     std::vector<std::string> finish();
 
   private:

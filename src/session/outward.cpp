@@ -7,7 +7,7 @@
 namespace dihaptic::session {
 namespace {
 
-/// The rig's outlets, once it is clear that what they load may be loaded.
+/// The rig's outlets, after a check that their libraries may be loaded.
 const std::vector<outlets::OutletConfig>& outlets_of(const Plan& plan) {
     rig::check_libraries(plan.rig);
     return plan.rig.outlets;

@@ -1,5 +1,5 @@
 // Sends event codes, handle positions and forces of a running session to a lab's other recording
-// systems, and takes the triggers that come back.
+// systems, and receives their triggers.
 #pragma once
 
 #include <string>
@@ -17,9 +17,9 @@ class Outward {
 
     /// Call in the tick.
     void send(const frame::Frame& frame) noexcept;
-    /// Call in the tick: a code that came in since the last call; 0 if none.
+    /// Call in the tick: a code received since the last call; 0 if none.
     int take_trigger() noexcept { return station_.take_trigger(); }
-    /// Call after the last tick: returns what went wrong.
+    /// Call after the last tick: returns any faults.
     std::vector<std::string> finish() { return station_.finish(); }
 
   private:

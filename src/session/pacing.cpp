@@ -8,8 +8,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kLook{5};      // longest sleep before the pace is looked at again
-constexpr milliseconds kBehind{100};  // what the machine cannot make up for is given up
+constexpr milliseconds kLook{5};      // longest sleep before the pace is checked again
+constexpr milliseconds kBehind{100};  // a larger delay is not made up
 
 }  // namespace
 
@@ -26,7 +26,7 @@ bool Pacing::wait_in_pause() {
 
 void Pacing::wait(Time now) {
     if (live_.paused) {
-        pace_ = -1;  // time begins anew behind the pause
+        pace_ = -1;  // time starts again after the pause
         if (wait_in_pause()) return;
     }
     while (!over()) {

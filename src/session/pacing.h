@@ -1,5 +1,5 @@
-// Makes a session on the virtual clock keep a pace for who watches it: in real time, slower,
-// faster, tick by tick, or not at all while it is paused. What is computed is the same at any pace.
+// Makes a session on the virtual clock keep a pace for the viewer: in real time, slower, faster,
+// tick by tick, or not at all while it is paused. The results are the same at any pace.
 #pragma once
 
 #include <chrono>
@@ -19,12 +19,12 @@ class Pacing {
   private:
     using Wall = std::chrono::steady_clock;
     bool over() const { return stop_ || live_.ended; }
-    /// Waits for the end of a pause; returns whether one tick is to be done in it.
+    /// Waits for the end of a pause; returns whether one tick is to be performed in it.
     bool wait_in_pause();
 
     Live& live_;
     const std::atomic<bool>& stop_;
-    double pace_ = -1;  // that has been kept since:
+    double pace_ = -1;  // pace that has been kept since:
     Time from_{0};
     Wall::time_point begun_;
 };

@@ -8,7 +8,7 @@
 
 namespace dihaptic::session {
 
-/// The director of sessions without a task: phases by time, as the driver has them.
+/// The director of sessions without a task: phases by time, as given by the driver.
 class PhaseDirector {
   public:
     PhaseDirector(std::vector<recording::PhaseInfo> phases, double tick)

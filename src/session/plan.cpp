@@ -34,7 +34,7 @@ std::string folder_of(const std::string& file) {
     return fs::path(file).parent_path().string();
 }
 
-/// Turns "coupling.stiffness_N_m=600" into the mapping that a file would have.
+/// Turns "coupling.stiffness_N_m=600" into the mapping that a file would contain.
 Node setting(const std::string& text) {
     const size_t equals = text.find('=');
     if (equals == std::string::npos) {
@@ -102,14 +102,15 @@ void plan_rig(Plan& plan, const Request& request, const task::Experiment& experi
         plan.rig = rig::read_rig(file, diagnostics,
                                  typed ? rig::NamedBy::the_operator : rig::NamedBy::a_file);
     } else {
-        // a mouse can turn the hand, which is felt only if orientation is measured
+        // a mouse can turn the hand, which has an effect only if orientation is measured
         plan.rig = rig::simulated_rig(scene::finger_names(plan.scene), request.mouse);
     }
     rig::check_age(plan.rig, recording::iso_now(), diagnostics);
     const auto other = [](const rig::Device& device) { return device.backend != "simulated"; };
     if (request.simulate && std::any_of(plan.rig.devices.begin(), plan.rig.devices.end(), other)) {
-        diagnostics.warning(plan.rig.place, "devices", "are not simulated: ideal ones stand in",
-                            "Rehearse on devices like them by --rig, or rig: another file.");
+        diagnostics.warning(
+            plan.rig.place, "devices", "are not simulated: ideal devices replace them",
+            "Rehearse on similar simulated devices: use --rig, or another file under 'rig'.");
         plan.rig = rig::simulated_rig(scene::finger_names(plan.scene));
     }
     if (plan.rig.named_by == rig::NamedBy::the_operator) return;
@@ -144,19 +145,20 @@ void check_use_of_movement(const Plan& plan, const Request& request,
                            const task::Experiment& experiment, Diagnostics& diagnostics) {
     if (!experiment.movement) {
         if (request.movement.empty()) return;
-        throw Error({request.file, 0}, "movement", "this file does not say how to use a movement",
+        throw Error({request.file, 0}, "movement",
+                    "this file does not define the use of a movement",
                     "Use an experiment with 'movement:', such as experiments/reach-to-grasp.yaml.");
     }
     const Place& place = experiment.movement->place;
     if (rig::is_real(plan.rig)) {
         diagnostics.error(place, "movement",
-                          "moves simulated fingers, and this rig's devices are real",
+                          "moves simulated fingers, but this rig's devices are real",
                           "Choose another rig: --rig rigs/premium-pair.yaml.");
     }
     if (experiment.task) {
         diagnostics.error(place, "movement",
                           "a task's hand follows its states, not a recorded movement",
-                          "Leave out movement, or task.");
+                          "Leave out 'movement' or 'task'.");
     }
 }
 
@@ -166,7 +168,7 @@ void find_files(task::Task& task, const std::string& folder, Diagnostics& diagno
     task::find_sounds(task, folder, diagnostics);
 }
 
-/// The trials, and the hand that does them.
+/// The trials, and the hand that performs them.
 void plan_trials(Plan& plan, task::Task task, const Request& request, Diagnostics& diagnostics) {
     find_files(task, folder_of(request.file), diagnostics);
     sound::check(task.sounds, plan.rig.sound.value_or(display::SoundOutput{}), diagnostics);
@@ -177,8 +179,8 @@ void plan_trials(Plan& plan, task::Task task, const Request& request, Diagnostic
             task.place, "participant",
             request.participant.empty()
                 ? "the order of the trials, or a draw, depends on the participant's number"
-                : fmt::format("'{}' ends in no number, and the order of the trials, or a draw, "
-                              "depends on it",
+                : fmt::format("'{}' does not end in a number, and the order of the trials, or a "
+                              "draw, depends on it",
                               request.participant),
             "Add e.g. --participant S07.");
     }
@@ -188,7 +190,7 @@ void plan_trials(Plan& plan, task::Task task, const Request& request, Diagnostic
     plan.task = made;
 }
 
-/// Driver for a person at real devices: one phase, as long as a session may be.
+/// Driver for a person at real devices: one phase, as long as the longest session.
 std::shared_ptr<const hand::Driver> person_at_devices(const Plan& plan) {
     hand::HandSpec hand;
     hand.centre = plan.hand.centre;
@@ -243,7 +245,7 @@ devices::Context context_of(const Plan& plan) {
     return context;
 }
 
-/// Checks the plan by what its rig says of the devices; opens none.
+/// Checks the plan against the devices as the rig describes them; opens none.
 void check_by_description(Plan& plan, Diagnostics& diagnostics) {
     plan.devices = rig::describe(plan.rig, scene::finger_names(plan.scene), context_of(plan));
     check_plan(plan, diagnostics);
@@ -302,8 +304,8 @@ void sit_down(Plan& plan, const person::Traits& traits) {
 
 namespace {
 
-/// Reads the attempts from trials.csv, which has a row for each in the order they were made, and
-/// its checksum.
+/// Reads the attempts from trials.csv, which has a row for each in chronological order, and its
+/// checksum.
 std::vector<task::Attempt> attempts_made(const task::TaskPlan& plan, const std::string& file,
                                          std::string& checksum) {
     const auto bad = [&](const char* what) {
@@ -320,7 +322,7 @@ std::vector<task::Attempt> attempts_made(const task::TaskPlan& plan, const std::
     for (size_t i = 0; i < trials.size(); ++i) {
         const int trial = trials[i].asked.trial, attempt = trials[i].measures.attempt;
         if (trial < 1 || static_cast<size_t>(trial) > plan.trials.size() || attempt < 1)
-            throw bad("has a row without a trial of the session's, or its attempt");
+            throw bad("has a row without a trial of the session, or without its attempt");
         const std::string& outcome = trials[i].measures.outcome;
         const auto same = [&](const task::TaskPlan::Outcome& o) { return o.name == outcome; };
         const auto found = std::find_if(plan.outcomes.begin(), plan.outcomes.end(), same);
@@ -336,8 +338,8 @@ std::vector<task::Attempt> attempts_made(const task::TaskPlan& plan, const std::
     return out;
 }
 
-/// What moved the hand of a session; throws Error if it cannot do so again. Earlier versions did
-/// not record it, but only a person holds real devices, and only a simulated person has its own
+/// The mover of a session's hand; throws Error if it cannot move the hand again. Earlier versions
+/// did not record it, but only a person holds real devices, and only a simulated person has its own
 /// file.
 recording::Mover mover_of(const recording::SessionInfo& info, const Plan& plan,
                           const recording::SessionFolder& folder, Seat seat) {
@@ -349,38 +351,40 @@ recording::Mover mover_of(const recording::SessionInfo& info, const Plan& plan,
     const std::string file = folder.file("session.yaml");
     if (mover == Mover::not_recorded) {
         throw Error({file, 0}, "moved_by",
-                    "does not say whether a mouse or the file's script moved the hand, and the "
+                    "does not state whether a mouse or the file's script moved the hand, and "
                     "trials of the two must not be mixed",
                     "If you know it, add it to that file: 'moved_by: { mover: mouse }', or script. "
-                    "Else run the experiment again.");
+                    "Otherwise run the experiment again.");
     }
     if (mover == Mover::mouse && seat == Seat::terminal) {
         throw Error({file, 0}, "moved_by",
-                    "says that a person moved the hand by mouse, and here is none: a script's "
-                    "trials would stand under this participant's name",
-                    "Go on in the window: dihaptic gui.");
+                    "states that a person moved the hand by mouse, which is not available here: a "
+                    "script's trials would be recorded under this participant's name",
+                    "Continue in the window: dihaptic gui.");
     }
     if ((mover == Mover::devices) != rig::is_real(plan.rig)) {
         throw Error({file, 0}, "moved_by",
-                    fmt::format("says {}, and the rig's devices are {}", enum_name(mover),
+                    fmt::format("states {}, but the rig's devices are {}", enum_name(mover),
                                 rig::is_real(plan.rig) ? "real" : "simulated"),
-                    "Put back the session.yaml, or the rig.yaml, of this session.");
+                    "Restore the session.yaml, or the rig.yaml, of this session.");
     }
     return mover;
 }
 
-/// The path of a folder with its name, which "." lacks, for those who look which session it is.
+/// The path of a folder with its name, which "." lacks, for readers who want to identify the
+/// session.
 std::string named(const std::string& folder) {
     const fs::path name = fs::path(folder).filename();
     return name == "." || name == ".." ? fs::canonical(folder).string() : folder;
 }
 
-/// The plan of a session from its own files, with how each of its attempts ended.
+/// The plan of a session from its own files, with the outcome of each attempt.
 Plan frozen_plan(const recording::SessionFolder& folder, const recording::SessionInfo& info,
                  Diagnostics& diagnostics) {
     if (!is_there(folder.file("task.yaml"))) {
-        throw Error({folder.path(), 0}, "", "has no trials that could go on",
-                    "Run the experiment again; dihaptic recover makes the files of what there is.");
+        throw Error(
+            {folder.path(), 0}, "", "has no trials that could be resumed",
+            "Run the experiment again; dihaptic recover makes the files of the existing part.");
     }
     diagnostics.add(folder.changed(info.inputs, Severity::error));
     constexpr std::string_view kDone[] = {"trials.csv"};
@@ -441,8 +445,8 @@ void apply_setting(frame::Settings& settings, const std::string& text) {
     Diagnostics diagnostics;
     read_fields(settings, setting(text), diagnostics);
     if (settings.coupling.stiffness_share || settings.coupling.damping_share) {
-        diagnostics.error({"--set", 0}, text, "is a share of what a device renders at most",
-                          "Here is no device that says so: write coupling.stiffness_N_m or "
+        diagnostics.error({"--set", 0}, text, "is a share of a device's maximum",
+                          "No device here reports its maximum: write coupling.stiffness_N_m or "
                           "coupling.damping_Ns_m.");
     }
     diagnostics.throw_if_errors();
@@ -452,7 +456,7 @@ std::unique_ptr<devices::DeviceGroup> open_devices(Plan& plan, const std::string
                                                    const std::function<bool()>& given_up) {
     std::optional<keeper::Keeping> keeping;
     if (!keeper.empty()) {
-        // one tick more than the servo allows itself, as in its own watchdog
+        // one tick more than the servo allows itself, like its own watchdog
         const double silence = plan.settings.safety.max_pause + plan.settings.tick();
         keeping = {keeper, silence, plan.settings.real_time_priority, given_up};
     }

@@ -1,5 +1,5 @@
-// A plan holds everything that a session needs, read, resolved and checked, so that no file can be
-// missing or wrong once a person holds the devices.
+// A plan holds all inputs of a session, read, resolved and checked, so that no file can be missing
+// or wrong once a person holds the devices.
 #pragma once
 
 #include <memory>
@@ -19,7 +19,7 @@
 
 namespace dihaptic::session {
 
-/// What the user asked for.
+/// The user's request.
 struct Request {
     std::string file;              ///< a scene or an experiment
     std::string rig;               ///< replaces the experiment's rig
@@ -29,39 +29,38 @@ struct Request {
     bool mouse = false;               ///< a mouse moves the simulated hand, not the file
     std::string participant;          ///< identifier, whose number may order the trials
     std::optional<int> order_number;  ///< orders the trials in place of the participant's number
-    bool simulate = false;            ///< simulated devices, whatever the rig has
+    bool simulate = false;            ///< simulated devices, whatever devices the rig has
     std::stop_token stop;             ///< ends the reading and cutting of meshes
 };
 
 struct Plan {
     std::string title;
     std::string file;
-    std::string scene_folder;  ///< folder that the scene's mesh files are relative to
+    std::string scene_folder;  ///< folder to which the paths of the scene's meshes are relative
     scene::Scene scene;
     rig::Rig rig;
-    /// What the rig says of the devices or, once they are open, what they say; by finger.
+    /// Description of the devices by the rig or, once they are open, by themselves; by finger.
     std::vector<frame::DeviceInfo> devices;
     frame::Settings settings;
     Origins origins;
     hand::HandSpec hand;
-    /// Moves simulated devices, with which it is shared. With a person at real devices it stays
-    /// still.
+    /// Moves simulated devices, which share it. With a person at real devices it stays still.
     std::shared_ptr<const hand::Driver> driver;
-    std::shared_ptr<hand::MouseDriver> mouse;  ///< the driver, if it is a mouse's
-    recording::MovedBy moved_by;               ///< who or what the driver represents
+    std::shared_ptr<hand::MouseDriver> mouse;  ///< the driver, if a mouse moves the hand
+    recording::MovedBy moved_by;               ///< the mover that the driver represents
     Study study;
     std::optional<MovementReport> movement;
     std::shared_ptr<const task::TaskPlan> task;  ///< trials; null if the experiment has none
-    std::shared_ptr<task::SeeingDriver> seeing;  ///< the driver, if it acts on what it sees
+    std::shared_ptr<task::SeeingDriver> seeing;  ///< the driver, if it acts on its sight
     std::string person;               ///< text of person.yaml, if the driver is a simulated person
-    bool resumable = true;            ///< its driver can be made anew from its files
+    bool resumable = true;            ///< its driver can be rebuilt from its files
     std::vector<task::Attempt> done;  ///< attempts made by an earlier part of the session
     std::string resumes;              ///< folder of that earlier part; empty if there is none
-    std::string done_checksum;        ///< of its trials.csv, as it was read (base/checksum.h)
+    std::string done_checksum;        ///< checksum of its trials.csv, as read (base/checksum.h)
     std::vector<Problem> warnings;
     uint64_t seed = 1;
 
-    /// Whether the session goes on until somebody ends it.
+    /// Whether the session continues until the operator ends it.
     bool open_ended() const { return !task && (mouse || rig::is_real(rig)); }
 };
 
@@ -69,39 +68,39 @@ struct Plan {
 void apply_setting(frame::Settings& settings, const std::string& text);
 
 /// Whether the requested session runs on real devices, which keep real time. Problems with its
-/// files are left to make_plan().
+/// files are reported by make_plan().
 bool on_real_devices(const Request& request);
 
-/// Reads and checks all files; opens no device. On real devices no hand is simulated: what the
-/// files say about one is ignored, and without trials the session goes on until somebody ends it.
-/// Throws Error with every problem found.
+/// Reads and checks all files; opens no device. On real devices no hand is simulated: a hand in the
+/// files is ignored, and without trials the session continues until the operator ends it. Throws
+/// Error with every problem found.
 Plan make_plan(const Request& request);
 
 /// Puts a simulated person in place of the plan's hand. The plan must have trials.
 void sit_down(Plan& plan, const person::Traits& traits);
 
-/// Where a session is resumed: only a window has a mouse.
+/// The program that resumes a session: only a window has a mouse.
 enum class Seat { terminal, window };
 
-/// Plans what is left of a session with trials, from its frozen inputs and its tables, moved by
-/// what moved it before. The caller adds the driver of a simulated person (session/resume.h).
-/// Throws Error when nothing is left, when the session has no trials, or when what moved its hand
-/// is not known or cannot do so here.
+/// Plans the rest of a session with trials, from its frozen inputs and its tables, with the same
+/// mover as before. The caller adds the driver of a simulated person (session/resume.h). Throws
+/// Error when no trial is left, when the session has no trials, or when the mover of its hand is
+/// unknown or not available here.
 Plan make_rest(const std::string& session, Seat seat, recording::SessionInfo& info);
 /// Whether the session has trials left. Throws Error when it never had any, or its files are
 /// damaged.
 bool trials_left(const std::string& session);
 
-/// Opens the plan's devices, for its session to take over. If they say more than their rig does,
-/// the plan is checked against that: settings given as shares of what they render are resolved, and
-/// warnings added. `keeper`: the program that owns real devices (keeper::program()) and takes force
-/// away when this process dies; "": this process owns them. The plan's driver must outlive them.
-/// `given_up`: whether to wait no longer for a keeper that does not answer; may be empty. Throws
-/// Error.
+/// Opens the plan's devices, which its session takes over. If they report more than their rig does,
+/// the plan is checked against their report: settings given as shares of their maximum are
+/// resolved, and warnings added. `keeper`: the program that owns real devices (keeper::program())
+/// and removes force when this process dies; "": this process owns them. The plan's driver must
+/// outlive the devices. `given_up`: returns whether to stop waiting for a keeper that does not
+/// answer; may be empty. Throws Error.
 std::unique_ptr<devices::DeviceGroup> open_devices(Plan& plan, const std::string& keeper = "",
                                                    const std::function<bool()>& given_up = {});
 
-/// Makes a servo on the plan's open devices; null: opens them, for this process to own.
+/// Makes a servo on the plan's open devices; null: opens them, owned by this process.
 std::unique_ptr<servo::Servo> make_servo(const Plan& plan,
                                          std::unique_ptr<devices::DeviceGroup> devices = nullptr);
 

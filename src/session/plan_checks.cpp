@@ -20,19 +20,19 @@
 namespace dihaptic::session {
 namespace {
 
-/// Where a setting was given, for messages.
+/// The origin of a setting, for messages.
 Place place_of(const Plan& plan, const std::string& setting) {
     const auto origin = plan.origins.find(setting);
     return {origin == plan.origins.end() ? "" : origin->second, 0};
 }
 
-/// Whether a device has said what it can do, or its rig all that there is to say.
+/// Whether a device has reported its abilities, or its rig describes them completely.
 bool is_known(const frame::DeviceInfo& info) {
     return std::isfinite(info.peak_force);
 }
 
-/// Converts a share of what the devices render calmly to SI units. The device that renders least
-/// counts, since all fingers have the same coupling. The setting is then as if given in SI units.
+/// Converts a share of the devices' calm maximum to SI units. The weakest device counts, since all
+/// fingers have the same coupling. The setting is then treated as if given in SI units.
 std::optional<double> of_maximum(Plan& plan, const std::string& name, Quantity quantity,
                                  std::optional<double>& share,
                                  std::optional<double> frame::DeviceInfo::*maximum,
@@ -46,8 +46,9 @@ std::optional<double> of_maximum(Plan& plan, const std::string& name, Quantity q
         if (!(info.*maximum)) {
             diagnostics.error(
                 {origin, 0}, setting + "_share",
-                fmt::format("{} does not say what {} it renders at most", info.model, name),
-                fmt::format("Give coupling: {}, or another rig.", si_key(name, quantity)));
+                fmt::format("{} does not report the largest {} that it renders", info.model, name),
+                fmt::format("Give {} under 'coupling', or use another rig.",
+                            si_key(name, quantity)));
             return std::nullopt;
         }
         least = std::min(least, *(info.*maximum));
@@ -80,11 +81,11 @@ bool any_finger(const Plan& plan, scene::ProxyKind kind) {
         [&](const scene::Finger& finger) { return plan.settings.proxy.of(finger.proxy) == kind; });
 }
 
-/// Warns of a stiffness that the loop may not hold calmly. The limit is passivity's: below it no
-/// hand makes the loop shake; above it, some do (bench grasp measures how far one can go).
+/// Warns of a stiffness that the loop may not hold calmly. The limit is that of passivity: below it
+/// no hand makes the loop shake; above it, some do (bench grasp measures the practical limit).
 void check_stiffness(const Plan& plan, Diagnostics& diagnostics) {
     const frame::CouplingSettings& coupling = plan.settings.coupling;
-    if (coupling.stiffness_share) return;  // of a maximum that is not known yet
+    if (coupling.stiffness_share) return;  // share of a maximum that is not yet known
     const double h = plan.settings.step();
     const Place place = place_of(plan, "coupling.stiffness");
     for (const frame::DeviceInfo& info : plan.devices) {
@@ -97,8 +98,8 @@ void check_stiffness(const Plan& plan, Diagnostics& diagnostics) {
             fmt::format("{:g} N/m is above {:.0f} N/m (2 b / T), up to which the hand's damping of "
                         "{:g} N*s/m surely keeps {} calm",
                         coupling.stiffness, limit, info.damping, info.model),
-            "It may be calm above too, as in bench grasp, or shake: look at the forces, or lower "
-            "it.");
+            "It may be calm above this limit too, as in bench grasp, or shake: check the forces, "
+            "or lower it.");
         break;
     }
     for (const frame::DeviceInfo& info : plan.devices) {
@@ -111,7 +112,7 @@ void check_stiffness(const Plan& plan, Diagnostics& diagnostics) {
             fmt::format("{:g} N*m/rad is above {:.3g} N*m/rad (2 b / T), up to which the hand's "
                         "damping of {:g} N*m*s/rad surely keeps {} calm",
                         coupling.turn_stiffness, limit, info.turn_damping, info.model),
-            "Lower it, or look at the torques.");
+            "Lower it, or check the torques.");
         break;
     }
     const double explicit_limit = coupling.body_mass / (h * h);
@@ -127,8 +128,9 @@ void check_stiffness(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
-/// Warns of too much damping. A damper that takes more than the handle's momentum in a tick throws
-/// the handle back: with v the speed at the tick, v' = (1 - c T / m) v grows when c > 2 m / T.
+/// Warns of too much damping. A damper that absorbs more than the handle's momentum in a tick
+/// throws the handle back: with v the speed at the tick, v' = (1 - c T / m) v grows when c > 2 m /
+/// T.
 void check_damping(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.settings.coupling.damping) return;
     for (const frame::DeviceInfo& info : plan.devices) {
@@ -136,45 +138,45 @@ void check_damping(const Plan& plan, Diagnostics& diagnostics) {
         if (info.mass <= 0 || *plan.settings.coupling.damping <= limit) continue;
         diagnostics.warning(
             place_of(plan, "coupling.damping"), "coupling.damping",
-            fmt::format("{:g} N*s/m is more than a handle of {:g} g can bear: about {:.0f} N*s/m "
-                        "(2 m / T)",
+            fmt::format("{:g} N*s/m is more than a handle of {:g} g can withstand: about {:.0f} "
+                        "N*s/m (2 m / T)",
                         *plan.settings.coupling.damping, info.mass * 1e3, limit),
-            "Lower it, or leave it out: k h / 2 follows the stiffness.");
+            "Lower it, or leave it out: the default, k h / 2, follows the stiffness.");
         break;
     }
 }
 
-/// Warns of settings that a point proxy has no use for.
+/// Warns of settings that do not apply to a point proxy.
 void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
     if (!any_finger(plan, scene::ProxyKind::point)) return;
     if (plan.settings.coupling.kind != frame::CouplingKind::implicit &&
         !any_finger(plan, scene::ProxyKind::rigid)) {
         diagnostics.warning(
             place_of(plan, "coupling.kind"), "coupling.kind",
-            fmt::format("{} ties handles to rigid proxies; these proxies are points",
+            fmt::format("{} connects handles to rigid proxies, but these proxies are points",
                         enum_name(plan.settings.coupling.kind)),
-            "Leave it out, or use proxy: kind: rigid.");
+            "Leave it out, or use a proxy of kind 'rigid'.");
     }
     if (plan.settings.proxy.friction == frame::PointFriction::together) return;
     for (const scene::Finger& finger : plan.scene.fingers) {
         if (finger.torsion_radius <= 0 || !is_point(plan, finger)) continue;
         diagnostics.warning(finger.place, "torsion_radius",
-                            "where its friction is apart from the dynamics, a point carries no "
+                            "if its friction is separate from the dynamics, a point carries no "
                             "moment about a contact's normal",
-                            "Leave it out, or use proxy: friction: together.");
+                            "Leave it out, or use 'friction: together' under 'proxy'.");
     }
 }
 
-/// Warns of textures that the loop cannot render, or a proxy does not feel.
+/// Warns of textures that the loop cannot render, or that a proxy does not feel.
 void check_textures(const Plan& plan, Diagnostics& diagnostics) {
-    constexpr double kSpeed = 0.25;  // of a hand that explores [m/s]
+    constexpr double kSpeed = 0.25;  // speed of an exploring hand [m/s]
     const double way = kSpeed * plan.settings.dynamics.every / plan.settings.rate;
     const bool apart = any_finger(plan, scene::ProxyKind::point) &&
                        plan.settings.proxy.friction == frame::PointFriction::apart;
     for (const scene::Body& body : plan.scene.bodies) {
         const std::optional<scene::Texture>& texture = body.surface.texture;
         if (!texture || texture->height == 0) continue;
-        // of a grating that is as high and as steep
+        // wavelength of a grating of the same height and slope
         const double ridge = std::numbers::pi * texture->height / texture->steepest();
         if (ridge < 4 * way)
             diagnostics.warning(
@@ -186,23 +188,23 @@ void check_textures(const Plan& plan, Diagnostics& diagnostics) {
         if (apart)
             diagnostics.warning(
                 texture->place, "height",
-                "where its friction is apart from the dynamics, a point does not feel heights",
+                "if its friction is separate from the dynamics, a point does not feel heights",
                 "Use proxy: friction: together.");
     }
 }
 
-/// Warns of a patch that a task asks for, and no rig has.
+/// Warns of a patch that a task requests but the rig lacks.
 void check_patch(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.task || plan.rig.patch) return;
     for (const task::State& state : plan.task->task.states) {
         if (!state.patch) continue;
-        diagnostics.warning(state.place, "patch", "is seen by nobody: the rig has no patch",
+        diagnostics.warning(state.place, "patch", "is not visible: the rig has no patch",
                             "Add e.g. patch: { corner: lower_right } to the rig file.");
         return;
     }
 }
 
-/// Warns of what a person in a headset cannot do or see.
+/// Warns of actions and items that are impossible or invisible in a headset.
 void check_headset(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.task || !plan.rig.headset) return;
     for (const task::State& state : plan.task->task.states) {
@@ -225,16 +227,17 @@ void check_dead_man(const Plan& plan, Diagnostics& diagnostics) {
                                   fmt::join(fingers, ", ")));
 }
 
-/// Warns of a force limit above a device's own peak, which then is the limit that holds.
+/// Warns of a force limit above a device's own peak, which is then the effective limit.
 void check_limits(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.settings.safety.max_force) return;
     for (const frame::DeviceInfo& info : plan.devices) {
         const double peak = info.peak_force / info.scale;  // force in the hand
         if (*plan.settings.safety.max_force <= peak) continue;
-        diagnostics.warning(place_of(plan, "safety.max_force"), "safety.max_force",
-                            fmt::format("{:g} N is more than {} can give: {:g} N is its peak",
-                                        *plan.settings.safety.max_force, info.model, peak),
-                            "The device's peak holds: lower it, or leave it out.");
+        diagnostics.warning(
+            place_of(plan, "safety.max_force"), "safety.max_force",
+            fmt::format("{:g} N is more than {} can give: {:g} N is its peak",
+                        *plan.settings.safety.max_force, info.model, peak),
+            "The device's peak is the effective limit: lower the setting, or leave it out.");
         break;
     }
 }
@@ -242,9 +245,10 @@ void check_limits(const Plan& plan, Diagnostics& diagnostics) {
 void check_solver(const Plan& plan, Diagnostics& diagnostics) {
     const bool sweeps = plan.settings.dynamics.solver == contact::Solver::sequential_impulse;
     if (!sweeps || plan.scene.joints.empty()) return;
-    diagnostics.warning(place_of(plan, "dynamics.solver"), "dynamics.solver",
-                        "sequential_impulse does not take joints: newton solves what they hold",
-                        "Choose newton, or leave it, for the rest of the scene.");
+    diagnostics.warning(
+        place_of(plan, "dynamics.solver"), "dynamics.solver",
+        "sequential_impulse does not support joints: newton solves jointed bodies",
+        "Choose newton for the whole scene, or leave the setting for the rest of it.");
 }
 
 void check_grip(const Plan& plan, Diagnostics& diagnostics) {
@@ -259,12 +263,12 @@ void check_grip(const Plan& plan, Diagnostics& diagnostics) {
         plan.scene.bodies[static_cast<size_t>(object)].place,
         plan.scene.bodies[static_cast<size_t>(object)].name,
         fmt::format("weighs {:.1f} N, more than the devices' {:.1f} N together", weight, force),
-        "Make it lighter: it cannot be felt as it is.");
+        "Make it lighter: its weight cannot be rendered.");
 }
 
-/// An object that the task's trials want lifted, and how heavy and slippery it is there.
+/// An object to be lifted in the task's trials, with its weight and friction there.
 struct Lifting {
-    std::string what;  // in words
+    std::string what;  // description
     double weight;     // [N]
     double friction;   // coefficient with the most slippery finger
 };
@@ -334,13 +338,13 @@ void check_liftings(const Plan& plan, Diagnostics& diagnostics) {
         if (which.empty()) return;
         diagnostics.warning(
             plan.task->task.place, "task",
-            fmt::format("takes more of each finger than the {:.1f} N that {} {}, so that it slips "
-                        "{}: {}",
+            fmt::format("requires more of each finger than the {:.1f} N that {} {}, so that it "
+                        "slips {}: {}",
                         limit, plan.devices.front().model, gives, then, which),
             "Make it lighter or less slippery, or use a rig with stronger devices.");
     };
     warn(peak, "gives at most", "however hard it is pinched", beyond);
-    warn(continuous, "can hold for long", "after some seconds", for_long);
+    warn(continuous, "can sustain", "after some seconds", for_long);
 }
 
 /// Warns of a trial that waits for a trigger when the rig has no line for one.
@@ -353,18 +357,18 @@ void check_triggers(const Plan& plan, Diagnostics& diagnostics) {
     for (const task::State& state : plan.task->task.states) {
         for (const task::Exit& exit : state.exits) {
             if (exit.when != task::When::trigger) continue;
-            diagnostics.warning(exit.place, "when",
-                                "the rig has no line that a trigger could come in on: on the real "
-                                "clock this waits for ever",
-                                "Add to the rig e.g. outlets: [{ kind: serial, options: { port: "
-                                "/dev/ttyUSB0 } }].");
+            diagnostics.warning(
+                exit.place, "when",
+                "the rig has no line for receiving a trigger: on the real clock this waits forever",
+                "Add to the rig e.g. outlets: [{ kind: serial, options: { port: "
+                "/dev/ttyUSB0 } }].");
             return;
         }
     }
 }
 
-/// The names of factors, draws, variables and measures are columns of trials.csv, beside what it
-/// always has.
+/// The names of factors, draws, variables and measures are columns of trials.csv, in addition to
+/// its standard columns.
 void check_columns(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.task) return;
     const task::Task& task = plan.task->task;
@@ -387,17 +391,17 @@ void check_columns(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
-/// Warns of a wall that is in the wrong place: it would push all the time.
+/// Warns of a wall in a wrong position, where it would push constantly.
 void check_wall(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.rig.wall) return;
     const Eigen::AlignedBox3d box = plan.rig.wall->box();
-    const char* const remedy = "See dihaptic workspace for a wall, and an origin, that fit.";
+    const char* const remedy = "'dihaptic workspace' proposes a wall and an origin that fit.";
     if (const int object = plan.scene.object_index(); object >= 0) {
         const scene::Body& body = plan.scene.bodies[static_cast<size_t>(object)];
         if (!box.contains(body.position)) {
             diagnostics.warning(
                 plan.rig.wall->place, "wall",
-                fmt::format("keeps hands from the {}, which lies outside of it", body.name),
+                fmt::format("keeps hands away from the {}, which lies outside the wall", body.name),
                 remedy);
         }
     }
@@ -422,7 +426,7 @@ void check_wall(const Plan& plan, Diagnostics& diagnostics) {
         remedy);
 }
 
-/// Whether the perturbation does no more than to hold what moves in a plane.
+/// Whether the perturbation only holds movements in a plane.
 bool is_plane(const task::PerturbationSpec& spec) {
     bool out = true;
     spec.each_effect([&](const auto& effect) {
@@ -435,7 +439,7 @@ bool is_plane(const task::PerturbationSpec& spec) {
     return out;
 }
 
-/// Whether the region's place follows from draws, factors or variables in some condition.
+/// Whether the region's position depends on draws, factors or variables in any condition.
 bool is_computed(const task::Task& task, const std::string& name) {
     const auto computed = [&](const std::vector<task::Region>& regions) {
         return std::any_of(regions.begin(), regions.end(), [&](const task::Region& region) {
@@ -450,7 +454,7 @@ bool is_computed(const task::Task& task, const std::string& name) {
            std::any_of(task.rounds.begin(), task.rounds.end(), in);
 }
 
-/// Warns of trials that their measures will not show as they are.
+/// Warns of trials that their measures will misrepresent.
 void check_measures(const task::TaskPlan& plan, Diagnostics& diagnostics) {
     for (const task::Block& block : plan.task.blocks) {
         if (block.kind != task::TrialKind::baseline) continue;
@@ -461,8 +465,8 @@ void check_measures(const task::TaskPlan& plan, Diagnostics& diagnostics) {
         });
         if (!perturbed) continue;
         diagnostics.warning(block.place, "kind",
-                            "is baseline, and its trials are perturbed: means and fits take them "
-                            "for trials without a perturbation",
+                            "is baseline, but its trials are perturbed: means and fits treat them "
+                            "as trials without a perturbation",
                             "Write kind: perturbed, or leave out perturb.");
     }
     if (!plan.task.reach || plan.task.reach->measure != task::Measure::angle) return;
@@ -481,7 +485,7 @@ void check_measures(const task::TaskPlan& plan, Diagnostics& diagnostics) {
     }
     if (reach.distance <= shortest * (1 + 1e-9)) return;
     diagnostics.warning(reach.place, "distance",
-                        fmt::format("is {:g} mm, and the nearest target is {:g} mm away: a hand "
+                        fmt::format("is {:g} mm, but the nearest target is {:g} mm away: a hand "
                                     "that stops there is not measured",
                                     reach.distance * 1e3, shortest * 1e3),
                         "Measure before the target, e.g. at its edge.");

@@ -13,10 +13,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kBytesPerFrame = 450;  // of two fingers
+constexpr double kBytesPerFrame = 450;  // for two fingers
 constexpr double kHour = 3600;          // [s]
 constexpr double kGigabyte = 1e9;
-constexpr double kLeastHours = 2;  // of recording that the disk has to have room for
+constexpr double kLeastHours = 2;  // least recording time for which the disk must have room
 
 Finding devices_of(const Plan& plan) {
     std::set<std::string> models;
@@ -31,7 +31,7 @@ Finding devices_of(const Plan& plan) {
 Finding calibration_of(const Plan& plan, const std::string& today) {
     Finding out{"calibration", "", true, Remedy::calibrate, ""};
     if (!plan.rig.calibrated) {
-        out.found = "the rig has none: positions are those that the devices report";
+        out.found = "the rig has none: positions are as reported by the devices";
         out.how = "Calibrate the rig.";
         out.good = !rig::is_real(plan.rig);
         return out;
@@ -49,7 +49,7 @@ Finding calibration_of(const Plan& plan, const std::string& today) {
 Finding display_of(const display::Display& display, bool real, const std::string& today) {
     Finding out{fmt::format("display {}", display.name), "", true, Remedy::register_display, ""};
     if (!display.registered) {
-        out.found = "its corners are those that the rig file gives";
+        out.found = "its corners are as given in the rig file";
         out.how = "Register the display.";
         out.good = !real;
         return out;
@@ -67,7 +67,7 @@ Finding display_of(const display::Display& display, bool real, const std::string
 Finding real_time_of(const Plan& plan) {
     const int priority = plan.settings.real_time_priority;
     const servo::RealTime::Refusals refusals = servo::try_real_time(priority);
-    Finding out{"real time", "the servo gets what it asks the system for", true,
+    Finding out{"real time", "the system grants the servo's requests", true,
                 Remedy::allow_real_time, ""};
     if (!refusals.any()) return out;
     out.found = servo::describe(refusals, priority);
@@ -94,17 +94,17 @@ Finding disk(const std::string& folder, double bytes_per_hour) {
         existing = existing.parent_path();
     const fs::space_info space = fs::space(existing, failed);
     if (failed) {
-        out.found = fmt::format("{} cannot be looked at: {}", folder, failed.message());
+        out.found = fmt::format("{} cannot be checked: {}", folder, failed.message());
         out.good = false;
     } else {
         const auto free = static_cast<double>(space.available);
         const double hours = free / bytes_per_hour;
-        out.found =
-            fmt::format("{:.1f} GB free where sessions go, {} of recording", free / kGigabyte,
-                        hours > 100 ? "days" : fmt::format("about {:.1f} hours", hours));
+        out.found = fmt::format("{:.1f} GB free in the folder for sessions, {} of recording",
+                                free / kGigabyte,
+                                hours > 100 ? "days" : fmt::format("about {:.1f} hours", hours));
         out.good = hours >= kLeastHours;
     }
-    if (!out.good) out.how = "Make room, or choose another folder.";
+    if (!out.good) out.how = "Free some space, or choose another folder.";
     return out;
 }
 

@@ -1,4 +1,4 @@
-// Records a session: runs a plan, makes all files of the session, and says what is to be told of
+// Records a session: runs a plan, makes all files of the session, and collects the messages about
 // it.
 #pragma once
 
@@ -10,22 +10,21 @@
 
 namespace dihaptic::session {
 
-/// A session that is over, with all of its files.
+/// A finished session, with all of its files.
 struct Recorded : RunResult {
     analysis::SessionFigures figures;
-    /// What whoever ran the session is to be told, with remedies: a line each, which begins with
-    /// WARNING or note.
+    /// Messages to the operator, with remedies: one line each, which starts with WARNING or note.
     std::vector<std::string> notes;
 
-    /// Whether the session came to its end, and what was felt is what was planned.
+    /// Whether the session was completed, and the felt forces were as planned.
     bool good() const { return !interrupted && !figures.failed(); }
 };
 
-/// Gets the share of the session's files that is made, from 0 on, and the session's folder.
+/// Receives the share of the session's files that is complete, from 0 on, and the session's folder.
 using Finishing = std::function<void(const std::string& folder, double share)>;
 
-/// Runs a session as run_session() does, and makes its files. Throws Error when it cannot; what was
-/// recorded until then stays and can be recovered.
+/// Runs a session like run_session(), and makes its files. Throws Error when this fails; data
+/// recorded until then remain and can be recovered.
 Recorded record(const Plan& plan, RunOptions options, const std::atomic<bool>& stop,
                 const Progress& running = {}, const Finishing& finishing = {},
                 std::unique_ptr<devices::DeviceGroup> devices = nullptr);

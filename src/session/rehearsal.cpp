@@ -53,7 +53,7 @@ std::string difference(const Node& there, const Node& here, const std::string& p
     return "";
 }
 
-/// Whether a folder has people in it.
+/// Whether a folder contains people.
 bool has_people(const std::string& folder) {
     for (const auto& entry : fs::directory_iterator(folder)) {
         if (is_there((entry.path() / "person.yaml").string())) return true;
@@ -91,8 +91,8 @@ Rehearsal rehearsal_of(const Plan& plan, Node population) {
 
 Rehearsal read_rehearsal(const std::string& folder) {
     if (!is_there(file_of(folder))) {
-        throw Error({folder, 0}, "", "does not say what it is a rehearsal of: no rehearsal.yaml",
-                    "Rehearse anew, into another folder: --out FOLDER.");
+        throw Error({folder, 0}, "", "does not identify its rehearsal: no rehearsal.yaml",
+                    "Rehearse again, into another folder: --out FOLDER.");
     }
     Rehearsal out;
     Diagnostics diagnostics;
@@ -105,7 +105,7 @@ std::string difference(const Rehearsal& there, const Rehearsal& here) {
     Rehearsal a = there;
     Rehearsal b = here;
     a.asked = b.asked;
-    // through text, so that a number from a file and one from memory compare equal
+    // through text, so that numbers from a file and from memory compare equal
     const Node left = parse_yaml(to_yaml(write_fields(a)), "there");
     const Node right = parse_yaml(to_yaml(write_fields(b)), "here");
     return difference(left, right, "");
@@ -120,7 +120,8 @@ void claim(const std::string& folder, const Rehearsal& rehearsal) {
             throw Error({folder, 0}, "", "is another rehearsal: " + other,
                         "Choose another folder (--out FOLDER), or remove this one.");
         }
-        if (there.asked == rehearsal.asked) return;  // as in each shard of a cluster but the first
+        if (there.asked == rehearsal.asked)
+            return;  // as in every shard of a cluster except the first
     }
     Rehearsal copy = rehearsal;
     write_file(to_yaml(write_fields(copy)), file_of(folder));

@@ -1,6 +1,6 @@
 // The identity of a rehearsal, in the file rehearsal.yaml of the folder with its people: sessions
-// of another experiment, seed, population or program are never put into it. The file also has what
-// was asked for, by which `dihaptic collect` knows who is missing.
+// of a different experiment, seed, population or program are never added to it. The file also
+// contains the request, from which `dihaptic collect` knows the missing people.
 #pragma once
 
 #include <string>
@@ -12,11 +12,12 @@ namespace dihaptic::session {
 
 inline constexpr int kMostPeople = 9999;
 
-/// What the latest command asked for. It is no part of the rehearsal's identity.
+/// The request of the latest command. It is not part of the rehearsal's identity.
 struct Asked {
-    int people = 0;       ///< the first so many; 0: not known, in a folder of an older program
-    int shards = 1;       ///< parts that these people are done in, person by person in turn
-    std::string command;  ///< what does them all, from any folder; --shard may be added
+    int people =
+        0;  ///< number of people, from the first on; 0: unknown, in a folder of an older program
+    int shards = 1;       ///< number of parts among which these people are distributed in turn
+    std::string command;  ///< command for all of them, from any folder; --shard may be added
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -33,8 +34,8 @@ struct Rehearsal {
     std::string seed;
     Asked asked;
     Node population;
-    std::string between;  ///< name of what decides between trials; empty: the file alone
-    Node inputs;  ///< by file, as a session freezes them: everything that affects the result
+    std::string between;  ///< name of the program that decides between trials; empty: only the file
+    Node inputs;          ///< by file, as frozen by a session: everything that affects the result
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -50,19 +51,19 @@ struct Rehearsal {
 
 /// Identifier of the n-th person, from 1.
 std::string person_id(int n);
-/// Shard of `shards` that the n-th person is in, both from 1.
+/// The n-th person's shard among `shards`, both from 1.
 int shard_of(int n, int shards);
 
-/// `plan`: without a simulated person yet. `population`: who its people are.
+/// `plan`: without a simulated person yet. `population`: source of its people.
 Rehearsal rehearsal_of(const Plan& plan, Node population);
 /// Reads rehearsal.yaml in a folder. Throws Error when it is missing or cannot be read.
 Rehearsal read_rehearsal(const std::string& folder);
-/// The first difference of what they are, in words; "" if there is none. `there`: the folder's
-/// rehearsal.
+/// The first difference between two rehearsals, in words; "" if there is none. `there`: the
+/// folder's rehearsal.
 std::string difference(const Rehearsal& there, const Rehearsal& here);
 
-/// Makes the folder, or checks that it holds the same rehearsal, and notes what is asked for.
-/// Throws an Error that names the difference when it holds another one.
+/// Makes the folder, or checks that it holds the same rehearsal, and notes the request. Throws an
+/// Error that names the difference when it holds another one.
 void claim(const std::string& folder, const Rehearsal& rehearsal);
 
 }  // namespace dihaptic::session

@@ -15,9 +15,8 @@ namespace {
 using recording::SessionState;
 
 constexpr const char* kAgain =
-    "Put this person's own folder back, or remove it: the rehearsal's command then does this "
-    "person "
-    "again.";
+    "Restore this person's own folder, or remove it: the rehearsal's command then repeats this "
+    "person again.";
 
 class Look {
   public:
@@ -34,11 +33,11 @@ class Look {
         check_person();
         check_inputs();
         for (const char* name : {"trials.csv", "lifts.csv"}) check_cells(name);
-        // another version may order trials otherwise
+        // another version may order trials differently
         const bool own = info_.program == recording::program_version();
         if (problems_.empty() && own && trials_left(folder_.path()))
             refuse("trials.csv", "",
-                   "has trials left to do, of a session that says it is complete");
+                   "has unfinished trials, although the session is marked as complete");
         return {info_.identity, recording::is_sealed(info_), std::move(problems_)};
     }
 
@@ -53,7 +52,7 @@ class Look {
     void expect(const char* key, const std::string& value, const std::string& wanted,
                 const char* of) {
         if (value == wanted) return;
-        refuse("session.yaml", key, fmt::format("is {}; that of the {} is {}", value, of, wanted));
+        refuse("session.yaml", key, fmt::format("is {}; in the {} it is {}", value, of, wanted));
     }
 
     void check_session() {
@@ -65,15 +64,16 @@ class Look {
                    fmt::format("is {}: not all trials were done", enum_name(info_.state)));
     }
 
-    /// A simulated person's traits are an input as others are, with a checksum.
+    /// A simulated person's traits are an input like others, with a checksum.
     void check_person() {
         if (!is_input("person.yaml"))
-            return refuse("session.yaml", "inputs", "do not name person.yaml, with its traits");
+            return refuse("session.yaml", "inputs",
+                          "do not include person.yaml, with the person's traits");
         try {
             const Node* const id = read_yaml(folder_.file("person.yaml")).find("id");
             if (id != nullptr && id->scalar != id_)
                 refuse("person.yaml", "id",
-                       fmt::format("is {}; the folder is that of {}", id->scalar, id_));
+                       fmt::format("is {}; the folder belongs to {}", id->scalar, id_));
         } catch (const Error& e) {
             add(e.problems());
         }
@@ -83,22 +83,22 @@ class Look {
                info_.inputs.end();
     }
 
-    /// What every person of a rehearsal has in common is in rehearsal.yaml.
+    /// Inputs common to all people of a rehearsal are in rehearsal.yaml.
     void check_inputs() {
         for (const recording::InputFile& input : info_.inputs) {
             if (input.file == "person.yaml" || input.file == "trial-list.csv") continue;
             const Node* const wanted = rehearsal_.inputs.find(input.file);
             if (wanted == nullptr) {
                 refuse(input.file, "",
-                       "is no input of this rehearsal: rehearsal.yaml does not name it");
+                       "is not an input of this rehearsal: rehearsal.yaml does not list it");
             } else if (!is_same(input, *wanted)) {
-                refuse(input.file, "", "is not that of this rehearsal, which rehearsal.yaml has");
+                refuse(input.file, "", "differs from this rehearsal's, which is in rehearsal.yaml");
             }
         }
         for (const Node::Entry& wanted : rehearsal_.inputs.entries) {
             if (!is_input(wanted.key))
                 refuse(wanted.key, "",
-                       "is no input of this session, though it is of its rehearsal");
+                       "is not an input of this session, although it is one of its rehearsal");
         }
     }
     bool is_same(const recording::InputFile& input, const Node& wanted) const {
@@ -124,7 +124,8 @@ class Look {
                               static_cast<int>(i) + 1);
             }
         } catch (const Error& e) {
-            if (!recording::is_sealed(info_)) add(e.problems());  // else its seal has told
+            if (!recording::is_sealed(info_))
+                add(e.problems());  // otherwise its seal has reported it
         }
     }
 

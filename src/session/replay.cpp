@@ -12,7 +12,7 @@ namespace {
 
 using Wall = std::chrono::steady_clock;
 
-/// Equal to the bit, so that a NaN equals itself.
+/// Equality to the bit, so that a NaN equals itself.
 bool same(const frame::Frame& frame, const frame::Frame& recorded) {
     const std::vector<double> a = outcome_of(frame);
     const std::vector<double> b = outcome_of(recorded);
@@ -20,7 +20,7 @@ bool same(const frame::Frame& frame, const frame::Frame& recorded) {
            std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
 }
 
-/// What is read of the log goes to the scene's fingers and bodies, and their devices, one to one.
+/// Data from the log go to the scene's fingers and bodies, and their devices, one to one.
 void check(const recording::LogHead& head, const scene::Scene& scene, const std::string& file) {
     recording::check_fits(head, scene, file);
     const auto holds = [](const recording::DeviceRecord& device, const std::string& finger) {
@@ -29,11 +29,11 @@ void check(const recording::LogHead& head, const scene::Scene& scene, const std:
     if (std::equal(head.devices.begin(), head.devices.end(), head.fingers.begin(),
                    head.fingers.end(), holds))
         return;
-    throw Error({file, 0}, "devices", "are not those of the session's fingers, in order",
-                "Put this session's own log back.");
+    throw Error({file, 0}, "devices", "do not match the session's fingers, in order",
+                "Restore this session's own log.");
 }
 
-/// What the session ran with, from its own files.
+/// The session's inputs, from its own files.
 struct Inputs {
     scene::Scene scene;
     rig::Rig rig;
@@ -53,7 +53,7 @@ Inputs read_inputs(const recording::SessionFolder& folder, const recording::LogH
     return out;
 }
 
-/// What the devices said in the recorded tick.
+/// The devices' reports in the recorded tick.
 void read_again(const frame::Frame& recorded, const recording::LogHead& head,
                 std::span<devices::Reading> readings) {
     auto turn = recorded.turns.begin();
@@ -67,11 +67,11 @@ void read_again(const frame::Frame& recorded, const recording::LogHead& head,
     }
 }
 
-/// What the session's owner ordered in it.
+/// The orders of the session's owner in that tick.
 void order_again(const frame::Frame& recorded, frame::Commands& commands) {
     commands.force_off = (recorded.status & kStopped) != 0;
     commands.rest = (recorded.status & kPaused) != 0;
-    // for how long is not known any more, and changes nothing
+    // its duration is lost, but makes no difference
     commands.abandoned = (recorded.status & kAbandoned) != 0 ? 1 : 0;
     commands.knobs = recorded;
     commands.trial = recorded.trial;
@@ -79,12 +79,12 @@ void order_again(const frame::Frame& recorded, frame::Commands& commands) {
     commands.task = recorded.task;
 }
 
-/// What is missing of the log, and whether the session's state accounts for it.
+/// Describes gaps in the log, and whether the session's state accounts for them.
 void judge_log(recording::RawLogReader& log, const recording::SessionInfo& info,
                ReplayResult& result) {
-    const recording::LogHealth& health = log.read_to_end();  // for what is missing after a gap
+    const recording::LogHealth& health = log.read_to_end();  // for losses after a gap
     result.log = recording::describe(health, info.ticks, log.head().planned());
-    // of a session that was recovered it is known that it has no end; of others that is news
+    // a recovered session is known to have no end; for others this must be reported
     const bool endless = info.state == recording::SessionState::recovered && !health.complete;
     result.damaged = !health.gaps.empty() || !health.strays.empty() ||
                      health.last_tick + 1 < info.ticks || (!endless && health.damaged(info.ticks));
@@ -129,7 +129,7 @@ ReplayResult replay_session(const std::string& path, const std::atomic<bool>& st
     const recording::SessionInfo info = folder.read_info(head, diagnostics);
     ReplayResult result;
     const Inputs inputs = read_inputs(folder, head, diagnostics);
-    // of the tables it uses none
+    // a replay uses no tables
     diagnostics.add(recording::broken_own_seal(folder, info, Severity::warning));
     result.warnings = diagnostics.problems();
     result.version = recording::describe_version(log.health());

@@ -23,21 +23,21 @@ namespace fs = std::filesystem;
 using recording::Mover;
 using recording::SessionState;
 
-/// In the folder of a session that was resumed: the path of the one that goes on with it.
+/// In the folder of a resumed session: file with the path of the session that resumes it.
 constexpr const char* kResumedAs = "resumed-as";
 
-/// Puts the simulated person of that session back, with the same traits; what it had learned is
+/// Restores the simulated person of that session, with the same traits; the person's learning is
 /// lost.
 void sit_down_again(Plan& plan, const recording::SessionFolder& folder) {
     const std::string file = folder.file("person.yaml");
     if (!is_there(file)) {
-        throw Error({file, 0}, "", "is gone: it said what the simulated person was like",
-                    "Put it back, or rehearse the experiment again.");
+        throw Error({file, 0}, "", "is missing: it contained the simulated person's traits",
+                    "Restore it, or rehearse the experiment again.");
     }
     const Node node = read_yaml(file);
     if (node.find("class") != nullptr) {
-        throw Error({file, 0}, "class", "is of a person whom Python moved",
-                    "Have it do the experiment again: dihaptic.run(person=...).");
+        throw Error({file, 0}, "class", "belongs to a person moved by Python",
+                    "Run the experiment again with that person: dihaptic.run(person=...).");
     }
     Diagnostics diagnostics;
     person::Traits traits;
@@ -55,14 +55,13 @@ const char* who_goes_on(Mover mover) {
         case Mover::script:
             return "the file's script moves the hand, as before";
         case Mover::simulated_person:
-            return "the same simulated person moves the hand, as before; what it had learned is "
-                   "lost";
+            return "the same simulated person moves the hand, as before; its learning is lost";
         default:
             return "";
     }
 }
 
-/// The rows of a table; none if it is not there, or cannot be read.
+/// The rows of a table; none if it is missing or cannot be read.
 template <class Row>
 std::vector<Row> rows_in(const std::string& file) {
     try {
@@ -73,7 +72,7 @@ std::vector<Row> rows_in(const std::string& file) {
     }
 }
 
-/// Number of trials with at least one attempt that ended, even if the trial is to be done again.
+/// Number of trials with at least one attempt that ended, even if the trial must be repeated.
 size_t trials_done(const recording::SessionFolder& folder) {
     std::set<int> done;  // a trial may have several attempts
     for (const rows::TrialRow& row : rows_in<rows::TrialRow>(folder.file("trials.csv"))) {
@@ -92,8 +91,8 @@ bool at_rest(const recording::SessionFolder& folder) {
     }
 }
 
-/// Whether the session has trials left. One whose files were changed since it ended has them until
-/// the opposite is known: rest_of() then says what was changed, and what to do.
+/// Whether the session has trials left. A session whose files were changed since it ended counts as
+/// having some: rest_of() then reports the change and the remedy.
 bool may_go_on(const recording::SessionFolder& folder) {
     try {
         return trials_left(folder.path());
@@ -102,20 +101,20 @@ bool may_go_on(const recording::SessionFolder& folder) {
     }
 }
 
-/// The session if its trials are not all done; otherwise nullopt.
+/// The session if some of its trials are not done; otherwise nullopt.
 std::optional<Unfinished> unfinished(const recording::SessionFolder& folder,
                                      const recording::SessionInfo& info) {
     if (!is_there(folder.file("task.yaml")) || info.state == SessionState::complete ||
         !at_rest(folder))
         return std::nullopt;
-    // a session that was killed has no tables yet
+    // a killed session has no tables yet
     const bool killed = info.state == SessionState::running;
     if (!killed && !may_go_on(folder)) return std::nullopt;
     const auto list = rows_in<rows::AskedRow>(folder.file("trial-list.csv"));
     return Unfinished{folder.path(), info.started, trials_done(folder), list.size(), info.moved_by};
 }
 
-/// The session in the folder `parent` that goes on with the one of that name; "" if there is none.
+/// The session in the folder `parent` that resumes the one with this name; "" if there is none.
 std::string successor(const std::string& name, const std::string& parent) {
     std::error_code failed;
     for (fs::directory_iterator i(parent, failed), end; !failed && i != end; i.increment(failed)) {
@@ -130,9 +129,9 @@ std::string successor(const std::string& name, const std::string& parent) {
 }
 
 [[noreturn]] void refuse_again(const std::string& session, const std::string& next) {
-    throw Error({session, 0}, "", fmt::format("was resumed already, as {}", next),
-                fmt::format("Go on with that one: dihaptic resume {}. If it is not to count, move "
-                            "its folder elsewhere.",
+    throw Error({session, 0}, "", fmt::format("has already been resumed, as {}", next),
+                fmt::format("Continue with that session: dihaptic resume {}. If it should not "
+                            "count, move its folder elsewhere.",
                             shell_file(next)));
 }
 
@@ -163,7 +162,7 @@ recording::SessionLock claim(const std::string& session, const std::string& out)
 }
 
 std::string Rest::describe() const {
-    return fmt::format("goes on with {}: {} done\n{}\n", plan.resumes,
+    return fmt::format("resumes {}: {} done\n{}\n", plan.resumes,
                        counted(static_cast<int64_t>(plan.done.size()), "attempt"),
                        who_goes_on(plan.moved_by.mover));
 }

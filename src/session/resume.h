@@ -1,5 +1,5 @@
-// Resumes a session whose trials were not all done: at the right trial, with the same inputs, and
-// moved by what moved the hand before. A person's trials are never finished by a script.
+// Resumes a session with unfinished trials: at the right trial, with the same inputs, and with the
+// same mover of the hand. A script never finishes a person's trials.
 #pragma once
 
 #include <functional>
@@ -10,30 +10,30 @@
 
 namespace dihaptic::session {
 
-/// What is left of a session.
+/// The rest of a session.
 struct Rest {
     Plan plan;
-    recording::SessionInfo before;  ///< info of the session that is resumed
+    recording::SessionInfo before;  ///< info of the session to be resumed
     std::vector<Problem> warnings;  ///< from recovering the session, if it was killed
 
-    /// Two lines: the session that is resumed and how many attempts it has done; and what moves the
+    /// Two lines: the session to be resumed, with its number of attempts; and the mover of the
     /// hand.
     std::string describe() const;
 };
 
-/// Prepares the rest of a session. Recovers the session first if it was killed, and reports the
-/// progress of that to `progress`. Throws Error when nothing is left, when the session has no
-/// trials, or when what moved its hand is not known or cannot do so here.
+/// Prepares the rest of a session. Recovers the session first if it was killed, reporting progress
+/// to `progress`. Throws Error when no trial is left, when the session has no trials, or when the
+/// mover of its hand is unknown or not available here.
 Rest rest_of(const std::string& session, Seat seat, const std::function<void(double)>& progress);
 
-/// Keeps others from resuming that session, which nobody does twice: the trials that are left are
-/// done once. Throws Error when another program resumes it now, or when a session has resumed it
-/// already: one that it has a note of, or that is beside it or in the folder `out`.
+/// Keeps other programs from resuming this session, so that the remaining trials are done only
+/// once. Throws Error when another program is resuming it, or when a session has already resumed
+/// it: one named in its folder, or one beside it or in the folder `out`.
 recording::SessionLock claim(const std::string& session, const std::string& out);
-/// Notes in a session's folder which one goes on with it. Throws Error when it cannot.
+/// Notes in a session's folder the session that resumes it. Throws Error when this fails.
 void note_successor(const std::string& session, const std::string& next);
 
-/// A session whose trials are not all done.
+/// A session with unfinished trials.
 struct Unfinished {
     std::string folder;
     std::string started;  ///< ISO 8601

@@ -8,7 +8,7 @@
 namespace dihaptic::session {
 namespace {
 
-/// A limit as a number, so that two can be compared. An unset value is no limit.
+/// A limit as a number, so that two can be compared. An unset value means no limit.
 struct Limit {
     std::string name;
     Field field;
@@ -16,7 +16,7 @@ struct Limit {
     std::string shown;
 };
 
-/// Collects a SafetySettings' numbers and choices.
+/// Collects the numbers and choices of SafetySettings.
 class Limits {
   public:
     explicit Limits(frame::SafetySettings settings) { settings.visit(*this); }
@@ -44,13 +44,13 @@ class Limits {
     std::vector<Limit> limits_;
 };
 
-/// The limits that a rig sets, and where each was set.
+/// The limits that a rig sets, with the origin of each.
 struct RigLimits {
     frame::SafetySettings allowed;
     Origins set_by;
     bool real;
 
-    /// Where the rig's limit on this setting comes from; nullopt if it has none.
+    /// The origin of the rig's limit on this setting; nullopt if it has none.
     std::optional<std::string> limit_of(const std::string& name) const {
         const auto found = set_by.find("safety." + name);
         if (found != set_by.end()) return found->second;
@@ -100,13 +100,13 @@ void check_switch(const Plan& plan, const RigLimits& rig, Diagnostics& diagnosti
     if (finger == rig.set_by.end() || rig.allowed.dead_man_finger.empty()) return;
     if (asked.dead_man_finger != rig.allowed.dead_man_finger) {
         refuse(plan, "dead_man_finger", "dead_man_finger",
-               fmt::format("'{}' takes away the dead-man switch of the {}'s device, which {} asks "
-                           "for",
-                           asked.dead_man_finger, rig.allowed.dead_man_finger, finger->second),
+               fmt::format(
+                   "'{}' removes the dead-man switch of the {}'s device, which {} requires for",
+                   asked.dead_man_finger, rig.allowed.dead_man_finger, finger->second),
                diagnostics);
     } else if (asked.dead_man_button != rig.allowed.dead_man_button) {
         refuse(plan, "dead_man_button", "dead_man_button",
-               fmt::format("{} is another button than the {} of {}", asked.dead_man_button,
+               fmt::format("{} differs from the button {} of {}", asked.dead_man_button,
                            rig.allowed.dead_man_button, finger->second),
                diagnostics);
     }

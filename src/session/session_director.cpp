@@ -8,7 +8,7 @@
 namespace dihaptic::session {
 namespace {
 
-/// Whether a simulated session gets a trigger, and turns a page, in this tick: once a second.
+/// Whether a simulated session receives a trigger, and turns a page, in this tick: once per second.
 bool once_a_second(const frame::Frame& last, Time period) noexcept {
     return (last.time + period) % std::chrono::seconds(1) < period;
 }
@@ -40,8 +40,8 @@ std::string SessionDirector::bounded() const {
     const auto last = static_cast<size_t>(numbers.last_bounded());
     const Formula& formula = plan_.task->formulas[last].formula;
     return fmt::format(
-        "{}:{}: warning: {}: a formula gave what this key does not allow, and was kept within its "
-        "bounds, {} in all; the last was '{}'",
+        "{}:{}: warning: {}: a formula gave values that this key does not allow; they were kept "
+        "within its bounds, {} in all; the last was '{}'",
         formula.place.file, formula.place.line, formula.key, counted(numbers.bounded(), "time"),
         formula.text);
 }
@@ -88,8 +88,8 @@ void SessionDirector::direct_task(const frame::Frame& last, std::span<const fram
     (*task_)(last, handles, commands);
 }
 
-/// Applies what the thread that watches the session asks for. On the virtual clock the session
-/// stands still in a pause (Pacing), and nobody's hand is at stake.
+/// Applies the requests of the thread that watches the session. On the virtual clock the session
+/// stands still in a pause (Pacing), and no person's hand is at risk.
 void SessionDirector::be_steered(const frame::Frame& last, frame::Commands& commands) {
     commands.stop = commands.stop || live_->ended.load(std::memory_order_relaxed);
     commands.rest = real_ && live_->paused.load(std::memory_order_relaxed);

@@ -1,6 +1,6 @@
-// The director of a session (frame/orders.h): in each tick it orders what the trials want or,
-// without trials, what the phases say, with what the operator, the simulated hand, the triggers and
-// the watching thread add.
+// The director of a session (frame/orders.h): in each tick it gives the orders of the trials or,
+// without trials, of the phases, together with those of the operator, the simulated hand, the
+// triggers and the watching thread.
 #pragma once
 
 #include <optional>
@@ -18,9 +18,9 @@ namespace dihaptic::session {
 
 class SessionDirector {
   public:
-    /// Makes everything that the ticks need, since they allocate nothing. What is given must
-    /// outlive the director. `outward`: null if nothing of the session goes out; `onlookers`: null
-    /// if there can be none.
+    /// Prepares everything for the ticks, since they allocate nothing. The arguments must outlive
+    /// the director. `outward`: null if the session sends no data; `onlookers`: null if onlookers
+    /// are impossible.
     SessionDirector(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
                     const std::vector<recording::PhaseInfo>& phases, const servo::Servo& servo,
                     Outward* outward, Onlookers* onlookers);
@@ -28,7 +28,7 @@ class SessionDirector {
     void operator()(const frame::Frame& last, std::span<const frame::Handle> handles,
                     frame::Commands& commands);
 
-    /// Call between two ticks: a running trial begins anew.
+    /// Call between two ticks: a running trial starts again.
     void interrupt() {
         if (task_) task_->interrupt();
     }
@@ -36,10 +36,10 @@ class SessionDirector {
     std::optional<double> share() const noexcept {
         return task_ ? std::optional(task_->share()) : std::nullopt;
     }
-    /// Says that formulas of trials were kept within their bounds; "" if none was.
+    /// States that formulas of trials were kept within their bounds; "" if none was.
     std::string bounded() const;
     bool trials_left() const noexcept { return share().value_or(1) < 1; }
-    /// The wait that ended the session because it was too long; null if none did.
+    /// The wait that was so long that it ended the session; null if none.
     const Wait* endless_wait() const { return wait_ && wait_->over() ? &*wait_ : nullptr; }
 
   private:

@@ -32,7 +32,7 @@ double since(Wall::time_point begin) {
     return std::chrono::duration<double>(Wall::now() - begin).count();
 }
 
-/// Longest session: beyond it, a task waits for something that does not come.
+/// Longest session: after it, a task waits for an event that does not come.
 constexpr Time kLongest = std::chrono::hours(12);
 constexpr Time kLongestTimed = std::chrono::hours(1);
 
@@ -43,28 +43,28 @@ std::vector<recording::PhaseInfo> phases_of(const hand::Driver& driver) {
     return out;
 }
 
-/// Describes what the session's devices can do, by finger.
+/// Describes the abilities of the session's devices, by finger.
 std::vector<recording::DeviceRecord> records_of(const servo::Servo& servo,
                                                 const scene::Scene& scene) {
     std::vector<recording::DeviceRecord> out;
     for (const scene::Finger& finger : scene.fingers) {
         out.push_back({servo.devices().descriptions()[out.size()], finger.name});
-        // whatever bytes a device has for a name
+        // a device's name may have any bytes
         out.back().model = mended(out.back().model, Lines::one);
         out.back().serial = mended(out.back().serial, Lines::one);
     }
     return out;
 }
 
-/// Throws Error when what the session is to be recorded with could not be read from there again.
+/// Throws Error when an entry for the session's record could not be read back from it.
 void check_words(const Plan& plan, const RunOptions& options) {
     const std::string& id = options.participant.id;
     check_text(id, "participant");
     if (!id.empty() && std::string_view("=+-@").find(id.front()) != std::string_view::npos) {
         throw Error({"participant", 0}, shortened(id),
-                    "begins with what a spreadsheet would take for a formula, once a table is "
-                    "opened in it",
-                    "Begin with a letter or a digit, e.g. S07.");
+                    "starts with a character that a spreadsheet would take for a formula, if it "
+                    "opens a table",
+                    "Start with a letter or a digit, e.g. S07.");
     }
     check_text(options.participant.age, "age");
     check_text(options.participant.sex, "sex");
@@ -87,7 +87,7 @@ recording::LogHead log_head(const scene::Scene& scene, const frame::Settings& se
 }
 
 /// On the virtual clock, a session that is run again gives the same file with the same identity,
-/// which is computed from all that the session depends on. On the real clock it is random.
+/// which is computed from all of the session's inputs. On the real clock it is random.
 std::string identity_of(const recording::Setup& setup, const Plan& plan, bool real) {
     if (real) {
         std::random_device random;
@@ -99,8 +99,7 @@ std::string identity_of(const recording::Setup& setup, const Plan& plan, bool re
     return fmt::format("{:016x}", recording::session_of(std::as_bytes(std::span(text))));
 }
 
-/// Calls `look` about ten times a second from a thread of its own while it lives, and once at the
-/// end.
+/// Calls `look` about ten times per second from its own thread while it lives, and once at the end.
 class Watcher {
   public:
     explicit Watcher(const std::function<void()>& look) {
@@ -128,8 +127,8 @@ class Watcher {
     std::thread thread_;
 };
 
-/// Waits for the end of a pause and wakes the servo. When its devices cannot be woken, says why and
-/// waits again. Returns false when the session is to end.
+/// Waits for the end of a pause and wakes the servo. When its devices cannot be woken, gives the
+/// reason and waits again. Returns false when the session is to end.
 bool wait_to_go_on(servo::Servo& servo, Live& live, const std::atomic<bool>& stop) {
     while (true) {
         while (live.paused && !stop && !live.ended)
@@ -197,7 +196,7 @@ class Run {
     const Progress& progress_;
     const bool real_;
     const std::string name_;
-    std::optional<recording::SessionLock> earlier_;  // on the session that this one resumes
+    std::optional<recording::SessionLock> earlier_;  // lock on the session that this one resumes
     const recording::SessionFolder folder_;
     Live* const live_;
 
@@ -205,7 +204,7 @@ class Run {
     recording::SessionInfo& info_ = result_.info;
     std::unique_ptr<servo::Servo> servo_;
     std::optional<recording::Recorder> recorder_;
-    frame::FrameSink read_;           // takes the frames in place of recorder_
+    frame::FrameSink read_;           // receives the frames in place of recorder_
     std::optional<Outward> outward_;  // real clock only: a rehearsal must not look like a session
     std::optional<sound::Player> player_;
     std::optional<Onlookers> onlookers_;
@@ -231,8 +230,9 @@ RunResult Run::run() {
     return std::move(result_);
 }
 
-/// Makes the folder's first files, and opens what the session needs. If anything refuses, a device,
-/// the disk, or an input that was changed meanwhile, the folder is removed: nothing happened yet.
+/// Makes the folder's first files, and opens the session's resources. If this fails because of a
+/// device, the disk, or an input that has changed meanwhile, the folder is removed: no tick has run
+/// yet.
 void Run::prepare() {
     try {
         describe();
@@ -274,7 +274,7 @@ void Run::describe() {
         try {
             note_successor(plan_.resumes, folder_.path());
         } catch (const Error& e) {
-            info_.notes.emplace_back(e.what());  // of an archive that nobody may write to
+            info_.notes.emplace_back(e.what());  // the earlier session is in a read-only archive
         }
     }
     info_.identity = identity_of(info_, plan_, real_);
@@ -340,7 +340,7 @@ void Run::open_sounds() {
     }
 }
 
-/// A session that nobody else can watch runs all the same.
+/// A session that no other program can watch runs nevertheless.
 void Run::let_others_watch() {
     if (!options_.onlookers) return;
     std::vector<std::string> states;
@@ -355,7 +355,7 @@ void Run::let_others_watch() {
     }
 }
 
-/// Makes everything that the ticks need before the first one, since ticks allocate nothing.
+/// Prepares everything before the first tick, since ticks allocate nothing.
 void Run::make_director() {
     whole_ = plan_.task ? kLongest : from_seconds(plan_.driver->duration());
     result_.timing.reserve(static_cast<size_t>(std::min(whole_, kLongestTimed) / servo_->period()) +
@@ -400,9 +400,9 @@ void Run::run_ticks() {
         // on the virtual clock a tick may wait for it
         if (options_.decider != nullptr && stop_) options_.decider->between()->leave();
         if (live_ == nullptr) return;
-        if (onlookers_ && onlookers_->ended()) live_->ended = true;  // though it is paused
+        if (onlookers_ && onlookers_->ended()) live_->ended = true;  // even in a pause
         while (const auto showing = live_->take_showing()) {
-            if (real_) showings.add(*showing);  // nobody saw a rehearsal in its own time
+            if (real_) showings.add(*showing);  // nobody watched a rehearsal in real time
         }
         while (const auto head = live_->take_head()) {
             if (real_) heads.add(*head);
@@ -417,7 +417,7 @@ void Run::run_ticks() {
     }
 }
 
-/// Runs the ticks; if the session is watched, at the pace that is asked for.
+/// Runs the ticks; if the session is watched, at the requested pace.
 void Run::run_virtual_ticks(const frame::Director& director, const frame::FrameSink& sink) {
     std::optional<Pacing> pacing;
     if (live_ != nullptr) pacing.emplace(*live_, stop_);
@@ -461,8 +461,8 @@ double Run::share() const noexcept {
 
 std::string Run::stall_text(const servo::Timing::Stall& stall) const {
     return fmt::format(
-        "{}. The call has not returned since, so the session ends here. Switch the "
-        "devices off and on; dihaptic recover {} makes the session's files.",
+        "{}. The call has not returned since, so the session ends here. Switch the devices off and "
+        "on; 'dihaptic recover {}' makes the session's files.",
         servo::describe(stall), shell_file(folder_.path()));
 }
 
@@ -473,12 +473,12 @@ std::string Run::fault_text() const {
         haptics::describe(fault, info_.devices[device].finger, info_.devices[device].model);
     if (const std::string said = servo_->devices().explain(static_cast<int>(device));
         fault.device >= 0 && !said.empty())
-        out += " Its driver says: " + said;
+        out += " Its driver reports: " + said;
     const bool stopped = fault.kind == haptics::FaultKind::stopped;
     if (!stopped) out += " The second before it is in fault.csv.";
-    if (live_ != nullptr) return out;  // the window says how to go on
+    if (live_ != nullptr) return out;  // the window gives the next steps
     if (plan_.task && plan_.resumable) {
-        out += fmt::format(" dihaptic resume {} goes on with the trials that are left.",
+        out += fmt::format(" 'dihaptic resume {}' continues with the remaining trials.",
                            shell_file(folder_.path()));
     } else if (!plan_.task && !stopped) {
         out += " Then start the session again.";
@@ -510,13 +510,13 @@ void Run::close_record() {
 }
 
 void Run::note_how_it_ended() {
-    // an open-ended session, with a mouse or a person, is finished whenever it is ended
+    // an open-ended session, with a mouse or a person, is complete whenever it ends
     const bool unfinished = plan_.task ? director_->trials_left() : !plan_.open_ended();
     const bool ended = (live_ != nullptr && live_->ended) || (onlookers_ && onlookers_->ended());
     result_.interrupted = stop_.load() || (ended && unfinished);
     if (servo_->fault()) {
         result_.fault = fault_text();
-        // a session that waited for a remedy has noted the fault already
+        // a session that waited for a remedy has already noted the fault
         if (info_.notes.empty() || info_.notes.back() != result_.fault)
             info_.notes.push_back(result_.fault);
     }
@@ -534,7 +534,7 @@ void Run::note_how_it_ended() {
     if (result_.timing.pauses > 0) info_.notes.push_back(servo::describe_pauses(result_.timing));
 }
 
-/// The session's state on the disk stays `running` until its other files are there.
+/// The session's state on the disk stays `running` until its other files exist.
 void Run::conclude() {
     if (progress_ && !result_.interrupted) progress_(1);
     info_.ticks = static_cast<int>(result_.ticks + result_.dropped);
@@ -548,7 +548,7 @@ void Run::conclude() {
             servo::describe(result_.timing.refusals, plan_.settings.real_time_priority));
     }
     folder_.write_info(info_);
-    // a fault ends a session too: dihaptic resume does the trials that are left
+    // a fault ends a session too: dihaptic resume does the remaining trials
     const bool cut_short = servo_->fault() && director_->trials_left();
     info_.state = result_.interrupted || cut_short ? recording::SessionState::interrupted
                                                    : recording::SessionState::complete;
@@ -559,7 +559,7 @@ void Run::conclude() {
 RunResult run_session(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
                       const Progress& progress, std::unique_ptr<devices::DeviceGroup> devices) {
     if (options.clock != Clock::real && rig::is_real(plan.rig)) {
-        throw Error(plan.rig.place, "devices", "are real, and keep real time",
+        throw Error(plan.rig.place, "devices", "are real, and run in real time",
                     "Run them on the real clock, or choose a rig of simulated devices.");
     }
     check_words(plan, options);

@@ -26,9 +26,10 @@ struct RunOptions {
     /// Called from another thread when a call to the devices never returns, so that run_session()
     /// cannot return either. It must show the message and end the program.
     std::function<void(const std::string& message)> stuck;
-    /// Called from the session's thread, before the first tick, with what the session goes without.
+    /// Called from the session's thread, before the first tick, with a message about each part that
+    /// the session lacks.
     std::function<void(const std::string& message)> warn;
-    /// Called from another thread, with what the session waits for, and called again.
+    /// Called from another thread, repeatedly, with a message about the session's wait.
     std::function<void(const std::string& message)> waiting;
     /// Called on active devices, before the first tick and without force; returns warnings. An
     /// exception from it ends the session, and its folder is removed.
@@ -36,42 +37,44 @@ struct RunOptions {
     /// For record(), on the virtual clock only: when false, the session has no raw.log and no
     /// session.nwb, but the same tables.
     bool keep_log = true;
-    /// Virtual clock only: makes the sink that takes the frames in place of raw.log, which is then
-    /// not written. The folder has its frozen inputs.
+    /// Virtual clock only: makes the sink that receives the frames in place of raw.log, which is
+    /// then not written. The folder has its frozen inputs.
     std::function<frame::FrameSink(const recording::SessionFolder&, const recording::SessionInfo&,
                                    const recording::LogHead&)>
         in_place_of_log;
     /// Decides between trials; prepared for the plan, and must outlive the run.
     Decider* decider = nullptr;
-    /// Whether other programs may watch and steer it (Onlookers).
+    /// Whether other programs may watch and steer the session (Onlookers).
     bool onlookers = false;
     Live* live = nullptr;  ///< link to the watching thread; must outlive the run
 };
 
 struct RunResult {
     std::string folder;
-    recording::SessionInfo info;  ///< as it will be once the session's other files are written
-    std::optional<recording::SessionLock> lock;     ///< keeps others from recovering it until then
-    std::optional<recording::SessionLock> earlier;  ///< the same, of the session that it resumes
+    recording::SessionInfo info;  ///< its state once the session's other files are written
+    std::optional<recording::SessionLock>
+        lock;  ///< keeps other programs from recovering it until then
+    std::optional<recording::SessionLock> earlier;  ///< lock on the session that this one resumes
     bool interrupted = false;
     double simulated = 0;  ///< session time reached [s]
     double elapsed = 0;    ///< wall time of the ticks [s]
     int64_t ticks = 0;
-    int64_t dropped = 0;  ///< frames that the recorder could not take
+    int64_t dropped = 0;  ///< frames that the recorder could not accept
     servo::Timing timing;
-    std::string fault;  ///< why force was switched off, and what to do; empty if it was not
-    std::string stall;  ///< what the watchdog did; empty if nothing
-    std::vector<std::string> undecided;  ///< how what decides between trials failed
+    std::string fault;  ///< reason why force was switched off, with a remedy; empty if it was not
+    std::string stall;  ///< action of the watchdog; empty if none
+    std::vector<std::string> undecided;  ///< failures of the program that decides between trials
 };
 
-/// Gets the share of the session done, from 0 to 1, about ten times per second of wall time.
+/// Receives the completed share of the session, from 0 to 1, about ten times per second of wall
+/// time.
 using Progress = std::function<void(double share)>;
 
 /// Runs to the end of the driver's movement, until `stop`, or until a second after a fault. On the
 /// real clock `stop` comes from the operator and switches force off at once. Throws Error when the
-/// disk fails; what was written stays and can be recovered. The session's state stays `running`:
+/// disk fails; written data remain and can be recovered. The session's state stays `running`:
 /// record() makes its other files and sets the final state. `devices`: those that open_devices()
-/// opened for this plan; null: opens them, for this process to own.
+/// opened for this plan; null: opens them, owned by this process.
 RunResult run_session(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
                       const Progress& progress,
                       std::unique_ptr<devices::DeviceGroup> devices = nullptr);

@@ -29,12 +29,12 @@ std::string folder_of(const std::string& rehearsal, const std::string& id) {
     return fmt::format("{}/{}{}", rehearsal, kUnfinished, id);
 }
 
-/// A folder that is held open, by a path that leads to it whatever its name leads to by now.
+/// A folder that is held open, with a path that stays valid even if its name now leads elsewhere.
 fs::path held(int folder) {
     return fmt::format("/proc/self/fd/{}", folder);
 }
 
-/// Whether a file is this user's, and has no other name by which it would be changed too.
+/// Whether a file belongs to this user, and has no other name under which it would also change.
 bool is_own_file(int descriptor) {
     struct stat file {};
     return ::fstat(descriptor, &file) == 0 && S_ISREG(file.st_mode) && file.st_nlink == 1 &&
@@ -42,12 +42,13 @@ bool is_own_file(int descriptor) {
 }
 
 [[noreturn]] void refuse(const std::string& what, const std::string& why) {
-    throw Error({what, 0}, "", why, "Look at it, and move it away; nothing in it was changed.");
+    throw Error({what, 0}, "", why,
+                "Check its content, and move it away; nothing in it was changed.");
 }
 
-/// Whether a folder is a session of this person that a rehearsal began: it has such a name
-/// (DATE_TIME_EXPERIMENT_PERSON, with _2 and so on), and session.yaml, scene.yaml or
-/// nothing at all in it.
+/// Whether a folder is a session of this person that a rehearsal started: it has such a name
+/// (DATE_TIME_EXPERIMENT_PERSON, with _2 and so on), and session.yaml, scene.yaml or nothing at all
+/// in it.
 bool is_session(const fs::directory_entry& entry, const std::string& id) {
     const std::string name = entry.path().filename().string();
     std::tm when{};
@@ -74,7 +75,7 @@ UnfinishedFolder::UnfinishedFolder(const std::string& rehearsal, const std::stri
     folder_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
     if (folder_ >= 0) return;
     if (errno == ELOOP || errno == ENOTDIR)
-        refuse(path_, "is a link, or a file, and no folder in which a session could be made");
+        refuse(path_, "is a link or a file, not a folder for a session");
     throw Error({path_, 0}, "", fmt::format("cannot be made: {}", std::strerror(errno)),
                 "Check the folder's permissions and the disk's space.");
 }
@@ -100,8 +101,8 @@ bool UnfinishedFolder::lock() {
                     "Check the folder's permissions and the disk's space.");
     }
     if (messages_ < 0 || !is_own_file(messages_))
-        refuse(path_ + "/" + kMessages, "is a link, is no file, or is another user's");
-    // on a file system without locks there is nothing to wait for
+        refuse(path_ + "/" + kMessages, "is a link, is not a file, or belongs to another user");
+    // on a file system without locks, waiting is pointless
     return ::flock(messages_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
@@ -112,7 +113,7 @@ std::optional<UnfinishedFolder> UnfinishedFolder::take(const std::string& rehear
     for (const auto& entry : fs::directory_iterator(held(out.folder_))) {
         if (entry.path().filename() == kMessages || is_session(entry, id)) continue;
         refuse(out.path_ + "/" + entry.path().filename().string(),
-               "is no session, and no rehearsal put it there");
+               "is not a session, and was not made by a rehearsal");
     }
     out.remove_sessions();
     [[maybe_unused]] const int emptied = ::ftruncate(out.messages_, 0);
@@ -136,7 +137,7 @@ bool has_session(const std::string& folder) {
     if (!fs::exists(there)) return false;
     if (fs::is_directory(there) && fs::is_regular_file(fs::symlink_status(folder + "/person.yaml")))
         return true;
-    refuse(folder, "is in the way: it is no session of a rehearsed person");
+    refuse(folder, "is in the way: it is not a session of a rehearsed person");
 }
 
 void UnfinishedFolder::finish(const std::string& session) const {
@@ -150,7 +151,7 @@ void UnfinishedFolder::finish(const std::string& session) const {
 void UnfinishedFolder::remove() const {
     remove_sessions();
     for (const auto& entry : fs::directory_iterator(held(folder_))) {
-        if (entry.path().filename() != kMessages) return;  // what somebody put there stays
+        if (entry.path().filename() != kMessages) return;  // files from elsewhere stay
     }
     ::unlinkat(folder_, kMessages, 0);
     ::rmdir(path_.c_str());

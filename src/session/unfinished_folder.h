@@ -1,6 +1,6 @@
-// The folder in which a person's session of a rehearsal is made. It belongs to one process at a
-// time, and whatever a killed program left in it goes: but only sessions, and never through a link,
-// since the rehearsal's folder may be a stranger's.
+// The folder in which a person's session in a rehearsal is made. It belongs to one process at a
+// time, and sessions left in it by a killed program are removed: only sessions, and never through a
+// link, since the rehearsal's folder may come from a stranger.
 #pragma once
 
 #include <optional>
@@ -8,28 +8,28 @@
 
 namespace dihaptic::session {
 
-/// With this the name of a folder begins in which a person's session is made.
+/// Prefix of the name of a folder in which a person's session is made.
 inline constexpr const char* kUnfinished = "unfinished-";
 
 class UnfinishedFolder {
   public:
-    /// Makes the folder for a person in that of a rehearsal, or takes over the one that a killed
-    /// program left, without its sessions. Returns nullopt while another process has it. Throws
-    /// Error when its name is a link's, or when anything is in it that no rehearsal left there.
+    /// Makes the folder for a person in a rehearsal's folder, or takes over the one left by a
+    /// killed program, without its sessions. Returns nullopt while another process holds it. Throws
+    /// Error when its name is a link, or when it contains anything that no rehearsal left.
     static std::optional<UnfinishedFolder> take(const std::string& rehearsal,
                                                 const std::string& id);
     ~UnfinishedFolder();
     UnfinishedFolder(UnfinishedFolder&& other) noexcept;
     UnfinishedFolder& operator=(UnfinishedFolder&&) = delete;
 
-    /// Where the session is to be made.
+    /// The path at which the session is to be made.
     const std::string& path() const { return path_; }
-    /// The file, now empty, to which the process may write what it has to tell [descriptor].
+    /// The file, now empty, for the process's messages [descriptor].
     int messages() const { return messages_; }
-    /// Whether the person's session is complete: it may be another program's, and have come just
-    /// now. Throws Error as has_session().
+    /// Whether the person's session is complete: another program may have just completed it. Throws
+    /// Error like has_session().
     bool is_done() const;
-    /// Gives a session that is complete its name. Throws Error when it cannot.
+    /// Gives a completed session its name. Throws Error when this fails.
     void finish(const std::string& session) const;
     /// Removes the folder, with the sessions in it.
     void remove() const;
@@ -42,15 +42,15 @@ class UnfinishedFolder {
     std::string id_;
     std::string done_;
     std::string path_;
-    int folder_ = -1;    // held open: a link that takes its name later leads nowhere
+    int folder_ = -1;    // held open: a link that takes its name later has no effect
     int messages_ = -1;  // locked as long as a process has it
 };
 
-/// Whether a rehearsed person's folder is there. Throws Error when anything else has its name,
-/// which would keep the person from being done for good.
+/// Whether a rehearsed person's folder exists. Throws Error when anything else has its name, which
+/// would permanently block this person.
 bool has_session(const std::string& folder);
 
-/// What the process of a person wrote to messages(); "" if there is nothing that can be read.
+/// The text that a person's process wrote to messages(); "" if none can be read.
 std::string messages_of(const std::string& rehearsal, const std::string& id);
 
 }  // namespace dihaptic::session

@@ -1,5 +1,5 @@
-// Ends a session in which a trial waits for something that its simulated hand never does: such a
-// session would go on until it had filled the disk.
+// Ends a session in which a trial waits for an action that its simulated hand never performs: such
+// a session would continue until it had filled the disk.
 #pragma once
 
 #include <string>
@@ -17,9 +17,9 @@ class Wait {
 
     /// Call in each tick, with the last frame and the commands for this tick.
     void look(const frame::Frame& last, const frame::Commands& commands) noexcept;
-    /// Whether the wait is too long and the session is to end.
+    /// Whether the wait is too long and the session must end.
     bool over() const noexcept { return over_; }
-    /// Says what was waited for, and what to do. `phases`: the session's phases.
+    /// Describes the wait and the remedy. `phases`: the session's phases.
     std::string describe(const std::vector<recording::PhaseInfo>& phases) const;
 
   private:

@@ -124,7 +124,7 @@ class Rehearsals(unittest.TestCase):
         os.remove(out + "/rehearsal.yaml")
         result = self.rehearse(out)
         self.assertEqual(result.returncode, 2)
-        self.assertIn("does not say what it is a rehearsal of", result.stderr)
+        self.assertIn("does not identify its rehearsal", result.stderr)
 
     def test_collect_joins_seeds_on_purpose_only(self):
         folders = [self.folder + "/one", self.folder + "/nine"]
@@ -232,7 +232,7 @@ groups:
                             '"Too slow: reach faster" }\n', "")
         text = text.replace("radius_mm: 90 }", "radius_mm: 900 }")
         pathlib.Path(self.experiment).write_text(text)
-        self.assertIn("reach: waits for ever", dihaptic("check", self.experiment).stdout)
+        self.assertIn("reach: waits forever", dihaptic("check", self.experiment).stdout)
         result = dihaptic("rehearse", self.experiment, "--people", "1", "--out", self.folder + "/out")
         self.assertEqual(result.returncode, 1)
         self.assertIn("never ended 'reach' of trial 1", result.stderr)

@@ -167,13 +167,13 @@ class Libraries(unittest.TestCase):
         session = session_of(str(self.folder / "out"))
         result = dihaptic("resume", session, env=self.env)
         self.refused(result, "rig.yaml")
-        self.assertNotIn("goes on with", result.stdout)
+        self.assertNotIn("resumes ", result.stdout)
         self.allow()
         resumed = dihaptic("resume", session, env=self.env)
         self.assertEqual(resumed.returncode, 0, resumed.stderr)
         again = dihaptic("resume", session, env=self.env)
         self.assertEqual(again.returncode, 2, again.stdout)
-        self.assertIn("was resumed already, as " + str(self.folder / "out"), again.stderr)
+        self.assertIn("has already been resumed, as " + str(self.folder / "out"), again.stderr)
 
 
 if __name__ == "__main__":

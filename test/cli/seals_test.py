@@ -224,8 +224,8 @@ class Seals(unittest.TestCase):
             self.assertIn("Changed since the session ended", (session / "report.html").read_text())
 
     def test_sessions_of_other_rehearsals_are_told(self):
-        for source, words in [(self.other, ["seed: is 9; that of the rehearsal is 1"]),
-                              (self.foreign, ["task.yaml: error: is not that of this rehearsal"])]:
+        for source, words in [(self.other, ["seed: is 9; in the rehearsal it is 1"]),
+                              (self.foreign, ["task.yaml: error: differs from this rehearsal's"])]:
             study, out = self.copy()
             shutil.rmtree(study / "sim-002")
             shutil.copytree(source / "sim-002", study / "sim-002")
@@ -255,7 +255,7 @@ class Seals(unittest.TestCase):
         self.expect_refused(study, out, "sim-002/trials.csv:", "cell")
         shutil.copy(self.made / "sim-002/trials.csv", study / "sim-002/trials.csv")
         rewritten(study / "sim-002/trials.csv", with_rows(lambda rows: rows.pop()))
-        self.expect_refused(study, out, "sim-002/trials.csv: error: has trials left to do")
+        self.expect_refused(study, out, "sim-002/trials.csv: error: has unfinished trials")
 
     def test_recover_seals_a_recording_anew(self):
         out = self.folder / "recorded"

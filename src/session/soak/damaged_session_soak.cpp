@@ -1,4 +1,4 @@
-// Thousands of damaged sessions: none is called complete, and none crashes what reads it.
+// Thousands of damaged sessions: none may count as complete, and none may crash its reader.
 #include "session/test/damaged_session.h"
 
 namespace dihaptic::session {

@@ -13,7 +13,7 @@ TEST(ExtremesSoak, TwoThousandSessionsEndInOrderOrAreRefused) {
         const Ending ending = ending_of(
             [&] {
                 if (seed % 20 != 0) return run_extreme(request, std::chrono::seconds(3));
-                // every twentieth session runs with all of its files
+                // every twentieth session writes all of its files
                 const testing::TemporaryFolder folder;
                 RunOptions options;
                 options.out = folder.path();

@@ -1,4 +1,4 @@
-// Runs whole a shipped experiment of which src/session/test/session_run_test.cpp runs a tenth.
+// Runs a complete shipped experiment; src/session/test/session_run_test.cpp runs a tenth of it.
 #include "session/test/repeats.h"
 
 namespace dihaptic::session {

@@ -114,7 +114,7 @@ TEST(FrozenInputs, AFileThatWasChangedAfterItWasReadEndsTheStart) {
             change(study.files.folder.file(name), how, random);
             const std::string said = refusal(study.files, plan);
             EXPECT_NE(said.find(name), std::string::npos) << said;
-            EXPECT_NE(said.find(how < 3 ? "was changed while it was read" : "cannot be copied"),
+            EXPECT_NE(said.find(how < 3 ? "has changed while it was read" : "cannot be copied"),
                       std::string::npos)
                 << said;
         }
@@ -136,7 +136,7 @@ TEST(FrozenInputs, ARecordedMovementThatWasChangedEndsTheStart) {
     std::ofstream(request.movement, std::ios::app) << "\n";
     Files files;
     const std::string said = refusal(files, plan);
-    EXPECT_NE(said.find("movement.csv: error: was changed while it was read"), std::string::npos)
+    EXPECT_NE(said.find("movement.csv: error: has changed while it was read"), std::string::npos)
         << said;
 }
 
@@ -151,7 +151,7 @@ TEST(FrozenInputs, TheTablesOfASessionThatIsResumedAreThoseThatWereRead) {
     } catch (const Error& e) {
         said = e.what();
     }
-    EXPECT_NE(said.find("trials.csv: error: was changed while it was read"), std::string::npos)
+    EXPECT_NE(said.find("trials.csv: error: has changed while it was read"), std::string::npos)
         << said;
 }
 

@@ -66,7 +66,7 @@ TEST(MassChecks, SayWhatAChainOfLightLinksCannotCarry) {
     EXPECT_EQ(said_of(chain(1, 200)), "");
     EXPECT_EQ(said_of(chain(10, 500)), "");
     const std::string said = said_of(chain(1, 500));
-    EXPECT_NE(said.find("l0: is so light that the 5.1 N that hang on it turn it at 2590 rad/s"),
+    EXPECT_NE(said.find("l0: is so light that the suspended load of 5.1 N turns it at 2590 rad/s"),
               std::string::npos)
         << said;
     EXPECT_EQ(said_of(chain(1, 500), "settings: { rate_Hz: 2000 }\n"), "");

@@ -164,11 +164,10 @@ TEST(Plan, RefusesSharesThatContradictAreNoneOrAreOfNothing) {
         << large.messages();
     Files ideal;
     ideal.experiment += "settings: {coupling: {stiffness_share: 0.5}}\n";
-    EXPECT_NE(
-        ideal.messages().find("experiment.yaml:3: error: coupling.stiffness_share: simulated plant "
-                              "does not say what stiffness it renders at most. Give "
-                              "coupling: stiffness_N_m, or another rig."),
-        std::string::npos)
+    EXPECT_NE(ideal.messages().find("experiment.yaml:3: error: coupling.stiffness_share: simulated "
+                                    "plant does not report the largest stiffness that it renders. "
+                                    "Give stiffness_N_m under 'coupling', or use another rig."),
+              std::string::npos)
         << ideal.messages();
     frame::Settings settings;
     EXPECT_THROW(apply_setting(settings, "coupling.stiffness_share=0.5"), Error);
@@ -279,7 +278,7 @@ TEST(Plan, SaysThatSweepsDoNotTakeJoints) {
     EXPECT_EQ(files.messages(), "");
     files.experiment += "settings: {dynamics: {solver: sequential_impulse}}\n";
     EXPECT_NE(files.messages().find("experiment.yaml:3: warning: dynamics.solver: "
-                                    "sequential_impulse does not take joints: newton solves"),
+                                    "sequential_impulse does not support joints: newton solves"),
               std::string::npos)
         << files.messages();
 }
@@ -293,7 +292,7 @@ TEST(Plan, WarnsOfWhatAPointHasNoUseFor) {
         "settings: {proxy: {kind: point, friction: apart}, coupling: {kind: dual_spring}}\n");
     files.scene += "fingers: [{name: thumb, shape: sphere, radius_mm: 8, torsion_radius_mm: 6}]\n";
     const std::string said = files.messages();
-    EXPECT_NE(said.find("warning: coupling.kind: dual_spring ties handles to rigid proxies"),
+    EXPECT_NE(said.find("warning: coupling.kind: dual_spring connects handles to rigid proxies"),
               std::string::npos)
         << said;
     EXPECT_NE(said.find("a point carries no moment"), std::string::npos) << said;
@@ -416,7 +415,7 @@ INSTANTIATE_TEST_SUITE_P(
                 f.experiment += "settings: {rate_Hz: 1000, coupling: {damping_Ns_m: 1000}}\n";
             },
             "experiment.yaml:3: warning: coupling.damping: 1000 N*s/m is more than a handle of 75 "
-            "g can bear: about 150 N*s/m"},
+            "g can withstand: about 150 N*s/m"},
         Bad{"a force limit beyond the device's",
             [](Files& f) { f.experiment += "settings: {safety: {max_force_N: 20}}\n"; },
             "experiment.yaml:3: warning: safety.max_force: 20 N is more than simulated plant can "
@@ -473,10 +472,10 @@ TEST(Plan, WarnsOfTrialsThatTheirMeasuresWillNotShow) {
     EXPECT_EQ(usual.find("is not measured"), std::string::npos) << usual;
     EXPECT_EQ(warnings("distance_mm: 30", "distance_mm: 50"), usual);
     EXPECT_NE(warnings("kind: baseline", "kind: baseline, perturb: rotation")
-                  .find("kind: is baseline, and its trials are perturbed"),
+                  .find("kind: is baseline, but its trials are perturbed"),
               std::string::npos);
     EXPECT_NE(warnings("distance_mm: 30", "distance_mm: 51")
-                  .find("distance: is 51 mm, and the nearest target is 50 mm away"),
+                  .find("distance: is 51 mm, but the nearest target is 50 mm away"),
               std::string::npos);
     // what a formula gives is not known before the trial
     EXPECT_EQ(warnings("name: target, position_mm: [50, 0, 120]",
@@ -529,9 +528,9 @@ TEST(CheckFile, TellsOfFingersOfAMovementThatNobodyKnows) {
         for (size_t at = 0; (at = text.find("thumb", at)) != std::string::npos;)
             text.replace(at, 5, "thmub");
     });
-    EXPECT_NE(said.find("m.csv:1: warning: thmub: is no usual name of a finger. Did you mean "
-                        "thumb?"),
-              std::string::npos)
+    EXPECT_NE(
+        said.find("m.csv:1: warning: thmub: is not a usual name for a finger. Did you mean thumb?"),
+        std::string::npos)
         << said;
 }
 

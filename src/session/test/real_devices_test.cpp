@@ -129,7 +129,7 @@ TEST_P(RealDevices, StandInsAreToldOf) {
     EXPECT_FALSE(on_real_devices(request));
     const Plan plan = make_plan(request);
     ASSERT_FALSE(plan.warnings.empty());
-    EXPECT_NE(plan.warnings[0].text().find("are not simulated: ideal ones stand in"),
+    EXPECT_NE(plan.warnings[0].text().find("are not simulated: ideal devices replace them"),
               std::string::npos);
 }
 
@@ -143,9 +143,10 @@ TEST_P(RealDevices, KeepRealTimeAndNobodyMovesThemByARecording) {
         make_plan(request);
         FAIL();
     } catch (const Error& e) {
-        EXPECT_NE(std::string(e.what()).find("moves simulated fingers, and this rig's devices are "
-                                             "real. Choose another rig"),
-                  std::string::npos)
+        EXPECT_NE(
+            std::string(e.what()).find(
+                "moves simulated fingers, but this rig's devices are real. Choose another rig"),
+            std::string::npos)
             << e.what();
     }
 }
@@ -208,7 +209,7 @@ TEST_P(RealDevices, ASessionIsRecordedAndReplayedToTheBitWithADropOfForce) {
     const Recorded result = record(plan, options, stop);
     EXPECT_NE(result.fault.find("the index's device ("), std::string::npos) << result.fault;
     EXPECT_NE(result.fault.find("does not answer"), std::string::npos) << result.fault;
-    EXPECT_NE(result.fault.find("Its driver says: "), std::string::npos) << result.fault;
+    EXPECT_NE(result.fault.find("Its driver reports: "), std::string::npos) << result.fault;
     EXPECT_EQ(result.info.clock, "real");
     EXPECT_GE(result.figures.ticks_with(kForceDropped), 1);
     EXPECT_GE(result.figures.ticks_with(kNotAnswering), 1);

@@ -57,9 +57,10 @@ TEST(Rest, OfAPersonAtAMouseIsNotDoneByAScript) {
     Sessions sessions;
     const std::string cut = sessions.make(Mover::mouse);
     const std::string said = refusal(cut, Seat::terminal);
-    EXPECT_NE(said.find("a person moved the hand by mouse, and here is none"), std::string::npos)
+    EXPECT_NE(said.find("a person moved the hand by mouse, which is not available here"),
+              std::string::npos)
         << said;
-    EXPECT_NE(said.find("Go on in the window"), std::string::npos) << said;
+    EXPECT_NE(said.find("Continue in the window"), std::string::npos) << said;
     const Rest rest = rest_of(cut, Seat::window, {});
     EXPECT_EQ(rest.plan.moved_by.mover, Mover::mouse);
     EXPECT_EQ(rest.plan.driver, rest.plan.mouse);
@@ -70,7 +71,7 @@ TEST(Rest, OfASessionThatDoesNotSayWhoMovedItIsRefused) {
     const std::string cut = sessions.make(Mover::mouse);
     forget_mover(cut);
     for (const Seat seat : {Seat::terminal, Seat::window})
-        EXPECT_NE(refusal(cut, seat).find("does not say whether a mouse or the file's script"),
+        EXPECT_NE(refusal(cut, seat).find("does not state whether a mouse or the file's script"),
                   std::string::npos);
 }
 
@@ -89,7 +90,7 @@ TEST(Rest, IsDoneOnce) {
             return e.what();
         }
     };
-    const std::string wanted = "was resumed already, as " + next;
+    const std::string wanted = "has already been resumed, as " + next;
     const std::string late = told([&] { sessions.files.run(other.plan); });
     EXPECT_NE(late.find(wanted), std::string::npos) << late;
     EXPECT_NE(refusal(cut, Seat::terminal).find("dihaptic resume " + next), std::string::npos);

@@ -316,7 +316,8 @@ TEST(Session, AWallThatIsNotWhereTheWorkIsIsWarnedOf) {
     };
     EXPECT_EQ(warnings("{centre_mm: [0, 0, 100], size_mm: [400, 400, 200]}"), "");
     const std::string high = warnings("{centre_mm: [0, 0, 200], size_mm: [400, 400, 200]}");
-    EXPECT_NE(high.find("rig.yaml:4: warning: wall: keeps hands from the block"), std::string::npos)
+    EXPECT_NE(high.find("rig.yaml:4: warning: wall: keeps hands away from the block"),
+              std::string::npos)
         << high;
     EXPECT_NE(high.find("pushes the hand back in 100 % of its movement"), std::string::npos)
         << high;

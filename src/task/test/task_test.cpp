@@ -349,7 +349,8 @@ TEST(Task, ATriggerEndsAStateAndComesOnceASecondToASimulatedSession) {
                   "{ when: trigger, code: 9, to: reach }");
     session::Plan plan = session::make_plan(files.request());
     ASSERT_FALSE(plan.warnings.empty());
-    EXPECT_NE(plan.warnings.back().text().find("no line that a trigger"), std::string::npos);
+    EXPECT_NE(plan.warnings.back().text().find("no line for receiving a trigger"),
+              std::string::npos);
     const session::RunResult result = files.run(plan);
     finish(result);
     EXPECT_EQ(column(result.folder, "outcome"), std::vector<std::string>(9, "reached"));
