@@ -15,7 +15,7 @@ struct GraspOptions {
     bool json = false;
 };
 
-/// What is measured: the setup and, in the output for people, what it is compared with.
+/// The measured setup and, in the readable output, the setups compared with it.
 std::vector<measure::BenchSetup> compared(const GraspOptions& options) {
     std::vector<measure::BenchSetup> out{options.setup};
     const bool rigid = options.setup.settings.proxy.kind == scene::ProxyKind::rigid;
@@ -47,25 +47,27 @@ void run_grasp(GraspOptions options) {
 
 void add_grasp(CLI::App& bench) {
     auto* command = bench.add_subcommand(
-        "grasp", "Two fingers lift and hold a block: how still, how true, up to which stiffness");
+        "grasp",
+        "Two fingers lift and hold a block: how steadily, how accurately, up to which stiffness");
     auto options = std::make_shared<GraspOptions>();
     frame::Settings& settings = options->setup.settings;
     add_choice(*command, "--solver", settings.dynamics.solver, "contact solver");
     add_choice(*command, "--coupling", settings.coupling.kind, "coupling of handle and proxy");
-    command->add_option("--rate", settings.rate, "ticks a second [Hz]")
+    command->add_option("--rate", settings.rate, "ticks per second [Hz]")
         ->check(rate_range())
         ->capture_default_str();
     add_json(*command, options->json);
-    add_choice(*command, "--proxy", settings.proxy.kind, "what a finger is in the world");
-    command->add_option("--mass", options->setup.mass, "of the block [kg]")->capture_default_str();
-    command->add_option("--friction", options->setup.friction, "coefficient")
+    add_choice(*command, "--proxy", settings.proxy.kind, "model of a finger in the world");
+    command->add_option("--mass", options->setup.mass, "mass of the block [kg]")
+        ->capture_default_str();
+    command->add_option("--friction", options->setup.friction, "coefficient of friction")
         ->capture_default_str();
     command->add_option("--set", options->set,
                         "any other setting, e.g. coupling.onset_ms=20; may be repeated");
     command->footer(
-        "\nWithout --coupling both couplings of rigid proxies are measured, and of points "
-        "friction "
-        "together with the dynamics and apart; with --json only the default one.\n\nExamples:\n"
+        "\nWithout --coupling, both couplings of rigid proxies are measured, and points with "
+        "friction\nsolved together with the dynamics and separately; with --json, only the default "
+        "coupling.\n\nExamples:\n"
         "  dihaptic bench grasp --coupling dual_spring --mass 0.2\n"
         "  dihaptic bench grasp --set coupling.onset_ms=20");
     command->callback([command, options] {
@@ -74,14 +76,14 @@ void add_grasp(CLI::App& bench) {
     });
 }
 
-/// Benches that only developers need are in a separate program; a user who looks for one here gets
-/// a message that says so.
+/// Benches that only developers need are in a separate program; a user who looks for one here is
+/// told so.
 void add_moved(CLI::App& bench) {
     for (const char* name : {"friction", "scale", "heap", "contact", "solvers", "jitter", "view"}) {
         auto* command = bench.add_subcommand(name)->group("")->allow_extras();
         command->set_help_flag();
         command->callback([name] {
-            throw Error({"bench", 0}, name, "is in a program of its own",
+            throw Error({"bench", 0}, name, "is in a separate program",
                         fmt::format("Use dihaptic-bench {}.", name));
         });
     }

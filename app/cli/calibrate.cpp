@@ -45,14 +45,14 @@ void calibrate(const CalibrateOptions& options) {
 void add_calibrate(CLI::App& app) {
     auto* command = app.add_subcommand(
         "calibrate",
-        "Find where a rig's devices truly are, by a link between their endpoints and a jig");
+        "Find the true poses of a rig's devices, by a link between their endpoints and a jig");
     auto options = std::make_shared<CalibrateOptions>();
-    command->add_option("RIG", options->rig, "rig file, with the jig's points if there is one")
+    command->add_option("RIG", options->rig, "rig file, with the jig's points if a jig is used")
         ->transform(given_or_kept())
         ->required();
     command->add_option("-o,--out", options->out,
-                        "calibration file; otherwise the rig's own, beside it. The picture of what "
-                        "remains gets its name");
+                        "calibration file; default: the rig's own, beside it. The picture of the "
+                        "residuals gets its name");
     command->footer(
         "\nExample:\n  dihaptic calibrate rigs/premium-misplaced.yaml -o "
         "calibration.yaml");

@@ -19,7 +19,7 @@ void add_check(CLI::App& app) {
     command->footer(
         "\nExamples:\n  dihaptic check scenes/*.yaml rigs/*.yaml experiments/*.yaml "
         "movements/*.csv populations/*.yaml\n  dihaptic check experiments/grip-and-lift.yaml --rig "
-        "rigs/premium-pair.yaml    what this rig cannot render");
+        "rigs/premium-pair.yaml    limits of this rig");
     command->callback([files, rig] {
         size_t bad = 0;
         for (const std::string& file : *files) {

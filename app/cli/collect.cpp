@@ -41,8 +41,8 @@ struct Key {
     auto operator<=>(const Key&) const = default;
 };
 
-/// Throws Error unless a folder belongs to the first one's rehearsal or, with --join-seeds, to one
-/// that differs only in its seed.
+/// Throws Error unless a folder belongs to the first folder's rehearsal or, with --join-seeds, to a
+/// rehearsal that differs only in its seed.
 void check_same(const CollectOptions& options, const std::string& first_folder,
                 const Rehearsal& first, const std::string& folder, const Rehearsal& other) {
     Rehearsal same_seed = other;
@@ -51,24 +51,24 @@ void check_same(const CollectOptions& options, const std::string& first_folder,
     if (what.empty()) return;
     const bool seeds = first.seed != other.seed && !options.join_seeds;
     throw Error({folder, 0}, "",
-                fmt::format("is another rehearsal than {}: {}", first_folder, what),
-                seeds ? "Join several seeds on purpose with --join-seeds."
+                fmt::format("is a different rehearsal from {}: {}", first_folder, what),
+                seeds ? "To join several seeds, add --join-seeds."
                       : "Collect sessions of one experiment and one version only.");
 }
 
-/// The rehearsal by the latest command, which asked for the most people, and its folder.
+/// The rehearsal of the latest command, which requested the most people, and its folder.
 struct Wanted {
     std::string folder;
     Rehearsal rehearsal;
 };
 
 struct Found {
-    std::map<Key, std::string> people;      ///< session of each
+    std::map<Key, std::string> people;      ///< each person's session
     std::map<Key, std::string> unfinished;  ///< folder of each session that has not ended
     std::map<std::string, Wanted> wanted;   ///< by seed
     std::vector<std::string>
         others;  ///< folders of sessions that do not belong to a rehearsed person
-    std::vector<Problem> problems;                  ///< of people's folders
+    std::vector<Problem> problems;                  ///< problems in people's folders
     std::map<std::string, std::string> identities;  ///< folder of each session's identity
     std::vector<std::string> unsealed;              ///< folders of sessions without seals
 };
@@ -76,8 +76,8 @@ struct Found {
 /// The contents of a rehearsal's folder.
 struct Content {
     std::vector<std::string> people;      ///< their identifiers
-    std::vector<std::string> unfinished;  ///< identifiers of those whose sessions have not ended
-    std::vector<std::string> others;      ///< names of folders with sessions that belong to nobody
+    std::vector<std::string> unfinished;  ///< identifiers of people whose sessions have not ended
+    std::vector<std::string> others;  ///< names of folders with sessions that belong to no person
 };
 
 /// Whether a folder has the name of a person, "sim-003".
@@ -106,14 +106,14 @@ Content content_of(const std::string& folder) {
     return out;
 }
 
-/// Adds a person, unless the person's folder is not what the rehearsal made.
+/// Adds a person, unless the person's folder differs from the rehearsal's result.
 void add_person(Found& found, const std::string& folder, const std::string& id,
                 const Rehearsal& rehearsal) {
     const std::string session = folder + "/" + id;
     const auto [there, is_new] = found.people.emplace(Key{rehearsal.seed, id}, session);
     if (!is_new) {
         throw Error({session, 0}, "", "is there twice: " + there->second,
-                    "Name folders of different shards, or of different seeds.");
+                    "Name folders of different shards or different seeds.");
     }
     const session::Rehearsed looked = session::look_at(folder, id, rehearsal);
     found.problems.insert(found.problems.end(), looked.problems.begin(), looked.problems.end());
@@ -125,7 +125,7 @@ void add_person(Found& found, const std::string& folder, const std::string& id,
                               {session, 0},
                               "",
                               "has the same session as " + first->second,
-                              "Remove the one that is a copy."});
+                              "Remove the copy."});
 }
 
 Found find_people(const CollectOptions& options) {
@@ -135,8 +135,8 @@ Found find_people(const CollectOptions& options) {
     for (const std::string& folder : options.folders) {
         std::error_code unreadable;
         if (!fs::is_directory(folder, unreadable)) {
-            throw Error({folder, 0}, "", "is no folder",
-                        "Name the folders that dihaptic rehearse made.");
+            throw Error({folder, 0}, "", "is not a folder",
+                        "Name the folders made by dihaptic rehearse.");
         }
         const Content content = content_of(folder);
         if (content.people.empty() && !is_there(folder + "/rehearsal.yaml")) continue;
@@ -154,31 +154,31 @@ Found find_people(const CollectOptions& options) {
         for (const std::string& id : content.people) add_person(found, folder, id, rehearsal);
     }
     if (found.wanted.empty()) {
-        throw Error({options.folders.front(), 0}, "", "is no folder of a rehearsal",
+        throw Error({options.folders.front(), 0}, "", "is not the folder of a rehearsal",
                     "Rehearse first: dihaptic rehearse --help.");
     }
     return found;
 }
 
-/// Throws Error with everything that is wrong with people's folders, because a table that lacked
-/// one of them, or had somebody twice, would look like any other. Reports what cannot be checked in
-/// older ones.
+/// Throws Error with all faults in people's folders, because a table that lacked a person, or
+/// listed one twice, would look like any other. Reports facts that cannot be checked in older
+/// folders.
 void check_whole(Found& found) {
     if (!found.unsealed.empty() && found.unsealed.size() < found.identities.size()) {
         for (const std::string& session : found.unsealed) {
             found.problems.push_back({Severity::error,
                                       {session + "/session.yaml", 0},
                                       "seal",
-                                      "is missing, and others of this rehearsal have theirs",
-                                      "Put the folder back as it was, or remove it: the "
-                                      "rehearsal's command then does this person again."});
+                                      "is missing, although others of this rehearsal have theirs",
+                                      "Restore the folder, or remove it: the rehearsal's command "
+                                      "then repeats this person."});
         }
     }
     if (!found.problems.empty()) throw Error(found.problems);
     if (found.unsealed.empty()) return;
     fmt::print(
-        "note: {} no seal, being of a version that made none: what was changed in {} tables since "
-        "does not show\n",
+        "note: {} no seal, because {} version made none: later changes in their tables are not "
+        "visible\n",
         found.unsealed.size() == 1 ? found.unsealed[0] + " has" : "these sessions have",
         found.unsealed.size() == 1 ? "its" : "their");
 }
@@ -194,23 +194,23 @@ std::map<int, std::vector<std::string>> missing_of(const Found& found, const std
     return out;
 }
 
-/// Says which command does these shards of a rehearsal.
+/// Prints the command that does these shards of a rehearsal.
 void print_command(const Wanted& wanted, const std::vector<int>& shards) {
     const auto command = command_of(wanted.folder, wanted.rehearsal);
     if (!command) {
         fmt::print(
-            "to have these done: type the command again by which they were rehearsed; the one in "
-            "{}/rehearsal.yaml is none that dihaptic wrote\n",
+            "to complete these: repeat the command by which they were rehearsed; the one in "
+            "{}/rehearsal.yaml was not written by dihaptic\n",
             mended(wanted.folder, Lines::one));
         return;
     }
     Asked asked = wanted.rehearsal.asked;
     asked.command = *command;
-    fmt::print("to have these done, once no other process is working on them: {}\n",
+    fmt::print("to complete these, once no other process is working on them: {}\n",
                command_for(wanted.folder, asked, shards));
 }
 
-/// Names the people who are left out, and the command that does those who were requested.
+/// Lists the people who are left out, and the command that does the requested ones.
 void print_left_out(const Found& found) {
     auto others = found.unfinished;
     for (const auto& [seed, wanted] : found.wanted) {
@@ -233,17 +233,19 @@ void print_left_out(const Found& found) {
         exit_code = kFailed;
     }
     for (const std::string& folder : found.others) {
-        fmt::print("left out: {}: it is no rehearsed person's, and has no person.yaml\n",
-                   mended(folder, Lines::one));
+        fmt::print(
+            "left out: {}: it does not belong to a rehearsed person, and has no person.yaml\n",
+            mended(folder, Lines::one));
     }
     for (const auto& [key, folder] : others) {
-        fmt::print("left out: {}: its session has not ended; the command that began it goes on\n",
-                   mended(folder, Lines::one));
+        fmt::print(
+            "left out: {}: its session has not ended; the command that started it continues it\n",
+            mended(folder, Lines::one));
     }
 }
 
-/// The tables that are collected. Each row begins with seed, group and id, and ends with who moved
-/// the hand.
+/// The collected tables. Each row starts with seed, group and id, and ends with the mover of the
+/// hand.
 class Collection {
   public:
     explicit Collection(const std::map<Key, std::string>& people) {
@@ -267,7 +269,7 @@ class Collection {
         add_table("thresholds.csv", page.thresholds);
     }
 
-    /// Returns the names of the files that it wrote.
+    /// Returns the names of the written files.
     std::vector<std::string> write(const std::string& folder) const {
         std::vector<std::string> out;
         for (const auto& [name, rows] : tables_) {
@@ -285,8 +287,8 @@ class Collection {
     size_t rows(const std::string& name) const { return tables_.at(name).size() - 1; }
 
   private:
-    /// Each trait has a column, even if not everybody has it: people that Python moves need not be
-    /// of one class.
+    /// Each trait has a column, even if some people lack it: people moved by Python may belong to
+    /// different classes.
     void note_traits(const Node& person) {
         for (const auto& entry : person.entries) {
             if (entry.key == "id" || entry.key == "group") continue;
@@ -328,7 +330,7 @@ class Collection {
         if (all.empty()) all.push_back(header);
         if (all[0] != header) {
             throw Error({name, 1}, "",
-                        fmt::format("of {} has other columns than before", front_[2]),
+                        fmt::format("of {} has different columns from earlier ones", front_[2]),
                         "Collect sessions of one experiment and one version only.");
         }
         for (size_t i = 1; i < table.size(); ++i) {
@@ -350,7 +352,7 @@ void collect(const CollectOptions& options) {
     check_whole(found);
     const auto& people = found.people;
     if (people.empty()) {
-        fmt::print("no session is complete: there is nothing to collect yet\n");
+        fmt::print("no session is complete yet: nothing to collect\n");
         exit_code = kFailed;
         return;
     }
@@ -376,12 +378,12 @@ void collect(const CollectOptions& options) {
 
 void add_collect(CLI::App& app) {
     auto* command = app.add_subcommand(
-        "collect", "Join the tables of rehearsed people: trials, lifts, fits, who they were");
+        "collect", "Join the tables of rehearsed people: trials, lifts, fits, traits");
     auto options = std::make_shared<CollectOptions>();
     command->add_option("FOLDER", options->folders, "folders of dihaptic rehearse")->required();
     command->add_option("--out", options->out, "folder for the tables; default: the first one");
     command->add_flag("--join-seeds", options->join_seeds,
-                      "folders may be of several seeds: the column seed tells their people apart");
+                      "folders may have several seeds: the column seed distinguishes their people");
     command->footer(
         "\nExamples:\n"
         "  dihaptic collect rehearsals/visuomotor-rotation_1\n"

@@ -16,17 +16,17 @@ void list_devices() {
                        device.serial.empty() ? "" : ", serial " + device.serial, device.state);
         if (!found.missing.empty()) fmt::print("    {}\n", found.missing);
     }
-    fmt::print("simulated\n    always there: rigs/premium-pair.yaml and others\n");
+    fmt::print("simulated\n    always available: rigs/premium-pair.yaml and others\n");
 }
 
 }  // namespace
 
 void add_devices(CLI::App& app) {
     auto* command = app.add_subcommand(
-        "devices", "List the haptic devices of this machine, and what is missing for others");
+        "devices", "List the haptic devices of this machine, and missing parts for others");
     command->footer(
-        "\nNothing moves. A device that is listed here goes into a rig file (docs/files.md).\n"
-        "\nExample:\n  dihaptic devices");
+        "\nNothing moves. A device listed here can be named in a rig file "
+        "(docs/files.md).\n\nExample:\n  dihaptic devices");
     command->callback([] { list_devices(); });
 }
 

@@ -7,7 +7,7 @@
 namespace dihaptic::cli {
 namespace {
 
-/// Prints each section as soon as it has been examined.
+/// Prints each section as soon as it has been checked.
 void report() {
     std::string heading;
     bool usable = true;
@@ -29,10 +29,11 @@ void report() {
             return;
         }
     }
-    fmt::print("\n{}{}\n",
-               usable ? "Sessions on simulated devices can be run here."
-                      : "Sessions on simulated devices lack something here.",
-               lacking == 0 ? "" : " Where it says lacks, the commands below it mend it.");
+    fmt::print(
+        "\n{}{}\n",
+        usable ? "Sessions on simulated devices can be run here."
+               : "Sessions on simulated devices cannot run here yet.",
+        lacking == 0 ? "" : " The commands below an entry marked 'lacks' solve the problem.");
     if (!usable) exit_code = kFailed;
 }
 
@@ -40,17 +41,16 @@ void report() {
 
 void add_doctor(CLI::App& app) {
     auto* command = app.add_subcommand(
-        "doctor", "What this machine lacks for experiments, with a command for each");
+        "doctor", "List parts that this machine lacks for experiments, with a command for each");
     auto section = std::make_shared<std::string>();
-    command->add_option("--section", *section)->group("");  // for the processes that it starts
+    command->add_option("--section", *section)->group("");  // for the processes started here
     command->footer(
-        "\nNothing moves, and nothing is changed. Looks at real time, devices, graphics, sound, "
-        "the "
-        "disk\nand the parts of Dihaptic. Returns 0 if sessions on simulated devices can be run, "
-        "else 1.\n"
+        "\nNothing moves, and nothing is changed. Checks real time, devices, graphics, sound, "
+        "the disk\nand the parts of Dihaptic. Returns 0 if sessions on simulated devices can be "
+        "run, otherwise 1.\n"
         "\nExample:\n  dihaptic doctor");
     command->callback([section] {
-        tell_companion_waits(nullptr);  // the program itself reports what hangs
+        tell_companion_waits(nullptr);  // the program itself reports hanging parts
         if (section->empty()) {
             report();
         } else {

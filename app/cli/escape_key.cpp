@@ -43,11 +43,11 @@ void EscapeKey::listen(std::atomic<bool>& pressed, std::atomic<char>& key) {
         std::array<char, 64> keys;
         const ssize_t count = read(STDIN_FILENO, keys.data(), keys.size());
         if (count <= 0) {
-            pressed.store(true);  // the terminal is gone, and with it the operator
+            pressed.store(true);  // the terminal is closed, and the operator has no more control
             return;
         }
-        // arrows and function keys begin with Escape, so they stop the session too, which harms
-        // nobody
+        // arrows and function keys start with Escape, so they stop the session too, which is
+        // harmless
         if (std::find(keys.begin(), keys.begin() + count, kEscape) != keys.begin() + count)
             pressed.store(true);
         else

@@ -1,5 +1,5 @@
 // Reads the terminal's keys while a session runs on the real clock: Escape asks the session to
-// stop, as Ctrl-C does. Keys are read as they are pressed, without echo, until the object is
+// stop, like Ctrl-C. Keys are read as they are pressed, without echo, until the object is
 // destroyed.
 #pragma once
 

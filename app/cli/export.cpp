@@ -65,20 +65,18 @@ void to_csv(const recording::SessionFolder& session, const Options& options) {
 }  // namespace
 
 void add_export(CLI::App& app) {
-    auto* command = app.add_subcommand(
-        "export",
-        "Add a session to a BIDS data set (motion, channels, events, participant), or write curves "
-        "of it as a CSV file");
+    auto* command = app.add_subcommand("export",
+                                       "Add a session to a BIDS data set (motion, channels, "
+                                       "events, participant), or write its curves to a CSV file");
     auto options = std::make_shared<Options>();
     command->add_option("SESSION", options->session, "folder of a session")->required();
-    auto* bids =
-        command->add_option("--bids", options->data_set, "folder of the data set, made if need be");
+    auto* bids = command->add_option("--bids", options->data_set,
+                                     "folder of the data set, created if necessary");
     auto* csv =
         command
             ->add_option("--csv", options->names,
-                         "quantities, as docs/quantities.md names them, with commas between "
-                         "them: a row for each tick, with its time, its trial and these, in "
-                         "SI units")
+                         "quantities with their names in docs/quantities.md, separated by commas: "
+                         "a row for each tick, with its time, its trial and these, in SI units")
             ->excludes(bids);
     command->add_option("-o,--out", options->out, "the CSV file; default: SESSION_curves.csv, here")
         ->needs(csv);
@@ -89,7 +87,7 @@ void add_export(CLI::App& app) {
         "sessions/2026-11-20_101500_lift-block");
     command->callback([options] {
         if (options->data_set.empty() && split(options->names).empty()) {
-            throw Error("there is nothing to export to",
+            throw Error("no destination is given",
                         "Add --bids FOLDER, or --csv with names of quantities.");
         }
         const auto session = recording::SessionFolder::open(options->session);

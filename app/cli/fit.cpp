@@ -13,7 +13,7 @@
 namespace dihaptic::cli {
 namespace {
 
-/// What a fit found, for people and for programs.
+/// The result of a fit, for people and for programs.
 struct Fitted {
     analysis::Parameters parameters;
     /// Further figures, for people and for programs.
@@ -44,7 +44,7 @@ CsvFile given(const std::string& file, std::initializer_list<const char*> column
     Diagnostics diagnostics;
     CsvFile table = CsvFile::given(file, diagnostics, [&](const CsvFile& head) {
         for (const char* column : columns) {
-            if (!head.has(column)) throw Error(head.head(), column, "is not there", remedy);
+            if (!head.has(column)) throw Error(head.head(), column, "does not exist", remedy);
         }
     });
     print(diagnostics.problems(), stderr);
@@ -55,13 +55,13 @@ double number(const CsvFile& table, size_t row, const char* column, const char* 
     const double value = table.number(row, column);
     if (std::isfinite(value)) return value;
     throw Error(table.place(row), column,
-                fmt::format("is '{}', which is no number", table.text(row, column)), remedy);
+                fmt::format("is '{}', which is not a number", table.text(row, column)), remedy);
 }
 
-/// What was measured in each trial; NaN where the cell is empty.
+/// The measured value in each trial; NaN if the cell is empty.
 struct Measured {
     std::vector<double> values;
-    int count = 0;  ///< number of trials in which something was measured
+    int count = 0;  ///< number of trials with a measured value
 };
 
 /// Throws Error when fewer trials than `least` were measured.
@@ -71,13 +71,13 @@ Measured read_measured(const CsvFile& table, int least, const char* parameters) 
         const bool unmeasured = table.text(i, "compensation").empty();
         out.values.push_back(unmeasured ? NAN
                                         : number(table, i, "compensation",
-                                                 "Leave it empty where nothing was measured."));
+                                                 "Leave it empty if nothing was measured."));
         out.count += unmeasured ? 0 : 1;
     }
     if (out.count < least) {
         throw Error(table.head(), "compensation",
                     fmt::format("is measured in {} trials", out.count),
-                    fmt::format("{} take {} at least.", parameters, least));
+                    fmt::format("{} require at least {}.", parameters, least));
     }
     return out;
 }
@@ -88,15 +88,14 @@ std::vector<model::AdaptationTrial> read_trials(const CsvFile& table) {
         const std::string clamp = table.text(i, "clamp");
         if (clamp != "0" && clamp != "1") {
             throw Error(table.place(i), "clamp", fmt::format("is '{}'", clamp),
-                        "Write 1 where no error was shown, whatever the person did, and 0 "
-                        "elsewhere.");
+                        "Write 1 if no error was shown, whatever the person did, and 0 elsewhere.");
         }
-        // nothing is learned from the perturbation in a clamp trial
-        const double perturbation =
-            clamp == "1" ? 0
-                         : number(table, i, "perturbation",
-                                  "Write what the trial showed, 0 for none, in one unit and with "
-                                  "the sign of what compensates for it.");
+        // a person learns nothing from the perturbation in a clamp trial
+        const double perturbation = clamp == "1"
+                                        ? 0
+                                        : number(table, i, "perturbation",
+                                                 "Write the perturbation shown, 0 for none, in one "
+                                                 "unit and with the sign of the compensation.");
         out.push_back({perturbation, clamp == "1"});
     }
     return out;
@@ -111,7 +110,7 @@ Fitted curve(const Fit& fit, int n) {
 }
 
 constexpr const char* kTrialColumns =
-    "Give the columns perturbation, clamp and compensation, a row a trial.";
+    "Give the columns perturbation, clamp and compensation, with one row per trial.";
 
 Fitted fit_two_rate(const std::string& file) {
     const CsvFile table = given(file, {"perturbation", "clamp", "compensation"}, kTrialColumns);
@@ -129,7 +128,7 @@ Fitted fit_single_rate(const std::string& file) {
 
 Fitted fit_learning_curve(const std::string& file) {
     const CsvFile table =
-        given(file, {"compensation"}, "Give the column compensation, a row a trial.");
+        given(file, {"compensation"}, "Give the column compensation, with one row per trial.");
     const Measured measured = read_measured(table, 4, "Three parameters");
     return curve(analysis::fit_learning_curve(measured.values), measured.count);
 }
@@ -142,16 +141,17 @@ struct PsychometricOptions {
 /// The answers of a table: yes is 1 or yes, and 0 or no.
 std::vector<analysis::Answer> read_answers(const std::string& file) {
     const CsvFile table =
-        given(file, {"level", "yes"}, "Give the columns level and yes (1 or 0), a row an answer.");
+        given(file, {"level", "yes"},
+              "Give the columns level and yes (1 or 0), with one row per answer.");
     std::vector<analysis::Answer> out;
     for (size_t i = 0; i < table.rows(); ++i) {
         const std::string yes = table.text(i, "yes");
         const bool is_yes = yes == "1" || yes == "yes";
         if (!is_yes && yes != "0" && yes != "no") {
             throw Error(table.place(i), "yes", fmt::format("is '{}'", yes),
-                        "Write 1 for yes, or a right answer, and 0 for the other.");
+                        "Write 1 for yes, or a correct answer, and 0 for the other answer.");
         }
-        out.push_back({number(table, i, "level", "Write what was shown."), is_yes});
+        out.push_back({number(table, i, "level", "Write the level shown."), is_yes});
     }
     return out;
 }
@@ -166,7 +166,7 @@ Fitted fit_psychometric(const PsychometricOptions& options) {
         analysis::parameters(fit, ends),
         {{"guess", fit.function.guess}, {"deviance", fit.deviance}, {"n", n}},
         fmt::format("{} answers at {} levels; deviance {:.4g}{}", n, counts.size(), fit.deviance,
-                    fit.shape_unknown ? "; the answers cannot tell the shape" : "")};
+                    fit.shape_unknown ? "; the answers do not determine the shape" : "")};
 }
 
 /// A command of `fit` for trials of adaptation.
@@ -175,7 +175,7 @@ void add_curve(CLI::App& fit, const std::string& name, const std::string& what,
     auto* command = fit.add_subcommand(name, what);
     auto file = std::make_shared<std::string>();
     auto json = std::make_shared<bool>(false);
-    command->add_option("FILE", *file, "CSV, a row a trial: " + columns)->required();
+    command->add_option("FILE", *file, "CSV, one row per trial: " + columns)->required();
     add_json(*command, *json);
     command->footer(fmt::format("\nExample:\n  dihaptic fit {} person.csv --json", name));
     command->callback([file, json, find] {
@@ -185,11 +185,11 @@ void add_curve(CLI::App& fit, const std::string& name, const std::string& what,
 }
 
 void add_psychometric(CLI::App& fit) {
-    auto* command = fit.add_subcommand("psychometric",
-                                       "The psychometric function that makes answers most likely");
+    auto* command = fit.add_subcommand(
+        "psychometric", "The psychometric function that makes the answers most likely");
     auto options = std::make_shared<PsychometricOptions>();
     auto json = std::make_shared<bool>(false);
-    command->add_option("FILE", options->file, "CSV, a row an answer: level, yes (1 or 0)")
+    command->add_option("FILE", options->file, "CSV, one row per answer: level, yes (1 or 0)")
         ->required();
     add_choice(*command, "--sigmoid", options->settings.sigmoid, "its shape; default: normal");
     command->add_option("--guess", options->settings.guess, "share of yes by guessing")
@@ -200,7 +200,7 @@ void add_psychometric(CLI::App& fit) {
         ->capture_default_str();
     command
         ->add_option("--shape", options->settings.shape,
-                     "its shape, if it is known, as it must be after an adaptive procedure")
+                     "its shape, if known; it must be known after an adaptive procedure")
         ->check(CLI::PositiveNumber);
     add_json(*command, *json);
     command->footer("\nExample:\n  dihaptic fit psychometric answers.csv --guess 0 --json");
@@ -213,15 +213,15 @@ void add_psychometric(CLI::App& fit) {
 }  // namespace
 
 void add_fit(CLI::App& app) {
-    auto* command = app.add_subcommand("fit", "Fit a model to a table of one's own");
+    auto* command = app.add_subcommand("fit", "Fit a model to your own table");
     command->require_subcommand(1);
     command->footer("\nExample:\n  dihaptic fit two_rate person.csv --json");
     const std::string trials = "perturbation, clamp (0 or 1), compensation (empty: not measured)";
-    add_curve(*command, "two_rate",
-              "The two-rate model of adaptation (Smith et al. 2006) that is nearest to a person's "
-              "trials",
-              trials, fit_two_rate);
-    add_curve(*command, "single_rate", "The same with a single process", trials, fit_single_rate);
+    add_curve(
+        *command, "two_rate",
+        "The two-rate model of adaptation (Smith et al. 2006) that is closest to a person's trials",
+        trials, fit_two_rate);
+    add_curve(*command, "single_rate", "The model with a single process", trials, fit_single_rate);
     add_curve(*command, "learning_curve", "An exponential from a start to an asymptote",
               "compensation (empty: not measured)", fit_learning_curve);
     add_psychometric(*command);

@@ -20,8 +20,9 @@ void run(const std::vector<std::string>& files, const std::string& out, double s
         return value != nullptr && *value != '\0';
     };
     if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY") && !is_set("QT_QPA_PLATFORM")) {
-        throw Error("there is no screen to open a window on",
-                    "Start it on a desktop, or log in by ssh -X; dihaptic run needs none.");
+        throw Error(
+            "there is no screen for a window",
+            "Start it on a desktop, or log in with ssh -X; dihaptic run does not need a screen.");
     }
     const std::string program = companion(kProgram);
     std::vector<std::string> words{kProgram, "--out", out, "--sync", fmt::format("{}", sync)};
@@ -46,12 +47,11 @@ void add_gui(CLI::App& app) {
     auto* command = app.add_subcommand(
         "gui", "The operator's window; without devices, the mouse moves a simulated hand");
     auto options = std::make_shared<Options>();
-    command->add_option(
-        "FILE", options->files,
-        "scene or experiment, or folders of recorded sessions, of which two are shown "
-        "side by side; none: a page of what there is");
+    command->add_option("FILE", options->files,
+                        "scene or experiment, or folders of recorded sessions, of which two are "
+                        "shown side by side; none: a start page");
     command->add_option("--out", options->out, "folder for session folders")->capture_default_str();
-    command->add_option("--sync", options->sync, "as of dihaptic run [s]")
+    command->add_option("--sync", options->sync, "as in dihaptic run [s]")
         ->check(CLI::Range(0.05, 3600.0));
     command->footer(
         "\nExamples:\n  dihaptic gui scenes/block-on-table.yaml\n"

@@ -25,14 +25,14 @@ void say_what_to_do(const std::string& program) {
         {"run experiments/lift-block.yaml", "two fingers lift a block: figures, a recording"},
         {"gui", "the window, in which your mouse moves the hand"},
         {"new study NAME", "a study of your own, to be edited"},
-        {"doctor", "what this machine lacks, with a command for each"},
-        {"--help", "all commands; each has --help of its own"},
+        {"doctor", "parts that this machine lacks, with a command for each"},
+        {"--help", "all commands; each has its own --help"},
     }};
     size_t width = 0;
     for (const Line& line : lines) width = std::max(width, line.command.size());
     fmt::print(stderr,
                "Dihaptic: a virtual tabletop for experiments with force-feedback devices, or with "
-               "simulated ones.\nTo begin with:\n\n");
+               "simulated ones.\nTo start:\n\n");
     for (const Line& line : lines)
         fmt::print(stderr, "  {} {:{}}    {}\n", program, line.command, width, line.what);
 }
@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) cli::typed += std::string(" ") + argv[i];
     if (argc <= 1) {
         cli::say_what_to_do(argc == 1 ? argv[0] : "dihaptic");
-        return cli::kBadInput;  // a script whose command is empty has done nothing
+        return cli::kBadInput;  // a script with an empty command has done nothing
     }
 
     CLI::App app(

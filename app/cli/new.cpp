@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 struct StudyFile {
     const char* name;
     std::string_view text;
-    const char* schema = nullptr;  ///< by which editors complete and check it
+    const char* schema = nullptr;  ///< schema with which editors complete and check it
 };
 
 std::array<StudyFile, 4> study_files() {
@@ -47,29 +47,28 @@ void check_name(const std::string& name) {
     std::replace_if(
         near.begin(), near.end(), [](char c) { return !is_usual(c); }, '-');
     near.erase(0, near.find_first_not_of("-."));
-    throw Error(fmt::format("'{}' is no name for a study", shortened(name)),
+    throw Error(fmt::format("'{}' is not a valid name for a study", shortened(name)),
                 fmt::format("Use letters, digits, '-' and '_': dihaptic new study {}.",
                             near.empty() ? "my-study" : near));
 }
 
-/// The place of the new study. Throws Error when it cannot be there.
+/// The path of the new study. Throws Error when the study cannot be made there.
 fs::path place_of(std::string path) {
     while (path.size() > 1 && path.back() == '/') path.pop_back();
     const fs::path folder(path);
     check_name(folder.filename().string());
     std::error_code failed;
     if (fs::exists(fs::symlink_status(folder, failed)))
-        throw Error({path, 0}, "", "is already there", "Choose another name.");
+        throw Error({path, 0}, "", "already exists", "Choose another name.");
     const fs::path above = folder.parent_path();
     if (above.empty() || fs::is_directory(above, failed)) return folder;
     if (fs::exists(above, failed))
-        throw Error({above.string(), 0}, "", "is no folder", "Name one that the study goes into.");
-    throw Error({above.string(), 0}, "", "is not there",
+        throw Error({above.string(), 0}, "", "is not a folder", "Name a folder for the study.");
+    throw Error({above.string(), 0}, "", "does not exist",
                 fmt::format("Make it first: mkdir -p '{}'.", above.string()));
 }
 
-/// Makes the folder under another name first, so that a half-made one is never found under the
-/// final name.
+/// Makes the folder under another name first, so that no incomplete folder ever has the final name.
 void make_study(const fs::path& folder) {
     std::optional<Output> study;
     try {
@@ -77,7 +76,7 @@ void make_study(const fs::path& folder) {
     } catch (const Error&) {
         throw Error({folder.string(), 0}, "",
                     fmt::format("cannot be made: {}", std::strerror(errno)),
-                    "Go to a folder of your own first (cd), or name one: dihaptic new study "
+                    "First change to a folder of your own (cd), or name one: dihaptic new study "
                     "~/my-study.");
     }
     fs::create_directory(study->path());
@@ -94,7 +93,7 @@ void new_study(const std::string& path) {
     std::vector<std::string> names;
     for (const StudyFile& file : study_files()) names.emplace_back(file.name);
     fmt::print("{}: {}\n", folder.string(), fmt::join(names, ", "));
-    fmt::print("next: cd {}, where README.md says what to type, from top to bottom\n",
+    fmt::print("next: cd {}, and follow README.md from top to bottom\n",
                shell_file(folder.string()));
     const char* const paths = std::getenv("PATH");
     if (!app::shell_finds_program(paths == nullptr ? "" : paths))
@@ -104,14 +103,13 @@ void new_study(const std::string& path) {
 }  // namespace
 
 void add_new(CLI::App& app) {
-    auto* command =
-        app.add_subcommand("new", "Make files of one's own to begin with: a whole study");
+    auto* command = app.add_subcommand("new", "Make your own files to start with: a whole study");
     command->require_subcommand(1);
     command->footer("\nExample:\n  dihaptic new study my-study");
     auto* study = command->add_subcommand(
         "study", "Make a folder with scene, rig, experiment and README.md, to be edited");
     auto name = std::make_shared<std::string>();
-    study->add_option("NAME", *name, "the folder, which is not there yet")->required();
+    study->add_option("NAME", *name, "the folder, which must not exist yet")->required();
     study->footer("\nExample:\n  dihaptic new study my-study");
     study->callback([name] { new_study(*name); });
 }

@@ -13,7 +13,7 @@ void make_picture(const PictureOptions& options) {
     check_no_input(options);
     const Showing showing = open_showing(options.file);
     Drawer drawer(showing, options);
-    // a scene is shown as it starts, a session as it ended
+    // a scene is shown at its start, a session at its end
     const double time =
         options.time.value_or(showing.recorded ? std::numeric_limits<double>::infinity() : 0);
     frame::Frame shown;
@@ -57,7 +57,7 @@ void add_picture(CLI::App& app) {
         ->required();
     command
         ->add_option("--time", options->time,
-                     "which moment [s]; otherwise a scene's start, a session's end")
+                     "moment to show [s]; default: a scene's start, a session's end")
         ->check(CLI::NonNegativeNumber);
     add_view_options(*command, options);
     command->add_option("-o,--out", options->out, "the picture, a PNG file")->capture_default_str();

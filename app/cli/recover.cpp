@@ -8,10 +8,8 @@
 namespace dihaptic::cli {
 
 void add_recover(CLI::App& app) {
-    auto* command =
-        app.add_subcommand("recover",
-                           "Make a session of what a killed or crashed run left behind, or of what "
-                           "damage left of it");
+    auto* command = app.add_subcommand(
+        "recover", "Make a session from the remains of a killed, crashed or damaged run");
     auto session = std::make_shared<std::string>();
     command->add_option("SESSION", *session, "folder of a session")->required();
     command->footer("\nExample:\n  dihaptic recover sessions/2026-11-20_101500_lift-block");
@@ -26,7 +24,7 @@ void add_recover(CLI::App& app) {
         const analysis::SessionFigures& figures = recovery.figures;
         fmt::print("{}, {:.3f} s of session; {}\n", counted(figures.frames, "frame"),
                    figures.duration,
-                   figures.log.damaged(recovery.info.ticks) ? "the log is not whole:"
+                   figures.log.damaged(recovery.info.ticks) ? "the log is incomplete:"
                                                             : "the log is complete");
         for (const std::string& line :
              recording::describe(figures.log, recovery.info.ticks, recovery.info.planned())) {
@@ -39,7 +37,7 @@ void add_recover(CLI::App& app) {
         fmt::print("written: {}, trials.csv, phases.csv, episodes.csv, events.csv{}\n",
                    folder.nwb(), is_there(folder.file("lifts.csv")) ? ", lifts.csv" : "");
         if (recovery.had_ended)
-            fmt::print("(the session had its files before: they were made anew)\n");
+            fmt::print("(the session already had its files: they were rebuilt)\n");
     });
 }
 

@@ -20,8 +20,8 @@ struct RegisterOptions {
     std::string out;
 };
 
-/// Where a simulated finger finds the screen: away from where the file has it, so that the command
-/// has something to show.
+/// The screen's pose as touched by a simulated finger: displaced from that in the file, so that the
+/// command has a result to show.
 display::Display misplaced(const display::Display& display) {
     display::Display out = display;
     const Vec3 about = display.at({0.5, 0.5});
@@ -75,20 +75,22 @@ void register_display(const RegisterOptions& options) {
 }  // namespace
 
 void add_register(CLI::App& app) {
-    auto* command = app.add_subcommand(
-        "register", "Find where the person sees a rig's display, by a finger that touches crosses");
+    auto* command = app.add_subcommand("register",
+                                       "Find the position at which the person sees a rig's "
+                                       "display, by touching crosses with a finger");
     auto options = std::make_shared<RegisterOptions>();
     command->add_option("RIG", options->rig, "rig file, with the display")
         ->transform(given_or_kept())
         ->required();
-    command->add_option("--display", options->display, "its name; otherwise the rig's only one");
+    command->add_option("--display", options->display,
+                        "name of the display; default: the rig's only one");
     command->add_option("--finger", options->finger,
-                        "that touches; otherwise that of the rig's first device");
+                        "finger that touches; default: that of the rig's first device");
     command->add_option("--crosses", options->crosses,
                         "only draw the crosses: an SVG file, for any program that shows it on the "
                         "whole screen");
     command->add_option("-o,--out", options->out,
-                        "registration file; otherwise the display's own, beside the rig file");
+                        "registration file; default: the display's own, beside the rig file");
     command->footer(
         "\nExamples:\n  dihaptic register rigs/mirror-rig.yaml --crosses crosses.svg\n"
         "  dihaptic register rigs/mirror-rig.yaml -o registration.yaml");

@@ -37,8 +37,8 @@ struct RehearseOptions {
     std::optional<person::Population> population;
     int people = 1;
     int jobs = 1;
-    int slurm = 0;          ///< number of shards that Slurm is to do; 0: done here
-    std::string container;  ///< file of Apptainer's whose program does them; empty: this one
+    int slurm = 0;          ///< number of shards for Slurm; 0: done here
+    std::string container;  ///< Apptainer file whose program does them; empty: this program
     bool real_objects = false;
     bool keep_recordings = false;
 };
@@ -55,19 +55,19 @@ Shard parse_shard(const std::string& text) {
         whole_number<int>(std::string_view(text).substr(std::min(slash + 1, text.size())))
             .value_or(0)};
     if (shard.number < 1 || shard.number > shard.of) {
-        throw Error({"--shard", 0}, text, "is no part of a whole",
+        throw Error({"--shard", 0}, text, "is not a part of a whole",
                     "Write e.g. --shard 3/20: the third of twenty parts.");
     }
     return shard;
 }
 
-/// Runs one person's session, in a process of its own. Returns its exit status.
+/// Runs one person's session, in a separate process. Returns its exit status.
 int run_person(const RehearseOptions& options, const std::string& id,
                const session::UnfinishedFolder& place) {
     try {
         dup2(place.messages(), STDOUT_FILENO);
         dup2(place.messages(), STDERR_FILENO);
-        if (place.is_done()) {  // by another program, just now
+        if (place.is_done()) {  // just completed by another program
             place.remove();
             return kOk;
         }
@@ -112,7 +112,7 @@ pid_t start(const RehearseOptions& options, const std::string& id,
     }
     if (child < 0) {
         throw Error(fmt::format("cannot start another process: {}", std::strerror(errno)),
-                    "Ask for fewer --jobs.");
+                    "Use fewer --jobs.");
     }
     return child;
 }
@@ -127,7 +127,7 @@ std::string what_became(int status) {
 std::string why_failed(const RehearseOptions& options, const std::string& id) {
     const std::string messages = session::messages_of(options.out, id);
     if (!messages.empty() || stop_requested) return messages;
-    return fmt::format("It left no message: look whether the disk is full (df -h {}).",
+    return fmt::format("It left no message: check whether the disk is full (df -h {}).",
                        shell_file(options.out));
 }
 
@@ -138,7 +138,7 @@ std::string usual_folder(const session::Request& request) {
 /// A shard's people.
 struct Roster {
     std::vector<std::string> waiting;
-    int there = 0;  ///< number of people whose sessions were complete before
+    int there = 0;  ///< number of people whose sessions were already complete
 };
 
 Roster roster_of(const RehearseOptions& options, const Shard& shard) {
@@ -159,7 +159,7 @@ class Crowd {
     Crowd(const RehearseOptions& options, const std::vector<std::string>& people)
         : options_(options), people_(people), line_("rehearsing") {}
 
-    /// Returns what to print about those whose sessions failed.
+    /// Returns the text about people whose sessions failed.
     std::vector<std::string> run() {
         while (!running_.empty() || (next_ < people_.size() && !stop_requested)) {
             while (static_cast<int>(running_.size()) < options_.jobs && next_ < people_.size() &&
@@ -185,7 +185,7 @@ class Crowd {
             fail(id, "failed", e.what());
         }
     }
-    /// Another program may have done this person by now.
+    /// Another program may have done this person in the meantime.
     void look_again(const std::string& id) {
         try {
             if (session::has_session(options_.out + "/" + id)) {
@@ -193,7 +193,7 @@ class Crowd {
                 return show();
             }
             fail(id, "failed",
-                 "Another dihaptic is doing this session now: wait until that has ended.");
+                 "Another dihaptic is doing this session now: wait until it has ended.");
         } catch (const Error& e) {
             fail(id, "failed", e.what());
         }
@@ -204,8 +204,8 @@ class Crowd {
         if (child < 0 && errno == EINTR) return;
         if (child < 0) {
             throw Error({options_.out, 0}, "",
-                        "is not watched over: " + std::string(std::strerror(errno)),
-                        "Start it again: it goes on with those that are missing.");
+                        "is not supervised: " + std::string(std::strerror(errno)),
+                        "Start it again: it continues with the missing people.");
         }
         const auto ended = running_.find(child);
         if (ended == running_.end()) return;
@@ -232,7 +232,7 @@ class Crowd {
     const std::vector<std::string>& people_;
     ProgressLine line_;
     std::map<pid_t, std::string> running_;
-    std::vector<std::string> busy_;  ///< those that another program was doing at their turn
+    std::vector<std::string> busy_;  ///< people that another program was doing at their turn
     std::vector<std::string> failed_;
     size_t next_ = 0;
     size_t done_ = 0;
@@ -259,7 +259,7 @@ std::pair<std::string, Asked> prepare(RehearseOptions& options, const Shard& sha
     options.request.participant = person_id(1);
     const session::Plan plan = session::make_plan(options.request);
     if (!plan.task) {
-        throw Error({options.request.file, 0}, "task", "has no trials that people could do",
+        throw Error({options.request.file, 0}, "task", "has no trials for people",
                     "Rehearse an experiment with 'task:', or see dihaptic run.");
     }
     print(plan.warnings);
@@ -287,28 +287,29 @@ void print_next(const RehearseOptions& options, const Shard& shard) {
                    all ? "" : fmt::format(", shard {}/{}", shard.number, shard.of),
                    all ? "" : ", when the other shards are", shell_file(options.out));
     } else {
-        fmt::print("some are missing in {}: the same command goes on with those\n", options.out);
+        fmt::print("some people are missing in {}: the same command continues with them\n",
+                   options.out);
     }
 }
 
 void check_container(const RehearseOptions& options) {
     if (options.slurm == 0) {
-        throw Error({"--container", 0}, "", "is for --slurm alone",
+        throw Error({"--container", 0}, "", "is valid only with --slurm",
                     "Add --slurm, or put apptainer exec and the file before dihaptic.");
     }
     std::error_code unreadable;
     if (!fs::is_regular_file(options.container, unreadable)) {
         throw Error({"--container", 0}, options.container, "is not a file",
-                    "Make one by: apptainer build dihaptic.sif oci-archive:dihaptic.tar");
+                    "Make one with: apptainer build dihaptic.sif oci-archive:dihaptic.tar");
     }
 }
 
-/// Submits to Slurm those shards in which somebody is missing.
+/// Submits to Slurm the shards with missing people.
 void rehearse_by_slurm(RehearseOptions& options) {
     if (options.slurm > options.people) {
         throw Error({"--slurm", 0}, "",
-                    fmt::format("asks for {} shards of {} people", options.slurm, options.people),
-                    fmt::format("Ask for at most as many as there are people: --slurm {}.",
+                    fmt::format("requests {} shards for {} people", options.slurm, options.people),
+                    fmt::format("Request at most as many shards as there are people: --slurm {}.",
                                 options.people));
     }
     const auto [title, asked] = prepare(options, {1, options.slurm});
@@ -371,31 +372,30 @@ void add_rehearse(CLI::App& app) {
         ->required();
     command
         ->add_option("--population", options->population_file,
-                     "population file that people are drawn from; default: the program's own, "
-                     "as in populations/adults.yaml")
+                     "population file from which people are drawn; default: the program's own, as "
+                     "in populations/adults.yaml")
         ->transform(given_or_kept());
-    command->add_option("--people", options->people, "how many, sim-001 and so on")
+    command->add_option("--people", options->people, "number of people: sim-001 and so on")
         ->check(CLI::Range(1, session::kMostPeople))
         ->capture_default_str();
-    command->add_option("--jobs", options->jobs, "sessions at a time")
+    command->add_option("--jobs", options->jobs, "number of sessions at a time")
         ->check(CLI::Range(1, 1024))
         ->capture_default_str();
     command->add_option("--shard", options->shard, "only every 20th person, from the 3rd: 3/20")
         ->capture_default_str();
     command
         ->add_option("--slurm", options->slurm,
-                     "hand so many shards to the cluster, as an array of Slurm's: see below")
+                     "submit this many shards to the cluster, as a Slurm array: see below")
         ->check(CLI::Range(1, session::kMostPeople));
     command->add_option("--container", options->container,
                         "with --slurm: Apptainer file (SIF) whose dihaptic does the shards");
     command->add_option("--out", options->out, "folder; default: rehearsals/EXPERIMENT_SEED");
-    command->add_option("--seed", options->request.seed, "of everything random")
+    command->add_option("--seed", options->request.seed, "seed of all random numbers")
         ->check(seed_range())
         ->capture_default_str();
     command
         ->add_flag("--real-objects", options->real_objects,
-                   "people grip as one does without a device between: as in "
-                   "populations/adults-real-objects.yaml")
+                   "people grip as without a device: as in populations/adults-real-objects.yaml")
         ->excludes("--population");
     command->add_flag("--keep-recordings", options->keep_recordings,
                       "keep raw.log and session.nwb of each: hundreds of MB");
@@ -404,7 +404,7 @@ void add_rehearse(CLI::App& app) {
         if (command->count("--container") > 0) check_container(*options);
         if (options->slurm == 0) return rehearse(*options);
         if (command->count("--shard") + command->count("--jobs") > 0) {
-            throw Error({"--slurm", 0}, "", "goes with neither --shard nor --jobs",
+            throw Error({"--slurm", 0}, "", "cannot be combined with --shard or --jobs",
                         "Leave them out: Slurm does all shards, each on one processor.");
         }
         rehearse_by_slurm(*options);

@@ -26,7 +26,7 @@ std::string word(const std::string& file) {
 
 /// The words that start the program: this one, or that of a container.
 std::string program(std::string container) {
-    // set inside of one; names a folder if Apptainer has unpacked the file for this command alone
+    // set inside a container; a folder if Apptainer has unpacked the file for this command alone
     const char* const here = std::getenv("APPTAINER_CONTAINER");
     std::error_code unreadable;
     if (container.empty() && here != nullptr && fs::is_regular_file(here, unreadable))
@@ -41,8 +41,8 @@ std::optional<int> number(const std::string& word, int most) {
     return out && *out >= 1 && *out <= most ? out : std::nullopt;
 }
 
-/// Takes an option and its word from the front of `words`; nullopt if there is no such option, or
-/// its word is not valid.
+/// Removes an option and its word from the front of `words`; nullopt if there is no such option, or
+/// if its word is invalid.
 std::optional<size_t> take(const std::vector<std::string>& words, size_t at,
                            RehearseCommand& command) {
     const std::string& option = words[at];
@@ -60,7 +60,7 @@ std::optional<size_t> take(const std::vector<std::string>& words, size_t at,
         if (!jobs) return std::nullopt;
         command.jobs = *jobs;
     } else if (option != "--people" && option != "--seed" && option != "--out") {
-        return std::nullopt;  // these three are known otherwise
+        return std::nullopt;  // these three are known from elsewhere
     }
     return at + 2;
 }

@@ -1,5 +1,5 @@
-// The command that does a rehearsal's people. rehearsal.yaml keeps it so that `dihaptic collect`
-// can say what to type when somebody is missing. That file may come from a stranger, and the
+// The command that does a rehearsal's people. It is kept in rehearsal.yaml so that `dihaptic
+// collect` can print it when people are missing. That file may come from a stranger, and the
 // command will be copied into a shell, so only a newly composed command of this form is ever shown.
 #pragma once
 
@@ -22,12 +22,12 @@ struct RehearseCommand {
     int jobs = 1;
     std::string container;  ///< Apptainer file whose program does it; empty: this one
 
-    /// What to type, from any folder, with the path of this program, which may itself be in a
-    /// container, or of `container`.
+    /// The command to type, from any folder, with the path of this program, which may itself be in
+    /// a container, or of `container`.
     std::string text() const;
 };
 
-/// What to type into Python, in place of a command.
+/// The Python equivalent, in place of a command.
 inline constexpr const char* kByPython = "dihaptic.rehearse() of Python, as before";
 
 /// The command that does all people of the rehearsal in `folder`, composed from its rehearsal.yaml;

@@ -13,7 +13,7 @@ namespace dihaptic::cli {
 void add_report(CLI::App& app) {
     auto* command = app.add_subcommand(
         "report",
-        "Make report.html, and its tables as CSV: of a session, or of all that a folder has");
+        "Make report.html, and its tables as CSV: for a session, or for all sessions in a folder");
     auto path = std::make_shared<std::string>();
     command->add_option("SESSION|FOLDER", *path, "a session, or a folder with sessions")
         ->required();

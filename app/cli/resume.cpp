@@ -34,19 +34,17 @@ void resume(const ResumeOptions& options) {
 
 void add_resume(CLI::App& app) {
     auto* command = app.add_subcommand(
-        "resume", "Go on with a session of trials that was interrupted, at the right trial");
+        "resume", "Continue an interrupted session with trials, at the right trial");
     auto options = std::make_shared<ResumeOptions>();
     command->add_option("SESSION", options->session, "folder of the session")->required();
     command->add_option("--out", options->out, "folder for the new session; default: beside it");
-    command->add_option("--sync", options->sync, "as of dihaptic run [s]")
+    command->add_option("--sync", options->sync, "as in dihaptic run [s]")
         ->check(CLI::Range(0.05, 3600.0));
     command->footer(
-        "\nFinished trials stay; the one that was interrupted is done again. The new session's\n"
-        "trials.csv has all of them. What moved the hand moves it again: a person at devices, the "
-        "file's\nscript, a simulated person. Trials done by mouse go on in the window (dihaptic "
-        "gui).\n"
-        "\nExample:\n"
-        "  dihaptic resume sessions/2026-01-31_093000_visuomotor-rotation_S07");
+        "\nFinished trials stay; the interrupted one is repeated. The new session's\ntrials.csv "
+        "has all of them. The hand has the same mover again: a person at devices, the "
+        "file's\nscript, a simulated person. Trials done by mouse continue in the window (dihaptic "
+        "gui).\n\nExample:\n  dihaptic resume sessions/2026-01-31_093000_visuomotor-rotation_S07");
     command->callback([options] { resume(*options); });
 }
 

@@ -39,8 +39,8 @@ struct SessionOptions {
     std::string between;
 };
 
-/// Progress in words, e.g. "trial 12 of 96"; empty without trials. `share`: of trials that are
-/// over.
+/// Progress in words, e.g. "trial 12 of 96"; empty without trials. `share`: share of completed
+/// trials.
 std::string trial_at(const session::Plan& plan, double share) {
     if (!plan.task) return "";
     const size_t all = plan.task->trials.size();
@@ -64,12 +64,12 @@ class Console {
         run.stuck = [this](const std::string& message) {
             escape_->restore();
             fmt::print(stderr, "\nerror: {}\n", message);
-            std::_Exit(kFailed);  // an orderly end would wait for the thread that is stuck
+            std::_Exit(kFailed);  // an orderly end would wait for the stuck thread
         };
     }
 
-    /// Lets the session check, before it costs a person an hour, whether the calibration of real
-    /// devices still holds.
+    /// Makes the session check, before it costs a person an hour, whether the calibration of real
+    /// devices is still valid.
     void check_calibration(const session::Plan& plan, session::RunOptions& run) {
         const auto fingers = scene::finger_names(plan.scene);
         if (!escape_ || !escape_->listens() || !rig::can_check_together(plan.rig, fingers)) return;
@@ -82,7 +82,7 @@ class Console {
         struct Skipped {};
         rig::Guide guide;
         guide.show = [](const rig::Guidance& now) {
-            fmt::print("{} Then press Enter (S: without this).\n", now.text);
+            fmt::print("{} Then press Enter (S: skip this).\n", now.text);
             std::fflush(stdout);
         };
         guide.done = [this] {
@@ -111,15 +111,15 @@ class Console {
     std::optional<app::NoSuspension> no_suspension_;
 };
 
-/// Whether a file has a task, which a person does; otherwise the file's script moves the hand.
+/// Whether a file has a task for a person; otherwise the file's script moves the hand.
 bool has_task(const std::string& file) {
     if (task::kind_of(file) != task::FileKind::experiment) return false;
     Diagnostics ignored;  // problems are reported when the plan is made
     return task::read_experiment(file, ignored).task.has_value();
 }
 
-/// Asks on the terminal for what is not yet known about the person, and asks again if the answer
-/// contains something that cannot be recorded, such as the code of an arrow key.
+/// Asks on the terminal for missing facts about the person, and asks again if the answer contains
+/// characters that cannot be recorded, such as the code of an arrow key.
 void ask(recording::Participant& participant) {
     if (isatty(STDIN_FILENO) == 0) return;
     const auto question = [](const char* text, std::string& answer) {
@@ -136,7 +136,7 @@ void ask(recording::Participant& participant) {
     };
     question("participant, e.g. S07", participant.id);
     question("age in years", participant.age);
-    question("sex (F, M, O, or U: not told)", participant.sex);
+    question("sex (F, M, O, or U: not stated)", participant.sex);
     question("handedness (right, left, both)", participant.handedness);
 }
 
@@ -193,7 +193,7 @@ void run_plan(session::Plan plan, session::RunOptions run) {
         if (!session.good()) exit_code = kFailed;
     } catch (const rig::GivenUp&) {
         running.clear();
-        fmt::print(stderr, "interrupted before it began: nothing was recorded\n");
+        fmt::print(stderr, "interrupted before it started: nothing was recorded\n");
         exit_code = kFailed;
     }
 }
@@ -212,7 +212,7 @@ const char* outcome_of(const analysis::SessionFigures& figures, bool interrupted
     return interrupted ? "interrupted" : "done";
 }
 
-/// A movement's row of summary.csv, in SI units. One that cannot be run has no figures.
+/// A movement's row in summary.csv, in SI units. A movement that cannot be run has no figures.
 struct MovementFigures {
     std::string movement;
     std::string outcome = "refused";
@@ -229,25 +229,25 @@ struct MovementFigures {
     static void visit(Self& f, Visitor& v) {
         v("movement", f.movement, "", "file");
         v("outcome", f.outcome, "", "done, interrupted, diverged, force off, or refused");
-        v("duration", f.duration, "s", "of the movement");
-        v("bridged_percent", f.bridged_percent, "1", "share of it that is bridged");
-        v("mostly_bridged", f.mostly_bridged, "", "more than half of it");
+        v("duration", f.duration, "s", "duration of the movement");
+        v("bridged_percent", f.bridged_percent, "1", "share of the movement that is bridged");
+        v("mostly_bridged", f.mostly_bridged, "", "whether more than half is bridged");
         v("faults", f.faults, "1", "number of its faults");
         v("block", f.block, "mm", "width of the block");
-        v("grasp_mean_grip", f.mean_grip, "N", "of the phase grasp");
-        v("grasp_peak_grip", f.peak_grip, "N", "of the phase grasp");
-        v("peak_force", f.peak_force, "N", "of the whole session");
-        v("force_limited_ticks", f.force_limited, "1", "in which a force was limited");
-        v("rate_limited_ticks", f.rate_limited, "1", "in which a force's rate was limited");
+        v("grasp_mean_grip", f.mean_grip, "N", "mean grip force in the phase grasp");
+        v("grasp_peak_grip", f.peak_grip, "N", "largest grip force in the phase grasp");
+        v("peak_force", f.peak_force, "N", "largest force in the session");
+        v("force_limited_ticks", f.force_limited, "1", "ticks in which a force was limited");
+        v("rate_limited_ticks", f.rate_limited, "1", "ticks in which a force's rate was limited");
         v("held", f.held, "s", "the object's longest hold");
-        v("hold_slip", f.hold_slip, "mm", "in that hold");
-        v("slid", f.slid, "mm", "along what it lies on, in all");
-        v("flown", f.flown, "s", "untouched in the air, in all");
+        v("hold_slip", f.hold_slip, "mm", "slip in that hold");
+        v("slid", f.slid, "mm", "total path along its support");
+        v("flown", f.flown, "s", "total time untouched in the air");
         v("session", f.session, "", "folder");
     }
 };
 
-/// Finds what happened to the object.
+/// Finds the object's episodes.
 void find_handling(MovementFigures& out, const std::vector<analysis::Episode>& episodes) {
     out.held = out.slid = out.flown = 0;
     for (const analysis::Episode& e : episodes) {
@@ -348,7 +348,7 @@ void run_batch(SessionOptions& options) {
     if (refused > 0 || stop_requested) exit_code = kFailed;
 }
 
-/// Adds the settings that have an option of their own.
+/// Adds the settings that have their own option.
 void add_settings(SessionOptions& options) {
     if (!options.solver.empty()) options.request.set.push_back("dynamics.solver=" + options.solver);
     if (!options.coupling.empty())
@@ -364,7 +364,7 @@ void run(SessionOptions& options) {
     options.request.simulate = options.simulate;
     const bool real = session::on_real_devices(options.request);
     if (real && options.clock == "virtual") {
-        throw Error({"--clock", 0}, "", "real devices keep real time",
+        throw Error({"--clock", 0}, "", "real devices run in real time",
                     "Leave out --clock, or run on simulated devices: --simulate, or --rig "
                     "rigs/premium-pair.yaml.");
     }
@@ -388,23 +388,22 @@ void add_simulated_person(CLI::App* command, const std::shared_ptr<SessionOption
     auto* simulate = command->add_flag(
         "--simulate", options->simulate,
         "a simulated person on simulated devices does the trials, on the virtual clock");
-    auto* population = command->add_option(
-        "--population", options->population_file,
-        "population file that the person is drawn from; default: the program's own, as in "
-        "populations/adults.yaml");
+    auto* population =
+        command->add_option("--population", options->population_file,
+                            "population file from which the person is drawn; default: the "
+                            "program's own, as in populations/adults.yaml");
     population->transform(given_or_kept())->needs(simulate);
     command
-        ->add_flag("--real-objects", options->real_objects,
-                   "the person grips as one does without a device between")
+        ->add_flag("--real-objects", options->real_objects, "the person grips as without a device")
         ->needs(simulate)
         ->excludes(population);
 }
 
 void add_participant(CLI::App* command, const std::shared_ptr<SessionOptions>& options) {
     command->add_option("--participant", options->run.participant.id,
-                        "participant's identifier; of a simulated one it begins with sim-");
+                        "participant's identifier; for a simulated person it starts with sim-");
     command->add_option("--age", options->run.participant.age, "participant's age in years");
-    command->add_option("--sex", options->run.participant.sex, "F, M, O, or U: not told")
+    command->add_option("--sex", options->run.participant.sex, "F, M, O, or U: not stated")
         ->check(CLI::IsMember({"F", "M", "O", "U"}));
     command->add_option("--handedness", options->run.participant.handedness, "right, left or both")
         ->check(CLI::IsMember({"right", "left", "both"}));
@@ -418,7 +417,7 @@ void add_physics(CLI::App* command, const std::shared_ptr<SessionOptions>& optio
                         fmt::format("coupling of handle and proxy: {}",
                                     fmt::join(enum_names(frame::CouplingKind{}), ", ")));
     command->add_option("--proxy", options->proxy,
-                        fmt::format("what a finger is in the world: {}",
+                        fmt::format("model of a finger in the world: {}",
                                     fmt::join(enum_names(scene::ProxyKind{}), ", ")));
 }
 
@@ -440,20 +439,20 @@ void add_run(CLI::App& app) {
     add_simulated_person(command, options);
     add_participant(command, options);
     add_physics(command, options);
-    command->add_option("--rate", options->rate, "ticks a second [Hz]")->check(rate_range());
+    command->add_option("--rate", options->rate, "ticks per second [Hz]")->check(rate_range());
     command
         ->add_option("--clock", options->clock,
-                     "virtual: as fast as the machine goes, the same every time; real: real time; "
-                     "default: virtual, and real with real devices")
+                     "virtual: as fast as possible, with identical results every time; real: real "
+                     "time; default: virtual, or real with real devices")
         ->check(CLI::IsMember({"virtual", "real"}));
     command->add_option("--out", options->run.out, "folder for session folders")
         ->capture_default_str();
     command
         ->add_option("--sync", options->run.sync,
-                     "synchronise the recording to the disk so often [s]: that much a loss of "
-                     "power can take; default: at the session's end alone")
+                     "interval at which the recording is synchronised to the disk [s]: the most "
+                     "that a loss of power can cost; default: only at the session's end")
         ->check(CLI::Range(0.05, 3600.0));
-    command->add_option("--seed", options->request.seed, "of everything random")
+    command->add_option("--seed", options->request.seed, "seed of all random numbers")
         ->check(seed_range())
         ->capture_default_str();
     command->add_option("--between", options->between,

@@ -17,7 +17,7 @@ void write_schema(const session::FileSchema& schema, const std::string& folder) 
 void make_schemas(const std::string& kind, const std::string& folder) {
     if (folder.empty()) {
         if (kind.empty())
-            throw Error("there is no KIND and no folder",
+            throw Error("neither a kind nor a folder is given",
                         "Name a kind of file (dihaptic schema scene), or a folder for the schemas "
                         "of all kinds (--out).");
         fmt::print("{}", session::file_schema(kind).json());
@@ -36,7 +36,7 @@ void make_schemas(const std::string& kind, const std::string& folder) {
 void add_schema(CLI::App& app) {
     auto* command = app.add_subcommand(
         "schema",
-        "Print the JSON Schema of a kind of file, by which editors complete and check it");
+        "Print the JSON Schema of a kind of file, with which editors complete and check it");
     auto kind = std::make_shared<std::string>();
     auto folder = std::make_shared<std::string>();
     std::string kinds;
@@ -44,7 +44,7 @@ void add_schema(CLI::App& app) {
         kinds += fmt::format("{}{}", kinds.empty() ? "" : ", ", schema.name);
     command->add_option("KIND", *kind, "kind of file: " + kinds);
     command->add_option("-o,--out", *folder,
-                        "folder that it is written to, as KIND.json; without KIND, all of them");
+                        "folder to which it is written, as KIND.json; without KIND, all schemas");
     command->footer(
         "\nExamples:\n  dihaptic schema experiment > experiment.json\n  dihaptic schema --out "
         "schemas    the schemas of all kinds of files");

@@ -23,13 +23,14 @@ namespace {
 namespace fs = std::filesystem;
 using session::Asked;
 
-/// Part of a file's name on a line that begins with #SBATCH, in quotes. sbatch replaces what
-/// follows a %, and offers no way to write what is refused here.
+/// Part of a file's name on a line that starts with #SBATCH, in quotes. sbatch expands sequences
+/// after a %, and cannot express the characters that are refused here.
 std::string sbatch_name(const std::string& name) {
     std::string out;
     for (const char letter : name) {
         if (letter == '"' || letter == '\\' || static_cast<unsigned char>(letter) < ' ') {
-            throw Error({name, 0}, "", "has a letter that Slurm takes in no folder's name",
+            throw Error({name, 0}, "",
+                        "has a character that Slurm does not accept in a folder's name",
                         "Choose a folder without \", \\ and control characters: --out FOLDER.");
         }
         out += letter == '%' ? std::string("%%") : std::string(1, letter);
@@ -37,7 +38,7 @@ std::string sbatch_name(const std::string& name) {
     return out;
 }
 
-/// The line of the script that does a shard.
+/// The line of the script that runs a shard.
 std::string task_line(const Asked& asked) {
     return fmt::format("exec {} --shard \"$SLURM_ARRAY_TASK_ID/{}\"\n", asked.command,
                        asked.shards);
@@ -56,9 +57,9 @@ std::string commands_of(const std::string& script) {
     return out;
 }
 
-/// Whether the folder has a script for these shards, perhaps with lines #SBATCH that somebody
-/// added. A script that does anything else must not be submitted unread, because the folder may
-/// come from a stranger.
+/// Whether the folder has a script for these shards, perhaps with added #SBATCH lines. A script
+/// that does anything else must not be submitted unread, because the folder may come from a
+/// stranger.
 bool has_script(const std::string& folder, const Asked& asked) {
     const std::string script = slurm_script(folder);
     return is_there(script) &&
@@ -129,10 +130,11 @@ std::optional<std::string> submit(const std::string& folder, const Asked& asked,
         print({{Severity::error,
                 {slurm_script(folder), 0},
                 "",
-                none ? "is written, but there is no sbatch on this machine to submit it"
-                     : "is refused by sbatch, which says why above",
-                none ? "Type the first of these where there is one, or the second to do without."
-                     : "Mend that, then type this."}});
+                none ? "is written, but this machine has no sbatch to submit it"
+                     : "is refused by sbatch, whose reason is printed above",
+                none ? "Type the first command on a machine with sbatch, or the second one to do "
+                       "without it."
+                     : "Solve this problem, then type this."}});
         fmt::print(stderr, "{}\n", by_sbatch(folder, asked, shards));
         if (none) fmt::print(stderr, "{}\n", by_hand(asked, shards));
         exit_code = kBadInput;

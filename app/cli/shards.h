@@ -1,5 +1,5 @@
-// How the shards of a rehearsal are started, and started again: as a Slurm job array, by GNU
-// parallel, or each by hand.
+// Starts and restarts the shards of a rehearsal: as a Slurm job array, by GNU parallel, or
+// individually by hand.
 #pragma once
 
 #include <optional>
@@ -12,16 +12,15 @@ namespace dihaptic::cli {
 
 /// The shell script for sbatch in a rehearsal's folder: a task of the array for each shard.
 std::string slurm_script(const std::string& folder);
-/// Writes it, unless there is already one for the same shards, to which somebody may have added
-/// lines.
+/// Writes the script, unless there is already one for the same shards, perhaps with added lines.
 void write_slurm_script(const std::string& folder, const session::Asked& asked);
 
-/// Submits these shards to Slurm. Returns the number of the job; nullopt when there is no sbatch or
-/// it refuses, after printing this and what to type.
+/// Submits these shards to Slurm. Returns the number of the job; nullopt when sbatch is missing or
+/// refuses, after printing this and the command to type.
 std::optional<std::string> submit(const std::string& folder, const session::Asked& asked,
                                   const std::vector<int>& shards);
 
-/// What to type so that these shards are done: by sbatch, if the folder's script is for them.
+/// The command that does these shards: with sbatch, if the folder's script is for them.
 std::string command_for(const std::string& folder, const session::Asked& asked,
                         const std::vector<int>& shards);
 

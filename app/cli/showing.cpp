@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 const std::vector<std::string> kLayers{"path",    "forces",    "contacts", "grip-axis",
                                        "handles", "workspace", "joints",   "hand"};
 
-/// Adds the box in which hands are kept: the rig's wall or, without one, the workspace of the
+/// Adds the box to which hands are confined: the rig's wall or, without one, the workspace of the
 /// finger's device.
 void add_workspace(Showing& showing, const std::string& finger, const std::optional<Vec3>& reach) {
     const rig::Rig& rig = showing.rig;
@@ -62,7 +62,7 @@ Showing open_plan(const std::string& file) {
     session::Request request;
     request.file = file;
     if (session::on_real_devices(request)) {
-        throw Error({file, 0}, "rig", "a picture moves simulated devices only",
+        throw Error({file, 0}, "rig", "pictures can be made only with simulated devices",
                     "Record a session, and give its folder.");
     }
     run->plan = session::make_plan(request);
@@ -99,7 +99,7 @@ std::pair<int, int> pixels(const std::string& size) {
             std::max(width, height) <= 8192)
             return {width, height};
     }
-    throw Error({"--size", 0}, "", fmt::format("'{}' is no size of a picture", size),
+    throw Error({"--size", 0}, "", fmt::format("'{}' is not a valid picture size", size),
                 "Give width and height in pixels, 16 to 8192 each, such as 1280x720.");
 }
 
@@ -113,7 +113,7 @@ Showing open_showing(const std::string& file) {
 }
 
 void check_no_input(const ViewOptions& options) {
-    check_output(options.out, options.file, "what is shown");
+    check_output(options.out, options.file, "the file shown");
     const fs::path out(options.out);
     const std::string kind = out.extension().string();
     std::error_code none;
@@ -128,13 +128,13 @@ void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& opt
                        "front, above, side, or another of the scene's; otherwise its first");
     command
         .add_option("--display", options->display,
-                    "as the person sees it on this display of the rig; empty: its only one")
+                    "as the person sees the scene on this display of the rig; empty: its only one")
         ->excludes("--camera");
     command.add_option("--size", options->size, "width and height in pixels")
         ->capture_default_str();
     command
         .add_option("--show", options->show,
-                    fmt::format("what else is drawn: {}", fmt::join(kLayers, ", ")))
+                    fmt::format("further items to draw: {}", fmt::join(kLayers, ", ")))
         ->delimiter(',')
         ->check(CLI::IsMember(kLayers));
 }

@@ -1,4 +1,4 @@
-// What the commands picture and video show: a session as it was recorded, or a scene or an
+// The content shown by the commands picture and video: a recorded session, or a scene or an
 // experiment with the simulated hand.
 #pragma once
 
@@ -20,14 +20,13 @@ struct Showing {
     std::string title;
     scene::Scene scene;
     rig::Rig rig;
-    std::vector<view::Workspace> workspaces;    ///< of the devices whose workspace is known
+    std::vector<view::Workspace> workspaces;    ///< workspaces of devices, as far as known
     double duration = 0;                        ///< planned [s]; 0: not known
     bool recorded = false;                      ///< whether it is a session
     std::function<const frame::Frame*()> next;  ///< the next frame; null at the end
 };
 
-/// `file`: a scene or an experiment, or a session's folder. Throws Error with what is wrong with
-/// it.
+/// `file`: a scene or an experiment, or a session's folder. Throws Error with its faults.
 Showing open_showing(const std::string& file);
 
 /// The options that both commands have.
@@ -39,16 +38,16 @@ struct ViewOptions {
     std::vector<std::string> show;
     std::string out;
 };
-/// Throws Error when the output would overwrite what is shown or another file of that session, or
+/// Throws Error when the output would overwrite the file shown or another file of that session, or
 /// cannot be written.
 void check_no_input(const ViewOptions& options);
 void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& options);
 
-/// Draws frames as the options say.
+/// Draws frames according to the options.
 class Drawer {
   public:
     Drawer(const Showing& showing, const ViewOptions& options);
-    /// Adds to the object's path; call it for every frame.
+    /// Extends the object's path; call it for every frame.
     void follow(const frame::Frame& frame);
     Image draw(const frame::Frame& frame);
     int width() const { return offscreen_->width(); }

@@ -17,7 +17,7 @@ std::string number(double value, int decimals) {
     return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, decimals);
 }
 
-/// Figures of an episode, in words.
+/// Figures of an episode, as text.
 std::string describe(const analysis::Episode& e) {
     std::string out;
     const auto add = [&](double value, const std::string& text) {
@@ -74,16 +74,16 @@ void print_movement(const session::MovementReport& report, size_t most_lines) {
 
 namespace {
 
-/// Trials of a block that are of one kind.
+/// Trials of one kind in a block.
 struct Block {
     std::string key;  // block number and kind of trial
     std::string label;
     std::map<std::string, int> outcomes;
-    double sum = 0;  // of the hand's angle or extent
+    double sum = 0;  // sum of the hand's angle or extent
     int measured = 0;
 };
 
-/// `extents`: whether a hand's extent was measured, and not its angle.
+/// `extents`: whether a hand's extent was measured instead of its angle.
 std::vector<Block> blocks_of(const Table& trials, bool& extents) {
     const auto column = [&](const char* name) {
         const auto found = std::find_if(trials.columns.begin(), trials.columns.end(),
@@ -141,7 +141,7 @@ void print_trials(const Table& trials) {
     fmt::print("\n");
     if (!reaches) return;
     fmt::print("hand: mean {}, in trials.csv one by one\n",
-               extents ? "way of the handle's first stroke toward the target"
+               extents ? "length of the handle's first stroke toward the target"
                        : "angle of the handle from the target's direction");
 }
 
@@ -159,10 +159,9 @@ void print_phases(const analysis::SessionFigures& figures) {
             turns ? fmt::format("  {:11.2f}", p.mean_torque * 1e3) : "");
     }
     fmt::print(
-        "\ngrip: pinch force, mean of the digits; load: tangential force along gravity, both "
-        "digits; finger: force on\n"
-        "the busiest handle; slip: of a finger on the object; weight: vertical handle forces over "
-        "the object's weight{}\n\n",
+        "\ngrip: pinch force, mean over digits; load: tangential force along gravity, both digits; "
+        "finger: force on\nthe busiest handle; slip: of a finger on the object; weight: vertical "
+        "handle forces over the object's weight{}\n\n",
         turns ? "; torque: largest on any handle, mean" : "");
     print_episodes(figures);
 }
@@ -189,7 +188,7 @@ void print_summary(const session::Recorded& session, const session::Plan& plan) 
                    plan.settings.tick() * 1e6, describe(timing),
                    counted(timing.overruns, "overrun"));
     fmt::print("\n");
-    if (session.interrupted) fmt::print("interrupted: what was done until then is complete\n");
+    if (session.interrupted) fmt::print("interrupted: the part until then is complete\n");
     fmt::print("{}\n", session.info.moved_by.describe());
     fmt::print("session: {}\n", session.folder);
 }

@@ -7,7 +7,7 @@ namespace dihaptic::cli {
 
 /// Prints the table of trials or phases, the notes, the timing, and the folder.
 void print_summary(const session::Recorded& session, const session::Plan& plan);
-/// Prints what was wrong with a recorded movement.
+/// Prints the faults of a recorded movement.
 void print_movement(const session::MovementReport& report, size_t most_lines);
 
 /// Records a session of the plan, and prints the summary.

@@ -10,7 +10,7 @@ namespace dihaptic::cli {
 
 class TerminalGuide {
   public:
-    /// `label`: of the line of progress.
+    /// `label`: label of the progress line.
     explicit TerminalGuide(const std::string& label) : line_(label) {}
 
     /// The guide throws rig::GivenUp at Ctrl-C and at the end of input.
@@ -19,12 +19,12 @@ class TerminalGuide {
   private:
     void show(const rig::Guidance& now);
     bool done();
-    /// Takes what was typed, without waiting for the rest of a line. False at the end of input.
+    /// Reads typed characters, without waiting for the rest of a line. False at the end of input.
     bool read_input();
 
     ProgressLine line_;
     int step_ = 0;
-    std::string typed_;  // input that was not taken yet
+    std::string typed_;  // input not yet processed
 };
 
 }  // namespace dihaptic::cli

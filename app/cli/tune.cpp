@@ -20,14 +20,15 @@ void run(TuneOptions options) {
     if (!options.coupling.empty())
         options.request.set.push_back("coupling.kind=" + options.coupling);
     if (session::on_real_devices(options.request)) {
-        throw Error({options.request.file, 0}, "rig", "has real devices, and tune shakes its own",
-                    "Add --rig with simulated devices like them, e.g. rigs/premium-pair.yaml.");
+        throw Error({options.request.file, 0}, "rig",
+                    "has real devices, but tune shakes only simulated ones",
+                    "Add --rig with similar simulated devices, e.g. rigs/premium-pair.yaml.");
     }
     const session::Plan plan = session::make_plan(options.request);
     const measure::TuneSetup setup = measure::tune_setup(plan.rig, scene::finger_names(plan.scene),
                                                          plan.settings, plan.hand.impedance);
     // before a minute of computing, not after it
-    check_output(options.map, options.request.file, "the file that is tuned");
+    check_output(options.map, options.request.file, "the file to be tuned");
     const auto result = with_progress("tune", [&](const measure::Progress& progress) {
         return measure::tune(setup, stop_requested, progress);
     });
@@ -57,7 +58,7 @@ void add_tune(CLI::App& app) {
     auto options = std::make_shared<TuneOptions>();
     command
         ->add_option("FILE", options->request.file,
-                     "scene or experiment: its rig, hand and settings, as run takes them")
+                     "scene or experiment: its rig, hand and settings, as in dihaptic run")
         ->transform(given_or_kept())
         ->required();
     command
@@ -72,13 +73,10 @@ void add_tune(CLI::App& app) {
         ->capture_default_str();
     add_json(*command, options->json);
     command->footer(
-        "\nA simulated hand holds a block at each stiffness and damping, with what may come on "
-        "top: "
-        "a tick more\ndelay, a block of 10 g, a loose and a firm hand. It takes about a minute.\n\n"
-        "Examples:\n"
-        "  dihaptic tune experiments/lift-block.yaml\n"
-        "  dihaptic tune scenes/block-on-table.yaml --rig rigs/premium-pair.yaml --map "
-        "premium.svg");
+        "\nA simulated hand holds a block at each stiffness and damping, under possible burdens "
+        "top: a tick more\ndelay, a block of 10 g, a loose and a firm hand. It takes about a "
+        "minute.\n\nExamples:\n  dihaptic tune experiments/lift-block.yaml\n  dihaptic tune "
+        "scenes/block-on-table.yaml --rig rigs/premium-pair.yaml --map premium.svg");
     command->callback([options] { run(*options); });
 }
 

@@ -23,8 +23,8 @@ void print_placement(const rig::Rig& rig, const rig::Workspace& found) {
         in_mm(proposed.wall.centre + rig.moved_by), in_mm(proposed.wall.size));
 }
 
-/// Prints how much of the rig's wall is out of reach, because devices may have been moved since it
-/// was set.
+/// Prints the share of the rig's wall that is out of reach, because devices may have been moved
+/// since it was set.
 void check_wall(const rig::Rig& rig, const std::vector<rig::Reach>& reaches) {
     if (!rig.wall) return;
     const double out = rig::out_of_reach(rig.wall->box(), reaches);
@@ -81,7 +81,7 @@ void show_workspace(const std::string& file, const std::string& out) {
         check_wall(rig, reaches);
         if (!found.box.isEmpty()) print_placement(rig, found);
     } else {
-        fmt::print("  The devices reach no place together: move them in the rig file.\n");
+        fmt::print("  The devices have no common workspace: move them in the rig file.\n");
         exit_code = kFailed;
     }
     fmt::print("picture: {}\n", out);
@@ -91,7 +91,8 @@ void show_workspace(const std::string& file, const std::string& out) {
 
 void add_workspace(CLI::App& app) {
     auto* command = app.add_subcommand(
-        "workspace", "Where the devices of a rig get to, each and all together, with a picture");
+        "workspace",
+        "The workspaces of a rig's devices, individually and in common, with a picture");
     auto file = std::make_shared<std::string>();
     auto out = std::make_shared<std::string>("workspace.svg");
     command->add_option("RIG", *file, "rig file")->transform(given_or_kept())->required();

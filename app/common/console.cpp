@@ -19,7 +19,7 @@ int exit_code = kOk;
 
 namespace {
 
-/// Writes to standard error. Ignores failure: if the terminal is gone, a session is finished
+/// Writes to standard error. Ignores failure: if the terminal is closed, a session is finished
 /// without progress.
 void say(const std::string& text) {
     std::fputs(text.c_str(), stderr);
@@ -107,7 +107,7 @@ void add_json(CLI::App& command, bool& json) {
 
 namespace {
 
-/// Throws an Error that names a word which is not a command, because the parser would not name it.
+/// Throws an Error that names a word that is not a command, because the parser would not name it.
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
     if (argc < 2 || argv[1][0] == '-') return;
     std::vector<std::string> commands;
@@ -117,19 +117,19 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
     }
     const std::string guess = nearest(argv[1], commands);
     throw Error(
-        fmt::format("'{}' is no command", argv[1]),
-        (guess.empty() ? fmt::format("There are {}.", fmt::join(commands, ", "))
+        fmt::format("'{}' is not a command", argv[1]),
+        (guess.empty() ? fmt::format("Commands are {}.", fmt::join(commands, ", "))
                        : fmt::format("Did you mean {}?", guess)) +
             fmt::format(" See {} --help.", std::filesystem::path(argv[0]).filename().string()));
 }
 
 /// The command line, and the folder in which it is typed, are recorded. Throws Error when they
-/// could not be read again from the record.
+/// could not be read back from the record.
 void check_typed(int argc, char** argv) {
     for (int i = 1; i < argc; ++i) check_text(argv[i], fmt::format("command line, word {}", i));
     if (argc < 2 || argv[1][0] == '-') return;
     std::error_code gone;
-    check_text(std::filesystem::current_path(gone).string(), "the folder that you are in");
+    check_text(std::filesystem::current_path(gone).string(), "the current folder");
 }
 
 /// The command with its files, for a message.
@@ -152,17 +152,16 @@ int run_program(CLI::App& app, int argc, char** argv) {
         return code == 0 ? kOk : kBadInput;
     } catch (const Error& e) {
         fmt::print(stderr, "{}\n", e.what());
-        return stop_requested ? kFailed : kBadInput;  // what was waited for was given up
+        return stop_requested ? kFailed : kBadInput;  // the wait was given up
     } catch (const std::filesystem::filesystem_error& e) {
-        fmt::print(stderr, "{}: error: {}. Check what is there, and its permissions.\n",
+        fmt::print(stderr, "{}: error: {}. Check the file and its permissions.\n",
                    e.path1().string(), e.code().message());
         return kBadInput;
     } catch (const std::bad_alloc&) {
-        fmt::print(
-            stderr,
-            "error: {} needs more memory than there is. Close other programs, give it smaller "
-            "files, or allow more (ulimit -v).\n",
-            what_is_done(argc, argv));
+        fmt::print(stderr,
+                   "error: {} requires more memory than is available. Close other programs, use "
+                   "smaller files, or allow more (ulimit -v).\n",
+                   what_is_done(argc, argv));
         return kFailed;
     } catch (const std::exception& e) {
         fmt::print(stderr, "error: {}. Please report this, with the command that you typed.\n",

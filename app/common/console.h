@@ -1,4 +1,4 @@
-// What the command-line programs share: parsing, progress, and how they end.
+// Shared by the command-line programs: parsing, progress, and orderly ends.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -17,15 +17,14 @@ namespace dihaptic::cli {
 /// orderly way.
 extern std::atomic<bool> stop_requested;
 
-/// What the program returns: success; a result is bad, or the command was interrupted; the input
-/// was bad.
+/// Exit codes: success; a result is bad, or the command was interrupted; the input was bad.
 enum ExitCode { kOk = 0, kFailed = 1, kBadInput = 2 };
 
-/// What the program will return; set by the command that ran.
+/// The exit code; set by the command that ran.
 extern int exit_code;
 
-/// Parses the command line, which names one of `app`'s commands, and runs that command. Prints what
-/// it throws. Returns the program's exit code.
+/// Parses the command line, which names one of `app`'s commands, and runs that command. Prints any
+/// error that it throws. Returns the program's exit code.
 int run_program(CLI::App& app, int argc, char** argv);
 
 /// A line of progress on standard error, redrawn in place on a terminal; elsewhere a new line for
@@ -59,8 +58,8 @@ CLI::Validator rate_range();
 CLI::Validator time_range();
 CLI::Validator seed_range();
 
-/// Replaces the name of a missing file by that of one that comes with the program, or is in the
-/// user's own folder (base/installed.h).
+/// Replaces the name of a missing file by that of a file that comes with the program, or that is in
+/// the user's own folder (base/installed.h).
 CLI::Validator given_or_kept();
 
 /// The flag --json.

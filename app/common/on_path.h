@@ -1,4 +1,4 @@
-// Which program a shell finds under a name, such as that of the running program.
+// Finds the program that a shell runs under a name, such as that of the running program.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@ std::string found_on(const std::string& paths, const std::string& program);
 /// Whether a shell finds this program under the name `dihaptic`. `paths`: its PATH.
 bool shell_finds_program(const std::string& paths);
 
-/// The command after which it finds it.
+/// The command after which a shell finds it.
 std::string path_command();
 
 }  // namespace dihaptic::app

@@ -5,7 +5,7 @@
 
 namespace dihaptic::cli {
 
-/// Call it once, before anything is written.
+/// Call it once, before any output.
 void make_output_steady();
 
 }  // namespace dihaptic::cli

@@ -1,8 +1,8 @@
-// Makes signals that ask the program to end or to wait end a session properly instead: a program
-// that is gone, or suspended, leaves its devices with their last force.
+// Makes signals that ask the program to end or to wait end a session properly instead: a killed or
+// suspended program leaves its devices with their last force.
 //
-// Signals of an error of the program itself, such as SIGSEGV, are left alone, because nothing can
-// be ended properly after one.
+// Signals of an error in the program itself, such as SIGSEGV, are not handled, because no orderly
+// end is possible after one.
 #pragma once
 
 #include <csignal>
@@ -14,8 +14,8 @@ namespace dihaptic::app {
 
 /// From now on a signal that would end the program from outside (Ctrl-C, Ctrl-\, a closed terminal,
 /// a log-out, a timer, a limit of the system) only sets `stop`, and writes its number as a byte to
-/// the file `wake`, if there is one. A hangup that is already ignored stays ignored, as nohup
-/// needs, and a signal that already has a handler keeps it. `stop` and `wake` must live as long as
+/// the file `wake`, if there is one. A hangup that is already ignored stays ignored, as required by
+/// nohup, and a signal that already has a handler keeps it. `stop` and `wake` must live as long as
 /// the program.
 void stop_on_signals(std::atomic<bool>& stop, int wake = -1);
 

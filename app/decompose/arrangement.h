@@ -1,7 +1,7 @@
-// The solid that a closed surface encloses, whatever its triangles do: cross each other, lie on one
-// another, or meet without sharing corners. Their union cuts space into cells, and a cell is solid
+// The solid that a closed surface encloses, even if its triangles cross each other, lie on one
+// another, or meet without shared corners. Their union cuts space into cells, and a cell is solid
 // if the surface winds around it at least once. The winding number of the outer cell is 0, and
-// crossing a facet changes it by the triangles that lie there, those that face one way less those
+// crossing a facet changes it by the number of triangles there that face one way minus the number
 // that face the other way.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace dihaptic::decompose {
 
-/// A triangle, projected along the axis that its plane is the steepest to.
+/// A triangle, projected along the axis to which its plane is steepest.
 struct Flat {
     int u;
     int v;
@@ -73,21 +73,21 @@ class MarkWound : public CGAL::Modifier_base<Nef::SNC_structure> {
         inverted_ = volume_of<Snc::SHalfedge_around_facet_circulator>(
             snc, [&](const Volume& cell) { return winding[cell] < 0; });
     }
-    /// The volume of the cells that the surface winds around the wrong way.
+    /// The volume of the cells that the surface encloses with the wrong orientation.
     double inverted() const { return inverted_; }
 
   private:
     using Snc = Nef::SNC_structure;
     using Volume = Snc::Volume_handle;
 
-    /// By how much the winding number rises from behind a halffacet into its volume, where its
-    /// normal points.
+    /// The rise of the winding number from behind a halffacet into its volume, to which its normal
+    /// points.
     int jump(Snc::Halffacet_handle f) const {
         const Snc::SHalfedge_handle edge(f->facet_cycles_begin());
         const std::vector<Point> cycle = corners(Snc::SHalfedge_around_facet_circulator(edge));
         const Vector normal = f->plane().orthogonal_vector();
         const Vector along = cycle[1] - cycle[0];
-        // askew, so that no triangle's edge lies in its way
+        // oblique, so that it meets no triangle's edge
         const Vector inward = CGAL::cross_product(normal, along) /
                                   std::sqrt(CGAL::to_double(normal.squared_length())) +
                               Number(0.3719) * along;
@@ -115,10 +115,10 @@ class MarkWound : public CGAL::Modifier_base<Nef::SNC_structure> {
 
 struct Wound {
     Nef solid;
-    double inverted = 0;  ///< volume that the surface winds around the wrong way
+    double inverted = 0;  ///< volume that the surface encloses with the wrong orientation
 };
 
-/// What the triangles wind around.
+/// The solid around which the triangles wind.
 inline Wound wound(const std::vector<Triangle>& triangles) {
     CGAL::Nef_nary_union_3<Nef> sheets;
     for (const Triangle& t : triangles)

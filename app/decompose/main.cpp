@@ -4,13 +4,13 @@
 // outward, cavities too; a cavity is cut out of the solid before it. The program dihaptic calls it,
 // under limits, and keeps the result; there is no need to call it by hand.
 //
-// "shells" makes a solid of each shell and unites them. "winding" takes longer, and makes no
-// assumption but that all shells together are closed (arrangement.h).
+// "shells" makes a solid from each shell and unites them. "winding" takes longer, and assumes only
+// that all shells together are closed (arrangement.h).
 //
-// It writes "crossing X Y Z", a place where a shell crosses or touches itself, if one does;
-// "inverted VOLUME" of what a shell winds around the wrong way; "volume SOLID SHELLS", the volume
-// of the solid, in which shells that overlap count once, and what the volumes of the shells add up
-// to; and for each piece a line "piece COUNT" and then COUNT vertices, one per line.
+// It writes "crossing X Y Z", a point where a shell crosses or touches itself, if any; "inverted
+// VOLUME", the volume that a shell encloses with the wrong orientation; "volume SOLID SHELLS", the
+// volume of the solid, in which overlapping shells count once, and the sum of the shells' volumes;
+// and for each piece a line "piece COUNT" and then COUNT vertices, one per line.
 #include "arrangement.h"
 #include "solids.h"
 // after Nef polyhedra: these do not compile before them
@@ -94,7 +94,7 @@ class Build : public CGAL::Modifier_base<Polyhedron::HalfedgeDS> {
     const Shell& shell_;
 };
 
-/// The solid within a shell. Throws, with a place, when the shell crosses or touches itself.
+/// The solid within a shell. Throws, with a point, when the shell crosses or touches itself.
 Nef inside(const Shell& shell) {
     Polyhedron surface;
     Build build(shell);
@@ -186,7 +186,7 @@ int main(int count, char** arguments) {
     } catch (const std::bad_alloc&) {
         return 3;
     } catch (const std::exception&) {
-        // the output says where; there are no pieces
+        // the output gives the point; there are no pieces
     }
     std::cout.flush();
     return std::cout ? 0 : 1;

@@ -44,7 +44,7 @@ inline Number six_volumes(const std::vector<Point>& cycle) {
     return start * area;
 }
 
-/// The volume of those cells that count: all that are marked, for instance.
+/// The volume of selected cells, e.g. of all marked ones.
 template <class Circulator, class Structure, class Counts>
 double volume_of(Structure& cells, const Counts& counts) {
     Number sum = 0;

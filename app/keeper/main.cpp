@@ -1,4 +1,4 @@
-// dihaptic-keeper: owns the real devices of a session, in a process of its own (src/keeper). The
+// dihaptic-keeper: owns the real devices of a session, in a separate process (src/keeper). The
 // program dihaptic starts it; there is no need to call it by hand.
 #include <sys/stat.h>
 

@@ -28,8 +28,8 @@ namespace {
 /// How the program ends (base/companion.h).
 enum Status : int { kDone = 0, kRefused = 1, kOutOfMemory = 3 };
 
-/// Lets the library read the mesh, but no file that it names: materials would change the order of
-/// vertices, and thereby what is felt.
+/// Lets the library read the mesh, but not the files named in it: materials would change the order
+/// of vertices, and thereby the felt surface.
 class OneFile final : public Assimp::MemoryIOSystem {
   public:
     OneFile(const std::string& bytes, std::string name)
@@ -52,8 +52,8 @@ struct Surface {
     std::string materials;
 };
 
-/// Adds the colours of a part's vertices. Files have them from 0 to 1 or, as some OFF files, to
-/// 255.
+/// Adds the colours of a part's vertices. In files they range from 0 to 1 or, as in some OFF files,
+/// to 255.
 void add_colours(const aiMesh& part, std::vector<int32_t>& out) {
     const aiColor4D* const colours = part.mColors[0];
     if (colours == nullptr) {
@@ -153,7 +153,7 @@ Status read(const std::string& format) {
     const bool written = write(counts) && write(surface.vertices) && write(surface.faces) &&
                          write(surface.colours) && write(surface.parts) &&
                          write(surface.materials) && std::fflush(stdout) == 0;
-    // no destructors are called: they may crash on what was read from a damaged file
+    // no destructors are called: they may crash on data from a damaged file
     std::_Exit(written ? kDone : kRefused);
 }
 

@@ -62,7 +62,7 @@ class Words(unittest.TestCase):
         os.mkdir(place)
         result = subprocess.run([os.path.abspath(PROGRAM), "run", os.path.abspath("experiments/lift-block.yaml")], cwd=place,
                                 capture_output=True, timeout=patient(60))
-        self.assert_refused(result, "the folder that you are in", "is not UTF-8 text")
+        self.assert_refused(result, "the current folder", "is not UTF-8 text")
 
     def test_the_terminal_s_questions(self):
         """They are asked before a real device is looked for, which is not there."""

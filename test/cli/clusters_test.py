@@ -137,20 +137,20 @@ class Slurm(InShards):
         self.assertEqual(result.returncode, 1, result.stderr)
         self.assertIn("missing: shard 4/8: sim-004, sim-012\n", result.stdout)
         self.assertIn(f"working on them: sbatch '{self.out}/slurm.sh'\n", result.stdout)
-        self.assertIn("nothing to collect yet", result.stdout)
+        self.assertIn("nothing to collect", result.stdout)
 
     def test_what_sbatch_refuses_is_told(self):
         result = self.by_slurm(FAKE_REFUSE="1")
         self.assertEqual(result.returncode, 2)
         self.assertIn("Invalid account", result.stderr)
-        self.assertIn("error: is refused by sbatch, which says why above. Mend that, then type this.\n"
+        self.assertIn("error: is refused by sbatch, whose reason is printed above. Solve this problem, then type this.\n"
                       f"sbatch '{self.out}/slurm.sh'\n", result.stderr)
 
     def test_without_sbatch_the_script_is_written_and_parallel_named(self):
         needs.for_this_test("parallel", "parallel")
         result = self.rehearse("--slurm", "3", "--people", "5", env=dict(os.environ, PATH=self.tools()))
         self.assertEqual(result.returncode, 2)
-        self.assertIn("slurm.sh: error: is written, but there is no sbatch on this machine to submit it", result.stderr)
+        self.assertIn("slurm.sh: error: is written, but this machine has no sbatch to submit it", result.stderr)
         self.assertIn('--shard "$SLURM_ARRAY_TASK_ID/3"', pathlib.Path(self.out, "slurm.sh").read_text())
         sbatch, parallel = result.stderr.splitlines()[-2:]
         self.assertEqual(sbatch, f"sbatch '{self.out}/slurm.sh'")
@@ -229,14 +229,14 @@ PATH={shlex.quote(self.slurm)}/inside:$PATH APPTAINER_CONTAINER={shlex.quote(con
     def test_refuses_what_cannot_be(self):
         for arguments, message in [
                 (["--slurm", "0"], "--slurm"),
-                (["--slurm", "13"], "asks for 13 shards of 12 people. Ask for at most as many as there are people"),
-                (["--slurm", "4", "--shard", "1/4"], "goes with neither --shard nor --jobs. Leave them out"),
-                (["--slurm", "4", "--jobs", "2"], "goes with neither --shard nor --jobs. Leave them out"),
+                (["--slurm", "13"], "requests 13 shards for 12 people. Request at most as many shards as there are people"),
+                (["--slurm", "4", "--shard", "1/4"], "cannot be combined with --shard or --jobs. Leave them out"),
+                (["--slurm", "4", "--jobs", "2"], "cannot be combined with --shard or --jobs. Leave them out"),
                 (["--slurm", "4", "--container", self.folder + "/no.sif"],
-                 "no.sif: is not a file. Make one by: apptainer build dihaptic.sif oci-archive:"),
+                 "no.sif: is not a file. Make one with: apptainer build dihaptic.sif oci-archive:"),
                 (["--slurm", "4", "--container", self.folder], "is not a file"),
                 (["--slurm", "4", "--container", ""], "--container: error: is not a file"),
-                (["--container", self.experiment], "--container: error: is for --slurm alone. Add --slurm, or put"),
+                (["--container", self.experiment], "--container: error: is valid only with --slurm. Add --slurm, or put"),
                 (["--slurm", "4", "--out", self.folder + '/a "b"'], "Choose a folder without \", \\ and control")]:
             with self.subTest(arguments):
                 out = [] if "--out" in arguments else ["--out", self.out]

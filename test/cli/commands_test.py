@@ -42,7 +42,7 @@ class Commands(unittest.TestCase):
             self.assertIn("--help", result.stderr, arguments)
 
     def test_an_unknown_command_is_named(self):
-        self.assertIn("error: 'launch' is no command. There are run, replay", dihaptic("launch").stderr)
+        self.assertIn("error: 'launch' is not a command. Commands are run, replay", dihaptic("launch").stderr)
         self.assertIn("Did you mean check? See dihaptic --help.", dihaptic("chekc", "x").stderr)
 
     def test_numbers_of_options_have_ranges(self):
@@ -73,7 +73,7 @@ class Commands(unittest.TestCase):
                    if name not in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
         result = dihaptic("gui", env=nowhere)
         self.assertEqual(result.returncode, 2, result.stderr)
-        self.assertIn("there is no screen to open a window on", result.stderr)
+        self.assertIn("there is no screen for a window", result.stderr)
 
     def test_fit_two_rate_gives_back_the_rates_that_made_a_table(self):
         truth = {"retention_fast": 0.59, "learning_fast": 0.21, "retention_slow": 0.992, "learning_slow": 0.02}

@@ -91,7 +91,7 @@ class NewStudy(FirstHour):
         for name in ["file", "empty", "link", "empty/"]:
             result = self.new(name)
             self.assertEqual(result.returncode, 2)
-            self.assertIn(f"{name.rstrip('/')}: error: is already there. Choose another name.", result.stderr)
+            self.assertIn(f"{name.rstrip('/')}: error: already exists. Choose another name.", result.stderr)
         self.assertEqual((self.folder / "file").read_text(), "mine")
         self.assertEqual(os.listdir(self.folder / "empty"), [])
         self.assertEqual(sorted(os.listdir(self.folder)), ["empty", "file", "link"])
@@ -108,8 +108,8 @@ class NewStudy(FirstHour):
 
     def test_says_what_is_wrong_with_the_folder_that_it_is_to_be_in(self):
         (self.folder / "file").touch()
-        for path, message in [("none/wrist", "none: error: is not there. Make it first: mkdir -p 'none'."),
-                              ("file/wrist", "file: error: is no folder."),
+        for path, message in [("none/wrist", "none: error: does not exist. Make it first: mkdir -p 'none'."),
+                              ("file/wrist", "file: error: is not a folder."),
                               ("/proc/wrist", "/proc/wrist: error: cannot be made: "),
                               ("w" * 300, "cannot be made: File name too long")]:
             result = self.new(path)
@@ -272,7 +272,7 @@ class Doctor(FirstHour):
         for options in [{"cwd": "/proc"}, {"preexec_fn": with_largest_file(1_000_000)}]:
             result, found = self.doctor(**options)
             self.assertEqual(result.returncode, 1, result.stdout)
-            self.assertIn("Sessions on simulated devices lack something here.", result.stdout)
+            self.assertIn("Sessions on simulated devices cannot run here yet.", result.stdout)
             self.assertEqual(self.verdict(found, "writing"), "lacks")
         (self.folder / "sessions").symlink_to("/proc")
         self.assertEqual(self.doctor()[0].returncode, 1)

@@ -68,7 +68,7 @@ class Commands(unittest.TestCase):
             file = folder + "/x.png"
             for arguments, told in [(["--camera", "below"], "there is no camera 'below'. There are close, front, above, side"),
                                     (["--time", "99"], "--time: error: 99 s is beyond the end, which is at 3"),
-                                    (["--size", "99"], "'99' is no size of a picture. Give width and height in pixels"),
+                                    (["--size", "99"], "'99' is not a valid picture size. Give width and height in pixels"),
                                     (["--show", "ghosts"], "ghosts not in {path,forces"),
                                     (["-o", folder + "/none/x.png"], "cannot be written")]:
                 result = dihaptic("picture", scene, "-o", file, *arguments) if arguments[0] != "-o" else dihaptic("picture", scene, *arguments)

@@ -68,10 +68,10 @@ class RealDevices(unittest.TestCase):
         for rig in ["rigs/omega-pair.yaml", "rigs/phantom-pair-openhaptics.yaml"]:
             result = dihaptic("run", "scenes/block-on-table.yaml", "--rig", rig, "--clock", "virtual", env=self.env)
             self.assertEqual(result.returncode, 2, result.stdout)
-            self.assertIn("--clock: error: real devices keep real time. Leave out --clock", result.stderr)
+            self.assertIn("--clock: error: real devices run in real time. Leave out --clock", result.stderr)
             result = dihaptic("tune", "scenes/block-on-table.yaml", "--rig", rig, env=self.env)
             self.assertEqual(result.returncode, 2, result.stdout)
-            self.assertIn("has real devices, and tune shakes its own", result.stderr)
+            self.assertIn("has real devices, but tune shakes only simulated ones", result.stderr)
 
     def test_a_session_on_devices_that_are_not_there_says_so_before_it_begins(self):
         self.put(self.HD + self.DHD)

@@ -98,7 +98,7 @@ class Rehearsals(unittest.TestCase):
         self.assertEqual(result.returncode, 1)
         self.assertIn("sim-001: failed.", result.stderr)
         self.assertIn("cannot be written", result.stderr)
-        self.assertIn("the same command goes on with those", result.stdout)
+        self.assertIn("the same command continues with them", result.stdout)
         self.assertEqual(self.rehearse(out).returncode, 0)
 
     def test_refuses_a_folder_of_another_experiment_seed_or_population(self):
@@ -133,7 +133,7 @@ class Rehearsals(unittest.TestCase):
         both = self.folder + "/both"
         result = dihaptic("collect", *folders, "--out", both)
         self.assertEqual(result.returncode, 2)
-        self.assertIn("is another rehearsal than " + folders[0] + ": seed: 1 there, 9 now", result.stderr)
+        self.assertIn("is a different rehearsal from " + folders[0] + ": seed: 1 there, 9 now", result.stderr)
         self.assertIn("--join-seeds", result.stderr)
         result = dihaptic("collect", *folders, "--join-seeds", "--out", both)
         self.assertEqual(result.returncode, 0, result.stderr)
@@ -239,8 +239,8 @@ groups:
 
     def test_refuses_what_cannot_be(self):
         for arguments, message in [(["rehearse", self.experiment, "--shard", "4/3"], "--shard: error: 4/3: is no part"),
-                                   (["rehearse", "experiments/lift-block.yaml"], "has no trials that people could do"),
-                                   (["collect", self.folder], "is no folder of a rehearsal"),
+                                   (["rehearse", "experiments/lift-block.yaml"], "has no trials for people"),
+                                   (["collect", self.folder], "is not the folder of a rehearsal"),
                                    (["run", self.experiment, "--real-objects"], "requires --simulate")]:
             result = dihaptic(*arguments)
             self.assertNotEqual(result.returncode, 0)

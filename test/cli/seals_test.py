@@ -299,7 +299,7 @@ class Seals(unittest.TestCase):
             self.assertNotIn("\x1b", said)
             if result.returncode == 1:
                 self.assertNotIn("/a.yaml", said)
-                self.assertIn("is none that dihaptic wrote", said)
+                self.assertIn("was not written by dihaptic", said)
 
     def test_what_is_to_be_typed_names_this_program_and_this_folder(self):
         study, out = self.copy()
@@ -321,7 +321,7 @@ class Seals(unittest.TestCase):
         (study / "mine/person.yaml").unlink()
         result = self.collect(study, out)
         self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertIn(f"left out: {study}/mine: it is no rehearsed person's", result.stdout)
+        self.assertIn(f"left out: {study}/mine: it does not belong to a rehearsed person", result.stdout)
 
 
 if __name__ == "__main__":

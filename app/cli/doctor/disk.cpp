@@ -28,7 +28,7 @@ constexpr size_t kWritten = 16'000'000;  // [bytes]
 constexpr size_t kFingers = 2;
 constexpr double kTick = 1e-3;  // [s]
 
-/// As mountinfo writes paths: \040 is a blank.
+/// Decodes a path as written in mountinfo: \040 is a blank.
 std::string unescaped(const std::string& text) {
     std::string out;
     for (size_t i = 0; i < text.size(); ++i) {
@@ -49,8 +49,8 @@ bool is_in(const std::string& folder, const std::string& mount) {
            (folder.size() == mount.size() || folder[mount.size()] == '/');
 }
 
-/// Returns how fast a file in the folder is written and kept [bytes/s]. Throws Error when it
-/// cannot be.
+/// Returns the speed at which a file in the folder is written and synchronised [bytes/s]. Throws
+/// Error when this fails.
 double write_speed(const std::string& folder) {
     std::string name = folder + "/dihaptic-doctor-XXXXXX";
     const int file = mkostemp(name.data(), O_CLOEXEC);
@@ -59,12 +59,12 @@ double write_speed(const std::string& folder) {
                      "");
     };
     if (file < 0) throw refused();
-    unlink(name.c_str());  // whatever happens from here on, nothing is left
+    unlink(name.c_str());  // whatever happens from here on, no file remains
     const std::vector<char> block(1'000'000, 'd');
     const auto began = std::chrono::steady_clock::now();
     try {
         for (size_t written = 0; written < kWritten;) {
-            // a disk that gets full takes a part, and refuses the rest
+            // a disk that becomes full accepts a part, and refuses the rest
             const ssize_t size = write(file, block.data(), block.size());
             if (size <= 0) throw refused();
             written += static_cast<size_t>(size);
@@ -104,7 +104,7 @@ std::string file_system(const std::string& mounts, const std::string& folder) {
         std::string mount;
         for (int i = 0; i < 5; ++i) before >> mount;
         mount = unescaped(mount);
-        // of two at one place the later one is seen
+        // of two mounts at one point, the later one is visible
         if (rest == std::string::npos || !is_in(folder, mount) || mount.size() < best.size())
             continue;
         best = mount;
@@ -121,37 +121,37 @@ Finding kind_of_disk(const std::string& type, System system) {
         return {Verdict::note,
                 kWhat,
                 type +
-                    ", over the network: what others do there decides how soon it writes. "
-                    "Record on a disk of this machine, and copy",
+                    ", over the network: other users' traffic affects its speed. Record on a disk "
+                    "of this machine, and copy",
                 {}};
     if (type == "tmpfs" || type == "ramfs")
         return {Verdict::note,
                 kWhat,
-                type + ", in memory: what is recorded is lost at the next restart",
+                type + ", in memory: recordings are lost at the next restart",
                 {}};
     if (type == "overlay" && system == System::live)
         return {Verdict::lacks,
                 kWhat,
-                "of a live system, in memory: what is recorded is lost when it is switched off",
+                "of a live system, in memory: recordings are lost when it is switched off",
                 {"cd FOLDER    # of a disk of this machine; or write the stick by "
                  "packaging/image/stick, "
                  "which gives it room for sessions"}};
     if (type == "overlay" && system == System::container)
         return {Verdict::note,
                 kWhat,
-                "of the container: what is recorded is lost with it. Start it with a folder of the "
-                "host's: docker run -v",
+                "of the container: recordings are lost with it. Start it with a folder of the "
+                "host: docker run -v",
                 {}};
     return {Verdict::ok, kWhat, type.empty() ? "of this machine" : type, {}};
 }
 
 Finding keeps_up(double speed, double needed) {
     const std::string found = fmt::format(
-        "{:.3g} MB a second; a session of two fingers writes {:g}", speed / 1e6, needed / 1e6);
+        "{:.3g} MB per second; a session with two fingers writes {:g}", speed / 1e6, needed / 1e6);
     if (speed > needed) return {Verdict::ok, "writing", found, {}};
     return {Verdict::lacks,
             "writing",
-            found + ": it falls behind, and its memory fills",
+            found + ": the disk falls behind, and memory fills",
             {kAnotherDisk},
             true};
 }

@@ -1,27 +1,27 @@
-// Whether the disk has room for sessions, and keeps up with them.
+// Checks whether the disk has room for sessions, and keeps up with them.
 #pragma once
 
 #include "cli/doctor/finding.h"
 
 namespace dihaptic::doctor {
 
-/// What to do when a folder cannot be recorded to.
+/// The remedy when recording to a folder is impossible.
 constexpr const char* kAnotherDisk =
     "cd ~    # or any folder on another disk; or name one: dihaptic run FILE --out FOLDER";
 
-/// The type of file system that holds `folder`, an absolute path; "" if it is not known.
-/// `mounts`: the text of /proc/self/mountinfo.
+/// The type of file system that holds `folder`, an absolute path; "" if unknown. `mounts`: the text
+/// of /proc/self/mountinfo.
 std::string file_system(const std::string& mounts, const std::string& folder);
 
-/// Where this system stands: on a disk, in a container, or in memory, started from a USB stick.
+/// The location of this system: on a disk, in a container, or in memory, started from a USB stick.
 enum class System { installed, container, live };
 Finding kind_of_disk(const std::string& type, System system);
 
-/// `speed`: of writing; `needed`: by a session [bytes/s].
+/// `speed`: measured speed of writing; `needed`: speed required by a session [bytes/s].
 Finding keeps_up(double speed, double needed);
 
-/// Looks at the folder for sessions: `sessions`, or where that would be made. Writes a file there,
-/// which is gone afterwards.
+/// Checks the folder for sessions: `sessions`, or its future location. Writes a file there, and
+/// removes it again.
 Findings disk();
 
 }  // namespace dihaptic::doctor

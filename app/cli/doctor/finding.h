@@ -1,5 +1,5 @@
-// A line of the report of `dihaptic doctor`: what was found, what that means for an experiment, and
-// the commands that mend it.
+// An entry in the report of `dihaptic doctor`: the finding, its meaning for an experiment, and the
+// commands that solve a problem.
 #pragma once
 
 #include <array>
@@ -16,19 +16,19 @@ constexpr auto enum_names(Verdict) {
 struct Finding {
     Verdict verdict = Verdict::note;
     std::string what;                   ///< e.g. "kernel"
-    std::string found;                  ///< what there is, and what follows for an experiment
-    std::vector<std::string> commands;  ///< that mend it, in this order
-    /// Sessions on simulated devices need it too.
+    std::string found;                  ///< the finding, with its consequence for an experiment
+    std::vector<std::string> commands;  ///< commands that solve the problem, in this order
+    /// Sessions on simulated devices require it too.
     bool needed = false;
 };
 using Findings = std::vector<Finding>;
 
-/// The lines that are printed of it.
+/// The printed lines of the finding.
 std::string to_text(const Finding& finding);
 
-/// From one process to another, in a line.
+/// Encodes the finding in one line, for another process.
 std::string to_json(const Findings& findings);
-/// Throws std::exception when the text is none of to_json().
+/// Throws std::exception when the text is not from to_json().
 Findings from_json(const std::string& text);
 
 }  // namespace dihaptic::doctor

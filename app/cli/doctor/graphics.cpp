@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The graphics cards' files that may not be opened, for drawing.
+/// The graphics cards' files for drawing that this user cannot open.
 std::vector<std::string> closed_cards(const std::string& root, const MayOpen& may_open) {
     std::vector<std::string> out;
     std::error_code failed;
@@ -38,15 +38,15 @@ Finding drawn_by(const std::string& renderer, const std::string& version, const 
     if (!closed.empty())
         return {Verdict::lacks,
                 "OpenGL",
-                fmt::format("{}: in software, since you may not open {}: pictures take the "
-                            "processor from the servo",
+                fmt::format("{}: in software, since you may not open {}: drawing takes processor "
+                            "time from the servo",
                             found, fmt::join(closed, ", ")),
                 {"sudo usermod -aG render,video $USER    # then log in again"}};
     return {Verdict::note,
             "OpenGL",
             found +
-                ": in software. The window draws in less detail, and takes processors from the "
-                "servo; sessions without it do not mind",
+                ": in software. The window draws in less detail, and takes processor time from the "
+                "servo; sessions without a window are not affected",
             {}};
 }
 

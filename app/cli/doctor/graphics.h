@@ -1,4 +1,4 @@
-// What draws here, where a window can open, and whether a headset's runtime is there.
+// Checks the renderer, the screen for a window, and a headset's runtime.
 #pragma once
 
 #include <functional>
@@ -13,11 +13,11 @@ using Variable = std::function<std::string(const char* name)>;
 
 /// Draws a picture without a window.
 Finding drawing(const std::string& root, const MayOpen& may_open);
-/// `renderer`, `version`: OpenGL's names of what draws.
+/// `renderer`, `version`: OpenGL's names for them.
 Finding drawn_by(const std::string& renderer, const std::string& version, const std::string& root,
                  const MayOpen& may_open);
 Finding screen(const Variable& variable);
-/// The runtime is not started: some start whole programs of their own.
+/// The runtime is not started: some start entire programs.
 Finding headset(const std::string& root, const Variable& variable);
 
 }  // namespace dihaptic::doctor

@@ -1,5 +1,5 @@
-// What the system says of itself and of the user. `root` is put before the path of each of its
-// files: "", or in tests a folder with those of another machine.
+// The system's information on itself and on the user. `root` is put before the path of each system
+// file: "", or in tests a folder with the files of another machine.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 
 namespace dihaptic::doctor {
 
-/// All of a small file, without the line's end; "" if it cannot be read.
+/// The content of a small file, without the line end; "" if it cannot be read.
 std::string text_of(const std::string& file);
 
 /// "Docker" and the like; "" outside of containers.
 std::string container(const std::string& root);
 bool is_virtual_machine(const std::string& root);
 
-/// What this process may do.
+/// The rights of this process.
 struct Rights {
-    int priority = 0;  ///< that was asked for
+    int priority = 0;  ///< the priority requested
     servo::RealTime::Refusals refusals;
-    bool unlimited_memory = false;  ///< may be locked
+    bool unlimited_memory = false;  ///< whether unlimited memory may be locked
     bool root = false;
     std::string user;
     std::set<std::string> groups;
@@ -30,10 +30,10 @@ struct Rights {
 };
 Rights rights_now(int priority);
 
-/// The group whose members may do what real time and devices need.
+/// The group whose members have the rights for real time and devices.
 constexpr const char* kGroup = "haptics";
 
-/// Commands that add a rule of udev's, and that make the user a member of the group.
+/// Commands that add a udev rule, and that make the user a member of the group.
 std::vector<std::string> add_udev_rule(const std::string& rule);
 std::vector<std::string> join_group();
 

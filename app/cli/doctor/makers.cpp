@@ -13,7 +13,7 @@ Findings of_maker(const std::string& backend, const devices::Survey& survey) {
              fmt::format("{}{}: {}", device.model,
                          device.serial.empty() ? "" : ", serial " + device.serial, device.state),
              {}});
-    // a laboratory has devices of one maker, as a rule, so that nothing lacks
+    // a laboratory usually has devices from one maker, so the others are not missing
     if (!survey.missing.empty()) out.push_back({Verdict::note, backend, survey.missing, {}});
     return out;
 }

@@ -1,4 +1,4 @@
-// Which devices of a maker are there, as `dihaptic devices` finds them through the maker's library.
+// Finds a maker's devices through the maker's library, like `dihaptic devices`.
 #pragma once
 
 #include "cli/doctor/finding.h"
@@ -6,7 +6,7 @@
 
 namespace dihaptic::doctor {
 
-/// `backend`: its name.
+/// `backend`: name of the backend.
 Findings of_maker(const std::string& backend, const devices::Survey& survey);
 
 }  // namespace dihaptic::doctor

@@ -80,8 +80,8 @@ Finding usb(const std::string& root, const Known& known, const MayOpen& may_open
         const std::string rule = rule_file(root, known);
         return finding(Verdict::note,
                        rule.empty()
-                           ? "not plugged in, and no udev rule is there, without which root "
-                             "alone may open it: its commands stand here once it is plugged in"
+                           ? "not plugged in, and without a udev rule only root may open it: the "
+                             "commands for a rule appear here once it is plugged in"
                            : fmt::format("not plugged in. {} has a rule for it", rule));
     }
     if (std::all_of(files.begin(), files.end(), may_open))
@@ -105,8 +105,8 @@ Finding serial(const std::string& root, const MayOpen& may_open) {
     if (lines.empty())
         return {Verdict::note,
                 "serial lines",
-                "none plugged in: outlets of kind serial (event codes to other recording "
-                "equipment) need one",
+                "none plugged in: outlets of kind 'serial' (event codes to other recording "
+                "equipment) require one",
                 {}};
     if (closed.empty())
         return {Verdict::ok,

@@ -1,4 +1,4 @@
-// Whether this user may open the USB devices and serial lines that are plugged in.
+// Checks whether this user may open the USB devices and serial lines that are plugged in.
 #pragma once
 
 #include <functional>

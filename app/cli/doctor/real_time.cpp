@@ -23,12 +23,12 @@ std::string add_limit(const std::string& limit) {
                        limit);
 }
 
-/// Lets the root of a container do what that option is about.
+/// Grants the root of a container the rights of that option.
 std::string start_container(const std::string& option) {
-    return fmt::format("docker run {} ...    # starts the container anew", option);
+    return fmt::format("docker run {} ...    # starts the container again", option);
 }
 
-/// The release of a kernel that Debian's package has put there; "" if there is none.
+/// The release of a kernel installed by Debian's package; "" if there is none.
 std::string real_time_kernel_on_disk(const std::string& root) {
     const std::string begin = "vmlinuz-";
     const std::string end = fmt::format("-rt-{}", kArchitecture);
@@ -46,14 +46,13 @@ Finding kernel(const std::string& root) {
     const bool real_time = text_of(root + "/sys/kernel/realtime") == "1" ||
                            text_of(root + "/proc/version").find("PREEMPT_RT") != std::string::npos;
     if (real_time)
-        return {
-            Verdict::ok,
-            "kernel",
-            release +
-                " has PREEMPT_RT, which keeps drivers and other programs from holding a tick up",
-            {}};
+        return {Verdict::ok,
+                "kernel",
+                release +
+                    " has PREEMPT_RT, which keeps drivers and other programs from delaying a tick",
+                {}};
     const std::string lacking =
-        release + " has no PREEMPT_RT: drivers and other programs can hold a tick up";
+        release + " has no PREEMPT_RT: drivers and other programs can delay a tick";
     if (const std::string other = real_time_kernel_on_disk(root); !other.empty())
         return {
             Verdict::lacks,
@@ -74,11 +73,12 @@ Finding priority(const Rights& rights) {
     if (rights.refusals.priority == 0)
         return {Verdict::ok,
                 "priority",
-                fmt::format("{} may be had: ticks come before other programs", rights.priority),
+                fmt::format("{} is available: ticks have priority over other programs",
+                            rights.priority),
                 {}};
     return {Verdict::lacks,
             "priority",
-            fmt::format("{} cannot be had ({}): ticks come late when other programs are busy",
+            fmt::format("{} is not available ({}): ticks are late when other programs are busy",
                         rights.priority, strerrorname_np(rights.refusals.priority)),
             {rights.root ? start_container("--cap-add SYS_NICE")
                          : add_limit(fmt::format("rtprio {}", rights.priority + 1))}};
@@ -86,7 +86,8 @@ Finding priority(const Rights& rights) {
 
 std::string allow_memory(const std::string& root, const Rights& rights) {
     if (!rights.root) return add_limit("memlock unlimited");
-    if (container(root).empty()) return "ulimit -l unlimited    # for what this shell starts";
+    if (container(root).empty())
+        return "ulimit -l unlimited    # for programs started from this shell";
     return start_container("--cap-add IPC_LOCK --ulimit memlock=-1");
 }
 
@@ -101,8 +102,8 @@ Finding memory(const std::string& root, const Rights& rights) {
         return {Verdict::ok, "memory", "all of it can be locked: no tick waits for the disk", {}};
     return {Verdict::note,
             "memory",
-            "what is in use when a session starts can be locked, and no more: memory that is asked "
-            "for later may keep a tick waiting",
+            "only memory in use at a session's start can be locked: memory requested later may "
+            "delay a tick",
             {allow_memory(root, rights)}};
 }
 
@@ -110,20 +111,20 @@ Finding wakefulness(const std::string& root, const Rights& rights) {
     constexpr const char* kWhat = "wakefulness";
     std::error_code ignored;
     if (rights.refusals.awake != 0)
-        return {Verdict::lacks, kWhat,
-                fmt::format("processors cannot be kept from deep sleep ({}), from which they wake "
-                            "late",
-                            strerrorname_np(rights.refusals.awake)),
-                rights.root ? std::vector{start_container("--device /dev/cpu_dma_latency")}
-                            : add_udev_rule(fmt::format("KERNEL==\"cpu_dma_latency\", "
-                                                        "GROUP=\"{}\", MODE=\"0660\"",
-                                                        kGroup))};
+        return {
+            Verdict::lacks, kWhat,
+            fmt::format("processors cannot be kept from deep sleep ({}), from which they wake late",
+                        strerrorname_np(rights.refusals.awake)),
+            rights.root ? std::vector{start_container("--device /dev/cpu_dma_latency")}
+                        : add_udev_rule(fmt::format("KERNEL==\"cpu_dma_latency\", "
+                                                    "GROUP=\"{}\", MODE=\"0660\"",
+                                                    kGroup))};
     if (!fs::exists(root + "/dev/cpu_dma_latency", ignored))
-        return {Verdict::note, kWhat, "the sleep of processors is not Linux's to manage here", {}};
+        return {Verdict::note, kWhat, "Linux does not manage the sleep of processors here", {}};
     return {Verdict::ok, kWhat, "processors can be kept from deep sleep: they wake at once", {}};
 }
 
-/// Whether the user is a member by the system's list, of which a log-in takes note.
+/// Whether the user is a member according to the system's list, which is read at log-in.
 bool is_listed(const std::string& root, const std::string& user) {
     std::istringstream lines(text_of(root + "/etc/group"));
     for (std::string line; std::getline(lines, line);) {
@@ -136,7 +137,7 @@ bool is_listed(const std::string& root, const std::string& user) {
     return false;
 }
 
-/// For whom the rules above are made.
+/// Checks membership in the group for which the rules above are made.
 Finding membership(const std::string& root, const Rights& rights) {
     if (rights.groups.contains(kGroup))
         return {Verdict::ok, "group", fmt::format("{} is a member of {}", rights.user, kGroup), {}};
@@ -146,10 +147,10 @@ Finding membership(const std::string& root, const Rights& rights) {
             "group",
             fmt::format("{} has become a member of {}, but logged in before", rights.user, kGroup),
             {"su - $USER    # or log out, and in again"}};
-    return {
-        Verdict::lacks, "group",
-        fmt::format("{} is no member of {}, which the rules above are for", rights.user, kGroup),
-        join_group()};
+    return {Verdict::lacks, "group",
+            fmt::format("{} is not a member of {}, for which the rules above are made", rights.user,
+                        kGroup),
+            join_group()};
 }
 
 Finding governor(const std::string& root) {
@@ -166,14 +167,17 @@ Finding governor(const std::string& root) {
         if (is != "performance") other.insert(is);
     }
     if (all == 0)
-        return {Verdict::note, "frequency", "that of processors is not Linux's to set here", {}};
+        return {Verdict::note, "frequency", "Linux does not set the speed of processors here", {}};
     if (other.empty())
-        return {Verdict::ok, "frequency", "all processors run at their highest (performance)", {}};
+        return {Verdict::ok,
+                "frequency",
+                "all processors run at their highest speed (performance)",
+                {}};
     return {Verdict::lacks,
             "frequency",
-            fmt::format("{} of {} processors slow down when they have little to do ({}): a tick "
-                        "after a pause takes longer",
-                        all - performing, all, fmt::join(other, ", ")),
+            fmt::format(
+                "{} of {} processors slow down when idle ({}): a tick after a pause takes longer",
+                all - performing, all, fmt::join(other, ", ")),
             {"echo performance | sudo tee /sys/devices/system/cpu/cpu*/cpufreq/scaling_governor"
              "    # until the next restart"}};
 }
@@ -183,11 +187,12 @@ Finding kind_of_machine(const std::string& root) {
     if (is_virtual_machine(root)) kinds.emplace_back("a virtual machine");
     if (const std::string name = container(root); !name.empty())
         kinds.push_back(fmt::format("a container ({})", name));
-    if (kinds.empty()) return {Verdict::ok, "machine", "no virtual machine, no container", {}};
+    if (kinds.empty())
+        return {Verdict::ok, "machine", "neither a virtual machine nor a container", {}};
     return {Verdict::note,
             "machine",
-            fmt::format("{}: its host may take the processor away at any time; simulated devices "
-                        "do not mind, real ones do",
+            fmt::format("{}: its host may withdraw the processor at any time; this affects real "
+                        "devices, but not simulated ones",
                         fmt::join(kinds, " with ")),
             {}};
 }

@@ -1,4 +1,4 @@
-// Whether ticks come in time here: what Linux is, and what it lets this user do.
+// Checks whether ticks can be on time here: the version of Linux, and this user's rights.
 #pragma once
 
 #include "cli/doctor/finding.h"

@@ -23,7 +23,7 @@
 namespace dihaptic::doctor {
 namespace {
 
-constexpr int kPatience = 15;  // with a section [s]
+constexpr int kPatience = 15;  // patience with a section [s]
 
 bool may_open(const std::string& file) {
     return access(file.c_str(), R_OK | W_OK) == 0;
@@ -63,22 +63,22 @@ Findings look_from_outside(const Section& section) {
     std::error_code ignored;
     task.program = std::filesystem::read_symlink("/proc/self/exe", ignored).filename().string();
     task.arguments = {"doctor", "--section", section.name};
-    // a graphics driver takes as many addresses as it likes
+    // a graphics driver reserves any number of addresses
     task.limits = {kPatience, kPatience, std::numeric_limits<uint64_t>::max(), 1 << 30};
-    task.what = "the look at it";
+    task.what = "the check";
     try {
         const std::string said = run_companion(task, "").value_or("");
-        // libraries may have written before
+        // libraries may have printed text before
         return from_json(said.substr(said.rfind('\n') + 1));
     } catch (const Error& e) {
         return {section.failed(e.problems().front().what)};
     } catch (const std::exception&) {
-        return {section.failed("the look at it failed")};
+        return {section.failed("the check of it failed")};
     }
 }
 
 void look_inside(const std::string& name) {
-    // there is nothing to be ended in order
+    // nothing requires an orderly end
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
     const std::vector<Section> all = sections();
     const auto section =

@@ -1,4 +1,4 @@
-// The parts of the report, in its order.
+// The sections of the report, in order.
 #pragma once
 
 #include <functional>
@@ -11,12 +11,12 @@ namespace dihaptic::doctor {
 
 struct Section {
     std::string heading;
-    std::string name;  ///< of its own: several sections may stand under a heading
+    std::string name;  ///< unique name: several sections may share a heading
     std::function<Findings()> look;
-    /// What to do when nothing can be found out; given for what sessions on simulated devices need.
+    /// The remedy when the check fails; given for requirements of sessions on simulated devices.
     std::vector<std::string> otherwise = {};
 
-    /// In place of what it finds: why nothing could be found out.
+    /// A finding that replaces the section's own: the reason why the check failed.
     Finding failed(const std::string& why) const {
         const bool needed = !otherwise.empty();
         return {needed ? Verdict::lacks : Verdict::note, name, why, otherwise, needed};
@@ -25,11 +25,11 @@ struct Section {
 
 std::vector<Section> sections();
 
-/// What a section finds, in a process of its own: a driver that hangs or crashes there is a finding
-/// like others.
+/// The findings of a section, from a separate process: a driver that hangs or crashes there is a
+/// finding like others.
 Findings look_from_outside(const Section& section);
 
-/// In that process: writes what the section of that name finds to standard output, for
+/// In that process: writes the findings of the section with this name to standard output, for
 /// look_from_outside().
 void look_inside(const std::string& name);
 

@@ -24,7 +24,7 @@ Finding silence(const std::string& root, const std::string& failure, const MayOp
         return {Verdict::note,
                 "output",
                 failure +
-                    ", and Linux sees no sound card. Sessions run without sounds; with "
+                    ", and Linux does not find a sound card. Sessions run without sounds; with "
                     "sound: { to: file } a rig writes them to a file",
                 {}};
     if (closed)
@@ -35,7 +35,7 @@ Finding silence(const std::string& root, const std::string& failure, const MayOp
     return {Verdict::lacks,
             "output",
             failure + ": sessions run without sounds",
-            {"sudo apt install alsa-utils && speaker-test -c 2 -l 1    # says more of why"}};
+            {"sudo apt install alsa-utils && speaker-test -c 2 -l 1    # gives more details"}};
 }
 
 Finding sound(const std::string& root, const MayOpen& may_open) {

@@ -1,4 +1,4 @@
-// Whether sounds of tasks can be heard.
+// Checks whether a task's sounds can be heard.
 #pragma once
 
 #include "cli/doctor/finding.h"
@@ -6,7 +6,7 @@
 
 namespace dihaptic::doctor {
 
-/// `failure`: why the sound device cannot be opened, in words.
+/// `failure`: reason why the sound device cannot be opened.
 Finding silence(const std::string& root, const std::string& failure, const MayOpen& may_open);
 /// Opens the system's sound device for a moment.
 Finding sound(const std::string& root, const MayOpen& may_open);

@@ -391,7 +391,7 @@ TEST(Doctor, TellsDisksThatOneShouldNotRecordTo) {
 TEST(Doctor, ComparesTheDiskWithASession) {
     EXPECT_EQ(keeps_up(100e6, 0.45e6).verdict, Verdict::ok);
     EXPECT_EQ(keeps_up(100e6, 0.45e6).found,
-              "100 MB a second; a session of two fingers writes 0.45");
+              "100 MB per second; a session with two fingers writes 0.45");
     EXPECT_EQ(keeps_up(0.1e6, 0.45e6).verdict, Verdict::lacks);
     EXPECT_TRUE(keeps_up(0.1e6, 0.45e6).needed);
 }
