@@ -12,12 +12,12 @@ class Application : public QApplication {
     Q_OBJECT
 
   public:
-    /// Qt activates the system's language; for numbers this is undone, because libraries would
+    /// Qt activates the system's language; for numbers this is reversed, because libraries would
     /// otherwise read 0.5 as 0.
     Application(int& argc, char** argv);
     bool notify(QObject* receiver, QEvent* event) override;
-    /// From now on texts are in the system's language, if the folder has dihaptic_LANGUAGE.qm:
-    /// those of the window and those that Qt has of its own.
+    /// From now on texts are in the system's language, if the folder has dihaptic_LANGUAGE.qm: the
+    /// window's and Qt's own.
     void translate(const QString& folder);
 
   Q_SIGNALS:

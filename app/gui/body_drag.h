@@ -25,17 +25,17 @@ struct BodyWay {
 
 class BodyDrag {
   public:
-    /// Begins a drag: the body is held where the ray to the pointer meets it.
+    /// Starts a drag: the body is held at the point where the ray to the pointer meets it.
     BodyDrag(const view::Seen& held, const view::Ray& ray) : held_W_(held.p_W), ray_(ray) {}
 
-    /// The pointer went so many pixels, and a ray to it is this one.
+    /// The pointer moved by this many pixels, and this is the ray to it.
     void follow(const view::Ray& ray, const QPointF& pixels, Qt::KeyboardModifiers keys);
     const BodyWay& way() const { return way_; }
 
   private:
     static constexpr double kTurn = 0.008;  // [rad/pixel]
     Vec3 held_W_;
-    view::Ray ray_;  // to the pointer, as it was when the body last followed it
+    view::Ray ray_;  // ray to the pointer when the body last followed it
     BodyWay way_;
 };
 

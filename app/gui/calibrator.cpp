@@ -48,7 +48,7 @@ void Calibrator::ask_to_store(const rig::Rig& rig, const rig::CalibrationResult&
                               const std::string& rig_file, const std::string& file) {
     auto* dialog = new QDialog(window_);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
-    dialog->setWindowTitle(tr("What the calibration found"));
+    dialog->setWindowTitle(tr("Result of the calibration"));
     auto* words = new QLabel(QString::fromStdString(rig::describe(result)));
     words->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
     words->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -63,8 +63,9 @@ void Calibrator::ask_to_store(const rig::Rig& rig, const rig::CalibrationResult&
     auto* layout = new QVBoxLayout(dialog);
     layout->addWidget(words);
     layout->addWidget(picture, 1);
-    const QString where = named ? tr("It goes to %1.")
-                                : tr("It goes to %1, and the rig file gets a line that names it.");
+    const QString where =
+        named ? tr("It is stored in %1.")
+              : tr("It is stored in %1, and the rig file gets a line that refers to it.");
     layout->addWidget(new QLabel(where.arg(QString::fromStdString(file))));
     layout->addWidget(buttons);
     connect(buttons, &QDialogButtonBox::accepted, dialog, &QDialog::accept);
@@ -118,7 +119,7 @@ void Calibrator::register_display(const QString& rig_file, rig::NamedBy named_by
 
 void Calibrator::store(const rig::Rig& rig, const display::Display& display,
                        const display::RegistrationResult& result, const std::string& rig_file) {
-    auto* question = new QMessageBox(QMessageBox::Question, tr("What the registration found"),
+    auto* question = new QMessageBox(QMessageBox::Question, tr("Result of the registration"),
                                      QString::fromStdString(display::describe(result)),
                                      QMessageBox::Save | QMessageBox::Discard, window_);
     question->setAttribute(Qt::WA_DeleteOnClose);
@@ -147,7 +148,7 @@ void Calibrator::store(const rig::Rig& rig, const display::Display& display,
 std::function<std::vector<Problem>(devices::DeviceGroup&)> Calibrator::together_check(
     const rig::Rig& rig, const std::vector<std::string>& fingers,
     const std::function<bool()>& ends) {
-    auto* dialog = new GuideDialog(tr("Does the calibration still hold?"), tr("&Skip"), window_);
+    auto* dialog = new GuideDialog(tr("Is the calibration still valid?"), tr("&Skip"), window_);
     dialog->open();
     check_ = dialog;
     return [this, dialog, rig, fingers, ends](devices::DeviceGroup& devices) {
@@ -175,7 +176,7 @@ std::function<std::vector<Problem>(devices::DeviceGroup&)> Calibrator::together_
         } catch (const Ended&) {
             dialog->finish(GuideDialog::Outcome::given_up);
             throw Error(
-                tr("The session was ended before it began: nothing was recorded").toStdString(),
+                tr("The session was ended before it started: nothing was recorded").toStdString(),
                 "");
         } catch (const std::exception& e) {
             dialog->finish(GuideDialog::Outcome::failed, QString::fromStdString(e.what()));

@@ -1,5 +1,5 @@
 // Calibrates a rig and registers its displays from the window, and checks before a session that the
-// calibration still holds.
+// calibration is still valid.
 #pragma once
 
 #include <QPointer>
@@ -19,14 +19,14 @@ class Calibrator : public QObject {
     /// `window`: parent of its dialogs.
     explicit Calibrator(QWidget* window) : QObject(window), window_(window) {}
 
-    /// At the end asks whether to store the result. `named_by`: who chose that file.
+    /// At the end asks whether to store the result. `named_by`: origin of that file's name.
     void calibrate(const QString& rig_file, rig::NamedBy named_by);
-    /// Shows crosses on the rig's first display, and at the end asks whether to store where they
-    /// were touched.
+    /// Shows crosses on the rig's first display, and at the end asks whether to store their touched
+    /// positions.
     void register_display(const QString& rig_file, rig::NamedBy named_by);
     /// Makes a check for the start of a session, to be called in the session's thread: the person
     /// holds endpoints together, or skips this, and the check returns warnings if the calibration
-    /// no longer holds. `ends`: whether the session should end.
+    /// is no longer valid. `ends`: whether the session should end.
     std::function<std::vector<Problem>(devices::DeviceGroup&)> together_check(
         const rig::Rig& rig, const std::vector<std::string>& fingers,
         const std::function<bool()>& ends);

@@ -1,4 +1,4 @@
-// Steps of scales that people read easily.
+// Easily readable steps for scales.
 #pragma once
 
 #include <algorithm>
@@ -15,12 +15,12 @@ inline double round_step(double least) {
     return 10 * power;
 }
 
-/// From the lowest line of a scale to the highest, and from line to line.
+/// The lowest and the highest line of a scale, and the step between lines.
 struct Scale {
     double low, high, step;
 };
 
-/// The scale of values from low to high, with about so many steps.
+/// The scale for values from low to high, with about this many steps.
 inline Scale scale_of(double low, double high, double lines) {
     const double step = round_step((high - low) / std::max(1.0, lines));
     // a value that is practically on a line does not open a further step

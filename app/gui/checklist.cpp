@@ -18,7 +18,7 @@ QString name_of(session::Remedy remedy) {
         case session::Remedy::choose_folder:
             return QObject::tr("Another &folder ...");
         case session::Remedy::allow_real_time:
-            return QObject::tr("What that &means");
+            return QObject::tr("What this &means");
         case session::Remedy::none:
             break;
     }
@@ -39,7 +39,7 @@ Checklist::Checklist(const std::vector<session::Finding>& findings, bool before_
     if (before_start) {
         const bool good = std::all_of(findings.begin(), findings.end(),
                                       [](const session::Finding& f) { return f.good; });
-        QPushButton* start = buttons->addButton(good ? tr("&Start") : tr("&Start all the same"),
+        QPushButton* start = buttons->addButton(good ? tr("&Start") : tr("&Start anyway"),
                                                 QDialogButtonBox::AcceptRole);
         start->setDefault(true);
         buttons->addButton(QDialogButtonBox::Cancel)->setAutoDefault(false);
@@ -58,7 +58,7 @@ Checklist::Checklist(const std::vector<session::Finding>& findings, bool before_
 void Checklist::add(QGridLayout& rows, const session::Finding& finding) {
     const int row = rows.rowCount();
     auto* mark = new QLabel(finding.good ? "\u2713" : "!");
-    mark->setAccessibleName(finding.good ? tr("good") : tr("to be looked at"));
+    mark->setAccessibleName(finding.good ? tr("good") : tr("to be checked"));
     mark->setStyleSheet(finding.good ? "color: #009e73; font-weight: bold"
                                      : "color: #d55e00; font-weight: bold");
     auto* text = new QLabel(

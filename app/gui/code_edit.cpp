@@ -70,7 +70,7 @@ CodeEdit::CodeEdit(QWidget* parent)
     new Colours(document());
     words_->setWidget(this);
     words_->setModel(new QStandardItemModel(words_));
-    words_->setCompletionRole(Qt::UserRole);  // the word alone
+    words_->setCompletionRole(Qt::UserRole);  // only the word
     words_->setMaxVisibleItems(12);
     words_->popup()->setFont(font);
     connect(words_, qOverload<const QModelIndex&>(&QCompleter::activated), this,
@@ -151,7 +151,7 @@ void CodeEdit::change(const std::vector<TextChange>& changes) {
     const auto sign = [&](size_t byte) {
         return static_cast<int>(QString::fromUtf8(bytes.left(static_cast<int>(byte))).size());
     };
-    QTextCursor cursor = textCursor();  // undoing goes back to where this is now
+    QTextCursor cursor = textCursor();  // undoing returns to this position
     cursor.beginEditBlock();
     for (auto change = changes.rbegin(); change != changes.rend(); ++change) {
         cursor.setPosition(sign(change->at));
@@ -178,7 +178,7 @@ bool CodeEdit::viewportEvent(QEvent* event) {
     return PlainText::viewportEvent(event);
 }
 
-/// `anyhow`: even where no word has begun.
+/// `anyhow`: even if no word has been started.
 void CodeEdit::ask_for_words(bool anyhow) {
     if (isReadOnly()) return;
     const WordPlace place = word_place(text(), textCursor().position());
@@ -188,7 +188,7 @@ void CodeEdit::ask_for_words(bool anyhow) {
 
 void CodeEdit::offer(const WordPlace& place, const std::vector<Choice>& words) {
     const WordPlace now = word_place(text(), textCursor().position());
-    if (now.asking != place.asking || !hasFocus()) return;  // another place by now
+    if (now.asking != place.asking || !hasFocus()) return;  // the cursor has moved
     auto& model = static_cast<QStandardItemModel&>(*words_->model());
     model.clear();
     size_t longest = 0;
@@ -234,7 +234,7 @@ void CodeEdit::keyPressEvent(QKeyEvent* event) {
     const bool choosing = words_->popup()->isVisible();
     if (choosing && QList<int>{Qt::Key_Return, Qt::Key_Enter, Qt::Key_Tab, Qt::Key_Escape}.contains(
                         event->key()))
-        return event->ignore();  // the list takes it
+        return event->ignore();  // the list handles the key
     if (event->key() == Qt::Key_Space && event->modifiers().testFlag(Qt::ControlModifier))
         return ask_for_words(true);
     if (event->modifiers().testFlag(Qt::AltModifier)) Q_EMIT step_wanted(*event);

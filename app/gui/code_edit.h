@@ -1,5 +1,5 @@
-// A field for the text of a scene or an experiment: line numbers, colours, marks at the lines that
-// have problems, and a list of the words that may be typed.
+// A field for the text of a scene or an experiment: line numbers, colours, marks at lines with
+// problems, and a list of the words that may be typed.
 #pragma once
 
 #include <QCompleter>
@@ -23,14 +23,14 @@ class CodeEdit : public PlainText {
     void go_to(int line);
     /// The present text, with a line feed after each line but the last.
     QString text() const;
-    /// Replaces parts of text(), by its bytes in UTF-8: one step of undo. The cursor stays where it
-    /// is.
+    /// Replaces parts of text(), by its bytes in UTF-8: one step of undo. The cursor keeps its
+    /// position.
     void change(const std::vector<TextChange>& changes);
-    /// Offers words for the place of the cursor, if it is still there and any fit.
+    /// Offers words for the position of the cursor, if it is still there and any words fit.
     void offer(const WordPlace& place, const std::vector<Choice>& words);
 
   Q_SIGNALS:
-    /// The user asked for the words that may stand at the cursor, or began to type one.
+    /// The user requested the words that are possible at the cursor, or started typing one.
     void words_wanted(const dihaptic::gui::WordPlace& place);
     /// A key was pressed, with Alt, that may move a body.
     void step_wanted(const QKeyEvent& event);
@@ -51,7 +51,7 @@ class CodeEdit : public PlainText {
     void take_word(const QModelIndex& word);
 
     QCompleter* words_;
-    WordPlace offered_;  // for which words are shown
+    WordPlace offered_;  // position for which words are shown
     Margin* margin_;
     std::map<int, QString> problems_;
 };

@@ -100,7 +100,7 @@ void Composer::show_content() {
     const bool text = is_text(content);
     edit_->setPlainText(text ? QString::fromUtf8(content) : "");
     edit_->document()->setModified(false);
-    pause_.stop();  // nobody typed this
+    pause_.stop();  // no user typed this
     edit_->setReadOnly(!text || !file_.was_readable() || !QFileInfo(file_.name()).isWritable());
 }
 
@@ -113,7 +113,7 @@ void Composer::look_again() {
     const bool readable = file_.is_readable();
     if (readable && mine)
         return note(tr("%1 was changed by another program after it was read here. Ctrl+S asks "
-                       "which is to stay.")
+                       "which version to keep.")
                         .arg(file_.name()));
     if (readable || !file_.was_readable() || !is_text(file_.content()))
         return read_file(QString(file_.name()));
@@ -130,7 +130,7 @@ void Composer::begin_draft() {
         has_draft_ = draft_->take();
     } catch (const Error& e) {
         draft_.reset();
-        return note(tr("What you type would be lost in a crash: %1").arg(e.what()));
+        return note(tr("Unsaved text would be lost in a crash: %1").arg(e.what()));
     }
     note(note_);
     const auto left = has_draft_ ? draft_->left() : std::nullopt;
@@ -143,13 +143,13 @@ void Composer::offer(const Draft::Left& left) {
     offer_ = new QMessageBox(this);
     offer_->setAttribute(Qt::WA_DeleteOnClose);
     offer_->setWindowTitle(tr("Unsaved text"));
-    offer_->setText(tr("A window that ended without saving left text of %1, of %2.\n\nGo on with "
-                       "it? The file stays as it is until you save.")
+    offer_->setText(tr("A window that ended without saving left text for %1, from %2.\n\nContinue "
+                       "with it? The file stays unchanged until you save.")
                         .arg(file_.name(), QLocale().toString(left.at, "d MMMM, HH:mm")));
-    auto* go_on = offer_->addButton(tr("&Go on with it"), QMessageBox::AcceptRole);
+    auto* go_on = offer_->addButton(tr("&Continue with it"), QMessageBox::AcceptRole);
     auto* discard = offer_->addButton(tr("&Discard it"), QMessageBox::DestructiveRole);
     offer_->setDefaultButton(go_on);
-    offer_->setEscapeButton(go_on);  // nothing is lost by this
+    offer_->setEscapeButton(go_on);  // this loses nothing
     connect(offer_, &QDialog::finished, this, [this, discard, text = left.text] {
         const bool discarded = offer_->clickedButton() == discard;
         offer_ = nullptr;
@@ -159,7 +159,7 @@ void Composer::offer(const Draft::Left& left) {
     offer_->open();
 }
 
-/// As a step that can be undone: the state before it is the file's content.
+/// As an undoable step: the state before it is the file's content.
 void Composer::take(const QString& text) {
     edit_->setReadOnly(false);
     QTextCursor cursor(edit_->document());
@@ -176,13 +176,13 @@ void Composer::check() {
 
 void Composer::keep_draft() {
     if (!draft_ || offer_ || !changed()) return;
-    // the window that held it may be gone, and its text has not been offered yet
+    // the window that held the draft may have closed, and its text has not been offered yet
     if (!has_draft_) begin_draft();
     if (!has_draft_ || offer_) return;
     try {
         draft_->write(edit_->text());
     } catch (const Error& e) {
-        note(tr("What you type would be lost in a crash: %1").arg(e.what()));
+        note(tr("Unsaved text would be lost in a crash: %1").arg(e.what()));
     }
 }
 
@@ -192,7 +192,7 @@ void Composer::drop_draft() {
 
 void Composer::end_draft() {
     drop_draft();
-    delete offer_;  // what it offers stays
+    delete offer_;  // the offered draft stays
     draft_.reset();
     has_draft_ = false;
 }
@@ -226,7 +226,7 @@ std::string Composer::body() const {
 }
 
 bool Composer::move(const std::string& body, const BodyWay& way) {
-    if (edit_->isReadOnly()) return false;  // it is shown all the time
+    if (edit_->isReadOnly()) return false;  // this note is always shown
     if (body.empty()) {
         state_->setText(tr("The cursor is not in the lines of a body: nothing moves."));
         return false;
@@ -269,17 +269,16 @@ bool Composer::is_writable_text() {
 bool Composer::may_write() {
     if (!is_writable_text()) return false;
     if (file_.leads_elsewhere())
-        return refuse(
-            tr("%1 has become a link, or leads elsewhere than when it was opened: nothing "
-               "was written. Save the text under another name (Ctrl+Shift+S).")
-                .arg(file_.name()));
+        return refuse(tr("%1 has become a link, or leads elsewhere than when it was opened: "
+                         "nothing was written. Save the text under another name (Ctrl+Shift+S).")
+                          .arg(file_.name()));
     return !file_.is_there() || !file_.has_changed() || may_overwrite();
 }
 
 bool Composer::may_overwrite() {
     QMessageBox box(QMessageBox::Warning, tr("Overwrite?"),
-                    tr("%1 was changed by another program after it was read here. Overwrite that "
-                       "with this text?")
+                    tr("%1 was changed by another program after it was read here. Overwrite its "
+                       "version with this text?")
                         .arg(file_.name()),
                     QMessageBox::NoButton, this);
     auto* overwrite = box.addButton(tr("&Overwrite"), QMessageBox::DestructiveRole);
@@ -287,7 +286,7 @@ bool Composer::may_overwrite() {
     box.exec();
     return box.clickedButton() == overwrite ||
            refuse(tr("Not saved: %1 was changed by another program. Save the text under another "
-                     "name (Ctrl+Shift+S), or open the file again to read what it has now.")
+                     "name (Ctrl+Shift+S), or open the file again to read its present content.")
                       .arg(file_.name()));
 }
 
@@ -304,10 +303,10 @@ bool Composer::save_as(const QString& file) {
 
 void Composer::note(const QString& text) {
     QStringList all;
-    if (file_.is_link()) all += tr("This is a link: what is saved goes to %1.").arg(file_.path());
+    if (file_.is_link()) all += tr("This is a link: it is saved to %1.").arg(file_.path());
     if (draft_ && !has_draft_)
-        all += tr("Another window has %1 open. What you type here is not kept through a crash, and "
-                  "Ctrl+S asks before it overwrites what was saved there.")
+        all += tr("Another window has %1 open. Text typed here does not survive a crash, and "
+                  "Ctrl+S asks before it overwrites the version saved there.")
                    .arg(file_.name());
     if (!text.isEmpty()) all += text;
     note_ = text;
@@ -328,7 +327,7 @@ void Composer::show_state() {
     if (!notes_.isEmpty()) all += notes_;
     if (edit_->isReadOnly())
         all += is_text(file_.content())
-                   ? tr("This file may not be written: save it under a name of your own first "
+                   ? tr("This file cannot be written: first save it under a name of your own "
                         "(Ctrl+Shift+S).")
                    : tr("This file is not UTF-8 text, or has control characters: it is not shown, "
                         "and cannot be edited here.");

@@ -1,6 +1,6 @@
 // The panel in which the open file is edited: its text is checked and shown while the user types,
-// and can be saved. The file remains authoritative: a session reads what was saved. Until the user
-// saves, nothing in the file's folder is touched, and the unsaved text is kept as a draft
+// and can be saved. The file remains authoritative: a session reads the saved version. Until the
+// user saves, nothing in the file's folder is touched, and the unsaved text is kept as a draft
 // elsewhere.
 #pragma once
 
@@ -32,31 +32,31 @@ class Composer : public QWidget {
     /// Discards unsaved changes.
     void forget();
     void take_focus() { edit_->setFocus(); }
-    /// Puts the cursor at that place; false if it is in another file.
+    /// Puts the cursor at this position; false if it is in another file.
     bool go_to(const Place& place);
     /// Name of the body whose lines contain the cursor; empty if there is none.
     std::string body() const;
     /// Changes the text so that a body moves; false, with a message, if it cannot. A zero move only
-    /// checks whether it can.
+    /// checks whether it is possible.
     bool move(const std::string& body, const BodyWay& way);
     /// Shows a message below the file's text, until the next one.
     void tell(const QString& text) { state_->setText(text); }
     void undo() { edit_->undo(); }
     void redo() { edit_->redo(); }
-    /// Writes the file, and asks before overwriting what another program has written since it was
-    /// read; false, with a message, if it does not write.
+    /// Writes the file, and asks before overwriting another program's later changes; false, with a
+    /// message, if it does not write.
     bool save();
-    /// Writes the text to another file and leaves this one unchanged; false, with a message, if it
-    /// cannot.
+    /// Writes the text to another file and leaves this one unchanged; false, with a message, if
+    /// this fails.
     bool save_as(const QString& file);
     /// Checks the text now, not after a pause.
     void check_now();
     /// The text to read in place of the file while there are unsaved changes.
     std::optional<std::string> unsaved() const;
-    /// Keeps the unsaved text when the window closes and nobody can be asked any more. False if it
-    /// cannot.
+    /// Keeps the unsaved text when the window closes and the user can no longer be asked. False if
+    /// this fails.
     bool leave_draft();
-    /// What is wrong with the text: texts with "FILE:LINE: " before them.
+    /// Faults of the text, each with "FILE:LINE: " before it.
     void show_problems(const QStringList& problems);
 
   Q_SIGNALS:
@@ -73,7 +73,7 @@ class Composer : public QWidget {
     void redo_available(bool available);
     /// The cursor moved, or the text changed, so it may be in another body's lines.
     void cursor_moved();
-    /// CodeEdit's.
+    /// As in CodeEdit.
     void step_wanted(const QKeyEvent& event);
 
   private:
@@ -81,7 +81,7 @@ class Composer : public QWidget {
     void look_again();
     /// Replaces the text by the file's content.
     void show_content();
-    /// Reserves the file against a second window, and offers what an earlier one left.
+    /// Reserves the file against a second window, and offers the draft left by an earlier one.
     void begin_draft();
     void offer(const Draft::Left& left);
     void take(const QString& text);
@@ -91,12 +91,12 @@ class Composer : public QWidget {
     void drop_draft();
     void end_draft();
     bool is_writable_text();
-    /// Whether the file may be written as it is now; says why if not.
+    /// Whether the file may be written in its present state; shows the reason if not.
     bool may_write();
     bool may_overwrite();
     /// Shows the state of the file, as long as it lasts, below other messages; "": nothing.
     void note(const QString& text);
-    /// Says what keeps the file from being written; returns false.
+    /// Shows the reason why the file cannot be written; returns false.
     bool refuse(const QString& why);
     void show_state();
     /// The text as it will be written: with line ends and byte order mark as in the file that was
@@ -105,18 +105,18 @@ class Composer : public QWidget {
 
     EditedFile file_;
     std::optional<Draft> draft_;
-    bool has_draft_ = false;       // not another window
-    bool leaves_ = false;          // the draft, when this ends
-    QPointer<QMessageBox> offer_;  // of a draft that the user has not decided about yet
+    bool has_draft_ = false;       // whether this window, not another, holds the draft
+    bool leaves_ = false;          // whether the draft is left when this ends
+    QPointer<QMessageBox> offer_;  // offer of a draft about which the user has not decided yet
     QString note_;                 // about the state of the file
-    QString notes_;                // all that is shown of it
-    QString problems_;             // of the text, as they are shown
+    QString notes_;                // all notes shown
+    QString problems_;             // problems of the text, as shown
     CodeEdit* edit_;
     QLabel* state_;
     QPushButton* save_;
     WordFinder finder_;
-    QTimer pause_;  // until the user pauses in typing
-    QTimer look_;   // until the cursor rests
+    QTimer pause_;  // waits until the user pauses in typing
+    QTimer look_;   // waits until the cursor rests
 };
 
 }  // namespace dihaptic::gui

@@ -18,7 +18,7 @@ void CurveReader::run(const Wanted& wanted, const std::stop_token& stop) {
     std::vector<task::RecordedValue> values;
     std::vector<RecordedCurve> curves;
     for (const QString& text : wanted.expressions) {
-        Diagnostics ignored;  // who asks has checked it
+        Diagnostics ignored;  // the caller has checked the expressions
         task::RecordedValue& value = values.emplace_back(text.toStdString(), wanted.scene, ignored);
         RecordedCurve& curve = curves.emplace_back();
         curve.name = text;
@@ -56,7 +56,7 @@ void CurveReader::run(const Wanted& wanted, const std::stop_token& stop) {
             tell(share);
         }
     } catch (const Error&) {
-        // the session was opened, so its log existed: what was read of it is shown
+        // the session was opened, so its log existed: the part that was read is shown
     }
     if (!stop.stop_requested()) tell(1);
 }

@@ -1,4 +1,4 @@
-// Reads curves of a recorded session, in a thread of its own: a session may have millions of ticks.
+// Reads curves of a recorded session, in a separate thread: a session may have millions of ticks.
 #pragma once
 
 #include <QObject>
@@ -10,8 +10,8 @@
 
 namespace dihaptic::gui {
 
-/// The least and the most of a value in each of equal parts of a stretch of time; NaN where there
-/// is none.
+/// The least and the largest value in each of several equal parts of a stretch of time; NaN if
+/// there is none.
 struct RecordedCurve {
     QString name;  ///< the expression
     QString unit;
@@ -32,7 +32,7 @@ class CurveReader : public QObject {
         std::string log;
         scene::Scene scene;
         QStringList expressions;
-        double begin = 0;  ///< of the stretch [s]
+        double begin = 0;  ///< start of the stretch [s]
         double end = 0;
     };
     /// Earlier requests are dropped.

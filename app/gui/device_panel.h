@@ -17,12 +17,12 @@ class DevicePanel : public QWidget {
     struct Device {
         QString finger;
         QString model;
-        double most_force = 0;  ///< largest force that is sent [N]
+        double most_force = 0;  ///< largest force sent [N]
     };
     void set_devices(const std::vector<Device>& devices);
     /// Shows a frame. The loop's figures refer to the frames that were shown.
     void show_frame(const frame::Frame& frame);
-    /// Shows that no force acts, and why.
+    /// Shows that no force acts, and the reason.
     void rest(const QString& why);
 
   private:

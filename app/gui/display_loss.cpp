@@ -2,7 +2,7 @@
 
 #include <QString>
 
-#include <X11/Xlib.h>  // last: makes macros of plain words
+#include <X11/Xlib.h>  // last, because it defines ordinary words as macros
 
 namespace dihaptic::gui {
 namespace {

@@ -47,7 +47,7 @@ Draft::~Draft() {
     ::close(lock_);
 }
 
-/// The first line says to which file the draft belongs, for people too.
+/// The first line states to which file the draft belongs, also for human readers.
 QString Draft::head() const {
     return QString("Dihaptic's draft of %1\n").arg(QString(file_).replace('\n', ' '));
 }
@@ -62,10 +62,10 @@ bool Draft::take() {
     }
     throw Error({lock_of(path_).toStdString(), 0}, "",
                 fmt::format("cannot be made: {}", std::strerror(errno)),
-                "Look at the folder's permissions.");
+                "Check the folder's permissions.");
 }
 
-/// Sets errno; ENOENT: the window before removed it meanwhile.
+/// Sets errno; ENOENT: the previous window removed the draft meanwhile.
 bool Draft::try_lock() {
     const QByteArray name = lock_of(path_);
     const int lock = ::open(name.constData(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
@@ -96,12 +96,12 @@ std::optional<Draft::Left> Draft::left() const {
         if (!all.startsWith(head())) return {};
         return Left{all.mid(head().size()), info.lastModified()};
     } catch (const Error&) {
-        return {};  // it was no window that left this
+        return {};  // this was not left by a window
     }
 }
 
 void Draft::write(const QString& text) const {
-    // nobody else should read unfinished work
+    // other users should not read unfinished work
     Output out(path_.toStdString());
     const QString part = QString::fromStdString(out.path());
     QFile file(part);

@@ -1,7 +1,7 @@
 // Unsaved changes of a file, kept so that they outlive the window. It is kept in the user's own
 // folder, $XDG_STATE_HOME/dihaptic/drafts or ~/.local/state/dihaptic/drafts, because the file's
-// folder may belong to somebody else. One window at a time holds a file's draft, by which a second
-// window notices it.
+// folder may belong to another person. Only one window at a time holds a file's draft, so that a
+// second window notices the first.
 #pragma once
 
 #include <QDateTime>
@@ -28,7 +28,7 @@ class Draft {
     bool take();
     /// The unsaved text of a window that ended. Call only while holding the draft.
     std::optional<Left> left() const;
-    /// The same. Throws Error.
+    /// Keeps the text as the draft. Throws Error.
     void write(const QString& text) const;
     void remove() const;
 

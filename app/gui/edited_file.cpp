@@ -14,7 +14,7 @@
 namespace dihaptic::gui {
 namespace {
 
-/// The path behind a name, without links; for a missing file, where it would be.
+/// The path behind a name, without links; for a missing file, its future path.
 QString path_of(const QString& name) {
     const QFileInfo info(name);
     if (info.exists() || info.isSymLink()) return info.canonicalFilePath();
@@ -27,7 +27,7 @@ std::optional<QByteArray> bytes_of(const QString& file) {
     try {
         return QByteArray::fromStdString(read_bytes(file.toStdString(), kMostYaml));
     } catch (const Error&) {
-        return {};  // opening it reports why
+        return {};  // opening the file reports the reason
     }
 }
 

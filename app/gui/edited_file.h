@@ -1,5 +1,5 @@
-// The file that the editor has open, as it is on the disk. If anything else changes it, removes it
-// or puts a link in its place, this is noticed before anything is written.
+// The file that is open in the editor, in its state on the disk. If another program changes it,
+// removes it or replaces it by a link, this is noticed before anything is written.
 #pragma once
 
 #include <QByteArray>
@@ -28,9 +28,9 @@ class EditedFile {
     bool is_readable() const { return bytes_of(name_).has_value(); }
     /// Whether the name still leads to the same file as when it was opened.
     bool leads_elsewhere() const;
-    /// Whether the file differs from what was read or written: other bytes, or gone.
+    /// Whether the file differs from the version read or written: changed bytes, or missing.
     bool has_changed() const;
-    /// Replaces it, in place of whatever is there now. Throws Error when it cannot.
+    /// Replaces the file, whatever its name leads to now. Throws Error when this fails.
     void write(const QByteArray& content);
 
   private:
@@ -39,8 +39,8 @@ class EditedFile {
     std::optional<QByteArray> content_;
 };
 
-/// Replaces a file as a whole; a new one in its place has its permissions. Throws Error, also if
-/// the name is a link's.
+/// Replaces the whole file; the new one keeps its permissions. Throws Error, also if the name is a
+/// link.
 void replace_file(const QString& file, const QByteArray& content);
 
 }  // namespace dihaptic::gui

@@ -79,7 +79,7 @@ class Keyboard {
     }
 
     xcb_connection_t* x_;
-    uint8_t opcode_ = 0;  // of XInput; 0: there is none
+    uint8_t opcode_ = 0;  // opcode of XInput; 0: none
     std::vector<uint32_t> escapes_;
 };
 

@@ -1,4 +1,4 @@
-// Listens for Escape in a thread of its own, so that a window that draws slowly, or hangs, does not
+// Listens for Escape in a separate thread, so that a window that draws slowly, or hangs, does not
 // keep force on.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace dihaptic::gui {
 
-/// Only on X11; elsewhere it hears nothing, and Escape is handled like every key (Application).
+/// Only on X11; elsewhere it has no effect, and Escape is handled like any other key (Application).
 class EscapeListener : public QObject {
     Q_OBJECT
 

@@ -17,7 +17,7 @@ struct Film {
 };
 
 /// Makes the video while its window waits, with a progress bar that can cancel it. Returns whether
-/// it was made. Throws Error when it cannot be made, for instance because ffmpeg is missing.
+/// it was completed. Throws Error when this fails, for instance because ffmpeg is missing.
 bool make_film(const Film& film, QOpenGLWidget& view, QWidget* parent);
 
 }  // namespace dihaptic::gui

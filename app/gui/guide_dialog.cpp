@@ -91,7 +91,7 @@ void GuideDialog::show_guidance(const rig::Guidance& now) {
     done_->setEnabled(now.step > 0);
 }
 
-/// Gives up the work, which then closes the dialog; closes it at once if the work has ended.
+/// Cancels the work, which then closes the dialog; closes it at once if the work has ended.
 void GuideDialog::reject() {
     given_up_ = true;
     if (ended_) QDialog::reject();
@@ -103,7 +103,7 @@ void GuideDialog::end(Outcome outcome, const QString& why) {
     if (outcome == Outcome::done) return accept();
     if (outcome == Outcome::given_up) return QDialog::reject();
     Q_EMIT failed(why);
-    step_->setText(tr("It came to an end:"));
+    step_->setText(tr("It has ended:"));
     text_->setText(why);
     measured_->clear();
     done_->hide();

@@ -1,5 +1,5 @@
 // The dialog that guides a person through a calibration or its check (rig/calibration_guide.h): it
-// shows what to do now, and the progress. The work runs in another thread.
+// shows the present step, and the progress. The work runs in another thread.
 #pragma once
 
 #include <QDialog>
@@ -24,12 +24,12 @@ class GuideDialog : public QDialog {
     /// For work that another thread does with guide() and ends with finish(). The dialog must
     /// outlive that work.
     GuideDialog(const QString& title, const QString& leave, QWidget* parent);
-    /// Gives up, and waits until its own work ends.
+    /// Cancels, and waits until its own work ends.
     ~GuideDialog() override;
 
     void reject() override;
 
-    /// For the thread that works.
+    /// For the working thread.
     rig::Guide guide();
     /// Call from any thread when the work ends; `why`: reason of a failure. The first call counts.
     enum class Outcome { done, given_up, failed };

@@ -7,7 +7,7 @@
 namespace dihaptic::gui {
 namespace {
 
-constexpr int kRefresh = 16;  // between looks at what the headset did [ms]
+constexpr int kRefresh = 16;  // between checks of the headset's events [ms]
 using headset::Words;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// What a person sees in a headset: the scene, and over it the task's texts.
+// A person's view in a headset: the scene, and over it the task's texts.
 #pragma once
 
 #include <QLabel>
@@ -15,9 +15,9 @@ class HeadsetView : public QObject {
   public:
     explicit HeadsetView(const display::Headset& place);
 
-    /// Whether its space stands there.
+    /// Whether its space has this pose.
     bool is_at(const display::Headset& place) const;
-    /// Shows a frame that stays, of that scene.
+    /// Shows a fixed frame of that scene.
     void set_scene(const scene::Scene& scene, const frame::Frame& frame);
     /// Shows the newest of these frames of that scene, from a running session. Nothing else may
     /// read them.
@@ -32,7 +32,7 @@ class HeadsetView : public QObject {
     /// A message of the headset, or its runtime.
     void told(const QString& what, bool problem);
     void shown(const dihaptic::headset::Showing& showing);
-    /// It has stopped showing; told() said why.
+    /// It has stopped showing; told() has given the reason.
     void ended();
 
   private:

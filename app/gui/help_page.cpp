@@ -29,12 +29,12 @@ QString show_help_page(const QString& name) {
     const std::string page = page_of(name.toStdString());
     if (page.empty()) {
         return QCoreApplication::translate("HelpPage",
-                                           "The manual is not here: install the package "
-                                           "dihaptic-doc, or make it by ./dev docs.");
+                                           "The manual is missing: install the package "
+                                           "dihaptic-doc, or make the manual with ./dev docs.");
     }
     const QString file = QString::fromStdString(page);
     if (QDesktopServices::openUrl(QUrl::fromLocalFile(file))) return "";
-    return QCoreApplication::translate("HelpPage", "No program shows %1: open it by hand.")
+    return QCoreApplication::translate("HelpPage", "No program can show %1: open it by hand.")
         .arg(file);
 }
 

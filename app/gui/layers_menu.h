@@ -1,4 +1,4 @@
-// The menu entries for what a scene's widget draws, in every window with a scene.
+// Menu entries for the layers of a scene's widget, in every window with a scene.
 #pragma once
 
 #include "scene_widget.h"
@@ -11,9 +11,9 @@ namespace dihaptic::gui {
 /// An entry that draws a layer while it is checked.
 void add_layer(QMenu& menu, SceneWidget& scene, const QString& name,
                bool SceneWidget::Layers::*which);
-/// The entries of the layers that any frame has.
+/// The entries for layers that any frame has.
 void add_layers(QMenu& menu, SceneWidget& scene);
-/// The entry that draws all pixels while it is checked; it is unchecked where a processor draws.
+/// The entry that draws all pixels while it is checked; it is unchecked if a processor draws.
 QAction* add_fine_pictures(QMenu& menu, SceneWidget& scene);
 
 }  // namespace dihaptic::gui

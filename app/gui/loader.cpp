@@ -58,7 +58,7 @@ Opened open(const Wanted& wanted, std::unique_ptr<devices::DeviceGroup>& devices
     return out;
 }
 
-/// The loader that is notified of companions that are waited for; the program has one window.
+/// The loader that is notified of waits for companions; the program has one window.
 std::atomic<Loader*> told{nullptr};
 
 void tell_of_wait(const std::string& what, int seconds, int most) {
@@ -99,7 +99,7 @@ void Loader::load(const Wanted& wanted) {
 void Loader::run(const Wanted& wanted) {
     std::optional<Opened> result;
     QStringList problems;
-    devices_.reset();  // of a session that was not started after all
+    devices_.reset();  // devices of a session that was not started
     std::optional<Unsaved> unsaved;
     if (wanted.text) unsaved.emplace(wanted.request.file, *wanted.text);
     try {

@@ -1,5 +1,5 @@
-// Reads and checks files for the window, and opens the devices of its sessions, in a thread of its
-// own: a mesh may take a while to cut, and a device to answer.
+// Reads and checks files for the window, and opens the devices of its sessions, in a separate
+// thread: cutting a mesh may take a while, as may a device's answer.
 #pragma once
 
 #include <QObject>
@@ -13,7 +13,7 @@
 
 namespace dihaptic::gui {
 
-/// A file without errors, and what can be shown of it before it runs.
+/// A file without errors, and its view before it runs.
 struct Opened {
     session::Plan plan;
     frame::Frame frame;  ///< the first one
@@ -31,7 +31,7 @@ struct Wanted {
     /// A session follows, so its devices are opened too; otherwise none are.
     bool to_run = false;
     bool by_person = false;  ///< a simulated person moves the hand
-    /// Folder of the session to go on with, in place of the request; "": none.
+    /// Folder of the session to resume, in place of the request; "": none.
     std::string resumes;
     /// Text that replaces the content of the request's file.
     std::optional<std::string> text = std::nullopt;
@@ -50,14 +50,14 @@ class Loader : public QObject {
     /// The devices that were opened for the session that follows; null if none does. To be called
     /// when opened() is emitted.
     std::unique_ptr<devices::DeviceGroup> take_devices() { return std::move(devices_); }
-    /// Ends reading and cutting of a scene's meshes; refused() says so.
+    /// Ends reading and cutting of a scene's meshes; refused() reports it.
     void cancel();
 
   Q_SIGNALS:
     void opened(const dihaptic::gui::Opened& opened);
     void refused(const QStringList& problems);
-    /// After a second, and again whenever that time has doubled: what takes so long, and when it
-    /// will be given up [s].
+    /// After a second, and again whenever that time has doubled: the work that takes so long, and
+    /// its time limit [s].
     void waits(const QString& what, int seconds, int most);
 
   private:

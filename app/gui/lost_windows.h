@@ -1,5 +1,5 @@
 // Detects windows that another program destroys in the X server (xdotool windowclose, a window
-// manager's kill). Qt goes on as if they existed, though nobody can see, answer or close them.
+// manager's kill). Qt continues as if they existed, although nobody can see, answer or close them.
 #pragma once
 
 #include <QAbstractNativeEventFilter>

@@ -29,7 +29,7 @@ int look_at(const QStringList& folders) {
     return QApplication::exec();
 }
 
-/// A window that nobody can see is as good as closed.
+/// A window that is not visible counts as closed.
 void end_unseen(QWidget* gone) {
     if (auto* const window = qobject_cast<dihaptic::gui::OperatorWindow*>(gone)) {
         window->end_unseen();
@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
     dihaptic::gui::at_display_loss(dihaptic::gui::SessionRunner::end_program);
     QApplication::setOrganizationName("dihaptic");
     QApplication::setApplicationName("dihaptic");
-    // of the package's desktop entry, by which a desktop finds the icon
+    // name of the package's desktop entry, by which a desktop finds the icon
     QApplication::setDesktopFileName("org.dihaptic.Dihaptic");
     QApplication::setWindowIcon(QIcon::fromTheme("org.dihaptic.Dihaptic"));
     QApplication::setApplicationVersion(
@@ -61,11 +61,11 @@ int main(int argc, char** argv) {
     parser.addVersionOption();
     const QCommandLineOption out("out", "Folder for session folders.", "folder", "sessions");
     parser.addOption(out);
-    const QCommandLineOption sync("sync", "Synchronise recordings to the disk so often [s].",
-                                  "seconds", "0");
+    const QCommandLineOption sync(
+        "sync", "Interval at which recordings are synchronised to the disk [s].", "seconds", "0");
     parser.addOption(sync);
     parser.addPositionalArgument(
-        "FILE", "scene or experiment, or folders of recorded sessions, of which two go together",
+        "FILE", "scene or experiment, or folders of recorded sessions, of which two are linked",
         "[FILE]");
     parser.process(app);
     QStringList files;
@@ -78,8 +78,9 @@ int main(int argc, char** argv) {
     dihaptic::gui::set_dark(QSettings().value("dark", false).toBool());
     if (QFileInfo(file).isDir()) return look_at(files);
     if (files.size() > 1) {
-        std::fprintf(stderr,
-                     "only recorded sessions are opened together. Name one scene or experiment.\n");
+        std::fprintf(
+            stderr,
+            "only recorded sessions can be opened together. Name one scene or experiment.\n");
         return 2;
     }
     dihaptic::gui::StopRequest stop;

@@ -6,14 +6,14 @@
 namespace dihaptic::gui {
 namespace {
 
-/// The box in which a hand at a desk can be [m].
+/// The box of positions of a hand at a desk [m].
 const Vec3 kLeast(-0.3, -0.25, 0.005);
 const Vec3 kFarthest(0.3, 0.25, 0.4);
 constexpr double kBeyond = 0.5;    // how far the pointer may go beyond that box [m]
 constexpr double kWidest = 0.16;   // largest aperture [m]
 constexpr double kStrongest = 16;  // grip of a strong hand [N]
-constexpr double kQuickly = 3;     // lets go of what it holds, over how it opens
-constexpr double kHeld = 0.5;      // grip force of a hand that holds something [N]
+constexpr double kQuickly = 3;     // speed of letting go, over that of opening
+constexpr double kHeld = 0.5;      // grip force of a holding hand [N]
 
 }  // namespace
 
@@ -40,7 +40,7 @@ void MouseHand::turn(const QPointF& pixels) {
 
 void MouseHand::set_grip(double grip) {
     grip_ = grip;
-    // what was held is gone, and the fingers must not cross
+    // the held object is gone, and the fingers must not cross
     if (!(grip > kHeld)) goal_.aperture = std::max(0.0, goal_.aperture);
 }
 

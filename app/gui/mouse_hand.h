@@ -35,9 +35,9 @@ class MouseHand {
     /// pixels, seen by `camera`. `in_depth`: toward the person and away, in place of up and down.
     void move(const QPointF& pixels, const scene::Camera& camera, int height, bool in_depth);
     void turn(const QPointF& pixels);
-    /// Returns to where it began, with the present aperture.
+    /// Returns to its start, with the present aperture.
     void go_back();
-    /// Grip force now [N]; NaN with one finger.
+    /// Present grip force [N]; NaN with one finger.
     void set_grip(double grip);
     /// `notches`: positive closes the hand.
     void wheel(double notches);
@@ -51,8 +51,7 @@ class MouseHand {
 
     hand::Posture start_;
     hand::Posture goal_;
-    /// Where the pointer would put the hand if the desk had no end: the hand comes back when the
-    /// pointer does.
+    /// The hand's position if the desk had no end: the hand returns when the pointer does.
     Vec3 pointer_;
     double most_grip_;
     double grip_ = 0;

@@ -43,7 +43,7 @@ void OperatorWindow::connect_files() {
     });
     reload_.setSingleShot(true);
     connect(&watcher_, &QFileSystemWatcher::fileChanged, this, [this] { reload_.start(300); });
-    // one that was gone comes back
+    // a missing file has returned
     connect(&watcher_, &QFileSystemWatcher::directoryChanged, this, [this] {
         if (!watcher_.files().contains(file_) && QFileInfo::exists(file_)) reload_.start(300);
     });
@@ -88,7 +88,7 @@ session::Request OperatorWindow::request(const QString& file) const {
     request.mouse = session_->hand() == SessionPanel::Hand::mouse;
     request.simulate = session_->hand() == SessionPanel::Hand::person;
     request.participant = session_->participant().toStdString();
-    // for showing a file that needs a participant; a session has its own
+    // for showing a file that requires a participant; a session has its own
     if (request.participant.empty()) request.participant = "S01";
     request.set.emplace_back("proxy.changeable=yes");
     return request;
@@ -113,8 +113,8 @@ bool OperatorWindow::may_leave_text() {
 void OperatorWindow::leave_text() {
     if (!composer_->changed()) return;
     std::fprintf(stderr, composer_->leave_draft()
-                             ? "what was typed and not saved is offered when the file is opened\n"
-                             : "what was typed and not saved is lost\n");
+                             ? "unsaved text is offered when the file is opened\n"
+                             : "unsaved text is lost\n");
 }
 
 void OperatorWindow::open(const QString& file) {
@@ -139,7 +139,7 @@ void OperatorWindow::open(const QString& file) {
 
 void OperatorWindow::reload() {
     if (file_.isEmpty()) return;
-    // when an editor replaces the file it is watched no longer
+    // when an editor replaces the file, it is no longer watched
     if (!watcher_.files().contains(file_)) watcher_.addPath(file_);
     composer_->open(file_);
     changed_ = runner_.running() || starts_;
@@ -152,9 +152,9 @@ void OperatorWindow::pick(size_t body) {
     if (!plan_ || !compose_dock_->isVisible()) return;
     const scene::Body& picked = plan_->scene.bodies[body];
     if (composer_->go_to(picked.place)) {
-        composer_->move(picked.name, {});  // says now if it can not
+        composer_->move(picked.name, {});  // reports now if it cannot
     } else {
-        composer_->tell(tr("%1 is in %2: open that to change it.")
+        composer_->tell(tr("%1 is in %2: open that file to change it.")
                             .arg(QString::fromStdString(picked.name),
                                  QString::fromStdString(picked.place.file)));
     }
@@ -169,7 +169,7 @@ void OperatorWindow::move_body(const std::string& name, const BodyWay& way, bool
 }
 
 void OperatorWindow::step_body(const Vec3& step) {
-    mark_picked();  // the cursor may have gone on since
+    mark_picked();  // the cursor may have moved since
     move_body(composer_->body(), {step, 0}, false);
 }
 
@@ -187,7 +187,7 @@ void OperatorWindow::opened(const Opened& opened) {
     frame_ = opened.frame;
     complaint_.clear();
     text_is_wrong_ = false;
-    // more may be known now about real devices that have been opened
+    // opened devices may have reported more
     QStringList warnings;
     for (const Problem& warning : plan_->warnings)
         warnings += QString::fromStdString(warning.text());
@@ -227,7 +227,7 @@ void OperatorWindow::refused(const QStringList& problems) {
     if (!composer_->changed()) {  // the user sees mistakes at their place while typing
         complaint_ = problems.front();
         for (const QString& problem : problems) log(problem, true);
-        if (plan_) log(tr("What was open stays as it is."));
+        if (plan_) log(tr("The open file stays as it is."));
     }
     update_state();
     if (changed_) reload();
@@ -237,7 +237,7 @@ void OperatorWindow::choose_folder() {
     const QString folder = QFileDialog::getExistingDirectory(this, tr("Where sessions go"), out_);
     if (folder.isEmpty()) return;
     out_ = folder;
-    log(tr("sessions go to %1").arg(folder));
+    log(tr("sessions are stored in %1").arg(folder));
 }
 
 }  // namespace dihaptic::gui

@@ -1,4 +1,4 @@
-// The operator's window: its menus, and what it remembers.
+// The operator's window: its menus, and its remembered settings.
 #include "operator_window.h"
 
 #include <QCoreApplication>
@@ -95,7 +95,7 @@ void OperatorWindow::make_view_menu() {
     connect(follow_action_, &QAction::toggled, this, [this](bool on) {
         QSettings().setValue("follow_camera", on);
         log(on ? tr("the devices' workspace follows the camera")
-               : tr("the devices' workspace turns back to where the rig has it"));
+               : tr("the devices' workspace turns back to its angle in the rig"));
         turn_workspaces();
     });
     view_menu_->addSeparator();
@@ -119,7 +119,7 @@ void OperatorWindow::make_view_menu() {
     QMenu* panels = view_menu_->addMenu(tr("Pa&nels"));
     for (QDockWidget* dock : findChildren<QDockWidget*>()) {
         panels->addAction(dock->toggleViewAction());
-        // one that shares its place with others is shown behind them
+        // a panel that shares its place with others is behind them
         connect(dock->toggleViewAction(), &QAction::triggered, dock, &QWidget::raise);
     }
 }

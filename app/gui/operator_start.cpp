@@ -40,13 +40,13 @@ QString question_of(const session::Unfinished& session, const std::string& parti
             ? QObject::tr("not finished")
             : QObject::tr("stopped after %1 of %2 trials").arg(session.done).arg(session.trials);
     return QObject::tr(
-               "%1 began this experiment on %2, and the session was %3. %4\n\nGo on with it in the "
-               "same way, or start anew?")
+               "%1 started this experiment on %2, and the session was %3. %4\n\nContinue it in the "
+               "same way, or start again?")
         .arg(QString::fromStdString(participant), QLocale().toString(started, "d MMMM, HH:mm"),
              done, QString::fromStdString(session.moved_by.describe()));
 }
 
-/// A person's hand needs real time, and so does a script that stands in for it.
+/// A person's hand requires real time, and so does a script in its place.
 session::Clock clock_of(const session::Plan& plan, double pace) {
     const bool at_own_pace = plan.moved_by.mover == recording::Mover::simulated_person || pace != 1;
     return at_own_pace && !plan.moved_by.person() && !rig::is_real(plan.rig)
@@ -69,7 +69,7 @@ void OperatorWindow::start() {
     start_when_opened_ = loader_.loading() && !starts_;
     if (!plan_ || runner_.running() || loader_.loading()) return;
     if (text_is_wrong_ && composer_->changed()) return refuse_to_start();
-    // anything that can hurt is checked before; the rest may be checked at any time
+    // dangerous faults are checked before; the rest may be checked at any time
     if (rig::is_real(plan_->rig)) {
         show_checklist(true);
     } else {
@@ -138,10 +138,10 @@ void OperatorWindow::begin_or_go_on(const recording::Participant& participant) {
     if (sessions.empty()) return begin(participant);
     auto* box = new QMessageBox(this);
     box->setAttribute(Qt::WA_DeleteOnClose);
-    box->setWindowTitle(tr("Go on?"));
+    box->setWindowTitle(tr("Continue?"));
     box->setText(question_of(sessions.front(), participant.id));
-    QPushButton* go_on = box->addButton(tr("&Go on"), QMessageBox::AcceptRole);
-    QPushButton* anew = box->addButton(tr("Start &anew"), QMessageBox::DestructiveRole);
+    QPushButton* go_on = box->addButton(tr("Con&tinue"), QMessageBox::AcceptRole);
+    QPushButton* anew = box->addButton(tr("Start &again"), QMessageBox::DestructiveRole);
     box->addButton(QMessageBox::Cancel);
     box->setDefaultButton(go_on);
     connect(box, &QMessageBox::buttonClicked, this,
@@ -174,7 +174,7 @@ void OperatorWindow::run(const session::Plan& made, const recording::Participant
         options.check =
             calibrator_->together_check(made.rig, fingers, [this] { return runner_.ending(); });
     }
-    changed_ = changed_ || !made.resumes.empty();  // what is shown is the session's, not the file's
+    changed_ = changed_ || !made.resumes.empty();  // the display is the session's, not the file's
     options.clock = clock_of(made, session_->pace());
     start_page_->rest();
     centre_->setCurrentWidget(scene_);
@@ -193,7 +193,7 @@ void OperatorWindow::run(const session::Plan& made, const recording::Participant
     scene_->setFocus();
     log(tr("started: %1").arg(QString::fromStdString(plan.title)));
     if (session_->hand() == SessionPanel::Hand::person && !plan.task)
-        log(tr("Simulated people do trials, and this file has none: its script moves the hand."));
+        log(tr("Simulated people do trials, but this file has none: its script moves the hand."));
     update_state();
 }
 

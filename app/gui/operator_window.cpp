@@ -20,10 +20,11 @@
 namespace dihaptic::gui {
 namespace {
 
-constexpr int kPictureTime = 16;      // time between pictures [ms]: sixty a second
-constexpr double kLongestStep = 0.1;  // of squeezing: the grip is known from the last picture [s]
+constexpr int kPictureTime = 16;  // time between pictures [ms]: sixty a second
+constexpr double kLongestStep =
+    0.1;  // longest step of squeezing: the grip is known from the last picture [s]
 
-/// The texts that the task shows, a line each.
+/// The texts that the task shows, one per line.
 QString texts_of(const session::Plan& plan, const frame::Frame& frame) {
     QStringList out;
     if (plan.task) {
@@ -140,7 +141,8 @@ void OperatorWindow::connect_scene() {
     connect(scene_, &SceneWidget::camera_moved, this, &OperatorWindow::turn_workspaces);
     connect(scene_, &SceneWidget::presented, this, [this](qint64 tick) {
         runner_.watch();
-        if (subjects_.empty()) runner_.note_shown(tick);  // then the subject looks at this window
+        if (subjects_.empty())
+            runner_.note_shown(tick);  // in this case the subject looks at this window
     });
 }
 
@@ -162,12 +164,12 @@ void OperatorWindow::connect_subjects() {
         subject_action_->setChecked(false);
         if (!runner_.running() || runner_.paused()) return;
         pause(true);
-        complaint_ = tr("The headset shows nothing more.");
+        complaint_ = tr("The headset has stopped showing.");
         update_state();
     });
     connect(&subjects_, &SubjectWindows::shown_to_head, this,
             [this](const headset::Showing& showing) { runner_.note_shown(showing); });
-    // pictures of what the first one shows count as seen
+    // pictures in the first window count as seen
     connect(&subjects_, &SubjectWindows::presented, this,
             [this](qint64 tick) { runner_.note_shown(tick); });
 }
@@ -176,7 +178,7 @@ void OperatorWindow::connect_session() {
     connect(session_, &SessionPanel::skip_requested, this, &OperatorWindow::skip);
     connect(session_, &SessionPanel::open_requested, this, &OperatorWindow::choose_file);
     connect(session_, &SessionPanel::choice_changed, this, [this] {
-        starts_.reset();  // the session that was to start had another choice
+        starts_.reset();  // the session about to start had another choice
         reload();
     });
     connect(session_, &SessionPanel::start_requested, this, &OperatorWindow::start);
@@ -242,7 +244,7 @@ void OperatorWindow::keyPressEvent(QKeyEvent* event) {
 
 void OperatorWindow::turn_workspaces() {
     const bool follow = follow_action_->isChecked();
-    // what is felt on the right must be seen on the right, by the subject too
+    // an object felt on the right must be seen on the right, by the subject too
     if (follow) subjects_.each([&](SceneWidget& scene) { scene.set_camera(scene_->camera()); });
     if (runner_.running()) runner_.turn_workspaces(follow ? view::azimuth(scene_->camera()) : 0);
 }
@@ -253,15 +255,15 @@ void OperatorWindow::pause(bool paused) {
     complaint_.clear();
     log(!paused ? tr("goes on")
         : runner_.on_virtual_clock()
-            ? tr("paused. F6 goes on, Ctrl+. does one tick, F7 ends the session.")
-            : tr("paused: force is off. F6 goes on, F7 ends the session."));
+            ? tr("paused. F6 continues, Ctrl+. does one tick, F7 ends the session.")
+            : tr("paused: force is off. F6 continues, F7 ends the session."));
     if (paused) devices_->rest(tr("paused"));
     update_state();
 }
 
 void OperatorWindow::force_off() {
     if (runner_.running() && !runner_.paused()) pause(true);
-    // a number that is being typed, and is not valid yet, is undone
+    // a number that is being typed, and is not yet valid, is undone
     if (auto* const number = qobject_cast<QDoubleSpinBox*>(QApplication::focusWidget()))
         number->setValue(number->value());
 }
@@ -325,7 +327,7 @@ void OperatorWindow::refresh() {
     if (runner_.finishing()) update_state();
 }
 
-/// The picture that the person mainly looks at.
+/// The picture that the person mainly watches.
 SceneWidget& OperatorWindow::first_scene() {
     return subjects_.first() == nullptr ? *scene_ : *subjects_.first();
 }
@@ -346,7 +348,7 @@ void OperatorWindow::show_frame(const frame::Frame& frame) {
     show_progress(frame);
 }
 
-/// The question that a click may answer now; null: there is none.
+/// The question that a click can answer now; null: none.
 const task::AskSpec* OperatorWindow::asked_by_mouse() {
     if (state() != SessionPanel::State::running || !has_trials()) return nullptr;
     const frame::Frame& frame = runner_.frame();
@@ -412,7 +414,7 @@ QString OperatorWindow::banner() const {
                (!complaint_.isEmpty()        ? "\n"
                 : runner_.on_virtual_clock() ? tr("Time stands still.   Ctrl+.: one tick.") + "\n"
                                              : tr("Force is off.") + "\n") +
-               tr("F6: go on.   F7: end the session.");
+               tr("F6: continue.   F7: end the session.");
     if (loader_.loading()) return tr("Opening %1 ...").arg(file_);
     if (!complaint_.isEmpty()) return complaint_;
     if (!recorded_.isEmpty())
@@ -473,7 +475,7 @@ void OperatorWindow::log(const QString& text, bool problem) {
 
 void OperatorWindow::closeEvent(QCloseEvent* event) {
     if (runner_.running()) {
-        // the window closes when the session's files are written
+        // the window closes once the session's files are written
         closing_ = true;
         runner_.end();
         log(tr("ending the session ..."));
@@ -481,7 +483,7 @@ void OperatorWindow::closeEvent(QCloseEvent* event) {
         return;
     }
     if (ended_ || lost_) {
-        leave_text();  // there is nobody to ask
+        leave_text();  // the user cannot be asked
     } else if (!may_leave_text()) {
         return event->ignore();
     }

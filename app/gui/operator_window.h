@@ -1,6 +1,6 @@
-// The operator's window: the scene, and around it panels for the session, its devices and plots,
-// and for what may be changed. Its menus are in operator_menus.cpp, what concerns the open file in
-// operator_files.cpp, and what comes before a session in operator_start.cpp.
+// The operator's window: the scene, surrounded by panels for the session, its devices, plots and
+// knobs. Its menus are in operator_menus.cpp, the handling of the open file in operator_files.cpp,
+// and the steps before a session in operator_start.cpp.
 #pragma once
 
 #include <QElapsedTimer>
@@ -42,7 +42,8 @@ class OperatorWindow : public QMainWindow {
 
     /// Shows the start page.
     void show_start_page();
-    /// Opens a scene or an experiment. Problems go to the log, and the last good file stays.
+    /// Opens a scene or an experiment. Problems are reported in the log, and the last good file
+    /// stays.
     void open(const QString& file);
     /// Pauses the running session: force is off from the servo's next tick until it continues.
     void force_off();
@@ -68,7 +69,7 @@ class OperatorWindow : public QMainWindow {
     void connect_session();
     void connect_tuning();
     void connect_reports();
-    /// Connects what reads files, and reads them again when they change.
+    /// Connects the readers of files, and reads files again when they change.
     void connect_files();
     void restore();
     void choose_file();
@@ -79,10 +80,10 @@ class OperatorWindow : public QMainWindow {
     void choose_session();
     void play_sessions(const QStringList& folders);
     void reload();
-    /// Shows the place in the text of a body that was clicked.
+    /// Shows the position of a clicked body in the text.
     void pick(size_t body);
-    /// Moves a body in the text, and shows it there until the text has been read again; `shown`: it
-    /// is already shown.
+    /// Moves a body in the text, and shows it at its new position until the text has been read
+    /// again; `shown`: it is already shown there.
     void move_body(const std::string& name, const BodyWay& way, bool shown);
     /// Moves the body whose lines contain the text cursor.
     void step_body(const Vec3& step);
@@ -92,7 +93,7 @@ class OperatorWindow : public QMainWindow {
     void refused(const QStringList& problems);
     void start();
     void refuse_to_start();
-    /// Starts, after all checks and questions.
+    /// Starts the session, after all checks and questions.
     void start_checked();
     /// Shows the checklist; `before_start`: a session follows.
     void show_checklist(bool before_start);
@@ -100,7 +101,7 @@ class OperatorWindow : public QMainWindow {
     void choose_folder();
     /// Opens a page of the documents.
     void show_page_of_docs(const QString& name);
-    /// Asks who the person is, then starts.
+    /// Asks for the person's data, then starts.
     void start_trials();
     /// Offers to continue an unfinished session of that person, if there is one.
     void begin_or_go_on(const recording::Participant& participant);
@@ -109,7 +110,7 @@ class OperatorWindow : public QMainWindow {
     void begin(const recording::Participant& participant, const std::string& resumes = "");
     void run(const session::Plan& plan, const recording::Participant& participant,
              std::unique_ptr<devices::DeviceGroup> devices);
-    /// File of the rig that is chosen, or that the open file names; empty if there is none.
+    /// File of the chosen rig, or of the rig named in the open file; empty if there is none.
     QString rig_file() const;
     rig::NamedBy rig_named_by() const;
     void calibrate();
@@ -140,7 +141,7 @@ class OperatorWindow : public QMainWindow {
     /// Text and picture of the task's page that is shown; both empty if there is none.
     QString page_text() const;
     QString page_picture() const;
-    /// The text over the scene: what to do next, or what is wrong.
+    /// The text over the scene: the next step, or a fault.
     QString banner() const;
     void update_state();
     void log(const QString& text, bool problem = false);
@@ -158,12 +159,13 @@ class OperatorWindow : public QMainWindow {
     std::vector<view::Workspace> workspaces_;
     QString said_;                        ///< the task's texts that are shown
     int page_ = -1;                       ///< index of the task's page that is shown; -1: none
-    recording::Participant participant_;  ///< who did the last trials
+    recording::Participant participant_;  ///< the person who did the last trials
     std::optional<MouseHand> mouse_;      ///< of the running session
     bool start_when_opened_ = false;
-    std::optional<recording::Participant> starts_;  ///< whose session starts when the file is read
-    bool text_is_wrong_ = false;                    // of the editor, as it is now
-    bool changed_ = false;  ///< the file has changed while it could not be read again
+    std::optional<recording::Participant>
+        starts_;                  ///< person whose session starts when the file has been read
+    bool text_is_wrong_ = false;  // whether the editor's present text has errors
+    bool changed_ = false;        ///< the file has changed while it could not be read again
     bool closing_ = false;
     bool ended_ = false;  ///< a signal asked the program to end
     bool lost_ = false;   ///< another program destroyed the window
@@ -211,9 +213,9 @@ class OperatorWindow : public QMainWindow {
     QTimer timer_;
     QElapsedTimer since_refresh_;
     QFileSystemWatcher watcher_;
-    QTimer reload_;      ///< delays reading a changed file: editors write it in several goes
+    QTimer reload_;      ///< delays reading a changed file: editors write it in several steps
     QString recorded_;   ///< folder of this file's last session; empty: none
-    QString complaint_;  ///< what is wrong with the file, or why the session paused; empty: nothing
+    QString complaint_;  ///< fault of the file, or reason for the session's pause; empty: none
 };
 
 }  // namespace dihaptic::gui

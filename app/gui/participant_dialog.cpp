@@ -20,12 +20,12 @@ ParticipantDialog::ParticipantDialog(const recording::Participant& known, bool n
       handedness_(new QComboBox) {
     setWindowTitle(tr("Who does the trials?"));
     set_up_identifier(*id_);
-    age_->setPlaceholderText(tr("not told"));
+    age_->setPlaceholderText(tr("not stated"));
     age_->setValidator(new QIntValidator(0, 150, this));
-    sex_->addItem(tr("not told"), "U");
+    sex_->addItem(tr("not stated"), "U");
     for (const char* sex : {"F", "M", "O"}) sex_->addItem(sex, sex);
     sex_->setCurrentIndex(std::max(0, sex_->findData(QString::fromStdString(known.sex))));
-    handedness_->addItem(tr("not told"), "");
+    handedness_->addItem(tr("not stated"), "");
     for (const char* hand : {QT_TR_NOOP("right"), QT_TR_NOOP("left"), QT_TR_NOOP("both")})
         handedness_->addItem(tr(hand), hand);
     handedness_->setCurrentIndex(
@@ -34,7 +34,7 @@ ParticipantDialog::ParticipantDialog(const recording::Participant& known, bool n
     auto* form = new QFormLayout(this);
     form->addRow(tr("S&ubject"), id_);
     if (needs_number)
-        form->addRow(new QLabel(tr("It has to end in a number, which orders the trials.")));
+        form->addRow(new QLabel(tr("It must end in a number, which orders the trials.")));
     form->addRow(tr("&Age in years"), age_);
     form->addRow(tr("&Sex"), sex_);
     form->addRow(tr("&Handedness"), handedness_);

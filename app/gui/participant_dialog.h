@@ -1,4 +1,4 @@
-// The dialog that asks who does a session with trials, before it starts.
+// The dialog that asks for the participant before a session with trials.
 #pragma once
 
 #include <QComboBox>

@@ -1,5 +1,5 @@
 // A field of plain text with several lines. Pasted or dropped data may be missing (an empty
-// clipboard, or one whose owner is gone, would end the program with Qt 6.4) or arbitrary:
+// clipboard, or one whose owner has ended, would end the program with Qt 6.4) or arbitrary:
 // characters that no text file may have are dropped.
 #pragma once
 

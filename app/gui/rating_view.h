@@ -14,7 +14,7 @@ class RatingView : public QWidget {
   public:
     explicit RatingView(QWidget* parent);
 
-    /// Sets the question; null: none. It stays the same as long as the pointer does.
+    /// Sets the question; null: none. An unchanged pointer means an unchanged question.
     void set_question(const task::AskSpec* question);
 
   Q_SIGNALS:
@@ -32,7 +32,7 @@ class RatingView : public QWidget {
     double share_at(const QPointF& pixels) const;
 
     const task::AskSpec* question_ = nullptr;
-    double share_ = -1;  // where the pointer is; negative: not here
+    double share_ = -1;  // position of the pointer; negative: elsewhere
 };
 
 }  // namespace dihaptic::gui

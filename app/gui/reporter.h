@@ -1,4 +1,4 @@
-// Writes the report of a session for the window, in a thread of its own.
+// Writes the report of a session for the window, in a separate thread.
 #pragma once
 
 #include <QObject>

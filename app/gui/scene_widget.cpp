@@ -17,8 +17,8 @@ namespace dihaptic::gui {
 namespace {
 
 constexpr double kOrbit = 0.006;     // [rad/pixel]
-constexpr double kStill = 3;         // shorter ways of the pointer do not count [px]
-constexpr double kCoarse = 2.0 / 3;  // detail of pictures where that is needed
+constexpr double kStill = 3;         // shorter movements of the pointer do not count [px]
+constexpr double kCoarse = 2.0 / 3;  // detail of pictures for slow drawing
 constexpr size_t kPath = 300;        // length of the path [pictures]: five seconds
 
 }  // namespace
@@ -128,7 +128,7 @@ void SceneWidget::set_staying(bool stays) {
 }
 
 void SceneWidget::move_hand(const QPointF& pixels, bool in_depth) {
-    // the hand moves where the devices are, so the camera is turned back by the workspaces' turn
+    // the hand moves in the devices' frame, so the camera is turned back by the workspaces' turn
     view::Camera camera = camera_;
     camera.position = turn_.unturned(camera.position);
     camera.look_at = turn_.unturned(camera.look_at);
@@ -253,10 +253,10 @@ void SceneWidget::make_view() {
     const std::string renderer = view::renderer();
     if (!fine_ && view::is_software(renderer)) {
         fine_ = false;
-        Q_EMIT draws_in_software(tr("there is no graphics card to draw with (%1): the scene "
-                                    "has two thirds of the window's pixels each way. View > "
-                                    "Fine pictures shows all, more slowly.")
-                                     .arg(QString::fromStdString(renderer)));
+        Q_EMIT draws_in_software(
+            tr("there is no graphics card (%1): the scene is drawn with two thirds of the window's "
+               "pixels in each direction. View > Fine pictures shows all, more slowly.")
+                .arg(QString::fromStdString(renderer)));
     }
     if (fine_ == false) view_->set_detail(kCoarse);
 }
@@ -272,7 +272,7 @@ void SceneWidget::draw_scene() {
     overlays.joints = layers_.joints;
     overlays.hand = layers_.hand;
     overlays.picked = picked_;
-    // a screen shows no depth, and a mouse feels none
+    // a screen shows no depth, and a mouse renders no force
     overlays.drop_lines = layers_.drop_lines || hand_ != nullptr;
     overlays.patch = patch_;
     if (layers_.path) overlays.path = path;
@@ -288,8 +288,8 @@ void SceneWidget::draw_scene() {
                       : view_->draw(frame_, camera_, across, up, overlays);
 }
 
-/// The display with its eyes where they are now. A head that has come behind the screen, or nearly
-/// touches it, is left out: nothing could be drawn for it.
+/// The display with the present position of its eyes. A head behind the screen, or nearly touching
+/// it, is left out: nothing could be drawn for it.
 display::Display SceneWidget::seen_display() {
     display::Display out = *display_;
     if (out.eyes.tracked && head_) {
@@ -305,8 +305,8 @@ display::Display SceneWidget::seen_display() {
     return out;
 }
 
-/// Glasses open for the eyes in turn even if a picture is late. Whose picture is next follows from
-/// the number of refreshes since the last one.
+/// Glasses open for the eyes in turn even if a picture is late. The next eye follows from the
+/// number of refreshes since the last picture.
 void SceneWidget::take_turns() {
     if (!display_ || display_->stereo != display::Stereo::in_turn) return;
     const double periods =
@@ -333,7 +333,7 @@ void SceneWidget::draw_words() {
     for (const view::Pane& pane : view::panes(*display_, 1)) {
         painter.drawImage(QPointF(pane.left * width(), (1 - pane.bottom - pane.height) * height()),
                           picture);
-        if (!pane.green_blue) break;  // both eyes see the whole of it
+        if (!pane.green_blue) break;  // both eyes see the whole picture
     }
 }
 
@@ -363,7 +363,7 @@ void SceneWidget::drag(const QPointF& way, Qt::KeyboardModifiers keys) {
     update();
 }
 
-/// A click that moved neither the camera, nor a body or a hand, picks what is there.
+/// A click that moved neither the camera, nor a body or a hand, picks the body under the pointer.
 void SceneWidget::mouseReleaseEvent(QMouseEvent* event) {
     if (event->button() != Qt::LeftButton) return;
     const auto drag = std::exchange(drag_, std::nullopt);
@@ -434,7 +434,7 @@ void SceneWidget::set_key(const QKeyEvent& event, bool down) {
 
 bool SceneWidget::look_by_key(const QKeyEvent& event) {
     if (!event.modifiers().testFlag(Qt::ControlModifier) || display_) return false;
-    constexpr double kWay = 30;  // of a mouse that a key stands for [px]
+    constexpr double kWay = 30;  // mouse movement that a key replaces [px]
     QPointF way;
     if (event.key() == Qt::Key_Left) way.rx() = -kWay;
     if (event.key() == Qt::Key_Right) way.rx() = kWay;

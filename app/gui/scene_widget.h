@@ -1,4 +1,5 @@
-// The widget that shows the scene as it is now. The mouse moves its camera, or the simulated hand.
+// The widget that shows the present state of the scene. The mouse moves its camera, or the
+// simulated hand.
 #pragma once
 
 #include <QElapsedTimer>
@@ -26,17 +27,16 @@ class SceneWidget : public QOpenGLWidget {
     ~SceneWidget() override;
 
     /// Sets the scene that frames belong to from now on, the first frame, the devices' workspaces,
-    /// and how workspaces turn. The camera stays where it is if the scene has the same cameras as
-    /// the one before.
+    /// and how workspaces turn. The camera keeps its pose if the scene has the same cameras as the
+    /// previous one.
     void set_scene(const scene::Scene& scene, const frame::Frame& frame,
                    std::vector<view::Workspace> workspaces = {},
                    const servo::WorkspaceTurn& turn = {});
     /// Sets the newest frame, which is drawn with the screen's next picture.
     void show_frame(const frame::Frame& frame);
-    /// The mouse moves this hand; if it is null, the camera. `squeezes`: whether the wheel
-    /// squeezes.
+    /// The mouse moves this hand or, if null, the camera. `squeezes`: whether the wheel squeezes.
     void set_hand(MouseHand* hand, bool squeezes);
-    /// The mouse drags this body, which has a box about it, and keys move it; nullopt: none.
+    /// The mouse drags this body, which is marked by a box, and keys move it; nullopt: none.
     void set_picked(std::optional<size_t> body);
     /// Shows the picked body moved, until the next frame or scene.
     void move_picked(const BodyWay& way);
@@ -53,9 +53,9 @@ class SceneWidget : public QOpenGLWidget {
     void set_display(const std::optional<display::Display>& display);
     /// The head from whose eyes the scene is drawn, if the display's eyes are tracked.
     void set_head(const outlets::HeadPose& head);
-    /// The head that the last picture was drawn for; nullopt: for eyes that rest.
+    /// The head for which the last picture was drawn; nullopt: resting eyes.
     const std::optional<outlets::HeadPose>& shown_to() const { return shown_to_; }
-    /// Selects what is drawn besides the scene; `path` is the object's path in the last seconds.
+    /// Selects the items drawn besides the scene; `path` is the object's path in the last seconds.
     struct Layers {
         bool handles = false;
         bool forces = false;
@@ -69,11 +69,11 @@ class SceneWidget : public QOpenGLWidget {
     };
     void set_layers(const Layers& layers);
     void set_patch(const std::optional<view::PatchLook>& patch);
-    /// Whether pictures have all pixels, or two thirds of them in each direction. At first they
+    /// Whether pictures have all pixels, or two thirds of them in each direction. Initially they
     /// have all if a graphics card draws.
     void set_fine(bool fine);
     const Layers& layers() const { return layers_; }
-    /// Which frame the last picture shows.
+    /// The frame shown in the last picture.
     const view::Shown& shown() const { return shown_; }
     /// Sets the large text over the picture; empty: none.
     void set_banner(const QString& text);
@@ -93,13 +93,13 @@ class SceneWidget : public QOpenGLWidget {
     void camera_moved();
     /// A body of the scene was clicked.
     void picked(size_t body);
-    /// The picked body was dragged, and is shown where it was left.
+    /// The picked body was dragged, and is shown at its new position.
     void dragged(size_t body, const dihaptic::gui::BodyWay& way);
     /// A key was pressed that moves the picked body by a step [m].
     void stepped(const dihaptic::Vec3& step);
     /// OpenGL draws in software, and therefore in less detail; a message. Sent once.
     void draws_in_software(const QString& what);
-    /// OpenGL cannot draw: why, and what to do.
+    /// OpenGL cannot draw: the reason and the remedy.
     void failed(const QString& why);
 
   protected:
@@ -123,14 +123,14 @@ class SceneWidget : public QOpenGLWidget {
     void move_hand(const QPointF& pixels, bool in_depth);
     view::Ray ray_to(const QPointF& pointer) const;
     void drag(const QPointF& way, Qt::KeyboardModifiers keys);
-    /// The camera follows a mouse that went so many pixels.
+    /// The camera follows a mouse movement of this many pixels.
     void look(const QPointF& way, bool pan);
     void zoom(double notches);
     void place_labels();
     void make_view();
     void draw_scene();
     display::Display seen_display();
-    /// After a picture came to the screen: the next one is for the other eye.
+    /// After a picture has appeared on the screen: the next one is for the other eye.
     void take_turns();
     void draw_words();
 
@@ -141,17 +141,18 @@ class SceneWidget : public QOpenGLWidget {
     view::Camera camera_;
     std::optional<display::Display> display_;
     std::optional<outlets::HeadPose> head_, shown_to_;
-    bool right_eye_ = false;  // whose picture is next, of a display for both eyes in turn
+    bool right_eye_ =
+        false;  // whether the right eye's picture is next, on a display for both eyes in turn
     QElapsedTimer since_swap_;
-    /// Holds page, question and texts if each eye, or a mirror, has to see them the right way
-    /// round; null: they lie over the scene.
+    /// Holds page, question and texts if each eye, or a mirror, must see them unmirrored; null:
+    /// they lie over the scene.
     std::unique_ptr<QWidget> words_;
     std::optional<size_t> picked_;
-    std::optional<BodyDrag> drag_;  // of the picked body, while the button is down
-    Pose X_WB_dragged_;             // of that body as the drag began
+    std::optional<BodyDrag> drag_;  // drag of the picked body, while the button is down
+    Pose X_WB_dragged_;             // pose of that body at the start of the drag
     Layers layers_;
     std::optional<view::PatchLook> patch_;
-    std::optional<bool> fine_;  // unset: by what draws
+    std::optional<bool> fine_;  // unset: depends on the renderer
     std::vector<view::Workspace> workspaces_;
     servo::WorkspaceTurn turn_;
     std::deque<Vec3> path_;
@@ -162,7 +163,7 @@ class SceneWidget : public QOpenGLWidget {
     bool stays_ = false;     // the hand stays while the pointer moves
     MouseHand::Squeeze keys_ = MouseHand::Squeeze::none;
     QPointF pointer_;
-    QPointF pressed_;  // where a button was
+    QPointF pressed_;  // position where a button was pressed
     PageView* page_;
     RatingView* rating_;
     QLabel* banner_;

@@ -28,18 +28,18 @@ SessionPanel::SessionPanel(QWidget* parent)
       trial_(new QLabel),
       progress_(new QProgressBar) {
     file_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-    rig_->addItem(tr("as the file says"), QString());
+    rig_->addItem(tr("as in the file"), QString());
     rig_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     set_up_identifier(*participant_);
     set_up_hand();
     pause_->setCheckable(true);
     start_->setToolTip("F5");
     pause_->setToolTip(tr("F6, or Escape: time stands still, and no force acts"));
-    skip_->setToolTip(tr("F8: this trial is over and counts as skipped; the next one begins"));
+    skip_->setToolTip(tr("F8: this trial is over and counts as skipped; the next one starts"));
     // of fixed height and as wide as there is room, so that nothing jumps under the pointer
     trial_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
     trial_->hide();
-    stop_->setToolTip(tr("F7: ends the session in order"));
+    stop_->setToolTip(tr("F7: ends the session properly"));
     progress_->setTextVisible(true);
 
     auto* form = new QFormLayout;
@@ -73,20 +73,19 @@ SessionPanel::SessionPanel(QWidget* parent)
     set_state(State::nothing, false);
 }
 
-/// The choices of who moves simulated hands, and of how fast their time passes.
+/// The choices of the mover of simulated hands, and of the speed of their time.
 void SessionPanel::set_up_hand() {
     hand_->addItems({tr("the mouse"), tr("the file's script"), tr("a simulated person")});
     hand_->setToolTip(tr(
-        "Who holds simulated devices. A simulated person does the trials of an experiment: it "
-        "sees, "
-        "feels, adapts and answers (dihaptic run --simulate). Real devices are held by a person."));
+        "The holder of simulated devices. A simulated person does the trials of an experiment, and "
+        "sees, feels, adapts and answers (dihaptic run --simulate). A person holds real devices."));
     for (const auto& [name, pace] :
          {std::pair(tr("in real time"), 1.0), std::pair(tr("10 times faster"), 10.0),
-          std::pair(tr("as fast as it goes"), 0.0), std::pair(tr("10 times slower"), 0.1)})
+          std::pair(tr("as fast as possible"), 0.0), std::pair(tr("10 times slower"), 0.1)})
         pace_->addItem(name, pace);
     pace_->setToolTip(
-        tr("How fast a simulated hand's time goes by. Nothing that is computed depends on "
-           "it. While the session is paused, Ctrl+. does one tick."));
+        tr("The speed of a simulated hand's time. No result depends on it. While the session is "
+           "paused, Ctrl+. does one tick."));
     connect(hand_, &QComboBox::activated, this, &SessionPanel::choice_changed);
     connect(hand_, &QComboBox::currentIndexChanged, this,
             [this] { pace_->setVisible(hand() != Hand::mouse); });

@@ -1,4 +1,4 @@
-// The panel that chooses what runs, and starts, pauses and stops it.
+// The panel that selects, starts, pauses and stops a session.
 #pragma once
 
 #include <QComboBox>
@@ -23,12 +23,12 @@ class SessionPanel : public QWidget {
     explicit SessionPanel(QWidget* parent = nullptr);
 
     void set_file(const QString& file);
-    /// The rig files to choose from; the first choice is the rig that the file names.
+    /// The available rig files; the first choice is the rig named in the file.
     void set_rigs(const QStringList& files);
-    /// `trials`: whether the file that runs, or would run, has trials.
+    /// `trials`: whether the running or selected file has trials.
     void set_state(State state, bool trials);
     void set_progress(double share, const QString& text);
-    /// `text`: which trial runs; empty: there are none.
+    /// `text`: the running trial; empty: none.
     void set_trial(const QString& text);
     void set_finishing(double share);
 
@@ -37,7 +37,7 @@ class SessionPanel : public QWidget {
     void set_participant(const QString& id) { participant_->setText(id); }
     enum class Hand { mouse, script, person };
     Hand hand() const { return static_cast<Hand>(hand_->currentIndex()); }
-    /// Session time over time; 0: as fast as the machine allows. Of the mouse it is 1.
+    /// Session time over time; 0: as fast as the machine allows. With the mouse it is 1.
     double pace() const;
 
   Q_SIGNALS:

@@ -49,14 +49,14 @@ std::vector<Row> rows_of(const recording::SessionFolder& folder, const char* nam
     return {table.begin(), table.end()};
 }
 
-/// The words that are not empty, one after the other.
+/// The non-empty words, one after the other.
 QString joined(std::initializer_list<QString> words) {
     QStringList out(words);
     out.removeAll(QString());
     return out.join(' ');
 }
 
-/// E.g. "slip 0.12 mm"; nothing where it was not measured. `length`: [m].
+/// E.g. "slip 0.12 mm"; "" if not measured. `length`: [m].
 QString in_mm(const char* what, double length) {
     if (std::isnan(length)) return {};
     return QString("%1 %2 mm").arg(what).arg(1000 * length, 0, 'f', 2);
@@ -131,8 +131,8 @@ QWidget* SessionPlayer::make_controls() {
         layout->addWidget(out);
         return out;
     };
-    button("|<", tr("Moment before (Page Up)"), [this] { next_moment(-1); });
-    button("<", tr("Tick before (Left)"), [this] { step(-1); });
+    button("|<", tr("Previous moment (Page Up)"), [this] { next_moment(-1); });
+    button("<", tr("Previous tick (Left)"), [this] { step(-1); });
     play_ = button(tr("Play"), tr("Play, or stop (Space)"), [this] { play(!timer_.isActive()); });
     play_->setFixedWidth(70);
     button(">", tr("Next tick (Right)"), [this] { step(1); });
@@ -160,8 +160,8 @@ QWidget* SessionPlayer::make_controls() {
     curves_ = new QLineEdit(expressions_.join("; "));
     curves_->setAccessibleName(tr("Curves"));
     curves_->setToolTip(
-        tr("What is drawn below: names of docs/quantities.md, or expressions of them, separated by "
-           "semicolons: grip_force; block.z - 20 mm; distance(thumb, index)"));
+        tr("Curves drawn below: names from docs/quantities.md, or expressions of them, separated "
+           "by semicolons: grip_force; block.z - 20 mm; distance(thumb, index)"));
     curves_->setMinimumWidth(160);
     connect(curves_, &QLineEdit::returnPressed, this, [this] {
         expressions_.clear();
@@ -220,7 +220,7 @@ void SessionPlayer::make_moments() {
     std::sort(starts_.begin(), starts_.end(),
               [](const Start& a, const Start& b) { return a.time < b.time; });
     for (const rows::EventRow& event : rows_of<rows::EventRow>(folder_, "events.csv")) {
-        if (event.name != "trial")  // it is listed already
+        if (event.name != "trial")  // it is already listed
             list_moment(event.time, joined({text(event.name), text(event.detail)}));
     }
     for (const rows::EpisodeRow& episode : rows_of<rows::EpisodeRow>(folder_, "episodes.csv")) {
@@ -361,7 +361,7 @@ void SessionPlayer::go_on() {
 void SessionPlayer::step(int frames) {
     play(false);
     const double tick = log_.head().tick;
-    // from the tick that is shown, not from the moment within it
+    // from the displayed tick, not from the moment within it
     const double shown = seconds(log_.at(time_).time);
     go_to(shown + (frames + 0.01) * tick);
 }

@@ -1,5 +1,5 @@
-// A window for a recorded session: the scene at any moment, curves of what was recorded, and a list
-// of events. Two windows may be linked, to compare sessions.
+// A window for a recorded session: the scene at any moment, curves of recorded quantities, and a
+// list of events. Two windows may be linked, to compare sessions.
 #pragma once
 
 #include <QElapsedTimer>
@@ -34,7 +34,7 @@ class SessionPlayer : public QMainWindow {
     explicit SessionPlayer(const std::string& folder, QWidget* parent = nullptr);
     ~SessionPlayer() override;
 
-    /// The moment that is shown [s].
+    /// The displayed moment [s].
     double time() const { return time_; }
     void go_to(double time);
 
@@ -58,8 +58,8 @@ class SessionPlayer : public QMainWindow {
     void make_menus();
     QWidget* make_controls();
     void make_moments();
-    /// Lists what happened at a time [s]; one that was not measured is left out. A limit that was
-    /// reached before is counted there.
+    /// Lists an event at a time [s]; an unmeasured one is left out. A limit reached before is only
+    /// counted.
     void list_moment(double seconds, const QString& what);
     void read_curves();
     /// False, with a message, if a text is not an expression.
@@ -97,7 +97,7 @@ class SessionPlayer : public QMainWindow {
     QLabel* where_ = nullptr;
     QLineEdit* curves_ = nullptr;
     QTreeWidget* list_ = nullptr;
-    QTimer read_;  // curves of a stretch that was zoomed to
+    QTimer read_;  // delays reading curves after zooming
 };
 
 /// Opens a window for each of these sessions. Two windows stand side by side and are linked. Throws

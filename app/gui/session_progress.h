@@ -11,7 +11,7 @@ namespace dihaptic::gui {
 struct SessionProgress {
     QString trial;     ///< number of the trial, out of how many, and its name; empty without trials
     double share = 0;  ///< of the session that is over
-    QString text;      ///< time that is left, or the time so far if that is not known
+    QString text;      ///< remaining time, or the time so far if that is unknown
 };
 
 /// `done`: share of the trials that are over. Without trials or a script only the time is known.

@@ -47,7 +47,7 @@ void SessionRunner::end_program() {
     std::fprintf(stderr, "The window is lost: force is off, and the session ends.\n");
     while (runner->busy_) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     std::fflush(nullptr);
-    std::_Exit(1);  // not exit(), whose handlers belong to a window that is gone
+    std::_Exit(1);  // not exit(), whose handlers belong to a lost window
 }
 
 void SessionRunner::pause_at_once() {
@@ -77,10 +77,10 @@ void SessionRunner::start(session::Plan plan, session::RunOptions options, doubl
     session_->plan = std::move(plan);
     session_->devices = std::move(devices);
     session_->knobs = frame::Knobs::of(session_->plan.settings);
-    // if the window never beats, force goes off too
+    // if the window never beats, force is switched off too
     session_->live.note_alive(kFirstBeat * 1e-3);
     first_beat_.start();
-    // registered again for each session, so that exit() calls it before destroying what was made
+    // registered again for each session, so that exit() calls it before destroying objects made
     // before the session
     std::atexit(end_program);
     options.live = &session_->live;
@@ -95,7 +95,7 @@ void SessionRunner::start(session::Plan plan, session::RunOptions options, doubl
     };
     options.stuck = [](const std::string& message) {
         std::fprintf(stderr, "%s\n", message.c_str());
-        std::_Exit(1);  // a proper end would wait for a thread that is stuck
+        std::_Exit(1);  // a proper end would wait for a stuck thread
     };
     busy_ = true;
     thread_ = std::thread([this, options] {

@@ -1,5 +1,5 @@
-// Runs sessions for the window in a thread of their own, so that the window never waits for one,
-// and ends their force when the window hangs or disappears.
+// Runs sessions for the window in a separate thread, so that the window never waits for one, and
+// switches their force off when the window hangs or disappears.
 #pragma once
 
 #include <QObject>
@@ -16,11 +16,11 @@
 
 namespace dihaptic::gui {
 
-/// How a session ended.
+/// The outcome of a session.
 struct SessionEnd {
-    QString folder;        ///< of the recording; empty: the session never began
-    QStringList messages;  ///< what went wrong, with remedies
-    bool good = false;     ///< nothing went wrong
+    QString folder;        ///< folder of the recording; empty: the session never started
+    QStringList messages;  ///< faults, with remedies
+    bool good = false;     ///< no faults
 };
 
 class SessionRunner : public QObject {
@@ -34,8 +34,8 @@ class SessionRunner : public QObject {
     ~SessionRunner() override;
 
     /// Starts a session on its open devices, as session::run_session() does; one at a time. Sets
-    /// `options.live` itself. `pace`: of a session on the virtual clock, as for set_pace().
-    /// `second`: gets frames too, unless it is null.
+    /// `options.live` itself. `pace`: for a session on the virtual clock, as in set_pace().
+    /// `second`: receives frames too, unless null.
     void start(session::Plan plan, session::RunOptions options, double pace,
                std::unique_ptr<devices::DeviceGroup> devices = nullptr,
                std::shared_ptr<Latest<frame::Frame>> second = nullptr);
@@ -49,7 +49,7 @@ class SessionRunner : public QObject {
 
     // what follows, up to end(), only while running
     const session::Plan& plan() const { return session_->plan; }
-    /// The frames that start() was given to fill.
+    /// The frames passed to start().
     std::shared_ptr<Latest<frame::Frame>> second() const { return session_->live.second; }
     /// The newest frame. It is valid until the next call, after which the servo overwrites it, so
     /// do not keep references into it.
@@ -57,14 +57,14 @@ class SessionRunner : public QObject {
         session_->read = &session_->live.frame.read();
         return *session_->read;
     }
-    /// What read_frame() returned last.
+    /// The last frame that read_frame() returned.
     const frame::Frame& frame() const { return *session_->read; }
     std::optional<session::CurveSample> take_sample() { return session_->live.take_sample(); }
     std::optional<session::TrialEnd> take_trial_end() { return session_->live.take_trial_end(); }
     void set_paused(bool paused) { session_->live.paused = paused; }
-    /// The folder that the session is recorded in, once; "" before it is known.
+    /// The folder of the session's recording, once; "" before it is known.
     QString take_folder() { return QString::fromStdString(session_->live.take_folder()); }
-    /// Why the session has paused by itself since the last call; "" if it has not.
+    /// The reason why the session has paused by itself since the last call; "" if it has not.
     QString take_told() { return QString::fromStdString(session_->live.take_told()); }
     bool paused() const { return session_->live.paused; }
     /// Turns the knobs toward these values, except for the workspaces.
@@ -78,49 +78,49 @@ class SessionRunner : public QObject {
         session_->knobs.workspace_turn = angle;
         session_->live.knobs.publish(session_->knobs);
     }
-    /// Of a session on the virtual clock: session time over time, 0: as fast as it can be.
+    /// For a session on the virtual clock: session time over wall time, 0: as fast as possible.
     void set_pace(double pace) { session_->live.pace = pace; }
-    /// Runs this many ticks of it although it is paused.
+    /// Runs this many ticks of a paused session.
     void step(int ticks) { session_->live.steps += ticks; }
     bool on_virtual_clock() const { return session_->clock == session::Clock::virtual_clock; }
     /// Skips the current trial.
     void skip() { session_->live.skip = true; }
-    /// Share of the trials that are over.
+    /// Share of completed trials.
     double done() const { return session_->live.done; }
     /// The picture of a tick was handed just now to the screen that the subject looks at. May be
     /// called at any time.
     void note_shown(int64_t tick) {
         if (running()) session_->live.note_shown(tick, session::Live::Clock::now());
     }
-    /// The same of a headset. May be called at any time.
+    /// A picture shown in a headset. May be called at any time.
     void note_shown(const headset::Showing& showing) {
         if (running())
             session_->live.note_shown(showing.tick, showing.at, showing.X_WV, showing.tracked);
     }
     /// Passes on a key, for a task that waits for one.
     void press(char key) { session_->key = key; }
-    /// Passes on where on a question's line the mouse clicked, from 0 to 1.
+    /// Passes on the clicked position on a question's line, from 0 to 1.
     void click(double share) { session_->live.clicked = share; }
     /// Ends the session properly, even while the hand holds something.
     void end() { session_->live.ended = true; }
     /// Whether force was switched off for good, as by a signal; also after the session's end.
     bool stopped() const { return stop_; }
-    /// Whether the session is to end; only while running, from the session's thread too.
+    /// Whether the session must end; only while running, from the session's thread too.
     bool ending() const { return session_->live.ended || stop_; }
     /// For a program that must end without unwinding because its display is gone. If a session is
     /// running, it switches force off at once, waits for the session's files, and ends the program;
     /// otherwise it does nothing. From any thread but the session's.
     static void end_program();
-    /// Pauses the session that runs, if one does, though the window is busy or hangs: force is off
-    /// from the servo's next tick on. From any thread.
+    /// Pauses the running session, if any, even if the window is busy or hangs: force is off from
+    /// the servo's next tick on. From any thread.
     static void pause_at_once();
 
   Q_SIGNALS:
     /// After pause_at_once() has paused the session, in the window's thread.
     void paused_at_once();
-    /// `share`: of the session's files that is written. Both signals come in the window's thread.
+    /// `share`: written share of the session's files. Both signals arrive in the window's thread.
     void finishing_progressed(double share);
-    /// What a session that begins goes without.
+    /// Messages about parts that a starting session lacks.
     void warned(const QString& message);
     void ended(const dihaptic::gui::SessionEnd& end);
 
@@ -139,7 +139,8 @@ class SessionRunner : public QObject {
 
     std::atomic<bool>& stop_;
     std::unique_ptr<Session> session_;
-    std::mutex coming_and_going_;  ///< of session_, which other threads may reach while it is held
+    std::mutex
+        coming_and_going_;  ///< guards session_, which other threads may use while holding it
     std::optional<app::NoSuspension> no_suspension_;
     std::atomic<bool> busy_{false};  ///< thread_ runs a session, or makes its files
     QTimer alive_;                   ///< beats as long as the window answers

@@ -41,7 +41,7 @@ enum Column {
 constexpr const char* kNote = "note.txt";
 constexpr int kLooked = 20;  // number of sessions after which the columns' widths are adjusted
 
-/// Reads a table of a session; calls `count` with it, if it exists and is intact.
+/// Reads a table of a session; calls `count` with the table, if it exists and is intact.
 template <class Row>
 QString counted_in(const QString& file, QString (*count)(const rows::RowFile<Row>&)) {
     if (!is_there(file.toStdString())) return "";
@@ -81,8 +81,7 @@ QString time_of(const recording::SessionFolder& folder, const recording::Session
     }
 }
 
-/// What was changed in those of a session's tables that are listed here since it ended, and what to
-/// do.
+/// Changes since a session's end in those of its tables that are listed here, with remedies.
 QString changes_of(const recording::SessionFolder& folder, const recording::SessionInfo& info) {
     constexpr std::string_view kListed[] = {"trials.csv", "lifts.csv"};
     QStringList out;
@@ -115,7 +114,7 @@ SessionsDialog::SessionsDialog(const QString& folder, QWidget* parent)
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Open | QDialogButtonBox::Close);
     auto* layout = new QVBoxLayout(this);
     auto* where =
-        new QLabel(tr("Sessions in %1. Two that are chosen (Ctrl + click) are shown side by side.")
+        new QLabel(tr("Sessions in %1. Select two (Ctrl + click) to show them side by side.")
                        .arg(QDir(folder).absolutePath()));
     where->setWordWrap(true);
     layout->addWidget(where);
@@ -138,7 +137,7 @@ SessionsDialog::SessionsDialog(const QString& folder, QWidget* parent)
     resize(1000, 480);
 }
 
-/// Adds a session to the list; one at a time, since a session that runs needs the window to answer.
+/// Adds a session to the list; one at a time, since a running session requires a responsive window.
 void SessionsDialog::fill_one() {
     if (waiting_.isEmpty()) return filling_.stop();
     const QFileInfo entry = waiting_.takeFirst();
@@ -183,9 +182,9 @@ void SessionsDialog::write_note() {
     const QString session = item->data(0, Qt::UserRole).toString();
     const std::string file = (session + "/" + kNote).toStdString();
     try {
-        // before somebody writes a note in vain, and before somebody else's file is shown as a note
+        // before the user writes a note in vain, and before a foreign file is shown as a note
         check_replaceable(file);
-        // read again, because somebody may have written it since the list was made
+        // read again, because the note may have changed since the list was made
         const std::string before = is_there(file) ? read_text_file(file) : "";
         const auto note = ask_for_note(item->text(Column::folder_name),
                                        QString::fromStdString(before).trimmed(), this);

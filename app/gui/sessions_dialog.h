@@ -1,4 +1,4 @@
-// Lists the recorded sessions of a folder, to view one again or to write a note about it.
+// Lists the recorded sessions in a folder, for viewing or for writing a note.
 #pragma once
 
 #include <QDialog>
@@ -15,7 +15,7 @@ class SessionsDialog : public QDialog {
     Q_OBJECT
 
   public:
-    /// `folder`: that holds the sessions' folders.
+    /// `folder`: folder that contains the sessions' folders.
     explicit SessionsDialog(const QString& folder, QWidget* parent = nullptr);
 
   Q_SIGNALS:

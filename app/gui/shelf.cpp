@@ -14,7 +14,7 @@
 namespace dihaptic::gui {
 namespace {
 
-/// How long the file's session takes; empty if nobody can tell.
+/// The duration of the file's session; empty if unknown.
 QString length_of(const session::Plan& plan) {
     if (plan.task) {
         const auto trials = plan.task->trials.size();
@@ -61,7 +61,7 @@ void Shelf::read(const QStringList& files) {
                 if (!plan.title.empty()) title = QString::fromStdString(plan.title);
                 length = length_of(plan);
             } catch (const std::exception&) {
-                // opening it reports what is wrong
+                // opening the file reports its faults
             }
             QMetaObject::invokeMethod(
                 this, [=, this] { Q_EMIT told(file, title, length); }, Qt::QueuedConnection);
@@ -86,7 +86,7 @@ void Shelf::draw_next() {
             draw_next();
         });
         drawing_->setStandardErrorFile(QProcess::nullDevice());
-        // nobody waits for the picture, so it gives way to the window and to other programs
+        // the picture is not urgent, so it gives way to the window and to other programs
         drawing_->setChildProcessModifier([] { setpriority(PRIO_PROCESS, 0, 19); });
         drawing_->start(QCoreApplication::applicationDirPath() + "/dihaptic",
                         {"picture", file, "--size", "480x300", "-o", picture});
@@ -103,7 +103,7 @@ void Shelf::stop() {
         delete drawing_;
         drawing_ = nullptr;
     }
-    thread_ = {};  // asks it to stop, and waits
+    thread_ = {};  // requests a stop, and waits
 }
 
 }  // namespace dihaptic::gui

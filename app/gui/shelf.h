@@ -1,4 +1,4 @@
-// Reads the files for the start page, shipped ones or the user's, in a thread of its own: their
+// Reads the files for the start page, shipped ones or the user's, in a separate thread: their
 // titles and lengths, and small pictures drawn by `dihaptic picture`.
 #pragma once
 
@@ -18,7 +18,7 @@ class Shelf : public QObject {
 
     /// Reads these files one after the other, and draws those that have no picture yet.
     void read(const QStringList& files);
-    /// Ends reading and drawing, which would keep the computer busy while a session begins.
+    /// Ends reading and drawing, which would keep the computer busy at a session's start.
     void stop();
 
     /// Path of the picture of a file in its present state, whether or not it exists.

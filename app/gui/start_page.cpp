@@ -18,7 +18,7 @@ constexpr QSize kTileSize{224, 140};
 constexpr QSize kItem{240, 200};  // with its title and length below
 constexpr int kFile = Qt::UserRole;
 
-/// Files to begin with: a scene to play with, then a few with trials.
+/// Files for a start: a scene to play with, then a few with trials.
 const QStringList kFirst{"scenes/block-on-table.yaml", "experiments/first-trials.yaml",
                          "scenes/tools.yaml", "experiments/visuomotor-rotation.yaml"};
 

@@ -1,5 +1,5 @@
-// What the window shows while no file is open: files to begin with, as pictures with titles and
-// lengths, and recently opened ones.
+// The page shown while no file is open: files for a start, as pictures with titles and lengths, and
+// recently opened ones.
 #pragma once
 
 #include <QListWidget>
@@ -18,7 +18,7 @@ class StartPage : public QWidget {
 
     /// Reads the files again.
     void fill();
-    /// Stops reading, so that the computer is free for the file that is opened.
+    /// Stops reading, so that the computer is free for the file being opened.
     void rest() { shelf_.stop(); }
 
     /// The folder that contains `scenes` and `experiments`: the working directory or, failing that,

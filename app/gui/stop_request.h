@@ -1,5 +1,5 @@
-// A request from outside that the program should end. The running session gets it by a flag, in its
-// next tick, and the window by its event loop.
+// A request from outside to end the program. The running session receives it through a flag, in its
+// next tick, and the window through its event loop.
 #pragma once
 
 #include <QObject>

@@ -19,7 +19,7 @@ class StripChart : public QWidget {
         QString name;
         QColor colour;
     };
-    /// `unit`: of all curves. `least_range`: least range of the scale.
+    /// `unit`: unit of all curves. `least_range`: least range of the scale.
     StripChart(QString title, QString unit, std::vector<Curve> curves, double least_range,
                QWidget* parent = nullptr);
 
@@ -39,7 +39,7 @@ class StripChart : public QWidget {
         double time;
         std::vector<double> values;
     };
-    /// Range of the scale. `lines`: about how many steps it has.
+    /// Range of the scale. `lines`: approximate number of steps.
     Scale range(int lines) const;
     struct Axes;
     QColor ink() const;

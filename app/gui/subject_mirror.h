@@ -1,5 +1,5 @@
-// A small copy of what the subject sees, for the operator: the picture of the subject's first
-// window, including texts.
+// A small copy of the subject's view, for the operator: the picture of the subject's first window,
+// including texts.
 #pragma once
 
 #include <QPixmap>
@@ -16,7 +16,8 @@ class SubjectMirror : public QWidget {
   public:
     SubjectMirror();
 
-    /// `scene`: of the subject's first window. Null: there is none, and `why` is shown instead.
+    /// `scene`: widget of the subject's first window. Null: there is none, and `why` is shown
+    /// instead.
     void follow(SceneWidget* scene, const QString& why);
 
     QSize sizeHint() const override { return {320, 200}; }
@@ -26,7 +27,7 @@ class SubjectMirror : public QWidget {
     void showEvent(QShowEvent* event) override;
 
   private:
-    /// Takes a picture, if it is visible.
+    /// Takes a picture, if the mirror is visible.
     void look();
 
     QPointer<SceneWidget> scene_;

@@ -1,4 +1,4 @@
-// The subject's window: the scene and nothing else, full screen on a monitor of its own.
+// The subject's window: the scene and nothing else, full screen on a separate monitor.
 #pragma once
 
 #include "scene_widget.h"
@@ -9,8 +9,8 @@ namespace dihaptic::gui {
 /// point, minus, Enter and Backspace; 0 for any other key.
 char task_key(const QKeyEvent& event);
 
-/// Shows a window in full screen on that monitor or, if `monitor` is empty, on one without the
-/// operator's window, if there is one. Returns what is wrong and what to do; empty if all is well.
+/// Shows a window in full screen on that monitor or, if `monitor` is empty, on a monitor without
+/// the operator's window, if there is one. Returns a fault with its remedy; empty if there is none.
 QString show_on(QWidget& window, const QString& monitor, const QWidget& operator_window);
 
 class SubjectWindow : public QWidget {

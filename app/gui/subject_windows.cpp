@@ -7,9 +7,9 @@ namespace dihaptic::gui {
 
 namespace {
 
-constexpr std::chrono::milliseconds kFollow{4};  // a screen shows no more
+constexpr std::chrono::milliseconds kFollow{4};  // screens are no faster
 
-/// How many windows a rig has.
+/// The number of windows for a rig.
 size_t windows_of(const rig::Rig& rig) {
     return rig.displays.empty() && !rig.headset ? 1 : rig.displays.size();
 }
@@ -80,7 +80,7 @@ void SubjectWindows::add(const display::Headset& headset) {
     headset_ = std::make_unique<HeadsetView>(headset);
     connect(headset_.get(), &HeadsetView::told, this, &SubjectWindows::told);
     connect(headset_.get(), &HeadsetView::shown, this, &SubjectWindows::shown_to_head);
-    // queued: who hears it deletes the headset
+    // queued: the receiver deletes the headset
     connect(headset_.get(), &HeadsetView::ended, this, &SubjectWindows::headset_ended,
             Qt::QueuedConnection);
 }
@@ -90,7 +90,7 @@ void SubjectWindows::add(const std::optional<display::Display>& display) {
     window.scene().set_display(display);
     connect(&window, &SubjectWindow::key_pressed, this, &SubjectWindows::key_pressed);
     connect(&window.scene().rating(), &RatingView::clicked, this, &SubjectWindows::clicked);
-    // queued: who hears it deletes the window
+    // queued: the receiver deletes the window
     connect(&window, &SubjectWindow::closed, this, &SubjectWindows::closed, Qt::QueuedConnection);
     const QString monitor = display ? QString::fromStdString(display->monitor) : "";
     if (const QString wrong = show_on(window, monitor, beside_); !wrong.isEmpty())

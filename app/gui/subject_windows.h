@@ -16,10 +16,10 @@ class SubjectWindows : public QObject {
     Q_OBJECT
 
   public:
-    /// `beside`: the operator's window, on whose monitor none is opened if there is another.
+    /// `beside`: the operator's window, whose monitor is avoided if there is another.
     explicit SubjectWindows(QWidget& beside);
 
-    /// Opens those of a rig.
+    /// Opens the windows for a rig.
     void open(const rig::Rig& rig);
     void close();
     /// Whether the subject looks at the operator's window.
@@ -27,7 +27,7 @@ class SubjectWindows : public QObject {
     /// The subject's main window; null if there is none.
     SceneWidget* first() { return windows_.empty() ? nullptr : &windows_.front()->scene(); }
     HeadsetView* headset() { return headset_.get(); }
-    /// Gives them a scene, and a rig that may be another one.
+    /// Gives the windows a scene, and a rig, which may differ from the last one.
     void set_scene(const scene::Scene& scene, const frame::Frame& frame, const rig::Rig& rig);
     /// Calls f(SceneWidget&) for each.
     template <class F>
@@ -44,7 +44,7 @@ class SubjectWindows : public QObject {
     void clicked(double share);
     /// The picture of a tick was handed to the subject's main screen.
     void presented(qint64 tick);
-    /// The same of a headset, or of a screen that is drawn for a tracked head.
+    /// A picture was handed to a headset, or to a screen that is drawn for a tracked head.
     void shown_to_head(const dihaptic::headset::Showing& showing);
     /// The headset has stopped showing.
     void headset_ended();
@@ -61,7 +61,7 @@ class SubjectWindows : public QObject {
     void show_first(qint64 tick);
 
     QWidget& beside_;
-    outlets::TrackedHead head_;  // that is tracked
+    outlets::TrackedHead head_;  // the tracked head
     std::unique_ptr<outlets::HeadTracker> tracker_;
     QTimer follow_;
     std::vector<std::unique_ptr<SubjectWindow>> windows_;

@@ -1,5 +1,5 @@
-// Curves over a stretch of a session's time, a row for each, with a cursor at the moment that is
-// shown. A click goes to a moment, the wheel zooms, a double click shows all.
+// Curves over a stretch of a session's time, one row each, with a cursor at the displayed moment. A
+// click moves to a moment, the wheel zooms, a double click shows all.
 #pragma once
 
 #include <QWidget>
@@ -18,12 +18,12 @@ class TimeChart : public QWidget {
     void set_session(double begin, double end);
     double begin() const { return begin_; }
     double end() const { return end_; }
-    /// `begin` and `end`: of the stretch that they are of. `share`: of it that has been read.
+    /// `begin` and `end`: limits of the curves' stretch. `share`: share of it that has been read.
     void set_curves(std::vector<RecordedCurve> curves, double begin, double end, double share);
-    /// Values of the curves at the cursor, in words; empty if there is no cursor.
+    /// Values of the curves at the cursor, as text; empty if there is no cursor.
     void set_values(const QStringList& values);
     void set_moments(std::vector<double> times);
-    /// The moment that is shown [s]. If it is out of sight, the chart scrolls to it.
+    /// The displayed moment [s]. If it is out of sight, the chart scrolls to it.
     void set_cursor(double time);
 
     QSize sizeHint() const override { return {900, 260}; }
@@ -50,7 +50,7 @@ class TimeChart : public QWidget {
     void draw_times(QPainter& painter) const;
 
     double first_ = 0, last_ = 1;  // of the session [s]
-    double begin_ = 0, end_ = 1;   // that are shown
+    double begin_ = 0, end_ = 1;   // displayed stretch
     double cursor_ = 0;
     double share_ = 1;
     std::vector<RecordedCurve> curves_;

@@ -11,7 +11,7 @@ namespace dihaptic::gui {
 namespace {
 
 constexpr double kDot = 3;           // radius [px]
-constexpr size_t kLeastAcross = 10;  // trials that the width is for, at the beginning
+constexpr size_t kLeastAcross = 10;  // initial number of trials for which the width is designed
 
 QColor outcome_colour(int outcome) {
     // the first outcome is usually the desired one
@@ -92,7 +92,7 @@ void TrialChart::draw_axes(QPainter& painter, const Axes& axes) const {
     painter.drawText(QPointF(axes.area.left(), 2.0 + fontMetrics().ascent()), name_);
 }
 
-/// The outcomes that came.
+/// The outcomes that occurred.
 void TrialChart::draw_legend(QPainter& painter, const QRectF& in) const {
     std::set<int> came;
     for (const Point& point : points_) came.insert(point.outcome);

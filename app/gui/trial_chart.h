@@ -17,7 +17,7 @@ class TrialChart : public QWidget {
         int outcome = 0;
         bool begins_block = false;
     };
-    /// `name`: of the number, with its unit. `outcomes`: their names, for the legend.
+    /// `name`: name of the number, with its unit. `outcomes`: names of outcomes, for the legend.
     void set_points(const QString& name, const QStringList& outcomes, std::vector<Point> points);
 
     QSize sizeHint() const override { return {320, 150}; }

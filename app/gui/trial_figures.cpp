@@ -41,7 +41,7 @@ void TrialFigures::follow(const QString& folder) {
                 wait(stop);
             }
         } catch (const Error&) {
-            // no trials, or missing files: the end of the session reports what is wrong
+            // no trials, or missing files: the end of the session reports the fault
         }
     });
 }

@@ -1,5 +1,5 @@
-// Reads what is found of a running session's trials (errors, angles, the task's own measures), in a
-// thread of its own, from the log that the session writes.
+// Reads the results of a running session's trials (errors, angles, the task's own measures), in a
+// separate thread, from the log that the session writes.
 #pragma once
 
 #include <QObject>
@@ -17,7 +17,7 @@ class TrialFigures : public QObject {
     TrialFigures();
     ~TrialFigures() override;
 
-    /// Follows the session that is recorded in a folder; an earlier one is dropped.
+    /// Follows the session recorded in a folder; an earlier one is dropped.
     void follow(const QString& folder);
     /// The session is over: reads the rest of it.
     void finish() { over_ = true; }

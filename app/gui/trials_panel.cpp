@@ -20,7 +20,7 @@ struct Number {
 
 constexpr int kSeconds = 5, kGrip = 6, kForce = 7, kOwn = 8;  // columns of numbers
 
-/// The numbers that a task has of its own, in the order in which frames have them.
+/// A task's own numbers, in the order of the frames.
 std::vector<Number> numbers_of(const task::TaskPlan& plan) {
     std::vector<Number> out;
     const auto add = [&](const std::string& name) {
@@ -77,7 +77,7 @@ void TrialsPanel::set_plan(std::shared_ptr<const task::TaskPlan> plan) {
         table_->setColumnHidden(column, false);
         table_->resizeColumnToContents(column);
     }
-    // what the task itself counts or chooses, if it does
+    // numbers that the task itself counts or chooses, if any
     chart(units_.empty() ? kSeconds : kOwn);
 }
 
@@ -145,7 +145,7 @@ void TrialsPanel::add(const session::TrialEnd& end) {
     ends_.push_back(end);
     fill_in(ends_.size() - 1);
     chart(charted_);
-    // a user who has scrolled back stays there
+    // the view of a user who has scrolled back stays
     const QScrollBar* const bar = table_->verticalScrollBar();
     if (bar->value() >= bar->maximum() - 1) table_->scrollToItem(item);
     if (table_->topLevelItemCount() == 1) {
@@ -160,7 +160,7 @@ void TrialsPanel::set_figures(const Table& trials) {
         return static_cast<size_t>(found - trials.columns.begin());
     };
     const size_t trial = place("trial_num"), attempt = place("attempt");
-    const size_t shown = place("peak_force_N");  // as the columns before it
+    const size_t shown = place("peak_force_N");  // like the columns before it
     const size_t first = shown + 1;
     if (!plan_ || trials.rows.empty() || std::max({trial, attempt, shown}) == trials.columns.size())
         return;
@@ -183,7 +183,7 @@ void TrialsPanel::set_figures(const Table& trials) {
         };
         const bool any = std::ranges::any_of(found_, has);
         table_->setColumnHidden(column, !any);
-        // a measure says more than the duration
+        // a measure is more informative than the duration
         if (any && !chosen_ && charted_ == kSeconds && !figures_[i].endsWith("_s"))
             charted_ = column;
     }

@@ -19,7 +19,7 @@ class TrialsPanel : public QWidget {
   public:
     explicit TrialsPanel(QWidget* parent = nullptr);
 
-    /// A session with these trials begins; null if it has none.
+    /// A session with these trials starts; null if it has none.
     void set_plan(std::shared_ptr<const task::TaskPlan> plan);
     void add(const session::TrialEnd& end);
     /// Fills in the measures of these attempts. `trials`: as in trials.csv.
@@ -43,7 +43,7 @@ class TrialsPanel : public QWidget {
     int charted_ = 0;                               // column
     bool chosen_ = false;                           // by a click
     std::vector<session::TrialEnd> ends_;           // a row each
-    QStringList figures_;                           // names of the columns behind the task's own
+    QStringList figures_;                           // names of the columns after the task's own
     std::map<std::pair<int, int>, Figures> found_;  // by trial and attempt
 };
 

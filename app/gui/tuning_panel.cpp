@@ -29,13 +29,13 @@ void TuningPanel::add(QFormLayout* form, E frame::Knobs::*knob, const frame::Kno
 void TuningPanel::add(QFormLayout* form, double frame::Knobs::*knob, const frame::Knob& is) {
     auto* box = new NumberBox;
     const bool may_be_unset = is.unset != nullptr;
-    // below the least value, and shown in words
+    // below the least value, and shown as text
     box->setRange(may_be_unset ? is.least - is.step : is.least, is.most);
     if (may_be_unset) box->setSpecialValueText(is.unset);
     box->setSingleStep(is.step);
     box->setDecimals(std::max(0, static_cast<int>(std::ceil(-std::log10(is.step)))));
     if (is.unit != std::string("1")) box->setSuffix(QString(" ") + is.unit);
-    box->setKeyboardTracking(false);  // a number counts once it is typed completely
+    box->setKeyboardTracking(false);  // a number takes effect once it is typed completely
     box->setToolTip(is.what);
     form->addRow(is.label, box);
     connect(box, &QDoubleSpinBox::valueChanged, this, [this, knob, is](double value) {

@@ -21,7 +21,7 @@ class TuningPanel : public QWidget {
     void set_knobs(const frame::Knobs& knobs);
 
   Q_SIGNALS:
-    /// `what`: the knob that the user turned, and its value, in words.
+    /// `what`: the knob that the user turned, and its value, as text.
     void turned(const dihaptic::frame::Knobs& knobs, const QString& what);
 
   private:

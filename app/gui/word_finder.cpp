@@ -9,15 +9,15 @@
 namespace dihaptic::gui {
 namespace {
 
-/// Of a word: block.z is one.
+/// Characters of a word: block.z is one word.
 bool is_letter(QChar c) {
     return c.isLetterOrNumber() || c == '_' || c == '.';
 }
 
-/// The context of a place in a text, judged by what precedes it.
+/// The context of a position in a text, judged by the preceding text.
 struct Around {
-    QChar bracket;   // the innermost that is open; null: none
-    QChar quote;     // in which the place is; null: in none
+    QChar bracket;   // innermost open bracket; null: none
+    QChar quote;     // quote around the position; null: none
     QString before;  // of the same item in brackets or, outside of them, of the same line
     QString close;   // what closes quotes and brackets
 
@@ -25,7 +25,7 @@ struct Around {
         static const QRegularExpression leading(R"(^\s*(-\s+)*)");
         return leading.match(before).captured();
     }
-    /// Whether a word there is a key, or may be one.
+    /// Whether a word at this position is a key, or may be one.
     bool takes_key() const {
         static const QRegularExpression key(R"(:\s)");
         if (!quote.isNull()) return false;
@@ -94,7 +94,7 @@ class AroundFinder {
     bool begins_ = true;  // a value or a key may begin here, in quotes or brackets
 };
 
-/// The words that the readers know where a text has kNoWord.
+/// The words that the readers accept in place of kNoWord in a text.
 std::vector<Choice> words_in(const std::string& file, const QString& text) {
     const Unsaved unsaved(file, text.toStdString());
     Diagnostics diagnostics;

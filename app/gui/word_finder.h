@@ -1,6 +1,6 @@
-// Finds the words that may stand at a place of a file's text: keys, names, and names that the file
-// itself defines. The candidates come from the file readers: their error for an unknown word lists
-// all valid ones.
+// Finds the words that are possible at a position in a file's text: keys, names, and names that the
+// file itself defines. The candidates come from the file readers, whose error for an unknown word
+// lists all valid ones.
 #pragma once
 
 #include <QObject>
@@ -13,17 +13,17 @@
 
 namespace dihaptic::gui {
 
-/// A place of a text at which a word is being typed.
+/// A position in a text at which a word is being typed.
 struct WordPlace {
-    QString typed;           ///< of the word, up to the cursor
-    bool is_key = false;     ///< otherwise, what stands after a key
-    bool has_colon = false;  ///< of a key, behind it
-    QString asking;          ///< the text with a word in its place that no file knows
+    QString typed;           ///< typed part of the word, up to the cursor
+    bool is_key = false;     ///< otherwise, the word after a key
+    bool has_colon = false;  ///< whether a colon follows the key
+    QString asking;          ///< the text with the unknown placeholder word at this position
     /// A second text to try if the readers find nothing, and whether the word is a key in it: it
     /// may be an item of a list, or in brackets that are not closed yet.
     std::vector<std::pair<QString, bool>> otherwise;
 };
-/// The place where a cursor is, in characters from the text's start.
+/// The position of a cursor, in characters from the text's start.
 WordPlace word_place(const QString& text, int cursor);
 
 /// The placeholder word in the texts that are tried.
@@ -36,8 +36,8 @@ class WordFinder : public QObject {
     using QObject::QObject;
     ~WordFinder() override;
 
-    /// Looks for words in a thread of its own; `file` is the file of the text. Only the last
-    /// request is answered.
+    /// Looks for words in a separate thread; `file`: the file of the text. Only the last request is
+    /// answered.
     void find(const QString& file, const WordPlace& place);
     /// Cancels the last request.
     void forget() { ++asked_; }

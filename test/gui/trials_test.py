@@ -73,7 +73,7 @@ class Trials(Participants):
             return text[:text.index("  redo: end_of_block")] + """  redo: never
   blocks: [{ name: baseline, conditions: [right far up, left far up, right near up], order: sequential }]
 """
-        question = lambda: self.xdotool("search", "--onlyvisible", "--name", "^Go on")
+        question = lambda: self.xdotool("search", "--onlyvisible", "--name", "^Continue")
         self.open(self.experiment("visuomotor-rotation", short))
         self.start()
         time.sleep(1)

@@ -66,7 +66,7 @@ const Json kParticipantColumns{
     {"age", {{"Description", "of the participant"}, {"Units", "years"}}},
     {"sex",
      {{"Description", "as told"},
-      {"Levels", {{"F", "female"}, {"M", "male"}, {"O", "other"}, {"U", "not told"}}}}},
+      {"Levels", {{"F", "female"}, {"M", "male"}, {"O", "other"}, {"U", "not stated"}}}}},
     {"handedness",
      {{"Description", "as told"},
       {"Levels", {{"right", "right-handed"}, {"left", "left-handed"}, {"both", "ambidextrous"}}}}},
