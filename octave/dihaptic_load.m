@@ -14,7 +14,7 @@ function session = dihaptic_load(folder, varargin)
 % "dihaptic export --csv" wrote by dihaptic_table. Tables need no program.
     files = dir(fullfile(folder, '*.csv'));
     if exist(fullfile(folder, 'session.yaml'), 'file') ~= 2
-        error('dihaptic_load: %s is no session: it has no session.yaml. Name a folder that dihaptic made.', folder);
+        error('dihaptic_load: %s is not a session: it has no session.yaml. Name a folder made by dihaptic.', folder);
     end
     session = struct('folder', folder, 'units', struct(), 'tables', struct(), 'table_units', struct());
     for f = 1:numel(files)

@@ -1,4 +1,4 @@
-"""Writes what the package's readers know of sessions, as the program has it: facts.json, beside the module _native.
+"""Writes the program's facts about sessions for the package's readers: facts.json, beside the module _native.
 
 Usage: write_facts.py FOLDER, where FOLDER has the module.
 """

@@ -1,4 +1,4 @@
-"""What it costs to step worlds from Python, beside the program's own steps in the same run.
+"""The cost of stepping worlds from Python, compared with the program's own steps in the same run.
 
 Usage: PYTHONPATH=build/release/python python3 python/bench/worlds.py
 """
@@ -37,8 +37,8 @@ def directed(world, n):
 
 
 def grasps(n=100, seconds=1.0):
-    """Seconds for so many environments that hold the block, and for the program's own steps of the same worlds, without what
-    environments do between them."""
+    """Seconds for this many environments that hold the block, and for the program's own steps of the same worlds,
+    without the environments' work between steps."""
     many = dh.env.Grasps("lift", n)
     close = np.tile([1.0, 0, 0, -1.0, 0, 0], (n, 1)) / 2
     still = np.zeros((n, 6))
@@ -65,7 +65,7 @@ def grasps(n=100, seconds=1.0):
             dh.step_all(many.worlds, many.ticks)
         return time.perf_counter() - begin
 
-    # in turn, and the shortest of each: the others were disturbed
+    # in turn, and the shortest of each: longer runs were disturbed
     taken = [(environment(), alone()) for _ in range(5)]
     return min(e for e, _ in taken), min(a for _, a in taken), n * steps
 

@@ -7,8 +7,8 @@
     session["grip_force"], session["block.position"], session.t       # numpy arrays
     session.plot("grip_force", "load_force", align="lift_off")
 
-docs/python.md shows what can be done, and help(dh) lists it. Reading works on any computer (dihaptic-read). What needs
-the program, or its module `_native`, raises an ImportError there that says what to do.
+docs/python.md shows the possibilities, and help(dh) lists them. Reading works on any computer (dihaptic-read).
+Functions that need the program, or its module `_native`, raise an ImportError there that gives the remedy.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ try:
     from .program import check, recover, replay, report, resume, run, shipped
     from .rehearsing import rehearse
     from .world import Body, Finger, World, step_all
-except ImportError as _why:  # all of these take the program, or its module
+except ImportError as _why:  # all of these need the program, or its module
     _missing: ImportError | None = _why
 else:
     _missing = None

@@ -1,4 +1,4 @@
-"""What reading a session needs to know about the program; python/write_facts.py writes it down."""
+"""Facts about the program that reading a session requires; written by python/write_facts.py."""
 
 from __future__ import annotations
 

@@ -15,9 +15,9 @@ import yaml
 
 from .errors import error
 
-#: Every value is a text, as it stands there.
+#: Every value is a text, exactly as in the file.
 _LOADER = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
-#: Of each version of the log: its first line, and the header of a chunk, whose last number is its checksum.
+#: For each version of the log: its first line, and the header of a chunk, whose last number is its checksum.
 _VERSIONS = {
     b"DIHAPTIC LOG 3\n": struct.Struct("<4sIQII"),
     b"DIHAPTIC LOG 2\n": struct.Struct("<4sIQII"),
@@ -31,7 +31,7 @@ class Head:
     """The content of a log before its first tick."""
 
     tick: float  #: [s]
-    items: dict[str, list[str]]  #: of each list whose items have names: these, in their order
+    items: dict[str, list[str]]  #: for each list whose items have names: these names, in order
 
 
 def read_yaml(text: str, file: Path) -> dict[str, Any]:
@@ -60,7 +60,7 @@ def read_head(file: Path) -> Head:
         with file.open("rb") as log:
             text = _text_of_head(log, file)
     except OSError as why:
-        raise error(f"cannot be read: {why}", "Copy it from where the session was recorded.", file=str(file)) from None
+        raise error(f"cannot be read: {why}", "Copy it from the recording computer.", file=str(file)) from None
     head = read_yaml(text, file)
     turning = [device["finger"] for device in head.get("devices", []) if device.get("orientation") == "yes"]
     items = {name: list(head.get(name) or []) for name in ("fingers", "bodies", "joints")}
@@ -69,7 +69,7 @@ def read_head(file: Path) -> Head:
 
 
 def head_of_nwb(file: h5py.File) -> Head | None:
-    """The same from session.nwb, which is smaller to copy; None if it is of a version that did not write it."""
+    """The head from session.nwb, which is smaller to copy; None if an older version made the file, without a head."""
     if "scratch/items" not in file:
         return None
     table = file["scratch/items"]
@@ -81,11 +81,11 @@ def head_of_nwb(file: h5py.File) -> Head | None:
         tick = float(np.median(np.diff(sequence["timestamps"][...])))
     else:
         tick = 1 / float(sequence["starting_time"].attrs["rate"])
-    return Head(round(tick, 9), items)  # a tick has whole nanoseconds, a rate 24 bits
+    return Head(round(tick, 9), items)  # ticks are whole nanoseconds, rates have 24 bits
 
 
 def _text(value: str | bytes) -> str:
-    """A text of HDF5, which h5py returns as bytes since its version 3."""
+    """A text from HDF5, which h5py returns as bytes since its version 3."""
     return value.decode("utf-8") if isinstance(value, bytes) else value
 
 

@@ -1,4 +1,4 @@
-"""Asks the kernel who is at the other end of a UNIX socket."""
+"""Asks the kernel for the owner of the program at the other end of a UNIX socket."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Says in one line why the package, or a part of it, cannot be used here, and what to do."""
+"""States in one line why the package, or a part of it, cannot be used here, with the remedy."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ import sys
 from pathlib import Path
 
 _FOLDER = Path(__file__).parent
-#: Of the libraries that reading takes: what Debian calls each, and what pip does.
+#: The libraries that reading requires, with their names in Debian and in pip.
 _LIBRARIES = {"numpy": "numpy", "pandas": "pandas", "h5py": "h5py", "yaml": "pyyaml"}
 
 

@@ -72,7 +72,7 @@ def _checksum(data: bytes) -> str:
 
 
 def _rows_of(csv: bytes) -> int:
-    """Rows without the header; a text in quotes may have several lines."""
+    """Number of rows without the header; a text in quotes may have several lines."""
     outside = b"".join(csv.split(b'"')[::2])
     lines = outside.count(b"\n") + (bool(csv) and not csv.endswith(b"\n"))
     return max(0, lines - 1)

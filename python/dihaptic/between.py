@@ -1,4 +1,4 @@
-"""Decides between a session's trials, in Python: which trial comes next, or what it is like."""
+"""Decides between a session's trials, in Python: chooses the next trial, or its properties."""
 
 from __future__ import annotations
 
@@ -23,22 +23,22 @@ from .errors import error
 
 @dataclass(frozen=True)
 class Attempt:
-    """How an attempt at a trial ended.
+    """The end of an attempt at a trial.
 
     >>> import dihaptic as dh
     >>> dh.Attempt(3, 1, "hit", {"force_N": 1.5}).outcome
     'hit'
     """
 
-    trial_num: int  #: from 1; 0: the session begins, and no trial has been done
-    attempt: int  #: at that trial, from 1
-    outcome: str | None  #: None if the session begins
-    variables: Mapping[str, float | None]  #: of the task, in their own units; None: not measured
+    trial_num: int  #: from 1; 0: the session starts, and no trial has been done
+    attempt: int  #: attempt at that trial, from 1
+    outcome: str | None  #: None at the session's start
+    variables: Mapping[str, float | None]  #: the task's variables, in their own units; None: not measured
 
 
 @dataclass(frozen=True)
 class Next:
-    """What comes next. Whatever is left out stays as in the experiment's file.
+    """The decision. Omitted parts stay as in the experiment's file.
 
     >>> import dihaptic as dh
     >>> dh.Next(variables={"force_N": 2}, message="Slower")
@@ -46,21 +46,21 @@ class Next:
     """
 
     variables: Mapping[str, float] = field(default_factory=dict)  #: new values, in their own units
-    trial_num: int | None = None  #: of a trial of the same block that is still to be done
+    trial_num: int | None = None  #: number of a remaining trial of the same block
     message: str | None = None  #: one of BetweenTrials.messages, shown as feedback
 
 
 class BetweenTrials:
     """Decisions between trials, to be passed to run(); derive from it.
 
-    decide() is called before the first trial, and after each attempt. It runs outside of the
-    session's process, so no tick is late, however slow or wrong it is. In real time its answer
-    counts for a second, in which no trial begins; a later one, and one that raises, leave the
-    trials as the file has them, and the session's notes say so. On the virtual clock the session
-    waits for it.
+    decide() is called before the first trial, and after each attempt. It runs outside the session's process, so no tick
+    is late, however slow or wrong it is. In real time its answer counts for a second, in which no trial starts; after a
+    later answer, or an exception, the trials stay as in the file, and the session's notes report it. On the virtual
+    clock the session waits for the answer.
 
-    The variables are those of the task: `variables: [{ name: load }]` in the experiment's file, whose
-    formulas name them, as in `body: { body: block, weight_scale: load }` of a perturbation. What was decided is recorded, so that a replay needs no Python.
+    The variables are those of the task: `variables: [{ name: load }]` in the experiment's file, whose formulas use
+    them, as in `body: { body: block, weight_scale: load }` of a perturbation. Decisions are recorded, so that a replay
+    does not need Python.
 
     >>> import dihaptic as dh
     >>> class Heavier(dh.BetweenTrials):
@@ -81,12 +81,12 @@ class BetweenTrials:
     messages: list[str] = []
 
     def decide(self, last: Attempt) -> Next | None:
-        """What comes after an attempt; None: as in the file."""
+        """The decision after an attempt; None: as in the file."""
         raise NotImplementedError
 
     @property
     def attempts(self) -> list[Attempt]:
-        """All attempts about which decide() was asked in the running session."""
+        """All attempts in the running session after which decide() was called."""
         attempts: list[Attempt] = self.__dict__.setdefault("_attempts", [])
         return attempts
 
@@ -94,7 +94,7 @@ class BetweenTrials:
     def session(self) -> Path:
         """Folder of the running session."""
         if "_session" not in self.__dict__:
-            raise error("no session has begun", "Give the rules to run().")
+            raise error("no session has started", "Give the rules to run().")
         return Path(self.__dict__["_session"])
 
     @property
@@ -106,7 +106,7 @@ class BetweenTrials:
 
     @property
     def failures(self) -> list[str]:
-        """What decide() raised in the running session, and where."""
+        """Exceptions of decide() in the running session, with their location."""
         failures: list[str] = self.__dict__.setdefault("_failures", [])
         return failures
 
@@ -128,7 +128,7 @@ class BetweenTrials:
                 answer["next"] = int(chosen.trial_num)
             if chosen.message is not None:
                 answer["message"] = list(self.messages).index(chosen.message)
-        except Exception as why:  # whatever it is: the session goes on
+        except Exception as why:  # whatever it is, the session continues
             self.failures.append(traceback.format_exc())
             return {"number": question["number"], "failed": f"{type(why).__name__}: {_text_of(why)}"}
         return answer
@@ -150,16 +150,16 @@ class BetweenTrials:
 
 
 def _text_of(why: Exception) -> str:
-    """In one line."""
+    """The exception in one line."""
     try:
         return " ".join(str(why).split())
     except Exception as another:
-        return f"its text cannot be had ({type(another).__name__})"
+        return f"its text is not available ({type(another).__name__})"
 
 
 def _check(rules: BetweenTrials) -> None:
     if not isinstance(rules, BetweenTrials):
-        raise error(f"{rules!r} decides nothing", "Give an object of a class that derives from BetweenTrials.")
+        raise error(f"{rules!r} cannot decide", "Give an object of a class that derives from BetweenTrials.")
     texts = rules.messages
     if not isinstance(texts, (list, tuple)) or len(texts) > 64 or not all(isinstance(text, str) for text in texts):
         raise error("are not a list of at most 64 texts", "List each text that decide() may show.", key="messages")
@@ -167,7 +167,7 @@ def _check(rules: BetweenTrials) -> None:
 
 @contextlib.contextmanager
 def listening(rules: BetweenTrials | None) -> Iterator[list[str]]:
-    """The options of `dihaptic run` by which the rules are asked, as long as this lasts."""
+    """The options of `dihaptic run` that connect it to the rules, valid while this context lasts."""
     if rules is None:
         yield []
         return
@@ -183,5 +183,5 @@ def listening(rules: BetweenTrials | None) -> Iterator[list[str]]:
         thread.start()
         yield ["--between", path]
         with contextlib.suppress(OSError):
-            server.shutdown(socket.SHUT_RDWR)  # a session that never began has not connected
+            server.shutdown(socket.SHUT_RDWR)  # a session that never started has not connected
         thread.join(timeout=1)  # decide() may never return

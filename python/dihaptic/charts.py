@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 
     from .session import Session
 
-#: Moments of a lift, and the columns of lifts.csv that have their times.
+#: Moments of a lift, and the columns of lifts.csv with their times.
 _LIFT_MOMENTS = ["touch", "load_onset", "lift_off", "replacement", "release", "first_slip"]
-#: Of quantities whose colour means the same everywhere.
+#: Quantities with the same colour everywhere.
 _COLOURS: dict[str, str] = facts()["colours"]
-#: For all others, distinct with any kind of colour vision (Okabe and Ito, 2008).
+#: Colours for all others, distinct with any kind of colour vision (Okabe and Ito, 2008).
 _OTHERS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
 
 
@@ -40,7 +40,7 @@ def plot(
     about a moment of it: a column of lifts.csv (`touch`, `load_onset`, `lift_off`, `replacement`,
     `release`, `first_slip`), or `start_time` or `stop_time` of trials.csv. Each is a thin line,
     their mean a thick one; `by`, a column such as "condition", makes a mean for each of its values.
-    Vectors have a line for each component. Raises NotThere or Error.
+    A vector has a line for each component. Raises NotThere or Error.
 
     >>> import dihaptic as dh
     >>> axes = dh.load(lift_session).plot("block.position.z", align="lift_off", before=0.2, after=0.4)
@@ -48,9 +48,9 @@ def plot(
     'block.position.z [m]'
     """
     if not names:
-        raise error("no quantity is named", 'Name one, e.g. session.plot("grip_force").')
+        raise error("no quantity is given", 'Name one, e.g. session.plot("grip_force").')
     if by is not None and align is None:
-        raise error("groups what is aligned", 'Add align="lift_off", or another moment.', key="by")
+        raise error("requires an alignment", 'Add align="lift_off", or another moment.', key="by")
     if axes is None:
         try:
             import matplotlib.pyplot as plt
@@ -72,8 +72,7 @@ def plot(
 
 
 def _curves(session: Session, names: tuple[str, ...]) -> list[tuple[str, str, npt.NDArray[Any]]]:
-    """For each number and each component: the quantity's name, the curve's label, and its
-    values."""
+    """For each number and each component: the quantity's name, the curve's label, and its values."""
     out = []
     for name in names:
         if name in vocabulary.lists():
@@ -101,16 +100,16 @@ def _moments(session: Session, align: str, by: str | None) -> list[tuple[str, fl
     if column not in table or not pd.api.types.is_numeric_dtype(table[column]):
         raise NotThere(
             align,
-            "is no moment to align by",
+            "is not a moment for alignment",
             [*_LIFT_MOMENTS, "start_time", "stop_time"],
-            f"Those are {', '.join(_LIFT_MOMENTS)}; start_time and stop_time of trials.",
+            f"Valid moments are {', '.join(_LIFT_MOMENTS)}; start_time and stop_time of trials.",
         )
     if by is not None and by not in table:
-        raise NotThere(by, "is no column of the trials", list(table.columns), "Session.trials has them.")
+        raise NotThere(by, "is not a column of the trials", list(table.columns), "Session.trials lists the columns.")
     groups = table[by].fillna("none").astype(str) if by is not None else pd.Series("", index=table.index)
     found = [(g, float(t)) for g, t in zip(groups, table[column]) if np.isfinite(t)]
     if not found:
-        raise error("happened in no trial of this session", "See session.lifts.", key=align)
+        raise error("does not occur in any trial of this session", "See session.lifts.", key=align)
     return found
 
 

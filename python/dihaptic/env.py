@@ -1,7 +1,7 @@
-"""Environments for learners: two fingers lift and turn, four hand over, with the program's contact.
+"""Environments for learners: two fingers lift and turn, four hand over, with the program's contact model.
 
 They have the interface of gymnasium (reset, step, spaces). Where gymnasium 1.1 or later is installed, they are its environments,
-which `gymnasium.make("Dihaptic/Lift-v0")` and `gymnasium.make_vec` make.
+created by `gymnasium.make("Dihaptic/Lift-v0")` and `gymnasium.make_vec`.
 
 >>> import dihaptic as dh
 >>> environment = dh.env.Grasp("lift", seed=1)
@@ -56,7 +56,7 @@ class Box:
 
 
 class _Env:
-    """Stands in for gymnasium.Env and gymnasium.vector.VectorEnv where they are not installed."""
+    """Replaces gymnasium.Env and gymnasium.vector.VectorEnv if they are not installed."""
 
     metadata: dict[str, Any] = {}
     render_mode: str | None = None
@@ -77,7 +77,7 @@ if not TYPE_CHECKING:
     try:
         import gymnasium
         from gymnasium.vector import AutoresetMode
-    except ImportError:  # it is not there, or older
+    except ImportError:  # missing, or older
         gymnasium = None
     else:
         _Env, _VectorEnv = gymnasium.Env, gymnasium.vector.VectorEnv
@@ -93,29 +93,29 @@ def _space(low: float, high: float, shape: tuple[int, ...], seed: int) -> Box:
 
 def _refuse_options(options: Info | None, *known: str) -> None:
     for name in set(options or {}) - set(known):
-        remedy = f"It may have: {', '.join(known)}." if known else "Leave it out."
+        remedy = f"Allowed names: {', '.join(known)}." if known else "Leave it out."
         raise error(f"has '{name}'", remedy, key="options")
 
 
-#: Of each task: its scene, the range of its goal, and how near counts as there.
+#: For each task: its scene, the range of its goal, and the tolerance.
 _TASKS: dict[str, tuple[str, tuple[float, float], float]] = {
     "lift": ("scenes/block-on-table.yaml", (0.03, 0.1), 0.005),  # height [m]
     "turn": ("experiments/turn-block.yaml", (0.2, 0.8), 0.05),  # about z [rad]
     "hand_over": ("experiments/hand-over.yaml", (0.03, 0.1), 0.005),  # height in the other hand [m]
 }
-_FASTEST = 0.3  # of a finger's target [m/s]
-_HOLD = 0.2  # for so long it has to be there [s]
+_FASTEST = 0.3  # largest speed of a finger's target [m/s]
+_HOLD = 0.2  # time for which the object must be at the goal [s]
 
 
 class Grasps(_VectorEnv):
     """Many worlds with the same task, stepped side by side on all processors.
 
     `task`: "lift" an object to a height, "turn" it by an angle, "hand_over" from the first hand to
-    the second. An action is, for each finger, the velocity of the point that it wants to be at
-    [m/s], three numbers from -1 to 1 times 0.3 m/s; it acts for `ticks` ticks. What is seen is, of
-    each finger, the handle's position and velocity, the force on it, and how hard it presses; the
+    the second. An action is, for each finger, the velocity of its target point [m/s], three numbers from -1 to 1 times
+    0.3 m/s; it acts for `ticks` ticks. An observation contains, for each finger, the handle's position and velocity,
+    the force on it, and the pressing force; the
     object's position, orientation (w, x, y, z), velocity and angular velocity; and the goal, in SI
-    units. The reward is the negative distance from the goal over that at the start, and 1 once the
+    units. The reward is the negative distance from the goal over its initial value, and 1 once the
     goal is reached and held for 0.2 s, which ends the episode; `time` [s] truncates it. In
     hand_over it counts only while the first hand does not touch the object.
 
@@ -137,9 +137,9 @@ class Grasps(_VectorEnv):
         self, task: str = "lift", n: int = 1, *, seed: int = 1, ticks: int = 10, time: float = 5.0, jobs: int | None = None
     ) -> None:
         if task not in _TASKS:
-            raise error(f"is '{task}'", f"There are: {', '.join(_TASKS)}.", key="task")
+            raise error(f"is '{task}'", f"Tasks are: {', '.join(_TASKS)}.", key="task")
         if n < 1 or ticks < 1:
-            raise error("there is no world, or no tick in a step", "Give 1 at least.")
+            raise error("the number of worlds, or of ticks per step, is below 1", "Give at least 1.")
         scene, self._goals, self._near = _TASKS[task]
         self.task = task
         self.worlds = [World(shipped(scene), seed=seed + i) for i in range(n)]
@@ -158,7 +158,7 @@ class Grasps(_VectorEnv):
         self._inner = [world._world for world in self.worlds]
         self._targets = np.zeros((n, fingers, 6))
         self._goal = np.zeros(n)
-        self._zero = np.zeros(n)  # of the object's height or angle, at the start
+        self._zero = np.zeros(n)  # the object's height or angle at the start
         self._held: Array = np.zeros(n)
         self._passed = np.zeros(n)
         self._began = np.zeros(n, dtype=bool)
@@ -170,9 +170,9 @@ class Grasps(_VectorEnv):
         seed: int | None = None,
         options: Info | None = None,
     ) -> tuple[Array, Info]:
-        """Begins all episodes anew, or those of `which` worlds (their numbers, or an array such as
-        `terminated | truncated`); each gets a goal of its own. An episode that has ended begins
-        anew only in this way. gymnasium's name of `which` is `options={"reset_mask": which}`."""
+        """Restarts all episodes, or those of `which` worlds (their numbers, or an array such as `terminated |
+        truncated`); each gets its own goal. An episode that has ended restarts only in this way. gymnasium's form of
+        `which` is `options={"reset_mask": which}`."""
         _refuse_options(options, "reset_mask")
         if options and which is None:
             which = options["reset_mask"]
@@ -206,13 +206,12 @@ class Grasps(_VectorEnv):
         return out
 
     def step(self, actions: npt.ArrayLike) -> tuple[Array, Array, npt.NDArray[np.bool_], npt.NDArray[np.bool_], Info]:
-        """Returns the observations, the rewards, which episodes are terminated, which are
-        truncated, and info."""
+        """Returns the observations, the rewards, the flags of terminated and of truncated episodes, and info."""
         if not self._began.all():
-            raise error("an episode has not begun", "Call reset() first.")
+            raise error("an episode has not started", "Call reset() first.")
         given = np.asarray(actions, dtype=float).reshape(len(self.worlds), self._fingers, 3)
         if not np.isfinite(given).all():
-            raise error("an action has a component that is no number", "Give numbers from -1 to 1.")
+            raise error("an action has a component that is not a number", "Give numbers from -1 to 1.")
         velocity = _FASTEST * np.clip(given, -1, 1)
         self._targets[:, :, :3] += velocity * self.step_time
         self._targets[:, :, 3:] = velocity
@@ -243,7 +242,7 @@ class Grasps(_VectorEnv):
     def _distance(self, seen: Array) -> Array:
         distance = np.abs(self._value(seen) - self._zero - self._goal)
         if self.task == "hand_over":
-            first = seen[:, 9] + seen[:, 19]  # how hard the first hand presses
+            first = seen[:, 9] + seen[:, 19]  # pressing force of the first hand
             distance = np.where(first > 0, np.maximum(distance, self._goal), distance)
         out: Array = distance
         return out
@@ -275,7 +274,7 @@ class Grasp(_Env):
         self.world = self._one.worlds[0]
 
     def reset(self, *, seed: int | None = None, options: Info | None = None) -> tuple[Array, Info]:
-        """Begins an episode with a new goal; `options` must be empty."""
+        """Starts an episode with a new goal; `options` must be empty."""
         _refuse_options(options)
         super().reset(seed=seed)
         self._one._np_random = self._np_random

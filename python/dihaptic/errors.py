@@ -1,4 +1,4 @@
-"""The errors that are raised when an input is wrong, with file, line, key and remedy."""
+"""Errors about wrong inputs, with file, line, key and remedy."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Problem:
-    """One thing that is wrong, and what would be right.
+    """One fault, and its remedy.
 
     >>> Problem("error", "block.yaml", 4, "mass", "is negative", "A mass is positive.").text()
     'block.yaml:4: error: mass: is negative. A mass is positive.'
     """
 
     severity: str  #: "error" or "warning"
-    file: str  #: "" if it was found in no file
+    file: str  #: "" if it was not found in a file
     line: int  #: from 1; 0: the file as a whole
-    key: str  #: that the problem is about; may be ""
+    key: str  #: key concerned; may be ""
     what: str
     remedy: str
 
@@ -30,15 +30,15 @@ class Problem:
 
 
 class Error(ValueError):
-    """An input is wrong: a file, a name, a table.
+    """A wrong input: a file, a name, a table.
 
     Its text is what the command line would print; `problems` lists its parts.
 
     >>> import dihaptic as dh
-    >>> dh.load("no-such-session")
+    >>> dh.load("no-session")
     Traceback (most recent call last):
     ...
-    dihaptic.errors.Error: no-such-session: error: is no session: it has no session.yaml. Name a folder that dihaptic made.
+    dihaptic.errors.Error: no-session: error: is not a session: it has no session.yaml. Name a folder made by dihaptic.
     """
 
     def __init__(self, problems: list[Problem]) -> None:
@@ -46,7 +46,7 @@ class Error(ValueError):
         self._take(problems)
 
     def _take(self, problems: list[Problem]) -> None:
-        # Python says already that it is an error
+        # Python itself already states that it is an error
         self.args = ("\n".join(problem.text().removeprefix("error: ") for problem in problems),)
         self.problems = problems
 
@@ -67,7 +67,7 @@ def error(what: str, remedy: str, *, file: str = "", line: int = 0, key: str = "
 
 
 class NotThere(Error, KeyError):
-    """A session, or a world, has nothing of that name.
+    """A session, or a world, has nothing with that name.
 
     >>> import dihaptic as dh
     >>> session = dh.load(lift_session)

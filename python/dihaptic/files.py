@@ -1,4 +1,4 @@
-"""Scenes, rigs and experiments as objects, which are saved as the files that you would write by hand."""
+"""Scenes, rigs and experiments as objects, saved like files written by hand."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ from .errors import Error, NotThere, Problem, error
 
 _YES_OR_NO = {"yes": True, "true": True, "no": False, "false": False}
 _NUMBER = re.compile(r"[-+]?(?!0\d)(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?")
-#: Stands where a key is looked for; no file has it.
+#: Placeholder at the position of a key that is looked for; no file contains it.
 _NO_KEY = "__no_key__"
 
 
 class Part:
     """A part of a file: its attributes are the keys of docs/reference.md, with their units.
 
-    A key that is a keyword of Python is reached by `part["from"]`. `part.known()` lists the keys that are known there,
+    A key that is a Python keyword is accessed as `part["from"]`. `part.known()` lists the keys that are known there,
     if the part is in a Scene, Rig or Experiment, and so does completion.
 
     >>> import dihaptic as dh
@@ -47,7 +47,7 @@ class Part:
 
     def __getitem__(self, key: str) -> Any:
         if key not in self._keys:
-            raise NotThere(key, "is not given", list(self._keys), "known() lists what may be.")
+            raise NotThere(key, "is not given", list(self._keys), "known() lists the allowed keys.")
         value = self._keys[key]
         for i, item in enumerate(value if isinstance(value, list) else [value]):
             if isinstance(item, Part):
@@ -91,7 +91,7 @@ class Part:
         return [*object.__dir__(self), *self._keys, *self.known()]
 
     def __copy__(self: P) -> P:
-        return copy.deepcopy(self)  # one that shared its lists would be no copy
+        return copy.deepcopy(self)  # an object that shared its lists would not be a copy
 
     def __repr__(self) -> str:
         names = {key: key.isidentifier() and not keyword.iskeyword(key) for key in self._keys}
@@ -148,7 +148,7 @@ class File(Part):
 
     _folder: Path
     _name: str
-    #: A key that tells what kind of file it is.
+    #: A key that identifies the kind of file.
     _must_have = ""
 
     def __init__(self, **keys: Any) -> None:
@@ -158,7 +158,7 @@ class File(Part):
 
     @classmethod
     def load(cls: type[F], file: str | Path) -> F:
-        """Reads a file or, if there is none of that name, one that comes with the program. Raises Error when it is not
+        """Reads a file or, if none has this name, a file that comes with the program. Raises Error when it is not
         YAML; check() finds all other mistakes.
 
         >>> import dihaptic as dh
@@ -172,17 +172,17 @@ class File(Part):
             raise error("has no keys", "Name a scene, a rig or an experiment.", file=str(file))
         if cls._must_have not in raw:
             what = cls.__name__.lower()
-            raise error(f"is no {what}: it has no {cls._must_have}", f"Name a {what}.", file=str(file))
+            raise error(f"is not a valid {what}: it has no {cls._must_have}", f"Name a {what}.", file=str(file))
         out = cls._of(raw)
         object.__setattr__(out, "_folder", Path(file).resolve().parent)
         object.__setattr__(out, "_name", Path(file).name)
         return out
 
     def save(self, file: str | Path) -> Path:
-        """Writes the file, and beside it the scene and the rig that it has as objects.
+        """Writes the file and, beside it, a scene and a rig given as objects.
 
-        Nothing but comments is lost. The paths of other files that it names are kept true if it goes
-        to another folder. Raises OSError when it cannot be written, and Error when load() could not read it again.
+        Nothing but comments is lost. The paths of other files are adapted if it is written to another folder. Raises
+        OSError when it cannot be written, and Error when load() could not read it again.
 
         >>> import dihaptic as dh
         >>> scene = dh.Scene.load("scenes/block-on-table.yaml")
@@ -191,12 +191,12 @@ class File(Part):
         []
         """
         path = Path(file)
-        # all is there before any file is touched, and each takes the place of an older one whole
+        # all texts exist before any file is touched, and each file is replaced as a whole
         written = self._written(path)
         for name, text in written.items():
             _native.check_yaml(text, str(name))
             if name.is_symlink():
-                raise error("is a link, and nothing is written through one", "Name another file.", file=str(name))
+                raise error("is a link, and links are not written through", "Name another file.", file=str(name))
         with tempfile.TemporaryDirectory(prefix=f".{path.name}.", dir=path.parent) as making:
             for name, text in written.items():
                 Path(making, name.name).write_text(text, encoding="utf-8")
@@ -214,8 +214,7 @@ class File(Part):
         return out
 
     def check(self) -> list[Problem]:
-        """Finds what is wrong with it, as `dihaptic check` does, with the object's path in place of
-        a line.
+        """Finds its faults, like `dihaptic check`, with the object's path in place of a line.
 
         >>> import dihaptic as dh
         >>> scene = dh.Scene.load("scenes/block-on-table.yaml")
@@ -228,7 +227,7 @@ class File(Part):
     def __str__(self) -> str:
         return _native.write_yaml(self._to_raw())
 
-    # How it gets to the disk
+    # Writing to the disk
 
     def _parts(self) -> dict[str, File]:
         return {key: value for key, value in self._keys.items() if isinstance(value, File)}
@@ -295,7 +294,7 @@ class Scene(File):
 
 
 class Rig(File):
-    """A rig: its devices, where they stand, its display (docs/files/rig.md).
+    """A rig: its devices, their poses, its display (docs/files/rig.md).
 
     >>> import dihaptic as dh
     >>> dh.Rig.load("rigs/ideal-pair.yaml").check()
@@ -329,8 +328,8 @@ Input = Union[str, Path, File]
 def on_disk(given: Input) -> Iterator[str]:
     """Path of a file ("" for none), or of a temporary file of an object.
 
-    A file that is not in the working folder is one that is kept for all studies, or that comes with
-    the program, if there is one.
+    A file that is missing in the working folder is looked for among those kept for all studies, and those that come
+    with the program.
     """
     if isinstance(given, File):
         with given._on_disk() as file:
@@ -343,7 +342,7 @@ def on_disk(given: Input) -> Iterator[str]:
 
 
 def problems_of(given: Input, rig: Input = "") -> list[Problem]:
-    """What `dihaptic check` finds in a file or an object."""
+    """The findings of `dihaptic check` in a file or an object."""
     with on_disk(given) as file, on_disk(rig) as rig_file:
         found = [Problem(*row[:6]) for row in _native.check_file(file, rig_file)]
         return [given._at_object(Path(file), p) for p in found] if isinstance(given, File) else found
@@ -354,7 +353,7 @@ def _rest(problem: Problem) -> tuple[str, str, str]:
 
 
 def _value(raw: Any) -> Any:
-    """The value for which a text in a file stands."""
+    """The value that a text in a file represents."""
     if isinstance(raw, dict):
         return Part._of(raw)
     if isinstance(raw, list):
@@ -378,7 +377,7 @@ def _plain(value: Any) -> Any:
         return os.fspath(value)
     if isinstance(value, (list, tuple)):
         return [_plain(item) for item in value]
-    raise error(f"{value!r} cannot stand in a file", "Give a number, a text, a list, a Part or a dict.")
+    raise error(f"{value!r} cannot be written to a file", "Give a number, a text, a list, a Part or a dict.")
 
 
 def _within(value: Any) -> Iterator[Part]:
@@ -394,7 +393,7 @@ def _within(value: Any) -> Iterator[Part]:
 
 def _to_raw(value: Any) -> Any:
     if isinstance(value, File):
-        return ""  # its file's name, once that is known
+        return ""  # name of its file, once known
     if isinstance(value, Part):
         return value._to_raw()
     if isinstance(value, list):

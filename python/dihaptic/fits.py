@@ -1,4 +1,4 @@
-"""Fits models to what people did: the functions of the program's report, for your own arrays."""
+"""Fits models to people's data: the functions of the program's report, for your own arrays."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Fit:
     predicted: npt.NDArray[np.float64] = field(repr=False)  #: in each trial, measured or not
     residual_sd: float  #: standard deviation of the residuals, with n - p in the denominator
     sse: float  #: sum of squared residuals
-    n: int  #: trials that were measured
+    n: int  #: number of measured trials
     intervals: dict[str, Interval] = field(repr=False)  #: 95 % profile intervals, by parameter
 
 
@@ -71,7 +71,7 @@ class LearningCurveFit(Fit):
 
 @dataclass(frozen=True)
 class PsychometricFit:
-    """How the share of "yes" grows with the level; see fit_psychometric().
+    """The share of "yes" as a function of the level; see fit_psychometric().
 
     >>> import dihaptic as dh
     >>> fit = dh.fit_psychometric([1, 2, 3, 4], yes=[1, 3, 8, 10], trials=[10, 10, 10, 10], guess=0)
@@ -85,7 +85,7 @@ class PsychometricFit:
     guess: float
     lapse: float
     deviance: float  #: twice the log likelihood lost to the model with each level's own share
-    shape_unknown: bool  #: the answers cannot tell the shape: it means nothing
+    shape_unknown: bool  #: the answers do not determine the shape, which is then meaningless
     intervals: dict[str, Interval]  #: 95 % profile intervals, by parameter
 
     def probability(self, level: float | Numbers) -> Any:
@@ -100,9 +100,9 @@ def fit_two_rate(
 ) -> TwoRateFit:
     """Fits the two-rate model: a slow and a fast process that learn from the same error.
 
-    `compensation` has what each trial showed of it, NaN where nothing was measured; `perturbation`
-    what acted, in the same unit and with the sign of what compensates for it; `clamp` is true where
-    no error was shown, whatever the person did. The least squares are the global ones within
+    `compensation`: the compensation in each trial, NaN if not measured; `perturbation`: the perturbation that acted, in
+    the same unit and with the sign of the compensation; `clamp`: true if no error was shown, whatever the person did.
+    The least squares are the global ones within
     0 <= A_fast <= A_slow <= 1, 0 <= B_slow <= B_fast <= 1. Raises Error for fewer than five measured
     trials, or arrays of different lengths.
 
@@ -167,10 +167,10 @@ def fit_psychometric(
     """Fits the psychometric function that makes the answers most likely.
 
     Either `answers` has one answer for each of `levels`, or `yes` and `trials` count them by level.
-    `sigmoid`: normal, logistic or weibull. `guess`: the share of "yes" that guessing gives, or
-    "lapse" for questions of more or less, where it is the lapse rate. The lapse rate is fitted
-    within 0 to `max_lapse`. `shape`: if it is known, as it must be after an adaptive procedure,
-    whose levels make the function look steeper than it is. Raises Error for fewer than two levels
+    `sigmoid`: normal, logistic or weibull. `guess`: the share of "yes" by guessing, or "lapse" for "more or less?"
+    questions, where it equals the lapse rate. The lapse rate is fitted
+    within 0 to `max_lapse`. `shape`: the known shape; required after an adaptive procedure, whose levels make the
+    function look steeper than it is. Raises Error for fewer than two levels
     and for impossible counts.
 
     >>> import dihaptic as dh
@@ -183,7 +183,7 @@ def fit_psychometric(
     elif yes is None or trials is None:
         raise error("there are no answers", "Give answers, or yes and trials.")
     elif not len(levels) == len(yes) == len(trials):
-        raise error("levels, yes and trials have different lengths", "Give one of each a level.")
+        raise error("levels, yes and trials have different lengths", "Give one of each per level.")
     else:
         counts = list(zip(_floats(levels), _wholes(yes, "yes"), _wholes(trials, "trials")))
     return PsychometricFit(**_native.fit_psychometric(counts, sigmoid, guess, max_lapse, shape))
@@ -192,7 +192,7 @@ def fit_psychometric(
 def _floats(values: Numbers) -> list[float]:
     out = [float(value) for value in values]
     if any(np.isinf(value) for value in out):
-        raise error("a value is infinite", "Give NaN where nothing was measured.")
+        raise error("a value is infinite", "Give NaN if nothing was measured.")
     return out
 
 

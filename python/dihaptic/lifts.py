@@ -21,13 +21,13 @@ def find_lift(
 ) -> dict[str, Any]:
     """The figures of one lift, with the names and units of lifts.csv (docs/tables.md).
 
-    `grip` and `load` are each digit's normal force and upward tangential force on the object [N]: a
-    row a sample, a column a digit. `height` is the object's [m], at rest at first; `tick` the time
+    `grip` and `load` are each digit's normal force and upward tangential force on the object [N]: one row per sample,
+    one column per digit. `height` is the object's [m], initially at rest; `tick` the time
     between samples [s]; `friction` the coefficient of the object with each digit, for the safety
     margin. Times are in seconds from the first sample. The events are found from the forces alone,
-    by the rules of src/analysis/lifts.h: tens of milliseconds early or late beside those of a
-    session of the program's, which knows its contacts. Figures whose events did not happen are NaN.
-    Raises Error when the arrays do not fit each other.
+    by the rules of src/analysis/lifts.h: they differ by tens of milliseconds from those of a session of the program,
+    which knows its contacts. Figures whose events did not happen are NaN.
+    Raises Error when the arrays do not match.
 
     >>> import dihaptic as dh
     >>> import numpy as np
@@ -41,7 +41,7 @@ def find_lift(
     """
     forces = np.asarray(grip, dtype=float)
     if forces.ndim != 2:
-        raise error("grip has no columns", "Give a row a sample and a column a digit.")
+        raise error("grip has no columns", "Give one row per sample and one column per digit.")
     each = [float(of_one) for of_one in np.broadcast_to(np.asarray(friction, dtype=float), forces.shape[1:])]
     figures: dict[str, Any] = _native.find_lift(
         forces, np.asarray(load, dtype=float), np.asarray(height, dtype=float), tick, each

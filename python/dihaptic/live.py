@@ -32,17 +32,16 @@ class Moment:
     time_s: float  #: session time
     trial_num: int  #: from 1; 0: none
     attempt: int
-    state: str | None = None  #: of the task, or phase; None where an attempt ends
-    outcome: str | None = None  #: where an attempt ends; then there are no values
-    values: dict[str, float | None] = field(default_factory=dict)  #: by expression; None: not measured
+    state: str | None = None  #: the task's state, or phase; None at the end of an attempt
+    outcome: str | None = None  #: outcome at the end of an attempt; then there are no values
+    values: dict[str, float | None] = field(default_factory=dict)  #: values by expression; None: not measured
 
 
 class Live:
     """A running session, as observe() returns it: iterate over it, or steer it.
 
     Moments arrive as they happen. A slow reader misses some, but never the end of an attempt.
-    Steering a session that has just ended has no effect. docs/adr/0022 says why the session never
-    waits.
+    Steering a session that has just ended has no effect. docs/adr/0022 explains why the session never waits.
 
     >>> import threading
     >>> import dihaptic as dh
@@ -66,14 +65,14 @@ class Live:
         self._waiting: list[Moment] = []
         greeting = self._receive()
         if greeting is None:
-            raise error("is over", "Watch one that runs.", file=str(folder))
+            raise error("is over", "Watch a running session.", file=str(folder))
         if "session" not in greeting:
             self._socket.close()
             raise error(str(greeting.get("refused", "is not understood")), "", file=str(folder))
         self.session = folder  #: its folder
-        self.states: list[str] = greeting["states"]  #: of the task, or phases
-        self.outcomes: list[str] = greeting["outcomes"]  #: that attempts at trials can have
-        self.units: dict[str, str] = {}  #: of what is watched, by expression
+        self.states: list[str] = greeting["states"]  #: the task's states, or phases
+        self.outcomes: list[str] = greeting["outcomes"]  #: possible outcomes of attempts
+        self.units: dict[str, str] = {}  #: units of the watched values, by expression
 
     def __enter__(self) -> Live:
         return self
@@ -100,7 +99,7 @@ class Live:
                 yield moment
 
     def watch(self, *expressions: str, every_ms: float = 20) -> None:
-        """Chooses the content of the moments: expressions of what is recorded, as in Session; lengths are in mm."""
+        """Chooses the content of the moments: expressions of recorded quantities, as in Session; lengths are in mm."""
         self._send({"watch": list(expressions), "every_ms": every_ms})
         while (message := self._receive()) is not None:
             if "watching" in message:
@@ -116,14 +115,14 @@ class Live:
         self._send({"key": key})
 
     def trigger(self, code: int) -> None:
-        """Sends a trigger, as if it came in on one of the rig's outlets; `code` from 1 to 255."""
+        """Sends a trigger, as if received on one of the rig's outlets; `code` from 1 to 255."""
         self._send({"trigger": code})
 
     def turn(self, **knobs: float | str | None) -> None:
         """Turns knobs: coupling, stiffness (N/m), damping (N*s/m), smoothing, proxy, friction_scale, solver.
 
-        Changes are eased over 0.2 s where something is held, and are recorded. In a session of the
-        window, only its panel can turn them.
+        Changes take 0.2 s if an object is held, and are recorded. In the window's sessions, only its panel can turn the
+        knobs.
         """
         self._send({"turn": knobs})
 
@@ -132,7 +131,7 @@ class Live:
         self._send({"end": True})
 
     def _send(self, message: dict[str, Any]) -> None:
-        with suppress(ConnectionError):  # it is over, as the next moment would tell
+        with suppress(ConnectionError):  # it is over, as the next moment would show
             self._socket.send(to_json(message).encode())
 
     def _receive(self) -> dict[str, Any] | None:
@@ -150,7 +149,7 @@ class Live:
         if "ended" in message:
             return Moment(message["tick"], message["time_s"], **message["ended"])
         if "values" not in message or len(message["values"]) != len(self._watched):
-            return None  # of what was watched before
+            return None  # values watched before
         values = dict(zip(self._watched, message.pop("values"), strict=True))
         return Moment(**message, values=values)
 
@@ -172,10 +171,10 @@ def _connected(folder: Path) -> socket.socket | None:
     except OSError:
         connection.close()
         return None
-    # root may watch the session of whose folder it is; anybody else only their own
+    # root may watch a session of the folder's owner; other users only their own
     if peer(connection).uid not in {0, os.geteuid() or owner}:
         connection.close()
-        raise error("is answered for by another user's program", "Watch a session of your own.", file=str(folder))
+        raise error("is answered by another user's program", "Watch a session of your own.", file=str(folder))
     return connection
 
 
@@ -195,19 +194,19 @@ def observe(
 ) -> Live:
     """Watches a running session.
 
-    `session`: its folder, or a folder of sessions, of which the newest is taken that runs; for
-    `patience_s` it is waited for. `expressions`: what its moments have, as Live.watch() says. The
-    session may be one of the window, of `dihaptic run` or of run(); a rehearsal cannot be watched.
+    `session`: its folder, or a folder of sessions, of which the newest running one is used; the wait for it lasts up to
+    `patience_s`. `expressions`: the content of its moments, see Live.watch(). The session may come from the window,
+    from `dihaptic run` or from run(); a rehearsal cannot be watched.
 
     >>> import dihaptic as dh
     >>> dh.observe(folder, patience_s=0)
     Traceback (most recent call last):
-    dihaptic.errors.Error: ...has no session that runs. Start one; rehearsals cannot be watched.
+    dihaptic.errors.Error: ...has no running session. Start one; rehearsals cannot be watched.
     """
     end = time.monotonic() + patience_s
     while (found := _running(Path(session))) is None:
         if time.monotonic() > end:
-            raise error("has no session that runs", "Start one; rehearsals cannot be watched.", file=str(session))
+            raise error("has no running session", "Start one; rehearsals cannot be watched.", file=str(session))
         time.sleep(0.02)
     live = Live(*found)
     try:

@@ -18,9 +18,9 @@ Array = npt.NDArray[np.float64]
 
 
 class Seen:
-    """What a person sees and feels in a tick; valid within Person.act() alone.
+    """A person's sight and touch in a tick; valid only within Person.act().
 
-    What is shown may differ from the truth, because it includes perturbations.
+    The display may differ from the truth, because it includes perturbations.
     `seen["block.position"]` gives the truth, by the names of docs/quantities.md, which no person
     could see.
 
@@ -45,7 +45,7 @@ class Seen:
 
     @property
     def attempt(self) -> int:
-        """Number of the attempt at it, from 1."""
+        """Number of the attempt at the trial, from 1."""
         return int(self["attempt"])
 
     @property
@@ -60,19 +60,19 @@ class Seen:
 
     @property
     def fingers(self) -> dict[str, Array]:
-        """Where each finger's handle is shown, in world axes [m]."""
+        """Displayed position of each finger's handle, in world axes [m]."""
         return {name: self._sitting.shown_finger(i) for i, name in enumerate(self._items["fingers"])}
 
     @property
     def targets(self) -> dict[str, Array]:
-        """Where each visible target is, by its region's name, in world axes [m]."""
+        """Position of each visible target, by its region's name, in world axes [m]."""
         return dict(self._sitting.targets())
 
     def body(self, name: str) -> Array | None:
-        """Where a body is shown, in world axes [m]; None while it is hidden. Raises NotThere."""
+        """Displayed position of a body, in world axes [m]; None while it is hidden. Raises NotThere."""
         bodies = self._items["bodies"]
         if name not in bodies:
-            raise NotThere(name, "is no body of the scene", bodies, "")
+            raise NotThere(name, "is not a body of the scene", bodies, "")
         index = bodies.index(name)
         return self._sitting.shown_body(index) if self._sitting.is_shown(index) else None
 
@@ -84,19 +84,19 @@ class Seen:
     def __getitem__(self, name: str) -> Any:
         place = vocabulary.place_of(name, self._items)
         if place is None:
-            raise NotThere(name, "is not there", [], "dihaptic.quantities() lists what there is.")
+            raise NotThere(name, "does not exist", [], "dihaptic.quantities() lists all quantities.")
         value = self._sitting.read(place.of, place.item, place.quantity.name)
         return value if place.component is None else value[place.component]
 
 
 class Person:
-    """A simulated person; derive from it, and give it to run().
+    """A simulated person; derive a class from it, and give an object of it to run().
 
-    act() is called every 10 ms of the session's time (`every`), with what is seen and felt; it
-    leads the fingers, and presses keys. Slow is allowed: the clock is virtual. An exception ends
+    act() is called every 10 ms of the session's time (`every`), with sight and touch; it leads the fingers, and presses
+    keys. It may be slow: the clock is virtual. An exception ends
     the session, whose files are made nevertheless; a note of the exception names its folder.
-    Attributes that are numbers or texts, or None, stand in the session's person.yaml, and are
-    columns of the people of a rehearsal; `group` is that of the tables' second column.
+    Attributes that are numbers, texts or None are written to the session's person.yaml, and become columns in a
+    rehearsal's table of people; `group` fills the tables' second column.
 
     >>> import dihaptic as dh
     >>> class Waits(dh.Person):
@@ -111,26 +111,26 @@ class Person:
     ...     print(why, *why.__notes__, sep="; ")
     that was enough; The session until then: ...first-trials...
 
-    docs/tutorials/own_person.py has one that lifts.
+    docs/tutorials/own_person.py has a person that lifts.
     """
 
     #: Time between two calls of act() [s].
     every: float = 0.01
 
     def act(self, seen: Seen) -> None:
-        """Called to look at what is seen, and to act by lead() and press()."""
+        """Called to observe, and to act by lead() and press()."""
         raise NotImplementedError
 
     def lead(
         self, finger: str, position: Sequence[float] | Array, velocity: Sequence[float] | Array = (0.0, 0.0, 0.0)
     ) -> None:
-        """Leads a finger: sets the point where it should be [m], and its velocity [m/s], in world axes.
+        """Leads a finger: sets its target point [m], and its velocity [m/s], in world axes.
 
         The hand's muscles pull the handle there (the experiment's `hand.impedance`).
         """
         sitting, fingers = self._seat()
         if finger not in fingers:
-            raise NotThere(finger, "is no finger of the scene", fingers, "")
+            raise NotThere(finger, "is not a finger of the scene", fingers, "")
         sitting.lead(fingers.index(finger), position, velocity)
 
     def press(self, key: str) -> None:
@@ -139,7 +139,7 @@ class Person:
 
     def _seat(self) -> tuple[_native.Sitting, list[str]]:
         if "_sitting" not in self.__dict__:
-            raise error("nobody sits at an experiment", "Give the person to run(); act within act().")
+            raise error("the person is not in an experiment", "Give the person to run(); act within act().")
         return self.__dict__["_sitting"], self.__dict__["_fingers"]
 
     def _traits(self, ppid: str) -> str:
@@ -149,7 +149,7 @@ class Person:
         traits = {name: value.item() if isinstance(value, np.generic) else value for name, value in named.items()}
         traits = {name: value for name, value in traits.items() if value is None or isinstance(value, (int, float, str))}
         for name in _TAKEN & traits.keys():
-            raise error("is a column that the people of a rehearsal have already", "Call it otherwise.", key=name)
+            raise error("is already a column in a rehearsal's table of people", "Give it another name.", key=name)
         lines = {"id": ppid, "class": type(self).__name__, **traits}
         return "".join(f"{_yaml(name)}: {_yaml(value)}\n" for name, value in lines.items())
 
@@ -157,9 +157,9 @@ class Person:
         self, sitting: _native.Sitting, out: str | Path, between: str = "", keep_recordings: bool = True
     ) -> Ended:
         if "_sitting" in self.__dict__:
-            raise error("does another session now", "Give each session a person of its own.", key=type(self).__name__)
+            raise error("is doing another session now", "Give each session its own person.", key=type(self).__name__)
         if not 1e-4 <= self.every <= 1:
-            raise error(f"is {self.every}", "Give the time between two looks, 0.0001 to 1 s.", key="every")
+            raise error(f"is {self.every}", "Give the time between two calls, 0.0001 to 1 s.", key="every")
         name, traits = type(self).__name__, self._traits(sitting.participant())
         self.__dict__.update(_sitting=sitting, _fingers=dict(sitting.items())["fingers"])
         seen = Seen(sitting)
@@ -177,7 +177,7 @@ class Person:
         return ended
 
 
-#: Columns that the people of a rehearsal have in any case.
+#: Columns that a rehearsal's table of people always has.
 _TAKEN = frozenset({"id", "class", "seed", "simulated", "moved_by"})
 
 
@@ -196,5 +196,5 @@ class Ended:
     """A finished session that has not been opened."""
 
     folder: str
-    good: bool  #: whether it came to its end, and what was felt is what was planned
-    said: Sequence[str]  #: lines that begin with "WARNING: " or "note: "
+    good: bool  #: whether it was completed, and the felt forces were as planned
+    said: Sequence[str]  #: lines that start with "WARNING: " or "note: "

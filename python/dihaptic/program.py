@@ -1,6 +1,6 @@
 """Runs the program's commands: sessions, reports, checks.
 
-Each runs in a process of its own, so that nothing that Python does can delay a tick.
+Each runs in a separate process, so that Python cannot delay a tick.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ def program() -> str:
     """
     found = _native.program() or shutil.which("dihaptic")
     if not found:
-        raise error("the program dihaptic is not there", "Build it by ./dev build, or install it.")
+        raise error("the program dihaptic is missing", "Build it with ./dev build, or install it.")
     return found
 
 
@@ -50,7 +50,7 @@ def shipped(name: str) -> Path:
     True
     """
     if Path(name).is_absolute() or ".." in Path(name).parts:
-        raise error("is a path of yours", "Name a file such as scenes/block-on-table.yaml.", file=name)
+        raise error("is a path of your own", "Name a file such as scenes/block-on-table.yaml.", file=name)
     found = Path(_native.kept(name))
     if not found.is_file():
         raise error("does not come with the program", "See its folders scenes, rigs and experiments.", file=name)
@@ -76,12 +76,11 @@ def run(
     """Runs a scene or an experiment, a file or an object, as `dihaptic run` does; opens its session.
 
     `simulate`: a simulated person on simulated devices does the trials, drawn from `population`.
-    `clock`: real or virtual, as fast as it can be; left out, real with real devices alone. `between`:
-    decides between trials. `person`: a simulated one of your own does them, in this process. With
-    real devices, what the command prints and asks is printed and asked here, and Escape and Ctrl-C
-    switch force off. A session that was interrupted, or whose force went off, is returned too, with a
-    warning that says why. Ctrl-C ends the session in order, and is raised again once its files are
-    made. Raises Error for whatever is wrong with the files.
+    `clock`: real or virtual, as fast as possible; default: real only with real devices. `between`: decides between
+    trials. `person`: your own simulated person does them, in this process. With real devices, the command's output and
+    questions appear here, and Escape and Ctrl-C switch force off. A session that was interrupted, or whose force was
+    switched off, is returned too, with a warning that gives the reason. Ctrl-C ends the session properly, and is raised
+    again once its files are made. Raises Error for any fault in the files.
 
     >>> import dihaptic as dh
     >>> session = dh.run("experiments/lift-block.yaml", out=folder, progress=False)
@@ -126,7 +125,7 @@ def resume(session: Session | str | Path, *, progress: bool = True) -> Session:
 def replay(session: Session | str | Path, *, progress: bool = True) -> bool:
     """Whether a session's forces, computed again from its devices' readings, are the same to the bit.
 
-    If they are not, or the session is of another version or damaged, a warning says what differs.
+    If they are not, or if the session comes from another version or is damaged, a warning describes the difference.
 
     >>> import dihaptic as dh
     >>> dh.replay(lift_session, progress=False)
@@ -163,8 +162,7 @@ def report(session: Session | str | Path, *, progress: bool = True) -> Path:
 
 
 def check(*files: Input, rig: Input = "") -> list[Problem]:
-    """What `dihaptic check` finds in files or objects: a list of errors and warnings, empty if all
-    is well.
+    """The findings of `dihaptic check` in files or objects: a list of errors and warnings, empty if there are none.
 
     >>> import dihaptic as dh
     >>> dh.check("scenes/block-on-table.yaml", "experiments/first-trials.yaml")
@@ -178,7 +176,7 @@ def _setting(value: Any) -> Any:
 
 
 class _Answer:
-    """The output of a command, and how it ended."""
+    """The output of a command, and its exit."""
 
     def __init__(self, code: int, output: list[str], said: list[str]) -> None:
         self.code = code
@@ -187,8 +185,8 @@ class _Answer:
 
 
 def call(command: Sequence[str], progress: bool, echo: bool = False) -> _Answer:
-    """Runs a command to its end. Raises Error when its input was bad. `echo`: with what it prints,
-    since with real devices it asks, and tells how to switch force off."""
+    """Runs a command to its end. Raises Error when its input was bad. `echo`: shows its output, since with real devices
+    it asks questions, and explains how to switch force off."""
     with subprocess.Popen(
         [program(), *command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace"
     ) as process:
@@ -199,7 +197,7 @@ def call(command: Sequence[str], progress: bool, echo: bool = False) -> _Answer:
         try:
             output = _read(process.stdout, echo)
         except KeyboardInterrupt:
-            # it ends in order, with its files made, and force off
+            # it ends properly, with its files made, and force off
             process.send_signal(signal.SIGINT)
             process.stdout.read()
             raise
@@ -210,7 +208,7 @@ def call(command: Sequence[str], progress: bool, echo: bool = False) -> _Answer:
     if process.returncode < 0:
         raise error(
             f"dihaptic {command[0]} was ended by signal {-process.returncode}",
-            "What it had recorded stays in its folder: recover() makes a session of it.",
+            "Its recording stays in its folder: recover() makes a session from it.",
         )
     return _Answer(process.returncode, output, said)
 
@@ -230,7 +228,7 @@ def _watch(stream: IO[str], said: list[str], progress: bool) -> None:
     shown = False
     for line in stream:
         at = _PROGRESS.match(line)
-        if line.startswith("waiting: "):  # may last, so it is told at once
+        if line.startswith("waiting: "):  # may last long, so it is shown at once
             sys.stderr.write(line)
             sys.stderr.flush()
         elif at is None:
@@ -264,7 +262,7 @@ def _problem_of_option(lines: Sequence[str]) -> Problem:
 
 
 def ended_of(answer: _Answer) -> Ended:
-    """How a command's session ended. Raises Error when there is none."""
+    """The end of a command's session. Raises Error when there is none."""
     folder = next((line[len("session: ") :] for line in answer.output if line.startswith("session: ")), None)
     if folder is None:
         raise error("\n".join(answer.said + answer.output), "")
@@ -273,7 +271,7 @@ def ended_of(answer: _Answer) -> Ended:
 
 
 def _open(ended: Ended) -> Session:
-    """Opens a session; anything unplanned becomes a warning at the call of run() or resume()."""
+    """Opens a session; any deviation becomes a warning at the call of run() or resume()."""
     if not ended.good or any(line.startswith("WARNING: ") for line in ended.said):
         warnings.warn("\n".join(ended.said) or f"see {ended.folder}", stacklevel=3)
     return Session(ended.folder)
@@ -281,10 +279,10 @@ def _open(ended: Ended) -> Session:
 
 def _check_person(person: object, alone: bool) -> None:
     if not isinstance(person, Person):
-        raise error(f"{person!r} is nobody", "Give an object of a class that derives from Person.")
+        raise error(f"{person!r} is not a person", "Give an object of a class that derives from Person.")
     if not alone:
         raise error(
-            "a person of one's own does the trials alone, on the virtual clock",
+            "your own person does the trials alone, on the virtual clock",
             "Leave out simulate, population, movement and clock.",
         )
 

@@ -34,7 +34,7 @@ class Rehearsal:
 
     @property
     def tables(self) -> list[str]:
-        """Names of the tables that were collected, without their .csv."""
+        """Names of the collected tables, without .csv."""
         return sorted(path.stem for path in self.folder.glob("*.csv"))
 
     def table(self, name: str) -> pd.DataFrame:
@@ -42,12 +42,12 @@ class Rehearsal:
         if not self.tables:
             raise error("has no tables yet", f"Type dihaptic collect {shlex.quote(str(self.folder))}.", file=str(self.folder))
         if name not in self.tables:
-            raise NotThere(name, "is no table of this rehearsal", self.tables, "Rehearsal.tables lists them.")
+            raise NotThere(name, "is not a table of this rehearsal", self.tables, "Rehearsal.tables lists them.")
         return read_table(self.folder / f"{name}.csv")
 
     @property
     def trials(self) -> pd.DataFrame:
-        """A row for each attempt of each person."""
+        """One row for each attempt of each person."""
         return self.table("trials")
 
     @property

@@ -44,15 +44,14 @@ def rehearse(
     keep_recordings: bool = False,
     progress: bool = True,
 ) -> Rehearsal:
-    """Lets simulated people do an experiment, as `dihaptic rehearse` does, and collects their tables.
+    """Lets simulated people do an experiment, like `dihaptic rehearse`, and collects their tables.
 
     People who are already in the folder are not done again. The tables do not depend on `jobs`.
-    `person`: makes a simulated person of your own, by number, from 1; otherwise they are drawn from
-    `population`. `between`: makes what decides between a person's trials. What these draw from
-    `random` and `numpy.random` follows `seed` and the number; a generator of your own is to be made
-    from the number too, since people may be done in processes of their own. What one of these
-    raises ends the rehearsal, and so does a decision that cannot be; those who were done before
-    stay. `keep_recordings`: with raw.log and session.nwb of each, hundreds of MB. Raises Error.
+    `person`: makes your own simulated person, by number, from 1; default: people are drawn from `population`.
+    `between`: makes the rules that decide between a person's trials. Random numbers that these draw from `random` and
+    `numpy.random` depend on `seed` and the number; your own generator must be made from the number too, since people
+    may be done in separate processes. An exception in one of these ends the rehearsal, and so does an invalid decision;
+    people done before stay. `keep_recordings`: also keeps each raw.log and session.nwb, hundreds of MB. Raises Error.
 
     >>> import dihaptic as dh
     >>> study = dh.rehearse("experiments/first-trials.yaml", 2, out=f"{folder}/study", progress=False)
@@ -83,7 +82,7 @@ def rehearse(
 
 @dataclass(frozen=True)
 class _Study:
-    """A rehearsal with people, or with decisions between trials, that are written in Python."""
+    """A rehearsal with people, or decisions between trials, written in Python."""
 
     file: str
     folder: Path
@@ -108,7 +107,7 @@ class _Study:
         with self._drawing(1):
             person, rules = _made(self.person, 1, Person), _made(self.between, 1, BetweenTrials)
             if person is not None and people > 1 and _made(self.person, 2, Person) is person:
-                raise error("is one object for all", "Make a person for each number.", key="person")
+                raise error("is one object for all people", "Make a person for each number.", key="person")
         try:
             self.folder.mkdir(parents=True, exist_ok=True)
         except OSError as why:
@@ -119,7 +118,7 @@ class _Study:
         )
 
     def run(self, people: int, jobs: int, progress: bool) -> None:
-        """Lets everybody who has not yet done the experiment do it."""
+        """Runs everyone who has not yet done the experiment."""
         waiting = [n for n in range(1, people + 1) if not (self.folder / _native.person_id(n)).exists()]
         done = 0
 
@@ -140,8 +139,8 @@ class _Study:
             sys.stderr.write("\r" + " " * 40 + "\r")
 
     def _in_processes(self, waiting: list[int], jobs: int, tell: Callable[[], None]) -> None:
-        """A process for each person, so many at a time; the first that fails is the last that begins."""
-        fork = multiprocessing.get_context("fork")  # classes of a notebook are there, too
+        """A process for each person, with a limited number at a time; after the first failure no more are started."""
+        fork = multiprocessing.get_context("fork")  # classes defined in a notebook exist there, too
         running: dict[Connection, ForkProcess] = {}
         failed: BaseException | None = None
         numbers = iter(waiting)
@@ -167,7 +166,7 @@ class _Study:
                         tell()
                     elif failed is None:
                         failed = why
-        except BaseException:  # Ctrl-C: each ends its session in order
+        except BaseException:  # Ctrl-C: each process ends its session properly
             for process in running.values():
                 os.kill(process.pid or 0, signal.SIGINT)
             for process in running.values():
@@ -177,7 +176,7 @@ class _Study:
             raise failed
 
     def _child(self, number: int, answer: Connection) -> None:
-        # a parent that is killed leaves nobody behind
+        # a killed parent leaves no process behind
         ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGTERM)
         why = None
         try:
@@ -189,7 +188,7 @@ class _Study:
 
     @contextlib.contextmanager
     def _drawing(self, number: int) -> Iterator[None]:
-        """Random numbers drawn here are a person's own; those that the caller draws later are not affected."""
+        """Random numbers drawn here are a person's own, without effect on the caller's later draws."""
         before, of_numpy = random.getstate(), np.random.get_state()
         random.seed(f"{self.seed} {number}")
         np.random.seed([self.seed & 0xFFFFFFFF, self.seed >> 32, number])
@@ -203,8 +202,8 @@ class _Study:
         ppid = _native.person_id(number)
         place = _native.UnfinishedFolder.take(str(self.folder), ppid)
         if place is None:
-            raise error("another program does this session now", "Wait until that has ended.", key=ppid)
-        if not place.is_done():  # another program may have done it just now
+            raise error("another program is doing this session now", "Wait until it has ended.", key=ppid)
+        if not place.is_done():  # another program may have just done it
             with self._drawing(number):
                 self._record(number, ppid, place)
         place.remove()
@@ -239,12 +238,12 @@ Made = TypeVar("Made", Person, BetweenTrials)
 
 
 def _made(make: Callable[[int], Made] | None, number: int, kind: type[Made]) -> Made | None:
-    """What a function given to rehearse() made for a person, if there is one. Raises Error."""
+    """The object that a function given to rehearse() made for a person, if any. Raises Error."""
     if make is None:
         return None
     it = make(number)
     if not isinstance(it, kind):
-        raise error(f"{it!r} is none", "Give a function of a number that returns one.", key=kind.__name__)
+        raise error(f"{it!r} is not one", "Give a function of a number that returns one.", key=kind.__name__)
     return it
 
 

@@ -1,4 +1,4 @@
-"""Reads a recorded session: its tables, and the quantities that it recorded tick by tick."""
+"""Reads a recorded session: its tables, and its quantities, recorded tick by tick."""
 
 from __future__ import annotations
 
@@ -27,10 +27,10 @@ if TYPE_CHECKING:
 
 
 def load(folder: str | Path) -> Session:
-    """Opens a session by its folder, or by a file in it. Nothing is read before it is asked for.
+    """Opens a session by its folder, or by a file in it. Data are read only on request.
 
     Raises Error when it is not a session. A session that is still running, or was killed, has no
-    session.nwb yet: asking it for a quantity raises Error, too.
+    session.nwb yet: requesting a quantity raises Error, too.
 
     >>> import dihaptic as dh
     >>> session = dh.load(lift_session)
@@ -44,7 +44,7 @@ class Session:
     """A recorded session.
 
     Tables are pandas' (`trials`, `lifts`, `events`, ...), quantities are numpy arrays by their
-    names in docs/quantities.md: `session["grip_force"]` of what a tick has once,
+    names in docs/quantities.md: `session["grip_force"]` for a quantity of the whole tick,
     `session["block.position"]` or `session["thumb.force_sent"]` of a body, joint or finger,
     `session["block.position.z"]` of one component, `session["contacts"]` of a list. All are in SI
     units; vectors in the world's axes have the columns x, y, z, quaternions w, x, y, z.
@@ -62,8 +62,8 @@ class Session:
         self.folder = path if path.is_dir() else path.parent
         if not (self.folder / "session.yaml").is_file():
             raise error(
-                "is no session: it has no session.yaml",
-                "Name a folder that dihaptic made.",
+                "is not a session: it has no session.yaml",
+                "Name a folder made by dihaptic.",
                 file=str(folder),
             )
 
@@ -73,11 +73,11 @@ class Session:
     def __repr__(self) -> str:
         return f"<Session {self.folder.name}: {self.info.get('title', '')}, {self.info.get('state', '')}>"
 
-    # What it is made of
+    # Contents
 
     @cached_property
     def info(self) -> dict[str, Any]:
-        """The content of session.yaml: who, when, with what, and how it ended.
+        """The content of session.yaml: participant, time, inputs, and end.
 
         >>> import dihaptic as dh
         >>> dh.load(lift_session).info["state"]
@@ -110,7 +110,7 @@ class Session:
         log = self.folder / "raw.log"
         if log.exists():
             return read_head(log)
-        # it may have stayed behind: it is the largest file
+        # it may not have been copied, as the largest file
         return head_of_nwb(self._file) or read_head(log)
 
     # Tables
@@ -136,7 +136,7 @@ class Session:
         """
         file = self.folder / f"{name}.csv"
         if not file.is_file():
-            raise NotThere(name, "is no table of this session", self.tables, "Session.tables lists them.")
+            raise NotThere(name, "is not a table of this session", self.tables, "Session.tables lists them.")
         self._tell_changes(file)
         return read_table(file)
 
@@ -144,7 +144,7 @@ class Session:
         """Warns of a table that changed since the session ended."""
         try:
             info = self.info
-        except Error:  # its other readers refuse it
+        except Error:  # other readers refuse it
             return
         for what in broken_seals(self.folder, info, file.name):
             warnings.warn(what, stacklevel=3)
@@ -178,13 +178,13 @@ class Session:
 
     @cached_property
     def t(self) -> Array:
-        """Times of all ticks, since activation [s]: of each row of what a tick has once."""
+        """Times of all ticks, since activation [s]: one for each row of a quantity of the whole tick."""
         return self._times(self._series("sequence"))
 
     def __getitem__(self, name: str) -> Any:
         """A quantity as a numpy array, or a list such as "contacts" as a pandas table.
 
-        Reads it from the disk; keep the result rather than ask twice. Raises NotThere.
+        Reads it from the disk; keep the result rather than request it twice. Raises NotThere.
         """
         if name in vocabulary.lists():
             return self._list(name)
@@ -197,9 +197,9 @@ class Session:
         return values
 
     def exact(self, name: str) -> Array:
-        """A quantity with all its bits, from raw.log: session.nwb keeps numbers that are not whole
-        in 32 bits, 7 digits. Reads the whole log, about two seconds for a quarter of an hour, and
-        takes the whole package. Raises NotThere, or Error if the log is shorter than session.nwb.
+        """A quantity with all its bits, from raw.log: session.nwb stores non-integers in 32 bits, 7 digits. Reads the
+        whole log, in about two seconds for a quarter of an hour, and requires the whole package. Raises NotThere, or
+        Error if the log is shorter than session.nwb.
 
         >>> import dihaptic as dh
         >>> session = dh.load(lift_session)
@@ -217,7 +217,7 @@ class Session:
         if len(out) != len(self.t):
             raise error(
                 f"raw.log has {len(out)} ticks, session.nwb {len(self.t)}",
-                "Make session.nwb anew: dihaptic.recover().",
+                "Rebuild session.nwb: dihaptic.recover().",
                 file=str(self.folder),
             )
         return out if place.component is None else out[:, place.component]
@@ -236,7 +236,7 @@ class Session:
         return iter(self.keys())
 
     def keys(self) -> list[str]:
-        """Names of everything that was recorded, lists included.
+        """Names of all recorded quantities, lists included.
 
         >>> import dihaptic as dh
         >>> [name for name in dh.load(lift_session).keys() if name.startswith("block.")][:2]
@@ -254,7 +254,7 @@ class Session:
 
     @property
     def quantities(self) -> pd.DataFrame:
-        """A table of everything that was recorded: name, unit, frame, columns, meaning.
+        """A table of all recorded quantities: name, unit, frame, columns, meaning.
 
         >>> import dihaptic as dh
         >>> dh.load(lift_session).quantities.loc["block.position", "unit"]
@@ -311,8 +311,8 @@ class Session:
         file = self.folder / "session.nwb"
         if not file.is_file():
             raise error(
-                "has no session.nwb: the session still runs, or was killed",
-                "If it does not run, make its files: dihaptic.recover(), or dihaptic recover.",
+                "has no session.nwb: the session is still running, or was killed",
+                "If it is not running, make its files: dihaptic.recover(), or dihaptic recover.",
                 file=str(self.folder),
             )
         try:
@@ -323,8 +323,8 @@ class Session:
         if leads_out:
             opened.close()
             raise error(
-                f"has {leads_out[0]} in another file, where HDF5 would read without asking",
-                "No session of Dihaptic has that: look where it comes from. dihaptic recover makes it anew.",
+                f"has {leads_out[0]} in another file, which HDF5 would read without asking",
+                "No session of Dihaptic has that: check its source. 'dihaptic recover' rebuilds it.",
                 file=str(file),
             )
         return opened
@@ -349,14 +349,14 @@ class Session:
     def _place_of(self, name: str) -> vocabulary.Place:
         if name in vocabulary.lists():
             raise error("is a list, not a quantity", f'Its columns are session["{name}"].', key=name)
-        # who the fingers and bodies are matters for the other names alone
+        # the fingers and bodies matter only for other names
         place = vocabulary.place_of(name, {} if vocabulary.find(name) else self._items)
         if place is None:
             raise NotThere(name, "is not recorded", self.keys(), "Session.quantities lists them.")
         return place
 
     def _find(self, name: str) -> tuple[str, int | None]:
-        """The series of a name, and the column of its component, if it names one."""
+        """The series for a name, and the column of its component, if it names one."""
         place = self._place_of(name)
         term = place.quantity.name
         series = f"{self._items[place.of][place.item]}_{term}" if place.of else term
@@ -372,7 +372,7 @@ class Session:
         series = self._series(group)
         if "colnames" in series.attrs:
             return pd.DataFrame({column: series[column][...] for column in series.attrs["colnames"]})
-        # of versions before 0.3, a series
+        # from versions before 0.3: a series
         rows = series["data"][...].reshape(len(series["data"]), -1)
         table = pd.DataFrame(rows, columns=columns[: rows.shape[1]])
         table.insert(0, "time", self._times(series))
@@ -380,7 +380,7 @@ class Session:
 
 
 def _what_leads_out(file: h5py.File) -> list[str]:
-    """The names whose content is in another file: links, data sets with external raw data, virtual data sets."""
+    """Names with content in another file: links, data sets with external raw data, virtual data sets."""
     out = []
 
     def look(group: h5py.Group) -> None:
@@ -402,7 +402,7 @@ def _what_leads_out(file: h5py.File) -> list[str]:
 def _damaged(folder: Path, why: Exception) -> Error:
     return error(
         f"session.nwb is damaged: {why}",
-        "Make it anew from raw.log: dihaptic.recover(), or dihaptic recover.",
+        "Rebuild it from raw.log: dihaptic.recover(), or dihaptic recover.",
         file=str(folder),
     )
 

@@ -1,4 +1,4 @@
-"""Reads the tables that the program writes, with the units of their columns."""
+"""Reads the program's tables, with the units of their columns."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import pandas as pd
 from ._facts import facts
 from .errors import error
 
-#: Columns that stand for yes and no.
+#: Columns with yes and no.
 _YES = {"yes": True, "no": False}
 
 
@@ -47,5 +47,5 @@ def _unit_of(column: str) -> str:
     none."""
     units: dict[str, str] = facts()["units"]
     parts = str(column).split("_")
-    # the longest that fits: N_s, and not s
+    # the longest match: N_s, not s
     return next((units[end] for i in range(1, len(parts)) if (end := "_".join(parts[i:])) in units), "")

@@ -1,4 +1,4 @@
-"""What each tick records: the names, units and meanings of docs/quantities.md."""
+"""The quantities recorded in each tick: the names, units and meanings in docs/quantities.md."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ _COMPONENTS = {"float64[3]": "xyz", "float64[4] (x, y, z, w)": "wxyz"}
 
 @dataclass(frozen=True)
 class Quantity:
-    """A quantity of the record, as docs/quantities.md lists it.
+    """A quantity of the record, as listed in docs/quantities.md.
 
     >>> import dihaptic as dh
     >>> dh.quantity("block.position").unit
     'm'
     """
 
-    of: str  #: the list that it is of: "fingers", "bodies", "contacts"; "": a tick has it once
+    of: str  #: its list: "fingers", "bodies", "contacts"; "": once per tick
     name: str
     type: str  #: "float64", "float64[3]", "int32", ...
     unit: str  #: in SI; "1": a pure number
@@ -53,7 +53,7 @@ for _quantity in _ALL:
 
 
 def of_list(name: str) -> list[Quantity]:
-    """The quantities of a list, in their order; for "", those that a tick has once."""
+    """The quantities of a list, in order; for "", those that occur once per tick."""
     return list(_BY_LIST.get(name, {}).values())
 
 
@@ -62,23 +62,23 @@ def find(name: str, list_name: str = "") -> Quantity | None:
     return _BY_LIST.get(list_name, {}).get(name)
 
 
-#: Of each list whose items have names: these, in their order.
+#: For each list whose items have names: these names, in order.
 Items = dict[str, list[str]]
 
 
 @dataclass(frozen=True)
 class Place:
-    """Where a quantity is: in which list, of which item, and which of its components."""
+    """The location of a quantity: its list, its item, and its component."""
 
-    of: str  #: the list; "": a tick has it once
+    of: str  #: the list; "": once per tick
     item: int
     quantity: Quantity
     component: int | None  #: None: all of them
 
 
 def place_of(name: str, items: Items) -> Place | None:
-    """The place of a name such as "grip_force", "thumb.force_sent" or "block.position.z", given the
-    names of the items of each list; None if nothing is called so."""
+    """The location for a name such as "grip_force", "thumb.force_sent" or "block.position.z", given the names of the
+    items of each list; None if the name does not exist."""
     once = find(name)
     if once is not None:
         return Place("", 0, once, None)
@@ -117,7 +117,7 @@ def quantity(name: str) -> Quantity:
     else:
         found = next((q for q in (find(last, of) for of in NAMED_LISTS) if q is not None), None)
     if found is None:
-        raise NotThere(name, "is no quantity", [q.name for q in _ALL], "quantities() lists them.")
+        raise NotThere(name, "is not a quantity", [q.name for q in _ALL], "quantities() lists them.")
     return found
 
 

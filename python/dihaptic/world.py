@@ -23,10 +23,9 @@ class World:
     """A scene with simulated devices that a simulated hand holds.
 
     `file` is a scene, or an experiment without trials, as a file or an object; `rig` one of simulated devices, ideal ones if
-    left out; `settings` such as {"coupling.stiffness_N_m": 600}. Until a finger is led, it goes where
-    the scene's own hand goes, and each tick is the one that `dihaptic run` would do, to the bit.
-
-    Raises Error for whatever `dihaptic check` finds wrong.
+    left out; `settings` such as {"coupling.stiffness_N_m": 600}. Until a finger is led, it follows the scene's own
+    hand, and each tick is identical to the bit to that of `dihaptic run`. Raises Error for every fault that `dihaptic
+    check` finds.
 
     >>> import dihaptic as dh
     >>> world = dh.World("scenes/block-on-table.yaml")
@@ -69,13 +68,12 @@ class World:
         return float(self._world.duration())
 
     def step(self, ticks: int = 1, director: Callable[[World], None] | None = None) -> None:
-        """Does some ticks; a director is called in each, before the world moves.
+        """Performs ticks; a director is called in each, before the world moves.
 
-        What a director orders (leads, pushes, places, scales) acts in the same tick; a finger's lead
-        in the next, since the devices have been read by then. What it reads is of the tick before,
-        so there must have been one. Its exceptions end the step. Raises Error once force is off,
-        because something was not safe: a finger, for instance, was led farther at once than a hand
-        can go. Lead it in steps, with their velocity.
+        A director's orders (pushes, places, scales) act in the same tick; a finger's lead acts in the next one, since
+        the devices have already been read. A director reads the previous tick, so there must be one. Its exceptions end
+        the step. Raises Error once force has been switched off for safety: for instance, because a finger was led
+        farther at once than a hand can move. Lead it in steps, with their velocity.
 
         >>> import dihaptic as dh
         >>> world = dh.World("scenes/block-on-table.yaml")
@@ -102,7 +100,7 @@ class World:
         self._world.begin()
 
     def __getitem__(self, name: str) -> Any:
-        """A quantity of the last tick, by the names that a Session has: "grip_force",
+        """A quantity of the last tick, by the names used in a Session: "grip_force",
         "block.position", "thumb.force_sent"; a list such as "contacts" as a pandas table.
         Raises NotThere.
         """
@@ -112,7 +110,7 @@ class World:
         place = vocabulary.place_of(name, self._items)
         if place is None:
             known = [q.name for q in vocabulary.of_list("")]
-            raise NotThere(name, "is not there", known, "dihaptic.quantities() lists what there is.")
+            raise NotThere(name, "does not exist", known, "dihaptic.quantities() lists all quantities.")
         value = self._world.read(place.of, place.item, place.quantity.name)
         return value if place.component is None else value[place.component]
 
@@ -121,7 +119,7 @@ class World:
 
 
 class Finger:
-    """A finger of a world: its device's handle, and its proxy, which stands for it in the world.
+    """A finger of a world: its device's handle, and its proxy, which represents it in the world.
 
     >>> import dihaptic as dh
     >>> world = dh.World("scenes/block-on-table.yaml")
@@ -165,11 +163,11 @@ class Finger:
         velocity: Sequence[float] | Array = _STILL,
         orientation: Sequence[float] | Array | None = None,
     ) -> None:
-        """Leads the finger from the next tick on, until something else is said.
+        """Leads the finger from the next tick on, until the next order.
 
-        `position` [m] and `velocity` [m/s] are those of the point where it should be, in world
-        axes: the hand's muscles pull the handle there (the scene's `hand.impedance`), so that what
-        it presses on keeps it away. `orientation`: unit quaternion w, x, y, z.
+        `position` [m] and `velocity` [m/s] are those of its target point, in world axes: the hand's muscles pull the
+        handle there (the scene's `hand.impedance`), so that a body that it presses on can keep it away. `orientation`:
+        unit quaternion w, x, y, z.
 
         >>> import dihaptic as dh
         >>> world = dh.World("scenes/block-on-table.yaml")
@@ -233,15 +231,15 @@ class Body:
         velocity: Sequence[float] | Array = _STILL,
         angular_velocity: Sequence[float] | Array = _STILL,
     ) -> None:
-        """Puts it somewhere in the next tick: position [m], unit quaternion w, x, y, z, velocities
-        [m/s, rad/s], all in world axes."""
+        """Places it in the next tick: position [m], unit quaternion w, x, y, z, velocities [m/s, rad/s], all in world
+        axes."""
         self._world._world.place(self._index, position, orientation, velocity, angular_velocity)
 
     def push(
         self, force: Sequence[float] | Array = _STILL, torque: Sequence[float] | Array = _STILL
     ) -> None:
-        """Pushes at its centre of mass in every tick from now on [N, N*m, world axes], until another
-        push; without arguments, no more."""
+        """Pushes at its centre of mass in every tick from now on [N, N*m, world axes], until another push; without
+        arguments, the push ends."""
         self._world._world.push(self._index, force, torque)
 
     def scale(
@@ -253,14 +251,14 @@ class Body:
         friction: float = 1.0,
     ) -> None:
         """Scales its inertia (by one factor, or one for each of the world's axes), weight, moments of
-        inertia and friction from now on; without arguments, they are the scene's again. A body of
+        inertia and friction from now on; without arguments, they return to the scene's values. A body of
         twice the density has mass=2, weight=2, turning=2."""
         axes = np.broadcast_to(np.asarray(mass, dtype=float), 3)
         self._world._world.scale(self._index, axes, weight, turning, friction)
 
 
 def step_all(worlds: Iterable[World], ticks: int = 1, jobs: int | None = None) -> list[bool]:
-    """Steps many worlds side by side, on all processors, and returns which of them still continue.
+    """Steps many worlds side by side, on all processors, and returns a flag for each that continues.
 
     >>> import dihaptic as dh
     >>> worlds = [dh.World("scenes/block-on-table.yaml", seed=seed) for seed in range(1, 4)]

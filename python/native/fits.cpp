@@ -46,20 +46,20 @@ py::dict curve(const Fit& fit, const std::vector<double>& measured) {
 std::vector<model::AdaptationTrial> trials(const std::vector<double>& perturbation,
                                            const std::vector<bool>& clamp) {
     if (perturbation.size() != clamp.size())
-        throw Error("perturbation and clamp have different lengths", "Give one of each a trial.");
+        throw Error("perturbation and clamp have different lengths", "Give one of each per trial.");
     std::vector<model::AdaptationTrial> out;
     for (size_t i = 0; i < perturbation.size(); ++i) {
         if (!clamp[i] && !std::isfinite(perturbation[i])) {
-            throw Error({}, "perturbation", "is no number in a trial that is no clamp",
-                        "Give what the trial showed, 0 for none.");
+            throw Error({}, "perturbation", "is not a number in a trial that is not a clamp",
+                        "Give the perturbation in the trial, 0 for none.");
         }
         out.push_back({clamp[i] ? 0 : perturbation[i], clamp[i]});
     }
     const bool any = std::any_of(out.begin(), out.end(),
                                  [](const auto& trial) { return trial.perturbation != 0; });
     if (!any) {
-        throw Error({}, "perturbation", "is 0 in all trials: nothing was to be learned",
-                    "Give what the trials showed.");
+        throw Error({}, "perturbation", "is 0 in all trials: there was nothing to learn",
+                    "Give the perturbations in the trials.");
     }
     return out;
 }
@@ -84,7 +84,7 @@ model::Sigmoid sigmoid_of(const std::string& word) {
     if (found == names.end()) {
         std::string known;
         for (const char* name : names) known += std::string(known.empty() ? "" : ", ") + name;
-        throw Error({}, "sigmoid", "is '" + word + "'", "Those that there are: " + known + ".");
+        throw Error({}, "sigmoid", "is '" + word + "'", "Valid names: " + known + ".");
     }
     return static_cast<model::Sigmoid>(found - names.begin());
 }
@@ -107,8 +107,8 @@ analysis::PsychometricFitSettings settings_of(const std::string& sigmoid,
     out.sigmoid = sigmoid_of(sigmoid);
     if (const double* const rate = std::get_if<double>(&guess)) {
         if (!(*rate >= 0 && *rate < 1))
-            throw Error({}, "guess", "is no probability below 1",
-                        "Give 0 for yes or no questions.");
+            throw Error({}, "guess", "is not a probability below 1",
+                        "Give 0 for yes-or-no questions.");
         out.guess = *rate;
     } else if (std::get<std::string>(guess) == "lapse") {
         out.guess_is_lapse = true;

@@ -1,4 +1,4 @@
-// FrameValue and FrameRows read what a frame has, by name, as numbers and arrays for Python.
+// FrameValue and FrameRows read a frame's values, by name, as numbers and arrays for Python.
 #pragma once
 
 #include <pybind11/eigen.h>
@@ -15,7 +15,7 @@
 
 namespace dihaptic::python {
 
-/// Numbers of Python's, of whatever type they are there.
+/// Numbers from Python, of any type.
 using Array = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
 /// One value of a frame, by its list ("": the tick itself), the item in it, and its name.

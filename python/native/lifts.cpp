@@ -15,8 +15,8 @@ namespace py = pybind11;
 namespace dihaptic::python {
 namespace {
 
-/// A frame that holds what forces and heights tell of a tick, and nothing else: each digit presses
-/// the object along x, and carries it along z.
+/// A frame with only the forces and heights of a tick: each digit presses the object along x, and
+/// carries it along z.
 class Forces {
   public:
     Forces(const Array& grip, const Array& load, const Array& height, double tick)
@@ -54,20 +54,22 @@ class Forces {
 void check_shapes(const Array& grip, const Array& load, const Array& height, size_t digits) {
     if (grip.ndim() != 2 || load.ndim() != 2 || grip.shape(0) != load.shape(0) ||
         grip.shape(1) != load.shape(1) || height.ndim() != 1 || height.shape(0) != grip.shape(0)) {
-        throw Error("the arrays do not fit each other",
-                    "Give grip and load a row a sample and a column a digit, and height a value a "
-                    "sample.");
+        throw Error("the arrays do not match",
+                    "Give grip and load with one row per sample and one column per digit, and "
+                    "height with one value per sample.");
     }
     if (grip.size() == 0)
-        throw Error("there is no sample, or no digit", "Give a row a sample and a column a digit.");
+        throw Error("there is no sample, or no digit",
+                    "Give one row per sample and one column per digit.");
     if (digits != static_cast<size_t>(grip.shape(1)))
-        throw Error({}, "friction", "has another length than there are digits", "One for each.");
+        throw Error({}, "friction", "has a length that differs from the number of digits",
+                    "Give one for each digit.");
 }
 
 void check_numbers(const Array& values) {
     if (!std::all_of(values.data(), values.data() + values.size(),
                      [](double x) { return std::isfinite(x); }))
-        throw Error("a force or a height is no number", "Cut the trial to what was measured.");
+        throw Error("a force or a height is not a number", "Cut the trial to the measured part.");
 }
 
 py::dict find_lift(const Array& grip, const Array& load, const Array& height, double tick,

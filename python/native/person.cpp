@@ -23,8 +23,8 @@ namespace py = pybind11;
 namespace dihaptic::python {
 namespace {
 
-/// Calls a Python function every so many ticks with what the last tick shows, and moves the fingers
-/// where it led them last.
+/// Calls a Python function at a fixed interval of ticks with the display of the last tick, and
+/// moves the fingers to their last targets.
 class PythonHand : public task::SeeingDriver {
   public:
     PythonHand(const session::Plan& plan, py::function act, int every, std::atomic<bool>& stop)
@@ -51,7 +51,7 @@ class PythonHand : public task::SeeingDriver {
 
     const frame::Frame& frame() const {
         if (frame_ != nullptr) return *frame_;
-        throw Error("nothing is seen now", "Look within act().");
+        throw Error("nothing can be seen now", "Look within act().");
     }
 
     double duration() const override { return own_->duration(); }
@@ -89,7 +89,7 @@ class PythonHand : public task::SeeingDriver {
     std::exception_ptr thrown_;
 };
 
-/// A session that a person of Python's does.
+/// A session done by a person written in Python.
 class Sitting {
   public:
     Sitting(const std::string& file, const std::string& rig, const std::vector<std::string>& set,
@@ -101,23 +101,23 @@ class Sitting {
                     "Name an experiment with trials.");
     }
 
-    /// Where the trials are done, and by whom.
+    /// The place of the trials, and their person.
     struct Doing {
-        std::string name;     ///< of the person's class
+        std::string name;     ///< name of the person's class
         std::string traits;   ///< text of person.yaml
         std::string out;      ///< folder for session folders
-        std::string between;  ///< socket of what decides between trials; empty: nothing does
+        std::string between;  ///< socket of the program that decides between trials; empty: none
         bool keep_recordings = true;
     };
 
-    /// A session that is over.
+    /// A finished session.
     struct Done {
         std::string folder;
         bool good = false;
         std::vector<std::string> notes;
     };
 
-    /// Does all trials. Afterwards thrown() has what act() raised.
+    /// Does all trials. Afterwards thrown() returns any exception of act().
     Done run(const py::function& act, double every, const Doing& doing) {
         const int ticks = std::max(1, static_cast<int>(std::lround(every / plan_.settings.tick())));
         hand_ = std::make_shared<PythonHand>(plan_, act, ticks, stop_);
@@ -147,9 +147,9 @@ class Sitting {
     void raise() const {
         if (hand_) hand_->raise();
     }
-    /// Makes a folder the place of a rehearsal of this experiment, or checks that it is one.
-    /// `name`: of the class that its people are of; empty: they are of a population, by its file.
-    /// `between`: name of the class that decides between trials; empty: none does.
+    /// Makes a folder for a rehearsal of this experiment, or checks that it is one. `name`: name of
+    /// its people's class; empty: they are drawn from a population file. `between`: name of the
+    /// class that decides between trials; empty: none.
     void claim(const std::string& folder, const std::string& name, const std::string& population,
                const std::string& between, const session::Asked& asked) const {
         Node people = Node::mapping();
@@ -189,7 +189,7 @@ class Sitting {
     }
     Vec3 shown_body(size_t body) const { return frame::displayed_body(hand_->frame(), body).p; }
     bool is_shown(size_t body) const { return frame::is_displayed(hand_->frame(), body); }
-    /// The targets that are shown, by the names of their regions.
+    /// The visible targets, by the names of their regions.
     std::vector<std::pair<std::string, Vec3>> targets() const {
         std::vector<std::pair<std::string, Vec3>> out;
         const frame::Frame& frame = hand_->frame();
@@ -204,7 +204,8 @@ class Sitting {
     const std::string& participant() const { return participant_; }
 
   private:
-    /// Lets go of act(), which holds the person, which holds this: Python would free none of them.
+    /// Releases act(), which holds the person, which holds this object: otherwise Python would free
+    /// none of them.
     struct Forgetting {
         PythonHand& hand;
         ~Forgetting() { hand.forget(); }

@@ -1,4 +1,4 @@
-// What worlds and sittings have in common: they plan a session, and name what is in its frames.
+// Shared by worlds and sittings: they plan a session, and name the items in its frames.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace dihaptic::python {
 
-/// Of each list of a frame whose items have names: the list, and the names in their order.
+/// For each list of a frame whose items have names: the list, and the names in order.
 using Items = std::vector<std::pair<std::string, std::vector<std::string>>>;
 
 inline session::Request request_of(const std::string& file, const std::string& rig,

@@ -67,7 +67,7 @@ std::vector<QuantityRow> quantities() {
     return lister.rows;
 }
 
-/// Of a table: each column's name and meaning.
+/// The name and the meaning of each column of a table.
 template <class Columns>
 py::list meanings(const Columns& columns) {
     py::list out;
@@ -86,7 +86,7 @@ py::dict table_columns() {
     return out;
 }
 
-/// Of each unit that a name may end with, such as N_s: as people write it, "N/s".
+/// The usual notation, such as "N/s", of each unit at the end of a name, such as N_s.
 py::dict unit_symbols() {
     py::dict out;
     for (int i = 1; i <= static_cast<int>(Quantity::angular_speed); ++i) {
@@ -95,7 +95,7 @@ py::dict unit_symbols() {
             std::string symbol(unit.suffix);
             std::replace(symbol.begin(), symbol.end(), '_', '/');
             const py::str suffix{std::string(unit.suffix)};
-            // of two kinds with the same suffix the first counts, as in split_unit()
+            // of two kinds with the same suffix, the first counts, as in split_unit()
             if (!out.contains(suffix))
                 out[suffix] = unit.si == 1 ? std::string(si_symbol(quantity)) : symbol;
         }
@@ -109,7 +109,7 @@ py::dict unit_symbols() {
     return out;
 }
 
-/// dihaptic._text.Plain, a word that a file has without quotes.
+/// dihaptic._text.Plain, a word without quotes in a file.
 py::object plain_type() {
     return py::module_::import("dihaptic._text").attr("Plain");
 }
@@ -161,7 +161,7 @@ Node to_node(const py::handle& value) {
 using ProblemRow = std::tuple<std::string, std::string, int, std::string, std::string, std::string,
                               std::vector<std::pair<std::string, std::string>>>;
 
-/// What `dihaptic check` finds in a file, with the words that may stand there.
+/// The findings of `dihaptic check` in a file, with the words allowed there.
 std::vector<ProblemRow> check_file(const std::string& file, const std::string& rig) {
     Diagnostics diagnostics;
     try {
@@ -201,7 +201,7 @@ Lines lines_of(const std::string& file) {
     return out;
 }
 
-/// What a log has of a quantity, tick by tick, with all its bits.
+/// A quantity in a log, tick by tick, with all its bits.
 py::list log_values(const std::string& file, const std::string& list, size_t item,
                     const std::string& name) {
     recording::RawLogReader log(file);
@@ -211,8 +211,8 @@ py::list log_values(const std::string& file, const std::string& list, size_t ite
     return out;
 }
 
-/// What the package's readers know of sessions, and have from this program: they need nothing else
-/// of it (python/write_facts.py).
+/// The program's facts about sessions for the package's readers, which need nothing else from it
+/// (python/write_facts.py).
 py::dict facts() {
     py::dict colours;
     colours["grip_force"] = palette::kGrip;
@@ -223,7 +223,7 @@ py::dict facts() {
     out["columns"] = table_columns();
     out["units"] = unit_symbols();
     out["colours"] = colours;
-    // what looks like a number there is a name
+    // a word that looks like a number there is a name
     out["text_columns"] = std::vector<std::string>{"ppid", "id", "group"};
     out["tables_from_log"] = recording::tables_from_log();
     out["other_tables"] = recording::other_tables();

@@ -21,8 +21,7 @@ namespace py = pybind11;
 namespace dihaptic::python {
 namespace {
 
-/// Leads each finger where Python says, and, until it says something, where the scene's own hand
-/// goes.
+/// Leads each finger as ordered by Python, and, before the first order, with the scene's own hand.
 class LedHand : public hand::Driver {
   public:
     LedHand(std::shared_ptr<const hand::Driver> own, size_t fingers)
@@ -44,10 +43,10 @@ class LedHand : public hand::Driver {
 
 void check(const char* what, const Vec3& value) {
     if (!value.allFinite())
-        throw Error({}, what, "has a component that is no number", "Give three finite numbers.");
+        throw Error({}, what, "has a component that is not a number", "Give three finite numbers.");
 }
 
-/// Of a body's inertia, weight and friction: beyond these bounds nothing is like what was meant.
+/// Factors on a body's inertia, weight and friction: beyond these bounds no result is meaningful.
 void check_factor(const char* what, double value, double least) {
     constexpr double kMost = 1000;
     if (value >= least && value <= kMost) return;
@@ -59,11 +58,11 @@ session::Plan plan_of(const std::string& file, const std::string& rig,
                       const std::vector<std::string>& set, uint64_t seed) {
     session::Plan plan = session::make_plan(request_of(file, rig, set, seed));
     if (plan.task) {
-        throw Error({file, 0}, "task", "has trials, which a world does not do",
-                    "Give its scene, or do the trials by dihaptic.run().");
+        throw Error({file, 0}, "task", "has trials, which a world does not run",
+                    "Give its scene, or do the trials with dihaptic.run().");
     }
     if (rig::is_real(plan.rig)) {
-        throw Error(plan.rig.place, "devices", "are real, and a world is in virtual time",
+        throw Error(plan.rig.place, "devices", "are real, but a world is in virtual time",
                     "Leave the rig out, or choose one of simulated devices.");
     }
     return plan;
@@ -77,13 +76,14 @@ class World {
         begin();
     }
 
-    /// One who steps the world, or begins it anew, at a time.
+    /// Ensures that only one thread at a time steps or restarts the world.
     class Use {
       public:
         explicit Use(World& world) : world_(&world) {
             if (world.used_.exchange(true)) {
-                throw Error("the world is being stepped",
-                            "Wait until its step has returned; step_all() takes each world once.");
+                throw Error(
+                    "the world is being stepped",
+                    "Wait until its step has returned; step_all() accepts each world once.");
             }
         }
         ~Use() {
@@ -96,7 +96,7 @@ class World {
         World* world_;
     };
 
-    /// Begins anew, at time 0, with the hand and the orders of the beginning.
+    /// Starts again, at time 0, with the initial hand and orders.
     void begin() {
         const Use use(*this);
         hand_ = std::make_shared<LedHand>(own_, plan_.scene.fingers.size());
@@ -114,9 +114,9 @@ class World {
         frame_ = nullptr;
     }
 
-    /// Does so many ticks; with a function, calls it in each, before the world moves.
+    /// Performs this many ticks; with a function, calls it in each, before the world moves.
     void step(int64_t ticks, const py::object& director) {
-        if (ticks < 0) throw Error({}, "ticks", "are fewer than none", "Give a number of ticks.");
+        if (ticks < 0) throw Error({}, "ticks", "are negative", "Give a number of ticks.");
         const Use use(*this);
         thrown_ = nullptr;
         if (director.is_none()) {
@@ -126,13 +126,13 @@ class World {
             for (int64_t i = 0; i < ticks && !over() && !thrown_; ++i) tick(call);
         }
         if (thrown_) std::rethrow_exception(std::exchange(thrown_, nullptr));
-        if (over()) throw Error(why_over(), "Begin anew: World.reset().");
+        if (over()) throw Error(why_over(), "Start again: World.reset().");
     }
-    /// One step without Python, of a thread of step_all().
+    /// One step without Python, in a thread of step_all().
     void run(int64_t ticks) noexcept {
         for (int64_t i = 0; i < ticks && !over(); ++i) tick({});
     }
-    /// While it is alone, nobody may look at it or order it.
+    /// While it is alone, no thread may read it or give it orders.
     void set_alone(bool alone) { alone_ = alone; }
     /// Whether it has stopped, or has switched force off for good.
     bool over() const { return servo_->stopped() || servo_->fault(); }
@@ -200,7 +200,7 @@ class World {
         properties_.push_back(properties);
     }
 
-    /// The numbers of observe() in a row; returns where the row ends.
+    /// The numbers of observe() in a row; returns the end of the row.
     double* observe(double* out) const {
         const auto put = [&](const auto& vector) {
             for (const double value : vector) *out++ = value;
@@ -237,8 +237,8 @@ class World {
     }
 
   private:
-    /// Without Python, which may run other threads meanwhile, and is asked now and then whether
-    /// somebody has pressed Ctrl-C.
+    /// Works without Python's lock, so that other threads may run meanwhile; checks now and then
+    /// whether Ctrl-C was pressed.
     void run_alone(int64_t ticks) {
         constexpr int64_t kAsk = 1000;
         for (int64_t done = 0; done < ticks && !over(); done += kAsk) {
@@ -253,7 +253,7 @@ class World {
     }
     /// Throws Error while another thread steps the world.
     void may_be_ordered() const {
-        if (alone_) throw Error("the world is being stepped", "Order it between two steps.");
+        if (alone_) throw Error("the world is being stepped", "Give orders between two steps.");
     }
 
     void tick(const std::function<void()>& call) noexcept {
@@ -291,7 +291,7 @@ class World {
     static Quat quaternion(const Eigen::Vector4d& wxyz) {
         const Quat q(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
         if (!(std::abs(q.norm() - 1) < 1e-6)) {
-            throw Error({}, "orientation", "is no unit quaternion",
+            throw Error({}, "orientation", "is not a unit quaternion",
                         "Give w, x, y, z; (1, 0, 0, 0) turns nothing.");
         }
         return q.normalized();
@@ -310,13 +310,13 @@ class World {
     std::vector<frame::PlacementFrame> placements_;
     Time now_{0};
     const frame::Frame* frame_ = nullptr;
-    std::exception_ptr thrown_;  // by the director, in the tick
+    std::exception_ptr thrown_;  // exception thrown by the director, in the tick
     std::atomic<bool> used_{false};
-    bool alone_ = false;  // it is stepped without Python's lock
+    bool alone_ = false;  // whether it is stepped without Python's lock
 };
 
-/// A row for each world: of each finger the handle's position and velocity, the force on it, and
-/// how hard its proxy is pressed; then the object's position, orientation, velocity, angular
+/// A row for each world: for each finger, the handle's position and velocity, the force on it, and
+/// the force that presses its proxy; then the object's position, orientation, velocity, angular
 /// velocity.
 Array observe(const std::vector<World*>& worlds) {
     const size_t columns = worlds.empty() ? 0 : World::observed(worlds.front()->fingers());
@@ -331,7 +331,7 @@ void lead_all(const std::vector<World*>& worlds, const Array& targets) {
     const size_t fingers = worlds.empty() ? 0 : worlds.front()->fingers();
     if (targets.ndim() != 3 || targets.shape(0) != static_cast<py::ssize_t>(worlds.size()) ||
         targets.shape(1) != static_cast<py::ssize_t>(fingers) || targets.shape(2) != 6)
-        throw Error("the targets do not fit the worlds", "Give worlds x fingers x 6 numbers.");
+        throw Error("the targets do not match the worlds", "Give worlds x fingers x 6 numbers.");
     const double* at = targets.data();
     for (World* world : worlds) {
         for (size_t finger = 0; finger < fingers; ++finger, at += 6)
@@ -350,10 +350,10 @@ void step_side_by_side(const std::vector<World*>& worlds, int64_t ticks, unsigne
     work();
 }
 
-/// Steps many worlds, on so many processors.
+/// Steps many worlds, on this many processors.
 void step_all(const std::vector<World*>& worlds, int64_t ticks, unsigned jobs) {
-    if (ticks < 0) throw Error({}, "ticks", "are fewer than none", "Give a number of ticks.");
-    std::vector<World::Use> uses;  // which refuse a world that is there twice
+    if (ticks < 0) throw Error({}, "ticks", "are negative", "Give a number of ticks.");
+    std::vector<World::Use> uses;  // which refuse a world that is listed twice
     for (World* world : worlds) uses.emplace_back(*world);
     for (World* world : worlds) world->set_alone(true);
     step_side_by_side(worlds, ticks, jobs);

@@ -216,7 +216,7 @@ class Deciding(unittest.TestCase):
         session, told = self.run_it(with_variable([{"name": "trials", "kind": "baseline", "repeats": 3}]), Raises())
         for what in (
             r"failed (ValueError: no file caf\udce9 here \ufffd[1m)",
-            "failed (Odd: its text cannot be had (ValueError))",
+            "failed (Odd: its text is not available (ValueError))",
             "failed (ValueError: \u00fc\u00fc\u00fc",
         ):
             self.assertIn(what.replace(r"\ufffd", "\ufffd"), told)
@@ -300,10 +300,10 @@ class Deciding(unittest.TestCase):
         class Wordy(ByQuest):
             messages = "abc"
 
-        for rules, what in ((dh.BetweenTrials, "decides nothing"), (3, "decides nothing"), (Wordy(), "messages: are not a list")):
+        for rules, what in ((dh.BetweenTrials, "cannot decide"), (3, "cannot decide"), (Wordy(), "messages: are not a list")):
             with self.subTest(what), self.assertRaisesRegex(dh.Error, what):
                 dh.run(with_variable(), between=rules, progress=False)
-        with self.assertRaisesRegex(dh.Error, "no session has begun"):
+        with self.assertRaisesRegex(dh.Error, "no session has started"):
             ByQuest().session
 
     def test_ctrl_c_ends_the_session_in_order(self):

@@ -140,7 +140,7 @@ class Environments(unittest.TestCase):
             many.step(np.zeros(5))
         with self.assertRaisesRegex(dh.Error, "no number"):
             many.step(np.full((2, 6), np.nan))
-        with self.assertRaisesRegex(dh.Error, "options: has 'goal'. It may have: reset_mask"):
+        with self.assertRaisesRegex(dh.Error, "options: has 'goal'. Allowed names: reset_mask"):
             many.reset(options={"goal": 0.1})
         with self.assertRaisesRegex(dh.Error, "options: has 'goal'. Leave it out"):
             dh.env.Grasp("lift").reset(options={"goal": 0.1})

@@ -172,7 +172,7 @@ class Files(unittest.TestCase):
         self.assertEqual(part, Part(size_mm=[1.5, 2.0, 3.0], mass_g=2.0, fixed=True, file="a/b.obj"))
         part = Part(parts=[{"shape": "box"}])
         self.assertEqual(part.parts[0].shape, "box")
-        with self.assertRaisesRegex(dh.Error, "cannot stand in a file"):
+        with self.assertRaisesRegex(dh.Error, "cannot be written to a file"):
             Part(mass_g=object())
 
     def test_a_part_is_not_within_itself(self):

@@ -181,8 +181,8 @@ class Lifts(unittest.TestCase):
         two = np.zeros((100, 2))
         for what, arguments in [
             ("no columns", (np.zeros(100), two, np.zeros(100), 0.001)),
-            ("do not fit", (two, np.zeros((99, 2)), np.zeros(100), 0.001)),
-            ("do not fit", (two, two, np.zeros(99), 0.001)),
+            ("do not match", (two, np.zeros((99, 2)), np.zeros(100), 0.001)),
+            ("do not match", (two, two, np.zeros(99), 0.001)),
             ("tick", (two, two, np.zeros(100), 0)),
             ("tick", (two, two, np.zeros(100), float("nan"))),
             ("friction", (two, two, np.zeros(100), 0.001, [1.0, -1.0])),

@@ -104,7 +104,7 @@ class Live(unittest.TestCase):
             self.assertAlmostEqual(now.values["grip_force"], session["grip_force"][row], places=6)
             self.assertAlmostEqual(now.values["block.z - 20 mm"], 1e3 * float(session["block.position"][row, 2]) - 20, places=5)
         self.assertEqual([state for state in live.states if state in {now.state for now in moments}], live.states[:4])
-        with self.assertRaisesRegex(dh.Error, "has no session that runs"):
+        with self.assertRaisesRegex(dh.Error, "has no running session"):
             dh.observe(self.out, patience_s=0)
 
     def test_is_steered(self):
@@ -208,7 +208,7 @@ class Live(unittest.TestCase):
         stranger(self, answers, name)
         self.out.mkdir()
         (self.out / "onlookers").write_text(name)
-        with self.assertRaisesRegex(dh.Error, "is answered for by another user's program"):
+        with self.assertRaisesRegex(dh.Error, "is answered by another user's program"):
             dh.observe(self.out, patience_s=0)
 
     @unittest.skipUnless(os.geteuid() == 0, "wants to be another user")
@@ -258,7 +258,7 @@ class Live(unittest.TestCase):
 
     def test_is_waited_for_and_told_where_there_is_none(self):
         self.out.mkdir()
-        with self.assertRaisesRegex(dh.Error, "has no session that runs"):
+        with self.assertRaisesRegex(dh.Error, "has no running session"):
             dh.observe(self.out, patience_s=0.1)
         found = []
         waits = threading.Thread(target=lambda: found.append(dh.observe(self.out, patience_s=60)))

@@ -116,7 +116,7 @@ class OtherLanguages(unittest.TestCase):
 
     def test_octave_says_what_is_wrong(self):
         self.assertIn("Did you mean grip_force?", self.octave("dihaptic_load('lifts', 'gripforce')", code=1))
-        self.assertIn("is no session: it has no session.yaml.", self.octave("dihaptic_load('.')", code=1))
+        self.assertIn("is not a session: it has no session.yaml.", self.octave("dihaptic_load('.')", code=1))
         self.assertIn("none.csv is not there.", self.octave("dihaptic_table('none.csv')", code=1))
 
 

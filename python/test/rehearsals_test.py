@@ -172,7 +172,7 @@ class Rehearsals(unittest.TestCase):
         self.assertTrue(people.limp.isna().all())
         for name in ("id", "class", "seed", "simulated", "moved_by"):
             named = type("Named", (Every,), {name: "me"})
-            with self.subTest(name), self.assertRaisesRegex(dh.Error, f"{name}: is a column"):
+            with self.subTest(name), self.assertRaisesRegex(dh.Error, f"{name}: is already a column"):
                 self.rehearse(1, out=name, person=named)
 
     def test_one_does_a_person_s_session_at_a_time(self):
@@ -180,7 +180,7 @@ class Rehearsals(unittest.TestCase):
         place.mkdir(parents=True)
         with (place / "messages.txt").open("w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
-            with self.assertRaisesRegex(dh.Error, "sim-001: another program does this session"):
+            with self.assertRaisesRegex(dh.Error, "sim-001: another program is doing this session"):
                 self.rehearse(1, person=Every)
         self.assertEqual(len(self.rehearse(1, person=Every).sessions), 1)
         self.assertFalse(place.exists())
@@ -277,7 +277,7 @@ class Sessions(unittest.TestCase):
 
         person = Nested(1)
         person.out = str(self.folder)
-        with self.assertRaisesRegex(dh.Error, "Nested: does another session now"):
+        with self.assertRaisesRegex(dh.Error, "Nested: is doing another session now"):
             dh.run(experiment(), person=person, out=self.folder)
 
     def test_a_session_that_a_person_ended_is_named_and_complete_as_far_as_it_goes(self):

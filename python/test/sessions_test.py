@@ -130,7 +130,7 @@ class Sessions(unittest.TestCase):
 
     def test_a_session_that_has_no_record_says_how_to_get_one(self):
         with tempfile.TemporaryDirectory() as folder:
-            with self.assertRaisesRegex(dh.Error, "is no session"):
+            with self.assertRaisesRegex(dh.Error, "is not a session"):
                 dh.load(folder)
             (pathlib.Path(folder) / "session.yaml").write_text("state: running\n")
             with self.assertRaisesRegex(dh.Error, "dihaptic recover"):
@@ -223,12 +223,12 @@ class Plots(unittest.TestCase):
 
     def test_what_cannot_be_drawn_is_told(self):
         for names, options, what in [
-            ((), {}, "no quantity is named"),
+            ((), {}, "no quantity is given"),
             (("contacts",), {}, "is a list"),
-            (("grip_force",), {"by": "condition"}, "groups what is aligned"),
+            (("grip_force",), {"by": "condition"}, "requires an alignment"),
             (("grip_force",), {"align": "liftoff"}, "Did you mean 'lift_off'"),
-            (("grip_force",), {"align": "condition"}, "is no moment"),
-            (("grip_force",), {"align": "lift_off", "by": "colour"}, "is no column"),
+            (("grip_force",), {"align": "condition"}, "is not a moment"),
+            (("grip_force",), {"align": "lift_off", "by": "colour"}, "is not a column"),
         ]:
             with self.subTest(what), self.assertRaisesRegex(dh.Error, what):
                 self.session.plot(*names, **options)
