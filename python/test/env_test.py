@@ -127,10 +127,10 @@ class Environments(unittest.TestCase):
         np.testing.assert_array_equal(again[:, :-1], after[:, :-1])
 
     def test_bad_input_is_told(self):
-        with self.assertRaisesRegex(dh.Error, "task: is 'juggle'. There are: lift, turn, hand_over"):
+        with self.assertRaisesRegex(dh.Error, "task: is 'juggle'. Tasks are: lift, turn, hand_over"):
             dh.env.Grasp("juggle")
         for n, ticks in ((0, 10), (1, 0)):
-            with self.assertRaisesRegex(dh.Error, "no world"):
+            with self.assertRaisesRegex(dh.Error, "is below 1"):
                 dh.env.Grasps("lift", n, ticks=ticks)
         with self.assertRaisesRegex(dh.Error, r"Call reset\(\) first"):
             dh.env.Grasp("lift").step(np.zeros(6))

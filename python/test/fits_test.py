@@ -132,7 +132,7 @@ class Fits(unittest.TestCase):
             ("the number of measurements differs", lambda: dh.fit_two_rate([1, 2, 3, 4, 5, 6], [1, 2])),
             ("", lambda: dh.fit_two_rate([1, np.nan], [1, 2])),
             ("", lambda: dh.fit_learning_curve([])),
-            ("no number in a trial", lambda: dh.fit_single_rate(np.arange(20.0), [np.nan] * 20)),
+            ("not a number in a trial", lambda: dh.fit_single_rate(np.arange(20.0), [np.nan] * 20)),
             ("is 0 in all trials", lambda: dh.fit_two_rate(np.arange(20.0), [0] * 20)),
             ("infinite", lambda: dh.fit_two_rate([np.inf] * 20, [1] * 20)),
             ("clamp: has 'nan'", lambda: dh.fit_two_rate(np.arange(20.0), [1] * 20, [np.nan] * 20)),

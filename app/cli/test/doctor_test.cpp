@@ -245,7 +245,7 @@ TEST(Doctor, LooksWhetherUsbDevicesMayBeOpened) {
     const Machine machine;
     Finding omega = usb(machine, none_open, "Force Dimension");
     EXPECT_EQ(omega.verdict, Verdict::note);
-    EXPECT_NE(omega.found.find("no udev rule"), std::string::npos) << omega.found;
+    EXPECT_NE(omega.found.find("without a udev rule"), std::string::npos) << omega.found;
 
     machine.put("/etc/udev/rules.d/70-mine.rules",
                 "SUBSYSTEM==\"usb\", ATTR{idVendor}==\"1451\"\n");
