@@ -175,7 +175,7 @@ class Live(unittest.TestCase):
         crowd = [self.raw(folder) for _ in range(15)]
         late = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         late.connect(self.address(folder))
-        self.assertIn("16 watch already", json.loads(late.recv(1 << 20))["refused"])
+        self.assertIn("16 onlookers already watch", json.loads(late.recv(1 << 20))["refused"])
         late.close()
         for one in crowd:
             one.close()

@@ -432,7 +432,7 @@ std::vector<AdaptationCurve> error_curves(const TrialFile& trials, const std::st
         curve.errors = scale_of_errors(curve.compensation(), curve.schedule());
         for (Trial& trial : curve.trials) {
             if (!curve.errors && trial.perturbation != 0)
-                trial.under = "a perturbation that is not visible in " + column;
+                trial.under = "a perturbation that does not show in " + column;
             trial.compensation = curve.errors ? 100 * curve.errors->compensation(trial.perturbation,
                                                                                  trial.compensation)
                                               : kUnmeasured;

@@ -58,8 +58,8 @@ ThresholdFit fit_threshold(const ThresholdTrack& track) {
     ThresholdFit out;
     const std::vector<LevelCount> counts = count(track.answers);
     if (track.answers.size() < kLeast) {
-        out.note = fmt::format("not possible: {} answers, but a fit requires {}",
-                               track.answers.size(), kLeast);
+        out.note = fmt::format("not possible: {} answers, and a fit takes {}", track.answers.size(),
+                               kLeast);
         return out;
     }
     try {
@@ -74,7 +74,7 @@ ThresholdFit fit_threshold(const ThresholdTrack& track) {
     out.outside = t < low || t > high;
     if (out.outside) {
         out.note =
-            fmt::format("outside the levels shown, {:.3g} to {:.3g}: a guess, not a measurement",
+            fmt::format("outside of the levels shown, {:.3g} to {:.3g}: a guess, no measurement",
                         track.share(low), track.share(high));
     }
     return out;

@@ -112,7 +112,7 @@ class Interruptions(unittest.TestCase):
             time.sleep(0.2)
             process.send_signal(signal.SIGINT)
             stdout, _ = process.communicate(timeout=patient(60))
-            told = re.compile(r"(\d+) ticks \(([0-9.]+) ms\) never were")
+            told = re.compile(r"(\d+) ticks \(([0-9.]+) ms\) never took place")
             self.assertGreater(int(told.search(stdout).group(1)), 250, stdout)
             late = re.search(r"wake-ups late by (\d+) us median, \d+ us p99.9, (\d+) us at worst; \d+ overrun", stdout)
             self.assertIn(late.group(0).split(";")[0], pathlib.Path(session_of(out) + "session.yaml").read_text())

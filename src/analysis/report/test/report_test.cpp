@@ -241,7 +241,7 @@ TEST(Thresholds, AreFittedToTheAnswersOfTheirProcedure) {
     EXPECT_GT(tracks[0].answers.size(), 300u);
     EXPECT_EQ(tracks[1].answers.size(), 0u);
     EXPECT_FALSE(fit_threshold(tracks[1]).fit);
-    EXPECT_EQ(fit_threshold(tracks[1]).note, "not possible: 0 answers, but a fit requires 10");
+    EXPECT_EQ(fit_threshold(tracks[1]).note, "not possible: 0 answers, and a fit takes 10");
     const ThresholdFit found = fit_threshold(tracks[0]);
     const auto& fitted = found.fit;
     ASSERT_TRUE(fitted);
@@ -287,7 +287,8 @@ TEST(Thresholds, ThatCannotBeFittedSayWhyAndOutsideOnesAreMarked) {
     ASSERT_TRUE(far.fit);
     EXPECT_GT(far.fit->function.threshold, 0.3);
     EXPECT_TRUE(far.outside);
-    EXPECT_NE(far.note.find("outside the levels shown, 0 to 0.3"), std::string::npos) << far.note;
+    EXPECT_NE(far.note.find("outside of the levels shown, 0 to 0.3"), std::string::npos)
+        << far.note;
 }
 
 TEST(Page, HasNoChartOfNothing) {
@@ -535,7 +536,7 @@ TEST(Adaptation, ToAMassIsThatOfTheErrorsInEachDirection) {
     for (const AdaptationCurve& curve : none) {
         EXPECT_FALSE(curve.errors);
         EXPECT_EQ(curve.note(),
-                  "not measured under a perturbation that is not visible in deviation_mm");
+                  "not measured under a perturbation that does not show in deviation_mm");
         EXPECT_FALSE(fit_adaptation(curve));
         EXPECT_TRUE(std::isnan(curve.windows().late.mean));
     }
