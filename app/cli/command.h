@@ -30,7 +30,7 @@ void add_new(CLI::App& app);
 void add_schema(CLI::App& app);
 void add_doctor(CLI::App& app);
 
-/// The command line as it was typed.
+/// The command line as typed.
 std::string command_line();
 
 }  // namespace dihaptic::cli

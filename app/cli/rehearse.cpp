@@ -345,21 +345,17 @@ void rehearse(RehearseOptions& options) {
 }
 
 constexpr const char* kFooter =
-    "\nA folder holds one experiment, seed and population: into another one it refuses to go.\n"
-    "Who is there already is not done again: after a break the same command goes on.\n"
-    "Results are the same to the byte whatever --jobs, --shard and --slurm.\n"
-    "--slurm checks all files, then writes slurm.sh into the folder and submits it by sbatch. "
-    "collect\nnames the shards of which somebody is missing, and what to type to have those "
-    "done.\n"
-    "\nExamples:\n"
-    "  dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 --jobs 2\n"
-    "  dihaptic rehearse experiments/rotation-reversal.yaml --population patients.yaml "
-    "--people "
-    "40 --out patients\n"
-    "  parallel dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 --shard "
-    "{}/4 ::: 1 2 3 4\n"
-    "  dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 --slurm 8\n"
-    "  dihaptic collect rehearsals/visuomotor-rotation_1";
+    "\nA folder holds one experiment, seed and population; a rehearsal of another one is "
+    "refused.\nCompleted people are not repeated: after a break, the same command "
+    "continues.\nResults are identical to the byte for any --jobs, --shard and --slurm.\n--slurm "
+    "checks all files, then writes slurm.sh into the folder and submits it with sbatch. "
+    "collect\nlists the shards with missing people, and the command to have those "
+    "done.\n\nExamples:\n  dihaptic rehearse experiments/visuomotor-rotation.yaml --people 40 "
+    "--jobs 2\n  dihaptic rehearse experiments/rotation-reversal.yaml --population patients.yaml "
+    "--people 40 --out patients\n  parallel dihaptic rehearse experiments/visuomotor-rotation.yaml "
+    "--people 40 --shard {}/4 ::: 1 2 3 4\n  dihaptic rehearse "
+    "experiments/visuomotor-rotation.yaml --people 40 --slurm 8\n  dihaptic collect "
+    "rehearsals/visuomotor-rotation_1";
 
 }  // namespace
 

@@ -17,8 +17,8 @@ void print_placement(const rig::Rig& rig, const rig::Workspace& found) {
     const rig::Placement proposed = rig::propose_placement(found);
     fmt::print(
         "\nfor the rig file, to put the world's origin {:.0f} mm over the middle of the box's "
-        "floor, and a wall\naround the box, in place of those around what each device reaches:\n\n"
-        "origin_mm: {}\nwall: {{ centre_mm: {}, size_mm: {} }}\n\n",
+        "floor, and a wall\naround the box, in place of those around each device's "
+        "reach:\n\norigin_mm: {}\nwall: {{ centre_mm: {}, size_mm: {} }}\n\n",
         rig::kUnderTable * 1e3, in_mm(proposed.origin + rig.moved_by),
         in_mm(proposed.wall.centre + rig.moved_by), in_mm(proposed.wall.size));
 }

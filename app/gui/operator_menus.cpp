@@ -61,7 +61,8 @@ void OperatorWindow::make_session_menu() {
         return action;
     };
     start_action_ = add(tr("&Start"), Qt::Key_F5, &OperatorWindow::start);
-    pause_action_ = add(tr("&Pause, or go on"), Qt::Key_F6, [this] { pause(!runner_.paused()); });
+    pause_action_ =
+        add(tr("&Pause, or continue"), Qt::Key_F6, [this] { pause(!runner_.paused()); });
     stop_action_ = add(tr("S&top"), Qt::Key_F7, &OperatorWindow::stop);
     skip_action_ = add(tr("S&kip the trial"), Qt::Key_F8, &OperatorWindow::skip);
     back_action_ = add(tr("&Hand back to its start"), Qt::Key_F4, [this] {

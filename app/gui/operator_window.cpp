@@ -213,7 +213,7 @@ void OperatorWindow::connect_reports() {
 }
 
 void OperatorWindow::report() {
-    if (recorded_.isEmpty()) return log(tr("There is no session of this file yet to report."));
+    if (recorded_.isEmpty()) return log(tr("There is no session of this file to report yet."));
     reporter_.write(recorded_);
 }
 
@@ -253,7 +253,7 @@ void OperatorWindow::pause(bool paused) {
     if (!runner_.running() || runner_.finishing()) return;
     runner_.set_paused(paused);
     complaint_.clear();
-    log(!paused ? tr("goes on")
+    log(!paused ? tr("continues")
         : runner_.on_virtual_clock()
             ? tr("paused. F6 continues, Ctrl+. does one tick, F7 ends the session.")
             : tr("paused: force is off. F6 continues, F7 ends the session."));

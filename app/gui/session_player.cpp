@@ -187,7 +187,7 @@ void SessionPlayer::make_menus() {
     view->addSeparator();
     together_ = view->addAction(tr("&Together with other sessions"));
     together_->setCheckable(true);
-    together_->setToolTip(tr("Goes to the same time of the same trial"));
+    together_->setToolTip(tr("Shows the same time of the same trial"));
     for (QDockWidget* dock : findChildren<QDockWidget*>())
         view->addAction(dock->toggleViewAction());
     view->addSeparator();

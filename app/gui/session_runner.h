@@ -47,7 +47,7 @@ class SessionRunner : public QObject {
     /// responding. Not before, because drawing a scene for the first time may take longer.
     void watch();
 
-    // what follows, up to end(), only while running
+    // the functions below, up to end(), only while running
     const session::Plan& plan() const { return session_->plan; }
     /// The frames passed to start().
     std::shared_ptr<Latest<frame::Frame>> second() const { return session_->live.second; }

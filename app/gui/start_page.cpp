@@ -44,8 +44,8 @@ QString head_of(const QString& file) {
 
 StartPage::StartPage(QWidget* parent) : QWidget(parent), tabs_(new QTabWidget) {
     auto* title =
-        new QLabel(tr("<h1>Dihaptic</h1><p>Choose what to begin with. Without devices, the "
-                      "mouse moves the hand.</p>"));
+        new QLabel(tr("<h1>Dihaptic</h1><p>Choose a file to start with. Without devices, the mouse "
+                      "moves the hand.</p>"));
     auto* open = new QPushButton(tr("&Open another file ..."));
     auto* sessions = new QPushButton(tr("&Recorded sessions ..."));
     begin_ = add_list(tr("&Begin"));

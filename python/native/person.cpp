@@ -42,7 +42,7 @@ class PythonHand : public task::SeeingDriver {
         led_[finger]->v_WT = velocity;
     }
     void press(char key) { key_ = key; }
-    /// Raises what act() raised, if anything.
+    /// Raises any exception of act() again.
     void raise() {
         if (const std::exception_ptr thrown = std::exchange(thrown_, nullptr))
             std::rethrow_exception(thrown);
@@ -143,7 +143,7 @@ class Sitting {
         const session::Recorded session = session::record(plan_, options, stop_);
         return {session.folder, session.good(), session.notes};
     }
-    /// Raises what act() raised, if anything.
+    /// Raises any exception of act() again.
     void raise() const {
         if (hand_) hand_->raise();
     }

@@ -312,15 +312,15 @@ std::string AdaptationCurve::note() const {
 void AdaptationCurve::Window::list(FigureLister& row, const std::string& name,
                                    const char* what) const {
     row(name, mean, "1", what);
-    row(name + "_low", low, "1", "its 95 % interval, over these trials");
-    row(name + "_high", high, "1", "its upper end");
+    row(name + "_low", low, "1", "lower end of its 95 % interval, over these trials");
+    row(name + "_high", high, "1", "upper end of that interval");
 }
 
 void AdaptationCurve::list_landmarks(FigureLister& row) const {
     const Windows w = windows();
     const bool known = !trials.empty() && (note().empty() || std::abs(perturbation()) > kSame);
     row("measure", measure, "", "angle, extent, adaptation_index, or the column of errors");
-    row("unit", unit, "", "of what follows");
+    row("unit", unit, "", "unit of the values below");
     row("perturbation", known ? perturbation() : kUnmeasured, "1", "largest in magnitude");
     w.baseline.list(row, "baseline", "mean of the baseline before the first perturbed block");
     w.early.list(row, "early", "first eight trials of the first perturbed block");
@@ -345,7 +345,7 @@ Table block_table(const std::vector<AdaptationCurve>& curves) {
             FigureLister row;
             row("round", curve.round, "", "name");
             row("block", block.name, "", "name");
-            row("unit", curve.unit, "", "of what follows");
+            row("unit", curve.unit, "", "unit of the values below");
             const auto list = [&](const std::string& name, const Window& of, const char* what) {
                 of.list(row, name, what);
                 row(name + "_trials", of.trials, "1", "that were measured");

@@ -2,10 +2,10 @@
 // compensated for, and models of this compensation.
 //
 // With the handle at angle a from the target's direction, and shown at angle s, the perturbation is
-// f = s - a and the compensation x = -a: the error e = f - x is what is seen, except in an error
-// clamp, where it is not seen. Extents are treated in the same way, as logarithms: if the handle
-// moved by h, was shown to move by s, and should have moved by w, f = ln(s / h), x = ln(w / h), in
-// percent (of small changes; a doubling is 69 %).
+// f = s - a and the compensation x = -a: the error e = f - x is visible, except in an error clamp.
+// Extents are treated in the same way, as logarithms: if the handle moved by h, was shown to move
+// by s, and should have moved by w, f = ln(s / h), x = ln(w / h), in percent (of small changes; a
+// doubling is 69 %).
 //
 // Force fields are measured in channels, by the adaptation index (docs/measures-of-behaviour.md): x
 // is the index and f the share of the field, both in percent. The hand's angle is not informative

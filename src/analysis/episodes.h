@@ -3,7 +3,7 @@
 //
 // hold    fingers press the object and nothing else does. Figures: how far they slipped, how far
 //         it sank, and how far it turned with the line between the first two fingers.
-// slide   the object moves along what it lies on. With F the fingers' forces on it, n the support's
+// slide the object moves along its support. With F the fingers' forces on it, n the support's
 //         normal, N = -(F + m g) . n, and v the velocity at the contact, work balances:
 //
 //             sum h (F + m g) . v + m (v_start^2 - v_end^2) / 2 = mu sum h N |v|

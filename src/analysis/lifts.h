@@ -3,7 +3,7 @@
 // Jarocka and Edin 2014). Grip force GF is the mean of the digits' normal forces, load force LF the
 // sum of their tangential forces against gravity; rates are derivatives of cubics over 62 ms.
 //
-// Events are found by contact, if the trace has contacts of the object with what it stands on:
+// Events are found by contact, if the trace has contacts of the object with its support:
 //
 // touch         of a digit: the first sample from which it presses the object until lift-off;
 //               a gap of less than 50 ms is a bounce

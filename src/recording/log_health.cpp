@@ -112,7 +112,7 @@ void describe_end(std::vector<std::string>& out, const LogHealth& health, int64_
     if (!health.complete && ticks == 0) {
         const std::string plan = planned > 0 ? fmt::format(" of {:.3f} s planned", planned) : "";
         out.push_back(
-            fmt::format("the log ends without its end mark, at {:.3f} s{}: what came later is lost "
+            fmt::format("the log ends without its end mark, at {:.3f} s{}: all later data are lost "
                         "(when the program was killed, at most 0.1 s of the session)",
                         end, plan));
     } else if (!health.complete) {

@@ -10,8 +10,8 @@
 // A damaged chunk is skipped: the reader continues with the next one. The first frame of a chunk
 // that was written in place has all bodies; values of bodies that are unknown after a gap are NaN.
 //
-// The log contains only what the session computed, so that the same session gives the same file. On
-// the real clock no two sessions are the same, and the head's identity is random.
+// The log contains only the session's results, so that the same session gives the same file. On the
+// real clock no two sessions are the same, and the head's identity is random.
 #pragma once
 
 #include <algorithm>
@@ -98,7 +98,7 @@ class RawLogReader {
     explicit RawLogReader(const std::string& file);
 
     const LogHead& head() const { return head_; }
-    /// Returns the next frame, valid until the next call; null at the end of what can be read.
+    /// Returns the next frame, valid until the next call; null at the end of the readable part.
     const frame::Frame* next();
     /// The findings so far. Statements about the end are valid once next() has returned null.
     const LogHealth& health() const { return health_; }

@@ -26,7 +26,7 @@ constexpr Time kDrainEvery = std::chrono::milliseconds(5);
 
 class Recorder {
   public:
-    /// `sync` is how often the log is synchronised to the disk [s], in a thread of its own, since a
+    /// `sync` is how often the log is synchronised to the disk [s], in a separate thread, since a
     /// slow disk may take long; 0: only at the end.
     Recorder(const std::string& file, const LogHead& head, Writing writing, double sync = 0);
     ~Recorder();

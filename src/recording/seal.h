@@ -7,8 +7,8 @@
 //   seal: 4e5f6a7b                 a checksum of session.yaml's own data (identity, participant,
 //                                  seed, program, state, ticks, inputs) and of the list above
 //
-// Checksums reveal damage, a spreadsheet that saved what it should only display, and files of
-// another session. They do not prevent forgery: whoever forges a table can seal it too.
+// Checksums reveal damage, a spreadsheet that saved a table instead of only displaying it, and
+// files of another session. They do not prevent forgery: whoever forges a table can seal it too.
 #pragma once
 
 #include <span>

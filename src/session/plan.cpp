@@ -213,7 +213,7 @@ void seat_mover(Plan& plan, recording::Mover mover) {
     plan.moved_by.mover = mover;
 }
 
-/// Chooses what moves the hand, from the rig, the request and the files.
+/// Chooses the mover of the hand, from the rig, the request and the files.
 void plan_driver(Plan& plan, const Request& request, const task::Experiment& experiment,
                  Diagnostics& diagnostics) {
     const std::string movement = movement_file(request, experiment);

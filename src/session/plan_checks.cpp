@@ -215,7 +215,7 @@ void check_headset(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
-/// A dead-man switch on a finger that the scene lacks is an error: nobody could hold it.
+/// A dead-man switch on a finger that the scene lacks is an error: it could not be held.
 void check_dead_man(const Plan& plan, Diagnostics& diagnostics) {
     const std::string& finger = plan.settings.safety.dead_man_finger;
     const std::vector<std::string> fingers = scene::finger_names(plan.scene);

@@ -143,7 +143,8 @@ bool wait_to_go_on(servo::Servo& servo, Live& live, const std::atomic<bool>& sto
     }
 }
 
-/// One session, from making its folder to its last note; holds what the servo's callbacks share.
+/// One session, from making its folder to its last note; holds the data shared by the servo's
+/// callbacks.
 class Run {
   public:
     Run(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,

@@ -2,7 +2,7 @@
 // README.md and, on request, overlays of invisible quantities. It does not depend on the source of
 // the Frame or the destination of the picture.
 //
-// SceneView needs OpenGL 3.3 core: the same context has to be current whenever one of its functions
+// SceneView needs OpenGL 3.3 core: the same context must be current whenever one of its functions
 // is called, the destructor included. It draws to the framebuffer that is bound for drawing, which
 // must have the format RGBA8 and must not be multisampled (SceneView smooths edges itself). It does
 // not restore other state of the context.

@@ -142,8 +142,9 @@ vec3 from_picture() {
     return textureGrad(picture, 0.5 + p_B * axes, dFdx(p_B) * axes, dFdy(p_B) * axes).rgb;
 }
 
-// What a metal mirrors in the direction r: brighter above the horizon than further up, where windows
-// are, and on the lamp's side; in the mean it is what other surfaces receive.
+// The mirrored surroundings of a metal in the direction r: brighter above the horizon than
+// further up, where windows are, and on the lamp's side; on average equal to the light on other
+// surfaces.
 vec3 room(vec3 r, vec3 ground, vec3 sky) {
     float up = 1.7 - 1.4 * smoothstep(0.1, 0.9, r.z);
     float side = dot(r.xy, normalize(light.xy));
@@ -153,17 +154,17 @@ vec3 room(vec3 r, vec3 ground, vec3 sky) {
 
 const float kPolish = 60.0;  // exponent of a metal's highlight
 
-// A metal has no diffuse light. Of what it reflects, its colour is the share that comes straight
-// back, and Schlick's law has the rest.
+// A metal has no diffuse light. Its colour is the share reflected at normal incidence; Schlick's
+// law gives the rest.
 vec3 reflectance(vec3 straight, float cosine) {
     return straight + (1.0 - straight) * pow(1.0 - max(cosine, 0.0), 5.0);
 }
 #endif
 
 const float kLeast = 1.0e-7;     // variance [m^2]: a third of a millimetre
-const float kBleeding = 0.35;    // what is darker than this is black
+const float kBleeding = 0.35;    // darker light than this is black
 const float kLightSize = 0.10;   // standard deviation of the penumbra over the height
-const float kSearch = 0.015;     // that of the search for what throws a shadow [m]
+const float kSearch = 0.015;     // that of the search for an occluder [m]
 
 float chebyshev(vec2 m, float t) {
     float above = t - m.x;
@@ -176,7 +177,7 @@ float level(float sigma) { return log2(max(sigma / (1.2 * texel), 1.0)); }
 
 // x: share of the main light; y: of the light from around
 vec2 visibility(vec3 n) {
-    // off the surface by what a texel cannot resolve
+    // off the surface by the resolution of a texel
     vec3 q = (light_from_world * vec4(p_W + 1.5 * texel * n, 1)).xyz;
     vec2 uv = 0.5 * q.xy + 0.5;
     float t = q.z;
@@ -184,7 +185,7 @@ vec2 visibility(vec3 n) {
 #ifdef PLAIN
     return mix(vec2(1), vec2(t <= textureLod(moments, uv, 0.0).x ? 1 : 0, 1), inside);
 #else
-    // how far above lies what throws the shadow: the mean of the depths is p of them at t, the
+    // height of the occluder above: the mean of the depths is p of them at t, the
     // others at the occluder's; where there is hardly any, the estimate fades out
     vec2 wide = textureLod(moments, uv, round(level(kSearch))).rg;  // one level: half the work
     float around = chebyshev(wide, t);

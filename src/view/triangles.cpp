@@ -188,7 +188,7 @@ const Eigen::Vector3f kNoColour =
 Triangles coloured(const scene::Mesh& mesh) {
     Triangles out = polyhedron(mesh.vertices, mesh.faces);
     if (mesh.colours.empty()) return out;
-    // each corner of each face is a vertex of its own
+    // each corner of each face is a separate vertex
     for (const std::vector<int>& face : mesh.faces) {
         for (const int v : face) {
             const int32_t rgb = mesh.colours[static_cast<size_t>(v)];

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Devices that are opened through USB by this program itself, not by a service of their maker's.
+/// Devices that this program itself opens through USB, not through their maker's service.
 struct Known {
     const char* name;
     const char* vendor;
@@ -29,7 +29,7 @@ struct Known {
 };
 constexpr std::array kKnown{Known{"Force Dimension", "1451", ""}, Known{"Falcon", "0403", "cb48"}};
 
-/// Paths of what is in a folder, in order; none if there is no such folder.
+/// Paths of the entries of a folder, in order; none if there is no such folder.
 std::vector<std::string> in(const std::string& folder) {
     std::vector<std::string> out;
     std::error_code failed;
@@ -46,7 +46,7 @@ int number_in(const std::string& file) {
     return out;
 }
 
-/// Files by which those devices of a kind are opened that are plugged in.
+/// Files through which the plugged-in devices of a kind are opened.
 std::vector<std::string> plugged_in(const std::string& root, const Known& known) {
     std::vector<std::string> out;
     for (const std::string& device : in(root + "/sys/bus/usb/devices")) {
@@ -58,7 +58,7 @@ std::vector<std::string> plugged_in(const std::string& root, const Known& known)
     return out;
 }
 
-/// The file with a rule for such a device; "" if there is none.
+/// The file with a rule for this device; "" if there is none.
 std::string rule_file(const std::string& root, const Known& known) {
     for (const char* folder : {"/etc", "/run", "/usr/lib", "/lib"}) {
         for (const std::string& file : in(root + folder + "/udev/rules.d")) {

@@ -48,13 +48,13 @@ std::string readme(const recording::SessionInfo& info, bool simulated) {
     return info.title + "\n\n" + who +
            "\nEach run has the motion of each finger as a separate tracking system: the device's "
            "handle,\nthe finger in the virtual world (proxy), the force on the handle and the "
-           "force of what is\ntouched. The tracking system `objects` has the virtual objects that "
-           "can move. All are in the\nworld's axes: x to the right, y away from the person, z up, "
-           "origin on the table top; in SI\nunits. Rows without a recording after damage are left "
-           "out: the LATENCY column has each row's\ntime.\n\nevents.tsv has a row for each attempt "
-           "at a trial (trial_type `trial`), with its block,\ncondition, perturbation, outcome and "
-           "measures, and a row for each moment: phases, touches,\nmessages, markers, outcomes. "
-           "events.json describes each column.\n\nAuthors, licence and funding are in "
+           "force of the touched\nbodies. The tracking system `objects` has the virtual objects "
+           "that can move. All are in the\nworld's axes: x to the right, y away from the person, z "
+           "up, origin on the table top; in SI\nunits. Rows without a recording after damage are "
+           "left out: the LATENCY column has each row's\ntime.\n\nevents.tsv has a row for each "
+           "attempt at a trial (trial_type `trial`), with its block,\ncondition, perturbation, "
+           "outcome and measures, and a row for each moment: phases, touches,\nmessages, markers, "
+           "outcomes. events.json describes each column.\n\nAuthors, licence and funding are in "
            "dataset_description.json as far as they are known:\ncomplete them before you share the "
            "data.\n\nMade by " +
            info.program + " with `dihaptic export`.\n";

@@ -90,7 +90,7 @@ Json sidecar(const std::vector<Column>& columns, const recording::SessionInfo& i
            {{"trial", "an attempt at a trial, with its demands and measures"},
             {"phase", "value: the state that began"},
             {"outcome", "value: how the trial ended"},
-            {"message", "value: what the participant was shown"},
+            {"message", "value: message shown to the participant"},
             {"line", "value: line shown to the participant below the message"},
             {"page", "value: text or picture of the page shown"},
             {"sound", "value: the sound that began"},

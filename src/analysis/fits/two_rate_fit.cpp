@@ -75,8 +75,8 @@ struct Data {
     }
 };
 
-/// Maps the parameters to a point z of the unit cube, in which their order is no constraint. Each
-/// pair has low <= high (retention: fast, slow; learning: slow, fast):
+/// Maps the parameters to a point z of the unit cube, in which their order is not a constraint.
+/// Each pair has low <= high (retention: fast, slow; learning: slow, fast):
 ///
 ///     both free        high = z_high            low = high z_low
 ///     low held at v    high = v + (1 - v) z_high

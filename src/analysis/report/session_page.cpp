@@ -149,11 +149,11 @@ void add_curve(SessionPage& out, const SessionData& session, const AdaptationCur
         row("trial_num", trial.number, "1", "in the session");
         row("block", trial.block, "", "name");
         row("kind", trial.kind, "", "of the trial");
-        row("unit", curve.unit, "", "of what follows");
-        row("perturbation", trial.perturbation, "1", "0 where no error was seen");
+        row("unit", curve.unit, "", "unit of the values below");
+        row("perturbation", trial.perturbation, "1", "0 if no error was seen");
         row("error_seen", std::string(trial.clamp ? "no" : "yes"), "",
             "no in clamps, in reaches that fell short, and if unknown");
-        row("compensation", trial.compensation, "1", "of the hand");
+        row("compensation", trial.compensation, "1", "compensation of the hand");
         row("two_rate", fitted, "1", "fitted");
         row("single_rate", single, "1", "fitted");
         add_row(out.adaptation, row);
