@@ -62,7 +62,7 @@ int main(int argc, char** argv) {
     const QCommandLineOption out("out", "Folder for session folders.", "folder", "sessions");
     parser.addOption(out);
     const QCommandLineOption sync(
-        "sync", "Interval at which recordings are synchronised to the disk [s].", "seconds", "0");
+        "sync", "Synchronise recordings to the disk at this interval [s].", "seconds", "0");
     parser.addOption(sync);
     parser.addPositionalArgument(
         "FILE", "scene or experiment, or folders of recorded sessions, of which two are linked",
@@ -78,9 +78,8 @@ int main(int argc, char** argv) {
     dihaptic::gui::set_dark(QSettings().value("dark", false).toBool());
     if (QFileInfo(file).isDir()) return look_at(files);
     if (files.size() > 1) {
-        std::fprintf(
-            stderr,
-            "only recorded sessions can be opened together. Name one scene or experiment.\n");
+        std::fprintf(stderr,
+                     "only sessions can be opened together. Name one scene or experiment.\n");
         return 2;
     }
     dihaptic::gui::StopRequest stop;

@@ -456,8 +456,8 @@ void write_nwb(const SessionFolder& folder, const NwbContent& content,
     const Emptied emptied{output.path()};
     const auto failed = [&](const std::string& why, int error) {
         return Error({folder.nwb(), 0}, "", "cannot be written: " + why,
-                     "raw.log has all data: " + make_room(error) +
-                         ", then run: dihaptic recover " + shell_file(folder.path()));
+                     "raw.log has all data: " + make_room(error) + ", then run: dihaptic recover " +
+                         shell_file(folder.path()));
     };
     try {
         const std::string session =

@@ -160,8 +160,7 @@ SessionFolder SessionFolder::create(const std::string& parent, const std::string
             if (fs::create_directory(path)) return SessionFolder(path);
         }
     } catch (const fs::filesystem_error& e) {
-        throw Error({parent, 0}, "",
-                    "no session folder can be created here: " + e.code().message(),
+        throw Error({parent, 0}, "", "no session folder can be created here: " + e.code().message(),
                     "Choose another folder with --out.");
     }
     throw Error({parent, 0}, "", "too many sessions in this second",
