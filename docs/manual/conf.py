@@ -1,4 +1,4 @@
-"""How Sphinx makes the manual; docs/manual/make/make.py says of what."""
+"""Configures Sphinx for the manual; docs/manual/make/make.py gives its input."""
 
 project = "Dihaptic"
 copyright = "the authors of Dihaptic"
@@ -11,7 +11,7 @@ html_css_files = ["manual.css"]
 html_show_sourcelink = False
 html_copy_source = False
 html_show_sphinx = False
-# of what the commands print, nothing is to be copied
+# the output of commands must not be copied
 copybutton_selector = "div:not(.highlight-text):not(.highlight-none) > div.highlight > pre"
 highlight_language = "none"
 

@@ -41,8 +41,7 @@ struct LiftRow {
           "attempt at the trial, from 1; without a task: the lift's number");
         v("lift", f.mark, "",
           "complete, or the missing event: no touch, not lifted, dropped, no hold, not put down, "
-          "not "
-          "released; paused; place not known, if ticks are missing");
+          "not released; paused; place not known, if ticks are missing");
         v("events_by", f.rule, "", "rule by which the times were found: contact or force");
         v("touch", f.touch, "s", "touch of the first digit, in the session");
         v("load_onset", f.load_onset, "s", "load onset of the first digit");

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""The hands of the manual's reader, where a page is run without one: what it does stands on the pages too.
+"""The hands of the manual's reader, when a page is run without one; the pages describe the same actions.
 
-A window is opened on a display of its own; its session begins by F5, Space squeezes, the mouse lifts, and after a
-picture (window.png) it is closed. A session that keeps real time (real devices are fakes here) is ended by Ctrl-C when
-it has run for two seconds. MATLAB is Octave.
+A window opens on its own display; F5 starts its session, Space squeezes, the mouse lifts, and after a picture
+(window.png) the window is closed. A session in real time (real devices are fakes here) is ended by Ctrl-C after two
+seconds. Octave replaces MATLAB.
 """
 import glob
 import os
@@ -21,7 +21,7 @@ SIZE = "1280x800"
 
 
 class Display:
-    """An X server of its own."""
+    """A separate X server."""
 
     def __init__(self, home):
         read, write = os.pipe()
@@ -48,14 +48,14 @@ class Display:
 
 
 def move_up(display, pixels):
-    """Sixty times a second, as a hand would."""
+    """Sixty times per second, like a hand."""
     for _ in range(abs(pixels) // 2):
         display.do("mousemove_relative", "--", "0", "-2" if pixels > 0 else "2")
         time.sleep(0.016)
 
 
 def wait(what, condition):
-    """Until it holds: on a busy machine no time would be long enough."""
+    """Waits until the condition holds: on a busy machine no fixed time would be long enough."""
     until = time.monotonic() + 60
     while not (value := condition()):
         if time.monotonic() > until:
@@ -65,8 +65,8 @@ def wait(what, condition):
 
 
 def lift(display, window, file):
-    """F5 begins, Space squeezes, the mouse lifts. A window with trials asks first who does them; there the hand begins
-    above the object."""
+    """F5 starts, Space squeezes, the mouse lifts. A window with trials first asks for the participant; there the hand
+    starts above the object."""
     before = len(glob.glob("sessions/*/raw.log"))
     display.do("key", "F5")
     at = pathlib.Path(file) if os.path.exists(file) else PROJECT / file  # one that comes with the program
@@ -118,7 +118,7 @@ def use_window(arguments):
 
 
 def use_devices(arguments):
-    """One that keeps real time is ended by Ctrl-C; it then is interrupted, as its reader is told."""
+    """A session in real time is ended by Ctrl-C; it is then interrupted, as described to the reader."""
     with subprocess.Popen([PROGRAM, *arguments], stdout=subprocess.PIPE, text=True) as session:
         stopped = False
         for line in session.stdout:

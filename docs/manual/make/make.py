@@ -1,7 +1,7 @@
-"""Makes the manual: puts its pages together with those of docs/ and what the program says of itself, and runs Sphinx.
+"""Makes the manual: combines its pages with those of docs/ and the program's own help, and runs Sphinx.
 
-Usage: make.py PROGRAM OUT [RAN], where the pages are in OUT/html then. Pictures are those that the pages' own commands
-make, which are run first; or else they were run already, in the folder RAN. It needs the package on PYTHONPATH.
+Usage: make.py PROGRAM OUT [RAN]; the pages are then in OUT/html. Pictures are made by the pages' own commands, which
+are run first, unless they were already run in the folder RAN. It needs the package on PYTHONPATH.
 """
 import concurrent.futures
 import inspect
@@ -17,7 +17,7 @@ import dihaptic as dh
 import pages
 from pages import MANUAL, PROJECT
 
-# Pages that stand elsewhere, with the places that they have in the manual.
+# Pages from elsewhere, with their places in the manual.
 ELSEWHERE = {
     **{f"docs/{name}.md": f"reference/{name}" for name in (
         "conventions", "experiments", "figures", "files", "licences", "limits", "measures", "measures-of-behaviour", "promises",
@@ -34,14 +34,14 @@ NAMED = re.compile(r"(?<!\[)`((?:docs|src)/[\w./-]+\.md)`")
 
 
 class Source:
-    """What Sphinx reads."""
+    """The input of Sphinx."""
 
     def __init__(self, folder, ran):
         self.folder, self.ran = folder, ran
         self.places = {**{f"docs/manual/{page}.md": page for page in pages.all_pages()}, **ELSEWHERE}
 
     def add(self, path):
-        """A page of the repository, its links those of the manual."""
+        """A page of the repository, with links within the manual."""
         place = self.places[path]
         text = (PROJECT / path).read_text()
         outside = re.split(r"(^```(?:[a-z]|\{code|\{toc).*?^```$)", text, flags=re.DOTALL | re.MULTILINE)
@@ -89,13 +89,13 @@ def said(program, *arguments):
 
 
 def subcommands(text):
-    """The table of subcommands that a --help has."""
+    """The table of subcommands in the output of --help."""
     table = re.search(r"^Subcommands:\n((?:  .*\n)+)", text + "\n", re.MULTILINE)
     return re.findall(r"^  ([a-z_]+) +", table[1], re.MULTILINE) if table else []
 
 
 def commands_page(program):
-    """What each command says with --help."""
+    """The --help of each command."""
     whole = said(program)
     parts = ["# Commands\n\nWhat each command says with `--help`. All of them return 0 when all went well, 1 when "
              "something ran but its result must not be used as it is, and 2 when the input, the command line or the "
@@ -109,7 +109,7 @@ def commands_page(program):
 
 
 def refuse_unknown_commands(program):
-    """Commands in blocks are run; those in sentences are at least there."""
+    """Commands in blocks are run; those in sentences must at least exist."""
     known = subcommands(said(program))
     for page in pages.all_pages():
         for command in re.findall(r"`dihaptic\s+([a-z]\w*)", (MANUAL / f"{page}.md").read_text()):
@@ -138,7 +138,7 @@ def functions_page():
 
 
 def run_pages(program, out):
-    """All pages, as many at a time as there are processors."""
+    """Runs all pages, as many at a time as there are processors."""
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as some:
         runs = {page: some.submit(pages.run, program, page, out) for page in pages.all_pages()}
         failed = [f"docs/manual/{page}.md: {runs[page].exception()}" for page in runs if runs[page].exception()]

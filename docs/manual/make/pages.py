@@ -1,8 +1,8 @@
-"""Does what a page of the manual says, as its reader would: writes its files and runs its commands, in order.
+"""Follows a page of the manual like its reader: writes its files and runs its commands, in order.
 
-A block of `sh` is run. A block of `text` is what the commands before it print, or a part of that: "..." stands for
-anything between. Every other block is a file, whose name stands in its caption; a second block of the same name
-continues it. All blocks are run; there is no way to leave one out.
+A block of `sh` is run. A block of `text` is the output of the commands before it, or a part of it: "..." stands for
+anything between. Every other block is a file, named in its caption; a second block with the same name continues it. All
+blocks are run; there is no way to leave one out.
 
 Usage: pages.py PROGRAM PAGE OUT, where OUT is the folder in which each page gets a folder of its own.
 """
@@ -19,7 +19,7 @@ import needs  # noqa: E402
 
 HERE = pathlib.Path(__file__).resolve().parent
 MANUAL = HERE.parent
-#: What a page's command begins with, the program that it needs beside ours, and whose package.
+#: The start of a page's command, the additional program that it needs, and that program's package.
 TOOLS = [("octave", "octave", "octave"), ("matlab", "octave", "octave"),  # which stands in for it
          ("Rscript", "Rscript", "r-cran-hdf5r"), ("dihaptic gui", "Xvfb", "xvfb"),
          ("dihaptic gui", "xdotool", "xdotool")]
@@ -82,7 +82,7 @@ def script(page):
 
 
 def unlike(said, shown):
-    """The first line of `shown` that is not in `said` where it would have to be, or None."""
+    """The first line of `shown` that is missing at its position in `said`, or None."""
     rest = iter(said.splitlines())
     for line in shown.splitlines():
         pattern = ".*".join(re.escape(part) for part in line.rstrip().split("..."))
@@ -92,7 +92,7 @@ def unlike(said, shown):
 
 
 def faults(page, output):
-    """What a page promises, and its run did not show."""
+    """The promises of a page that its run did not fulfil."""
     found, said, commands = [], {}, ""
     for part in output.split("\n" + MARK)[1:]:
         number, _, text = part.partition("\n")
@@ -113,7 +113,7 @@ def faults(page, output):
 
 
 def prepare(folder, program):
-    """An empty working folder as a new user has it, and beside it what stands in for the user and the devices."""
+    """An empty working folder like a new user's, and beside it stand-ins for the user and the devices."""
     shutil.rmtree(folder, ignore_errors=True)
     tools = folder.with_name(folder.name + ".tools")
     shutil.rmtree(tools, ignore_errors=True)
@@ -137,7 +137,7 @@ def prepare(folder, program):
 
 
 def run(program, page, out):
-    """Runs a page in a folder of its own in `out`; returns that folder. Raises ValueError for what does not hold."""
+    """Runs a page in its own folder in `out`; returns that folder. Raises ValueError for unfulfilled promises."""
     return run_text(pathlib.Path(program).resolve(), (MANUAL / f"{page}.md").read_text(), pathlib.Path(out).resolve() / page)
 
 
