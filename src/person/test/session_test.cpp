@@ -70,7 +70,7 @@ TEST(Session, OfTwoHandsHasThePersonsOwnFingersFirst) {
         sit_down(plan, draw_person(Objects::device, plan.seed, "S01"));
         FAIL();
     } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("right_thumb: is of another hand"),
+        EXPECT_NE(std::string(error.what()).find("right_thumb: belongs to another hand"),
                   std::string::npos)
             << error.what();
         EXPECT_GT(error.problems().front().place.line, 0);
