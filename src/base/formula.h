@@ -1,6 +1,6 @@
 // A number in a file that may be written as an expression: hold_s: wait, or position_mm: [0, 10 *
-// step, 20]. The code that knows the expression's names compiles the text (task/plan/formulas.h), and
-// sets the value once the names have values.
+// step, 20]. The code that knows the expression's names compiles the text (task/plan/formulas.h),
+// and sets the value once the names have values.
 #pragma once
 
 #include <array>
