@@ -62,7 +62,7 @@ struct LiftRow {
         v("static_load", f.static_load, "N", "mean in the hold");
         v("static_ratio", f.static_ratio, "1", "static grip over static load");
         v("safety_margin", f.safety_margin, "1",
-          "share of the static grip beyond the friction limit");
+          "share of the static grip in excess of the minimum against slip");
         v("grip_load_r", f.grip_load_r, "1", "r of the rates of grip and load while loading");
         v("grip_load_r_peak", f.grip_load_r_peak, "1",
           "largest r with the grip shifted by up to 100 ms");
