@@ -180,7 +180,7 @@ SchemaKeys JsonSchema::either(SchemaKeys one, const SchemaKeys& other) {
     for (auto& [name, schema] : one.keys) {
         const auto same =
             std::find_if(other.keys.begin(), other.keys.end(),
-                         [&name = name](const auto& key) { return key.name == name; });
+                         [&own = name](const auto& key) { return key.name == own; });
         assert(same != other.keys.end());
         if (same->schema == schema) continue;
         Json both{{"description", schema.value("description", "")}};
