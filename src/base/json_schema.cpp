@@ -178,9 +178,8 @@ Json JsonSchema::mapping(std::string_view key, const std::vector<std::string_vie
 
 SchemaKeys JsonSchema::either(SchemaKeys one, const SchemaKeys& other) {
     for (auto& [name, schema] : one.keys) {
-        const auto same =
-            std::find_if(other.keys.begin(), other.keys.end(),
-                         [&own = name](const auto& key) { return key.name == own; });
+        const auto same = std::find_if(other.keys.begin(), other.keys.end(),
+                                       [&own = name](const auto& key) { return key.name == own; });
         assert(same != other.keys.end());
         if (same->schema == schema) continue;
         Json both{{"description", schema.value("description", "")}};

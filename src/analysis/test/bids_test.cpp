@@ -149,7 +149,7 @@ TEST(Bids, AnotherWithTheSameLabelIsNotAdded) {
         export_bids(other, set, {});
         FAIL();
     } catch (const Error& e) {
-        EXPECT_NE(std::string(e.what()).find("is participant S 07 there, and S07 here"),
+        EXPECT_NE(std::string(e.what()).find("is participant S 07 there, but S07 here"),
                   std::string::npos)
             << e.what();
     }

@@ -98,7 +98,7 @@ class Stream : public ::testing::Test {
 
 TEST_F(Stream, IsWaitedForFollowedAndWaitedForAgain) {
     HeadTracker tracker(head);
-    EXPECT_TRUE(tells(tracker, "No stream 'Head'"));
+    EXPECT_TRUE(tells(tracker, "no stream 'Head'"));
     EXPECT_FALSE(tracker.newest());
     send("9 9 0.1 0.2 0.3");
     EXPECT_TRUE(tells(tracker, "tracked by the stream 'Head'"));

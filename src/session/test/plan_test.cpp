@@ -249,7 +249,7 @@ TEST(Plan, SaysWhichWeightsAndSurfacesADeviceCannotRender) {
     EXPECT_FALSE(diagnostics.has_errors());
     std::string said;
     for (const Problem& problem : diagnostics.problems()) said += problem.text() + "\n";
-    const size_t for_long = said.find("can hold for long");
+    const size_t for_long = said.find("can sustain");
     const size_t at_most = said.find("8.5 N that simulated premium_1_0 gives at most");
     ASSERT_NE(for_long, std::string::npos) << said;
     ASSERT_NE(at_most, std::string::npos) << said;

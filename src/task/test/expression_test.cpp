@@ -247,7 +247,7 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"inside(block, 3)", 15, "a region is missing"},
         Wrong{"touched(thumb)", 9, "'thumb' is not a body"},
         Wrong{"touched(block, table)", 16, "neither a finger nor a hand"},
-        Wrong{"lifted(block, 2 N)", 15, "the other in m"},
+        Wrong{"lifted(block, 2 N)", 15, "but the other is in m"},
         Wrong{"still(20 mm/s)", 7, "is missing"}));
 
 TEST(Expression, NumbersWithoutAUnitThatAreHardlyMeantInSiAreRemarkedOn) {

@@ -311,7 +311,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"choice: [-1, 1]", "choose: [-1, 1]", "choose"},
         Mistake{kSide, "{ name: side }", "draws nothing"},
         Mistake{kSide, "{ choice: [-1, 1] }", "name"},
-        Mistake{kSide, "{ name: side, choice: [-1, 1], participant: yes }", "more than one way"},
+        Mistake{kSide, "{ name: side, choice: [-1, 1], participant: yes }", "in several ways"},
         Mistake{"mean: 0.1, ", "", "mean"}, Mistake{"mean: 0.1", "mean: -0.1", "mean"},
         Mistake{"mean: 0.1", "mean: wait", "must be a number"},
         Mistake{"to: 0.3", "to: 0.03", "is 0.03, but from is 0.1"},

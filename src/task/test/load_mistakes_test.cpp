@@ -79,7 +79,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kField,
                 "loads: [{ kind: spring, on: index, about: start, axis: [1, 0, 0], "
                 "normal: [0, 0, 1], stiffness_N_m: 9 }]",
-                "Keep one of the two"},
+                "Keep one or the other"},
         Mistake{kField,
                 "loads: [{ kind: spring, on: index, about: start, stiffness_N_m: 9, one_sided: yes "
                 "}]",

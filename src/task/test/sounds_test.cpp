@@ -86,7 +86,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Mistake{kTone, "tone_Hz: 5", "must be"},
                       Mistake{kTone, "tone_ms: 5", "tone_ms"},
                       Mistake{kTone, "tone_Hz: 1000, duration_ms: 50, ramp_ms: 30",
-                              "longer than 'go' lasts"},
+                              "longer than the duration of 'go'"},
                       Mistake{kTone, "tone_Hz: 1000, level: 2", "must be"},
                       Mistake{kTone, "tone_Hz: 1000, lasts: ever", "'ever' is not known"},
                       Mistake{kTone, "noise: brown", "'brown' is not known"},

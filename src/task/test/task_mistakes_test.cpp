@@ -125,7 +125,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"kind: catch, count: 1", "kind: force_channel, count: 1",
                 "is missing in a force_channel"},
         Mistake{"perturb: rotation", "perturb: rotatoin", "Did you mean rotation?"},
-        Mistake{"count: 1 }", "count: 5 }", "more than the block's 4 trials"},
+        Mistake{"count: 1 }", "count: 5 }", "but the block has only 4 trials"},
         Mistake{"  blocks:\n", "  block:\n", "blocks"}));
 
 INSTANTIATE_TEST_SUITE_P(
