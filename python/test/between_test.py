@@ -176,7 +176,7 @@ class Deciding(unittest.TestCase):
         self.assertEqual(list(session.trials.trial_num), list(range(1, 9)))
         for what in (
             "chose 2 times a trial that was not left in the block",
-            "chooses trial 99, which there is not, after trial 2",
+            "chooses trial 99, which does not exist, after trial 2",
             "sets 'weight', which is not a variable of the task, after trial 3",
             "sends an invalid answer, after trial 5",
             "failed (ValueError: 'two' is not in list)",

@@ -138,7 +138,7 @@ class Environments(unittest.TestCase):
         many.reset()
         with self.assertRaises(ValueError):
             many.step(np.zeros(5))
-        with self.assertRaisesRegex(dh.Error, "no number"):
+        with self.assertRaisesRegex(dh.Error, "not a number"):
             many.step(np.full((2, 6), np.nan))
         with self.assertRaisesRegex(dh.Error, "options: has 'goal'. Allowed names: reset_mask"):
             many.reset(options={"goal": 0.1})

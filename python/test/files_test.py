@@ -140,9 +140,9 @@ class Files(unittest.TestCase):
         self.assertEqual({path.name: path.read_bytes() for path in self.here.iterdir() if path.suffix == ".yaml"}, before)
 
     def test_another_kind_of_file_is_refused(self):
-        with self.assertRaisesRegex(dh.Error, "is no scene: it has no bodies"):
+        with self.assertRaisesRegex(dh.Error, "is not a valid scene: it has no bodies"):
             Scene.load(PROJECT / "experiments/first-trials.yaml")
-        with self.assertRaisesRegex(dh.Error, "is no rig"):
+        with self.assertRaisesRegex(dh.Error, "is not a valid rig"):
             Rig.load(PROJECT / "scenes/block-on-table.yaml")
 
     def test_a_file_that_is_unchanged_is_used_itself(self):

@@ -80,7 +80,7 @@ class Fits(unittest.TestCase):
 
     def test_the_command_tells_what_is_wrong(self):
         for model, text, what in [
-            ("single_rate", "perturbation,clamp\n1,0\n", "1: error: compensation: is not there"),
+            ("single_rate", "perturbation,clamp\n1,0\n", "1: error: compensation: does not exist"),
             ("single_rate", "perturbation,clamp,compensation\n1,0,2\n1,0,3\n", "is measured in 2 trials"),
             ("learning_curve", "compensation\n1\n\nx\n", "error: compensation: is 'x'"),
             ("psychometric", "level,yes\n1,maybe\n", "2: error: yes: is 'maybe'"),
@@ -186,7 +186,7 @@ class Lifts(unittest.TestCase):
             ("tick", (two, two, np.zeros(100), 0)),
             ("tick", (two, two, np.zeros(100), float("nan"))),
             ("friction", (two, two, np.zeros(100), 0.001, [1.0, -1.0])),
-            ("no number", (np.full((100, 2), np.nan), two, np.zeros(100), 0.001)),
+            ("not a number", (np.full((100, 2), np.nan), two, np.zeros(100), 0.001)),
             ("sample", (np.zeros((0, 2)), np.zeros((0, 2)), np.zeros(0), 0.001)),
         ]:
             with self.subTest(what), self.assertRaisesRegex(dh.Error, what):

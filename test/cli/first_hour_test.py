@@ -221,7 +221,7 @@ class Readme(FirstHour):
         self.assertEqual(self.typed("dihaptic check experiment.yaml").returncode, 0)
         rig = self.study / "rig.yaml"
         text = rig.read_text()
-        presets = re.search(r"# plant .* be on (\w+), (\w+) or (\w+),", text).groups()
+        presets = re.search(r"# The preset plant .* Try (\w+), (\w+) or (\w+),", text).groups()
         for preset in presets:
             changed = text.replace("preset: plant", "preset: " + preset)
             self.assertNotEqual(changed, text)

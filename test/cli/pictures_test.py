@@ -66,7 +66,7 @@ class Commands(unittest.TestCase):
         scene = "scenes/block-on-table.yaml"
         with tempfile.TemporaryDirectory() as folder:
             file = folder + "/x.png"
-            for arguments, told in [(["--camera", "below"], "there is no camera 'below'. There are close, front, above, side"),
+            for arguments, told in [(["--camera", "below"], "there is no camera 'below'. Available cameras: close, front, above, side"),
                                     (["--time", "99"], "--time: error: 99 s is beyond the end, which is at 3"),
                                     (["--size", "99"], "'99' is not a valid picture size. Give width and height in pixels"),
                                     (["--show", "ghosts"], "ghosts not in {path,forces"),

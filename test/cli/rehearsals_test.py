@@ -238,7 +238,7 @@ groups:
         self.assertIn("never ended 'reach' of trial 1", result.stderr)
 
     def test_refuses_what_cannot_be(self):
-        for arguments, message in [(["rehearse", self.experiment, "--shard", "4/3"], "--shard: error: 4/3: is no part"),
+        for arguments, message in [(["rehearse", self.experiment, "--shard", "4/3"], "--shard: error: 4/3: is not a part of a whole"),
                                    (["rehearse", "experiments/lift-block.yaml"], "has no trials for people"),
                                    (["collect", self.folder], "is not the folder of a rehearsal"),
                                    (["run", self.experiment, "--real-objects"], "requires --simulate")]:

@@ -123,7 +123,7 @@ task:
         info.write_text(re.sub(r"seed: \S+", "seed: many", info.read_text()))
         result = dihaptic("resume", session)
         self.assertEqual(result.returncode, 2, result.stdout)
-        self.assertIn("session.yaml: error: seal: does not fit", result.stderr)
+        self.assertIn("session.yaml: error: seal: does not match", result.stderr)
         self.assertEqual(dihaptic("recover", session).returncode, 0)
         self.assertIn("is complete: every trial is done", dihaptic("resume", session).stderr)
         self.assertNotIn("many", info.read_text())

@@ -105,7 +105,7 @@ std::vector<Factor> factors_of(const Task& task) {
     for (const Condition& condition : task.conditions) {
         for (const auto& [name, level] : condition.factors.entries) {
             const auto same = [&, &name = name](const Factor& f) { return f.factor == name; };
-            auto factor = std::find_if(out.begin(), out.end(), same);
+            const auto same = [&, &own = name](const Factor& f) { return f.factor == own; };
             if (factor == out.end()) {
                 out.push_back({name, {}, level.place});
                 factor = out.end() - 1;
