@@ -384,8 +384,8 @@ ClosedMesh closed(const Mesh& mesh, const MeshName& name, Diagnostics& diagnosti
     if (const size_t turned = Nesting(out).sort_out(); turned > 0) {
         diagnostics.warning(
             name.asked_at, "file",
-            fmt::format("the mesh {} has {} of {} inward-facing shells that are not "
-                        "cavities; they are turned around",
+            fmt::format("of the mesh {}, {} of {} shells face inward and are not cavities; "
+                        "they are turned around",
                         name.file, turned, out.shells.size()),
             "Orient the faces of its parts alike in a mesh editor.");
     }

@@ -125,7 +125,7 @@ class Meshes(unittest.TestCase):
         self.felt("solid.stl", b"solid x".ljust(80) + whole[80:] + b"\0" * 7, 64000)
         self.felt("none.stl", whole[:80] + b"\0\0\0\0" + whole[84:], 64000)
         self.refused("short.stl", whole[:-20], "ends after 11 of the 12 triangles")
-        self.refused("fewer.stl", whole[:80] + struct.pack("<I", 5) + whole[84:], "counts 5 triangles", "room for 12")
+        self.refused("fewer.stl", whole[:80] + struct.pack("<I", 5) + whole[84:], "announces 5 triangles", "enough for 12")
 
     def test_a_face_with_many_corners_some_of_them_in_line(self):
         outline = [(10, 0), (20, 0), (20, 10), (30, 10), (30, 20), (20, 20), (20, 30), (10, 30), (10, 20), (0, 20), (0, 10),
