@@ -104,8 +104,8 @@ std::vector<Factor> factors_of(const Task& task) {
     std::vector<Factor> out;
     for (const Condition& condition : task.conditions) {
         for (const auto& [name, level] : condition.factors.entries) {
-            const auto same = [&, &name = name](const Factor& f) { return f.factor == name; };
-            const auto same = [&, &own = name](const Factor& f) { return f.factor == own; };
+            const auto same = [&own = name](const Factor& f) { return f.factor == own; };
+            auto factor = std::find_if(out.begin(), out.end(), same);
             if (factor == out.end()) {
                 out.push_back({name, {}, level.place});
                 factor = out.end() - 1;
