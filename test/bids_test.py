@@ -228,7 +228,7 @@ class DataSets(unittest.TestCase):
         self.assertIn("is of seed 1 there, but 2 here", dihaptic("export", seed, "--bids", study, code=2))
         shutil.copy(self.reaches, self.out + "/reach_turned.yaml")
         task = self.run_session(self.out + "/reach_turned.yaml", "--simulate", "--participant", "sim-004")
-        self.assertIn("TaskName: is reach-turned, and reach_turned would have the same label",
+        self.assertIn("TaskName: is reach-turned, but reach_turned would have the same label",
                       dihaptic("export", task, "--bids", study, code=2))
         people.write_text(people.read_text().replace("participant_id", "id", 1))
         task = self.run_session(self.reaches, "--simulate", "--participant", "sim-005")
