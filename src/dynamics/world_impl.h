@@ -1,8 +1,11 @@
-// The parts of a World. Only world.cpp, which sets it up, and world_step.cpp, which steps it,
-// include this file.
+// The parts of a World. Only the sources of World include this file: world.cpp sets it up,
+// world_step.cpp steps it, world_solve.cpp solves its islands, and world_books.cpp keeps its books.
 #pragma once
 
 #include <btBulletDynamicsCommon.h>
+
+#include <numbers>
+#include <utility>
 
 #include "contact/solver.h"
 #include "dynamics/books.h"
@@ -231,5 +234,22 @@ struct World::Impl {
     /// force [W].
     double loads_at(const contact::Contact& contact, const btManifoldPoint& point) const;
 };
+
+/// User indices of both.
+inline std::pair<size_t, size_t> bodies_of(const btPersistentManifold& manifold) {
+    return {static_cast<size_t>(manifold.getBody0()->getUserIndex()),
+            static_cast<size_t>(manifold.getBody1()->getUserIndex())};
+}
+
+/// Beyond an eighth of a turn in a step, a body's orientation no longer follows from its angular
+/// velocity, so the body is slowed to this.
+inline Vec3 limited(const Vec3& w, double h) {
+    const double most = std::numbers::pi / (4 * h);
+    return w.squaredNorm() > most * most ? Vec3(w * (most / w.norm())) : w;
+}
+
+inline void limit_turn(btRigidBody& body, double h) {
+    body.setAngularVelocity(to_bullet(limited(from_bullet(body.getAngularVelocity()), h)));
+}
 
 }  // namespace dihaptic::dynamics
