@@ -272,5 +272,55 @@ class Fits(unittest.TestCase):
             self.assertIn("trials.csv:1: error: compensation: column 4 repeats an earlier one", result.stderr)
 
 
+class Sessions(unittest.TestCase):
+    """trials.csv of a session, after other programs have saved it."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        text = pathlib.Path("experiments/rotation-reversal.yaml").read_text().replace("../", os.getcwd() + "/")
+        for repeats in ["64", "160", "16", "48"]:
+            text = text.replace(f"repeats: {repeats}", "repeats: 3")
+        file = pathlib.Path(folder.name, "short.yaml")
+        file.write_text(text)
+        dihaptic("run", str(file), "--simulate", "--participant", "sim-001", "--out", folder.name + "/out")
+        self.session = pathlib.Path(session_of(folder.name + "/out"))
+        self.trials = self.session / "trials.csv"
+        with self.trials.open(newline="") as table:
+            self.head, *self.rows = list(csv.reader(table))
+        self.adaptation = self.reported()[1]
+
+    def reported(self):
+        result = dihaptic("report", str(self.session))
+        made = self.session / "adaptation.csv"
+        return result, made.read_text() if result.returncode == 0 else ""
+
+    def same(self, text):
+        self.trials.write_text(text)
+        result, adaptation = self.reported()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(adaptation, self.adaptation)
+        self.assertIn("trials.csv", result.stderr, "a change is reported")
+
+    def test_with_a_byte_order_mark_are_the_same(self):
+        self.same("\ufeff" + joined([self.head, *self.rows]).replace("\n", "\r\n"))
+
+    def test_with_a_column_that_numbers_the_rows_are_the_same(self):
+        self.same(joined([["", *self.head], *([str(i), *row] for i, row in enumerate(self.rows))]))
+
+    def test_with_a_comma_at_the_end_of_each_line_are_the_same(self):
+        self.same(joined([*row, ""] for row in [self.head, *self.rows]))
+
+    def test_with_whole_numbers_as_decimals_are_the_same(self):
+        whole = [i for i, name in enumerate(self.head) if name in ("trial_num", "attempt", "session_num")]
+        self.same(joined([self.head, *([cell + ".0" if i in whole else cell for i, cell in enumerate(row)] for row in self.rows)]))
+
+    def test_with_the_names_of_the_columns_once_more_are_refused_with_the_line(self):
+        self.trials.write_text(joined([self.head, *self.rows[:5], self.head, *self.rows[5:]]))
+        result, _ = self.reported()
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("trials.csv:7: error: kind: is 'kind', which is not one of: practice, baseline", result.stderr)
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=1)
