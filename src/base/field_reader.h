@@ -106,10 +106,18 @@ class FieldReader {
     bool is_list(std::string_view name) const;
     Diagnostics& diagnostics() { return diagnostics_; }
 
-    /// Reports the keys that belong to no field. Call it after visit().
-    void finish();
+    /// Reads a struct from the whole mapping. A member `place` becomes the place of the mapping;
+    /// keys that belong to no field are reported.
+    template <class Struct>
+    void read_whole(Struct& value) {
+        if constexpr (requires { value.place = place(); }) value.place = place();
+        value.visit(*this);
+        finish();
+    }
 
   private:
+    void finish();
+
     struct Known {
         std::string name;
         Quantity quantity;
@@ -142,8 +150,7 @@ class FieldReader {
     template <class Struct>
     void read_into(Struct& value, const Node& node, const std::string& name) {
         FieldReader inner(node, diagnostics_, origins_, path_.empty() ? name : path_ + "." + name);
-        value.visit(inner);
-        inner.finish();
+        inner.read_whole(value);
     }
 
     const Node& mapping_;
@@ -163,9 +170,7 @@ void read_fields(Struct& value, const Node& mapping, Diagnostics& diagnostics,
                           "Write one 'key: value' a line.");
         return;
     }
-    FieldReader reader(mapping, diagnostics, origins);
-    value.visit(reader);
-    reader.finish();
+    FieldReader(mapping, diagnostics, origins).read_whole(value);
 }
 
 /// Like read_fields(), for a mapping that may be left out; then all fields keep their defaults.

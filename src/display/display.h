@@ -72,7 +72,6 @@ struct Eyes {
           says("Whether the eyes move with the tracked head; 'position' and 'along' then apply "
                "until "
                "the tracker sees the head."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -123,7 +122,6 @@ struct Display {
         v("monitor", monitor,
           Field::text().says("Name of the monitor, as listed in the window's log; if left out, "
                              "a monitor without the operator's window."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

@@ -39,7 +39,6 @@ struct Headset {
               .within(-100, 100)
               .says("Rotation of this space about the world's axes x, then y, then z; if zero, its "
                     "forward direction is the world's +y."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

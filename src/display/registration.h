@@ -38,7 +38,6 @@ struct Registration {
         v("upper_left", upper_left, corner);
         v("rms", rms, Field::length().within(0, 0.1));
         v("worst", worst, Field::length().within(0, 0.1));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

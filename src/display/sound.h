@@ -36,7 +36,6 @@ struct SoundOutput {
               .within(0, 1)
               .says("Constant time from a tick to its sounds; if left out, the sound device's "
                     "own delay, or 0 for a file."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

@@ -48,7 +48,6 @@ struct Impedance {
               .says("Rotational stiffness on a handle."));
         v("turn_damping", turn_damping,
           Field::of(Quantity::turn_damping).within(0, 10).says("Rotational damping on a handle."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -104,7 +103,6 @@ struct FingerPlace {
               .says("Initial centre of another hand, to which the finger belongs."));
         v("aperture", aperture,
           Field::length().within(0, kFarthest).says("Initial aperture of that hand."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -152,7 +150,6 @@ struct ScriptStep {
               .within(-kFastest, kFastest)
               .says("Velocity of the centre at the end, with which the next step starts."));
         v("fingers", fingers, says("Fingers that take part; if left out, all."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -179,7 +176,6 @@ struct HandSpec {
           says("Positions of the fingers in the hand; if left out, the thumb is on the "
                "-x side and the index on the +x side."));
         v("script", script, says("Steps of the hand, one after the other."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

@@ -81,7 +81,6 @@ struct TrackedHead {
               "Direction from the left to the right eye in that frame, of any length."));
         v("library", library,
           Field::text().says("Path of liblsl, if it is not found automatically."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

@@ -32,7 +32,6 @@ struct OutletConfig {
     void visit(Visitor& v) {
         v("kind", kind, Field::text().required().says("Kind of outlet: serial or lsl."));
         v("options", options, says("Options of that kind."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

@@ -48,7 +48,6 @@ struct TraitSpread {
         v("median", median, says("Median of the trait, in that unit."));
         v("spread", spread, Field::number().within(0, 10).says("Factor of z in the law."));
         v("source", source, says("Source of these numbers."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -61,7 +60,6 @@ struct Correlation {
     void visit(Visitor& v) {
         v("traits", traits, Field::text().required().says("Two traits."));
         v("r", r, Field::number().within(-0.99, 0.99).says("Correlation of their z."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -74,7 +72,6 @@ struct Group {
     void visit(Visitor& v) {
         v("name", name, Field::text().required().says("Name of the group."));
         v("traits", traits, says("Traits that differ from the population's."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

@@ -65,7 +65,6 @@ struct Calibration {
         v("jig_rms", jig_rms, Field::length().within(0, 0.1));
         v("jig_worst", jig_worst, Field::length().within(0, 0.1));
         v("slips", slips, Field::number().within(0, 1));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 
     /// The entry of a finger's device; null if there is none.

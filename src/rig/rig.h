@@ -40,7 +40,6 @@ struct Device {
           Field::number().within(0.1, 10).says("Ratio of movement in the world to movement of the "
                                                "hand, about the device's origin."));
         v("options", options, says("Options of the backend."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 
     Pose X_WD() const { return {rotation_xyz(rotation), position}; }
@@ -76,7 +75,6 @@ struct Wall {
               .within(0.001, 100)
               .required()
               .says("Lengths of the box's edges, along the world's axes."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
     Eigen::AlignedBox3d box() const { return {centre - size / 2, centre + size / 2}; }
 };
@@ -134,7 +132,6 @@ struct Rig {
           says("Output for the sounds of tasks; if left out, the system's default device."));
         v("settings", settings,
           says("Settings that the rig requires; those of 'safety' are its limits."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

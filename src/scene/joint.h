@@ -104,7 +104,6 @@ struct Joint {
         v("collide", collide, says("Whether the two bodies can nevertheless touch each other."));
         v("recorded", recorded,
           says("Whether the joint is recorded, so that tasks can use its name."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 
     static constexpr double kStiffest = 1e7;  // limit of its springs [N/m] or [N*m/rad]

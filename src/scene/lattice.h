@@ -44,7 +44,6 @@ struct Glued {
     void visit(Visitor& v) {
         v("side", side, says("The glued face, by its outward normal."));
         v("to", to, says("Body to which the face is glued; if left out, the world."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -96,7 +95,6 @@ struct Lattice {
           Field::number().within(0, kMostFriction).says("Coefficient of friction, as for a body."));
         v("colour", colour, says("Colour, as \"#rrggbb\"; if left out, the view chooses."));
         v("glued", glued, says("Faces glued to bodies or to the world."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

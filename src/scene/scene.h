@@ -103,7 +103,6 @@ struct Body {
         v("picture", picture, says("Picture of known size that covers it, in place of a colour."));
         v("seen", seen, says("Mesh drawn in place of the shape that is felt."));
         if constexpr (requires { v.place(); }) {
-            place = v.place();
             weighed = v.mentions("mass") || v.mentions("density");
         }
     }
@@ -152,7 +151,6 @@ struct Finger {
               .within(-kMostTurn, kMostTurn)
               .says("Orientation at the device's neutral orientation, about the world's axes x, "
                     "then y, then z."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -175,7 +173,6 @@ struct Pair {
         v("surface", surface,
           says("How they slide on each other, yield and bounce, in place of the combination of "
                "their own surfaces."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

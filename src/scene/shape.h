@@ -134,7 +134,6 @@ struct Part {
           Field::of(Quantity::angle)
               .within(-kMostTurn, kMostTurn)
               .says("Rotation of the part about the body's axes x, then y, then z."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 
     Pose pose() const { return {rotation_xyz(rotation), position}; }

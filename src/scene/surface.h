@@ -64,7 +64,6 @@ struct Surface {
               .says("Viscous drag of a sliding face, in addition to friction; the drags of two "
                     "surfaces are added."));
         v("texture", texture, says("Variation of friction and height along a body's surface."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

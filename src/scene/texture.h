@@ -64,7 +64,6 @@ struct Texture {
                                                  "frame, of any length."));
         v("file", file,
           Field::text().says("PNG file of the picture, relative to this file; white is high."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 
     /// The texture's steepest slope.

@@ -329,7 +329,6 @@ struct Placed {
     void visit(V& v) {
         v("size", size, Field::length());
         v("size_ratio", size_ratio);
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

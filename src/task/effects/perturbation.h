@@ -63,7 +63,6 @@ struct PerturbationSpec {
         v("field", field,
           says("A single load, or the first one, with the same keys as in 'loads'."));
         v("loads", loads, says("Forces and torques on the handles of fingers and on bodies."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

@@ -93,7 +93,6 @@ struct DrawSpec {
           says("These numbers or texts in random order, each equally often within a block."));
         v("participant", participant,
           says("The number at the end of the participant's identifier."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 
     /// The values of a choice or a permutation.

@@ -54,7 +54,6 @@ struct DriveSpec {
           says("Three expressions with units, evaluated in each tick: displacement along x, y and "
                "z from its position when the state began."));
         v("path", path, says("Table of displacements from its position when the state began."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

@@ -80,7 +80,6 @@ struct Experiment {
         v("task", task, says("Trials, in place of the hand's script."));
         v("study", study, says("Information about the study that archives require."));
         v("settings", settings, says("Settings, which override those of the scene and the rig."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

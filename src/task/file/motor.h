@@ -58,7 +58,6 @@ struct MotorSpec {
         v("push", push,
           says("Additional force, or torque on a hinge: an expression with a unit, evaluated in "
                "each tick."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

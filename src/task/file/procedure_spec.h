@@ -207,7 +207,6 @@ struct ProcedureSpec {
         v("quest", quest, says("QUEST chooses the level."));
         v("quest_plus", quest_plus, says("QUEST+ chooses the level."));
         v("constant", constant, says("Constant stimuli: each level is presented equally often."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 
     /// Range of levels that it may propose; infinite where none is given.

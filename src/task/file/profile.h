@@ -37,7 +37,6 @@ struct Profile {
           time.says("Duration of the plateau; as long as its states last if omitted."));
         v("fall", fall, time.says("Duration of the fall after the plateau."));
         v("shape", shape, says("Shape of the rise and the fall."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 
     /// The factor at `t` since the onset [s], from 0 to 1.

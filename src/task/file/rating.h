@@ -55,7 +55,6 @@ struct AskSpec {
         v("between", between,
           says(
               "Regions at the ends of the line on which the cursor points; only with by: cursor."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 
     double least() const;

@@ -21,7 +21,6 @@ struct Region {
         v("position", position,
           Field::length().within(-100, 100).required().says("Centre of the region."));
         v("radius", radius, Field::length().within(1e-4, 10).says("Radius of the region."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

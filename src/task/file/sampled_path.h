@@ -38,7 +38,6 @@ struct SampledPath {
         v("x", x, way.says("Positions along x at these times."));
         v("y", y, way.says("Positions along y at these times."));
         v("z", z, way.says("Positions along z at these times."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 
     /// Reads the file, if there is one, and then clears its name. Relative paths start at `folder`.

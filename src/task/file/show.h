@@ -38,7 +38,6 @@ struct Show {
         v("bodies", bodies, says("Individual bodies by name, each shown or not."));
         v("fingers", fingers,
           says("Individual fingers by name, each shown or not; overrides 'cursor'."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
     /// Visits the single key of a struct that contains a Show.
     template <class Visitor>
@@ -71,7 +70,6 @@ struct LookSpec {
         v("target", target, says("Region that gets this look."));
         v("colour", colour, says("Colour, as \"#rrggbb\"."));
         v("scale", scale, Field::number().within(0.05, 20).says("Factor on the displayed size."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -94,7 +92,6 @@ struct PageSpec {
           Field::of(Quantity::time)
               .within(0, 3600)
               .says("Longest time for which the page is shown; 0: until the key is pressed."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

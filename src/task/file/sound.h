@@ -66,7 +66,6 @@ struct SoundSpec {
         v("lasts", lasts,
           says("Whether it is played once, repeatedly while states name it, or throughout the "
                "session."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

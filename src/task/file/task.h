@@ -188,7 +188,6 @@ struct Exit {
           says("Text that is shown on this exit, for at least feedback_s; names in braces are "
                "replaced with numbers."));
         v("sound", sound, says("Sound that is played once on this exit."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -220,7 +219,6 @@ struct HandStep {
               .within(0, hand::kFarthest)
               .says("Distance between the fingers at the end of the step."));
         v("fingers", fingers, says("Fingers that move; all if omitted."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -247,7 +245,6 @@ struct StatePlace {
         v("held", held, says("Whether the body is kept there while the state lasts."));
         v("removed", removed,
           says("Whether the body is out of reach and invisible while the state lasts."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -302,7 +299,6 @@ struct State {
         v("simulated_hand", hand,
           Field{}.formerly("hand").says(
               "Steps that a simulated hand or person performs in the state."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -345,7 +341,6 @@ struct BodyPlace {
           Field::of(Quantity::speed)
               .within(-100, 100)
               .says("Initial velocity of the joint, a slider."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -362,7 +357,6 @@ struct Factor {
               "Name of the factor, which may end in the unit of its levels."));
         v("levels", levels,
           Field::text().required().says("Levels of the factor, either all numbers or all texts."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -392,7 +386,6 @@ struct Condition {
         v("perturbations", perturbations,
           says("Perturbations that replace those of the same name."));
         v("look", look, says("Colours and sizes in these trials."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -420,7 +413,6 @@ struct Insert {
           Field::number().within(1, 10000).says(
               "Smallest number of other trials between two inserted ones."));
         v("perturb", perturb, says("Perturbations of these trials; none if omitted."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -465,7 +457,6 @@ struct Block {
               .says("Break before the block, unless it is the session's first."));
         v("pages", pages,
           says("Pages shown one after another in place of the scene before the block."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -513,7 +504,6 @@ struct ReachMeasure {
               .within(-1000, 1000)
               .says("Axis of the angles, right-handed; if omitted, the axis of the first "
                     "perturbation that has one, or z."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -527,7 +517,6 @@ struct Hand {
     void visit(Visitor& v) {
         v("name", name, Field::text().required().says("Name of the group, for use in conditions."));
         v("fingers", fingers, Field::text().required().says("Fingers of the group."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -544,7 +533,6 @@ struct Variable {
         v("start", start,
           Field::number().within(-1e9, 1e9).says(
               "Value at the session's start, in the unit of its name."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -560,7 +548,6 @@ struct Rule {
         v("when", when, says("Condition on the ended trial; if omitted, the rule always applies."));
         v("set", set, Field::text().required().says("Variable that is set."));
         v("to", to, Field::text().required().says("Expression for the new value."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -636,7 +623,6 @@ struct Task {
           says("Custom measures, given as expressions and reported for each attempt."));
         v("movement", movement,
           says("Movement that the measures analyse; keys omitted here are copied from 'reach'."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

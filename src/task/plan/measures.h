@@ -169,7 +169,6 @@ struct OwnMeasure {
         v("of", of, Field::text().required().says("Expression that is evaluated in each tick."));
         v("take", take, Field::text().required().says("Statistic of its values that is reported."));
         v("during", during, says("States in which it is evaluated; all if omitted."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
@@ -232,7 +231,6 @@ struct Movement {
                "viscous or curl field if omitted."));
         v("error", error,
           says("Value of a listed measure to which adaptation is fitted, by condition."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 inline constexpr const char* kHand = "hand";

@@ -49,7 +49,6 @@ struct BodySpec {
         v("restitution_scale", restitution_scale,
           Field::number().within(0, 100).says(
               "Factor on the restitution of its surface, which is limited to 1."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

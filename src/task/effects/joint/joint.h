@@ -30,7 +30,6 @@ struct JointSpec {
           factor.says("Factor on the stiffness of its spring."));
         v("damping_scale", damping_scale, factor.says("Factor on the damping of its damper."));
         v("friction_scale", friction_scale, factor.says("Factor on its dry friction."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 

@@ -117,7 +117,6 @@ struct LoadSpec {
               Field::of(Quantity::time)
                   .within(0, 2)
                   .says("Age of the position and velocity from which the load is computed."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 
     /// Whether it is a field whose force depends on the velocity, alone or with other terms.

@@ -66,7 +66,6 @@ struct VisualSpec {
         v("noise", noise,
           Field::length().within(0, 1).says(
               "Standard deviation of noise on their displayed positions, along the world axes."));
-        if constexpr (requires { v.place(); }) place = v.place();
     }
 };
 
