@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -79,14 +81,9 @@ py::dict fit_learning_curve(const std::vector<double>& measured) {
 }
 
 model::Sigmoid sigmoid_of(const std::string& word) {
-    const auto names = enum_names(model::Sigmoid{});
-    const auto found = std::find(names.begin(), names.end(), word);
-    if (found == names.end()) {
-        std::string known;
-        for (const char* name : names) known += std::string(known.empty() ? "" : ", ") + name;
-        throw Error({}, "sigmoid", "is '" + word + "'", "Valid names: " + known + ".");
-    }
-    return static_cast<model::Sigmoid>(found - names.begin());
+    if (const auto named = enum_named<model::Sigmoid>(word)) return *named;
+    throw Error({}, "sigmoid", "is '" + word + "'",
+                fmt::format("Valid names: {}.", fmt::join(enum_names(model::Sigmoid{}), ", ")));
 }
 
 Counts count_answers(const std::vector<double>& levels, const std::vector<bool>& answers) {

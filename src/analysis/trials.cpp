@@ -196,14 +196,14 @@ void TrialFinder::measure_extent(Row& row, const Reach& reach, const frame::Fram
 
 Table TrialFinder::table(const recording::SessionInfo& info) const {
     Table table;
-    table.columns = list_figures(rows::TrialHead{}).columns;
+    add_columns<rows::TrialHead>(table);
     // a trial's way of measurement is not repeated
     const size_t listed =
         std::min(column(list_, task::kFirstReachColumn), column(list_, task::kFirstMovementColumn));
     for (size_t k = 0; k < listed; ++k)
         table.columns.push_back({list_[0][k], listed_as(list_[0][k])});
     append(table.columns, columns_of_numbers(info));
-    append(table.columns, list_figures(rows::TrialMeasures{}).columns);
+    add_columns<rows::TrialMeasures>(table);
     check_columns(table, file_);
     for (const Row& r : rows_) {
         std::vector<Table::Cell> row =
@@ -223,7 +223,7 @@ Table TrialFinder::table(const recording::SessionInfo& info) const {
         rows::TrialMeasures measures = r.measures;
         measures.outcome = r.outcome >= 0 && outcome < info.outcomes.size() ? info.outcomes[outcome]
                                                                             : rows::kInterrupted;
-        append(row, list_figures(measures).cells);
+        add_cells(row, measures);
         table.rows.push_back(row);
     }
     return table;
@@ -235,9 +235,7 @@ size_t TrialFinder::ended() const {
 }
 
 std::vector<Table::Column> trial_columns() {
-    std::vector<Table::Column> out = list_figures(rows::TrialHead{}).columns;
-    append(out, list_figures(rows::AskedRow{}).columns);
-    append(out, list_figures(rows::TrialMeasures{}).columns);
+    std::vector<Table::Column> out = list_figures(rows::TrialRow{}).columns;
     append(out, recording::kMovedByColumns);
     return out;
 }

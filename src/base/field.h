@@ -21,6 +21,7 @@
 
 #include <concepts>
 #include <limits>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -129,6 +130,15 @@ concept Described = !requires {
 template <NamedEnum E>
 constexpr std::string_view enum_name(E value) {
     return enum_names(value)[static_cast<size_t>(value)];
+}
+/// The value with this name; nullopt if there is none.
+template <NamedEnum E>
+constexpr std::optional<E> enum_named(std::string_view name) {
+    constexpr auto names = enum_names(E{});
+    for (size_t i = 0; i < names.size(); ++i) {
+        if (name == names[i]) return static_cast<E>(i);
+    }
+    return std::nullopt;
 }
 
 }  // namespace dihaptic

@@ -37,6 +37,11 @@ FigureForm figure_form(std::string_view name, std::string_view unit) {
     return {nwb ? key : key + ending(unit), 1 / known->si};
 }
 
+FigureColumn figure_column(std::string_view name, std::string_view unit, std::string_view what) {
+    const FigureForm form = figure_form(name, unit);
+    return {{form.key, std::string(what), std::string(unit == "1" ? "" : unit)}, form.scale};
+}
+
 void add_row(Table& table, FigureLister row) {
     table.columns = std::move(row.columns);
     table.rows.push_back(std::move(row.cells));

@@ -37,6 +37,12 @@ struct FigureForm {
 };
 /// `unit` is in the usual notation, e.g. "N/s"; base/unit.h must know it.
 FigureForm figure_form(std::string_view name, std::string_view unit);
+/// The same with the sentence that describes the figure.
+struct FigureColumn {
+    Table::Column column;
+    double scale = 1;
+};
+FigureColumn figure_column(std::string_view name, std::string_view unit, std::string_view what);
 
 /// Collects figures, from a struct or from direct calls, as the columns and cells of a table.
 class FigureLister {
@@ -44,9 +50,9 @@ class FigureLister {
     template <class T>
     void operator()(std::string_view name, const T& value, std::string_view unit,
                     std::string_view what) {
-        const FigureForm form = figure_form(name, unit);
-        columns.push_back({form.key, std::string(what), std::string(unit == "1" ? "" : unit)});
-        cells.push_back(cell(value, form.scale));
+        FigureColumn figure = figure_column(name, unit, what);
+        columns.push_back(std::move(figure.column));
+        cells.push_back(cell(value, figure.scale));
     }
     /// Figures within figures have both names: "awake.median_us".
     template <class T>
@@ -107,20 +113,14 @@ void add_cells(std::vector<Table::Cell>& row, const Figures& figures) {
     for (Table::Cell& cell : list_figures(figures).cells) row.push_back(std::move(cell));
 }
 
-/// How a member of a struct is written: its column, and the factor for the member.
-struct FigureColumn {
-    Table::Column column;
-    double scale = 1;
-};
+/// Finds the column of one member of a struct.
 class FigureFinder {
   public:
     explicit FigureFinder(const void* member) : member_(member) {}
     template <class T>
     void operator()(std::string_view name, const T& value, std::string_view unit,
                     std::string_view what) {
-        if (static_cast<const void*>(&value) != member_) return;
-        const FigureForm form = figure_form(name, unit);
-        found = {{form.key, std::string(what), std::string(unit == "1" ? "" : unit)}, form.scale};
+        if (static_cast<const void*>(&value) == member_) found = figure_column(name, unit, what);
     }
     FigureColumn found;
 

@@ -256,20 +256,12 @@ std::optional<size_t> CsvFile::column(const std::string& name) const {
     return static_cast<size_t>(found - header_.begin());
 }
 
-const std::string& CsvFile::text(size_t row, size_t column) const {
+const std::string& CsvFile::text(size_t row, std::optional<size_t> column) const {
     static const std::string missing;
-    return column < rows_[row].size() ? rows_[row][column] : missing;
+    return column && *column < rows_[row].size() ? rows_[row][*column] : missing;
 }
 
-std::string CsvFile::text(size_t row, const std::string& column) const {
-    return text(row, this->column(column).value_or(header_.size()));
-}
-
-double CsvFile::number(size_t row, size_t column) const {
-    return any_number(text(row, column)).value_or(kUnmeasured);
-}
-
-double CsvFile::number(size_t row, const std::string& column) const {
+double CsvFile::number(size_t row, std::optional<size_t> column) const {
     return any_number(text(row, column)).value_or(kUnmeasured);
 }
 

@@ -70,11 +70,15 @@ class CsvFile {
     /// Position of the column of that name; nullopt if there is none.
     std::optional<size_t> column(const std::string& name) const;
     bool has(const std::string& name) const { return column(name).has_value(); }
-    const std::string& text(size_t row, size_t column) const;
-    std::string text(size_t row, const std::string& column) const;
+    const std::string& text(size_t row, std::optional<size_t> column) const;
+    const std::string& text(size_t row, const std::string& column) const {
+        return text(row, this->column(column));
+    }
     /// NaN if the cell contains no number.
-    double number(size_t row, size_t column) const;
-    double number(size_t row, const std::string& column) const;
+    double number(size_t row, std::optional<size_t> column) const;
+    double number(size_t row, const std::string& column) const {
+        return number(row, this->column(column));
+    }
     /// Renames a column of an earlier version's table to its present name.
     void rename(const std::string& was, const std::string& now) {
         std::replace(header_.begin(), header_.end(), was, now);

@@ -3,6 +3,9 @@
 // table.
 #pragma once
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cmath>
 #include <concepts>
 #include <limits>
@@ -57,9 +60,9 @@ class RowReader {
         const Slot& slot = slots_[slot_++];
         if (!slot.column) return;
         if constexpr (std::is_floating_point_v<T>) {
-            value = table_.number(row_, *slot.column) / slot.scale;
+            value = table_.number(row_, slot.column) / slot.scale;
         } else {
-            const std::string& text = table_.text(row_, *slot.column);
+            const std::string& text = table_.text(row_, slot.column);
             if (!text.empty()) take(value, text, *slot.column);
         }
     }
@@ -80,22 +83,17 @@ class RowReader {
     }
     template <NamedEnum E>
     void take(E& value, const std::string& text, size_t column) {
-        constexpr auto names = enum_names(E{});
-        for (size_t i = 0; i < names.size(); ++i) {
-            if (text != names[i]) continue;
-            value = static_cast<E>(i);
+        std::optional<E> named = enum_named<E>(text);
+        if constexpr (requires { old_value(value); }) {
+            if (text == old_name(value).was) named = old_value(value);
+        }
+        if (named) {
+            value = *named;
             return;
         }
-        if constexpr (requires { old_value(value); }) {
-            if (text == old_name(value).was) {
-                value = old_value(value);
-                return;
-            }
-        }
-        std::string words;
-        for (const char* name : names) words += (words.empty() ? "" : ", ") + std::string(name);
         throw Error(table_.place(row_), table_.columns()[column],
-                    "is '" + shortened(text) + "', which is not one of: " + words,
+                    fmt::format("is '{}', which is not one of: {}", shortened(text),
+                                fmt::join(enum_names(value), ", ")),
                     "Replace the table with a backup, or rebuild it: dihaptic recover.");
     }
 
@@ -126,13 +124,13 @@ class RowFile {
 
     /// The column with this name, which a task or a person chose; nullopt if there is none.
     std::optional<size_t> column(const std::string& name) const { return table_.column(name); }
+    /// A cell; empty without a column.
     const std::string& text(size_t row, std::optional<size_t> column) const {
-        static const std::string none;
-        return column ? table_.text(row, *column) : none;
+        return table_.text(row, column);
     }
     /// NaN if the cell holds no number, or without a column.
     double number(size_t row, std::optional<size_t> column) const {
-        return column ? table_.number(row, *column) : kUnmeasured;
+        return table_.number(row, column);
     }
 
   private:

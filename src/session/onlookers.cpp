@@ -174,14 +174,11 @@ void turn(T& knob, const frame::Knob& is, const Json& value) {
                                       is.least, is.most, is.unit)};
         knob = wanted;
     } else {
-        constexpr auto names = enum_names(T{});
-        for (size_t i = 0; i < names.size(); ++i) {
-            if (value == std::string(names[i])) {
-                knob = static_cast<T>(i);
-                return;
-            }
-        }
-        throw Refusal{fmt::format("{} must be one of: {}.", is.name, fmt::join(names, ", "))};
+        const auto named = enum_named<T>(value.is_string() ? value.get<std::string>() : "");
+        if (!named)
+            throw Refusal{
+                fmt::format("{} must be one of: {}.", is.name, fmt::join(enum_names(T{}), ", "))};
+        knob = *named;
     }
 }
 

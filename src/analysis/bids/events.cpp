@@ -54,28 +54,31 @@ std::vector<Attempt> attempts_of(const rows::TrialFile& trials,
 std::vector<Column> columns_for(const rows::TrialFile& trials, const rows::LiftFile* lifts,
                                 const recording::SessionFolder& session) {
     std::vector<Column> out;
-    const auto add = [&](const auto& file, const Table::Column& column, Column::Of of) {
-        if (const auto from = file.column(column.name)) out.push_back({column, of, *from});
+    const auto add = [&](const Table::Column& column, Column::Of of) {
+        if (const auto from = trials.column(column.name)) out.push_back({column, of, *from});
     };
     // rows of moments in a trial also have the data known before its start
     std::vector<Table::Column> asked = list_figures(rows::AskedRow{}).columns;
     std::vector<Table::Column> measured = list_figures(rows::TrialMeasures{}).columns;
     asked.insert(asked.begin() + 1, measured.front());  // the attempt's number
     measured.erase(measured.begin());
-    for (const Table::Column& c : asked) add(trials, c, Column::Of::asked);
+    for (const Table::Column& c : asked) add(c, Column::Of::asked);
     // events and measures of a trial: only the trial's own row has them
     const task::Task task = read_frozen_task(session.file("task.yaml"));
     for (Table::Column& c : measure_columns_of(task)) measured.push_back(std::move(c));
-    for (const Table::Column& c : measured) add(trials, c, Column::Of::measured);
+    for (const Table::Column& c : measured) add(c, Column::Of::measured);
     if (lifts == nullptr) return out;
     const std::vector<Table::Column> of_lifts = list_figures(rows::LiftRow{}).columns;
     for (size_t i = 2; i < of_lifts.size(); ++i) {  // after the numbers of trial and attempt
-        add(*lifts, of_lifts[i], Column::Of::lift);
-        if (out.back().of != Column::Of::lift || out.back().name != of_lifts[i].name) continue;
+        const auto from = lifts->column(of_lifts[i].name);
+        if (!from) continue;
         const bool mark = i == 2;
-        out.back().description =
-            (mark ? "grip and lift: " : "of the grip and lift: ") + out.back().description;
-        if (!mark) out.back().name = kLift + out.back().name;
+        out.push_back(
+            {{mark ? of_lifts[i].name : kLift + of_lifts[i].name,
+              (mark ? "grip and lift: " : "of the grip and lift: ") + of_lifts[i].description,
+              of_lifts[i].unit},
+             Column::Of::lift,
+             *from});
     }
     return out;
 }

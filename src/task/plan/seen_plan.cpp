@@ -66,15 +66,13 @@ int SeenPlanner::text(const std::string& text, const Place& place, const char* k
 
 std::optional<TextNumber> SeenPlanner::number(const std::string& name, const Place& place,
                                               const char* key) {
-    const auto figures = enum_names(Figure{});
-    const auto figure = std::find(figures.begin(), figures.end(), name);
-    if (figure != figures.end())
-        return TextNumber{static_cast<Figure>(figure - figures.begin()), {}};
+    if (const auto figure = enum_named<Figure>(name)) return TextNumber{*figure, {}};
     Diagnostics unknown;
     Expression quantity = Expression::compile(name, plan.quantities, place, key, unknown);
     if (!unknown.has_errors() && quantity.type() == Expression::Type::number)
         return TextNumber{Figure{}, std::move(quantity)};
     std::vector<std::string> known = plan.quantities.names();
+    const auto figures = enum_names(Figure{});
     known.insert(known.end(), figures.begin(), figures.end());
     const std::string guess = nearest(name, known);
     diagnostics.error(

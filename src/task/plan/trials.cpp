@@ -401,20 +401,19 @@ std::vector<Trial> read_trial_list(const Task& task, const std::string& file) {
         Trial t;
         read_numbers(t, row, bad);
         t.block = blocks(row[2]);
-        const auto kinds = enum_names(TrialKind{});
-        const auto kind = std::find(kinds.begin(), kinds.end(), row[4]);
+        const auto kind = enum_named<TrialKind>(row[4]);
         t.round = task.rounds.empty() ? 0 : rounds(row[5]);
         t.condition = task.conditions.empty() ? 0 : conditions(row[6]);
         t.perturb = read_perturbations(perturbations, row[7]);
         t.procedure = procedures(row[9]);
         if (t.block < 0) throw bad("block");
-        if (kind == kinds.end()) throw bad("kind");
+        if (!kind) throw bad("kind");
         if (t.round < 0) throw bad("round");
         if (t.condition < 0) throw bad("condition");
         if (std::find(t.perturb.begin(), t.perturb.end(), -1) != t.perturb.end())
             throw bad("perturbation");
         if (t.procedure < 0 && !row[9].empty()) throw bad("procedure");
-        t.kind = static_cast<TrialKind>(kind - kinds.begin());
+        t.kind = *kind;
         t.draws = read_draws(task, rows[0], row, bad);
         out.push_back(t);
     }
