@@ -17,7 +17,7 @@
 #include "escape_key.h"
 #include "person/population.h"
 #include "rig/calibration_guide.h"
-#include "session/decider.h"
+#include "session/listeners/decider.h"
 #include "summary.h"
 
 namespace dihaptic::cli {
@@ -161,7 +161,7 @@ void run_one(SessionOptions& options) {
 }  // namespace
 
 void run_plan(session::Plan plan, session::RunOptions run) {
-    run.onlookers = true;
+    run.observers = true;
     auto devices = session::open_devices(plan, rig::is_real(plan.rig) ? keeper::program() : "",
                                          [] { return stop_requested.load(); });
     print(plan.warnings);

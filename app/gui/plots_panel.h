@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scene/scene.h"
-#include "session/live.h"
+#include "session/listeners/live.h"
 #include "strip_chart.h"
 
 class QVBoxLayout;

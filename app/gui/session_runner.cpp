@@ -84,7 +84,7 @@ void SessionRunner::start(session::Plan plan, session::RunOptions options, doubl
     // before the session
     std::atexit(end_program);
     options.live = &session_->live;
-    options.onlookers = true;
+    options.observers = true;
     options.keys = &session_->key;
     session_->clock = options.clock;
     session_->live.pace = pace;

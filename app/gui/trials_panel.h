@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "base/table.h"
-#include "session/live.h"
+#include "session/listeners/live.h"
 #include "task/plan/task_plan.h"
 #include "trial_chart.h"
 

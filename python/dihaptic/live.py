@@ -155,9 +155,9 @@ class Live:
 
 
 def _connected(folder: Path) -> socket.socket | None:
-    """The other end of src/session/onlookers.h; None if no session is running in that folder."""
+    """The other end of src/session/listeners/observers.h; None if no session is running in that folder."""
     try:
-        descriptor = os.open(folder / "onlookers", os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
+        descriptor = os.open(folder / "observers", os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK)
         with open(descriptor, "rb") as file:
             name = file.read(100)
             owner = os.fstat(descriptor).st_uid

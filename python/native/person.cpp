@@ -13,7 +13,7 @@
 #include "parts.h"
 #include "person/population.h"
 #include "plans.h"
-#include "session/decider.h"
+#include "session/listeners/decider.h"
 #include "session/record.h"
 #include "session/rehearsal.h"
 #include "session/unfinished_folder.h"

@@ -69,7 +69,7 @@ class Live(unittest.TestCase):
         return dh.load(folder), said
 
     def address(self, folder):
-        return b"\0" + (folder / "onlookers").read_bytes()
+        return b"\0" + (folder / "observers").read_bytes()
 
     def until(self, live, end_s):
         """What is seen of a session that is then ended."""
@@ -175,7 +175,7 @@ class Live(unittest.TestCase):
         crowd = [self.raw(folder) for _ in range(15)]
         late = socket.socket(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         late.connect(self.address(folder))
-        self.assertIn("16 onlookers already watch", json.loads(late.recv(1 << 20))["refused"])
+        self.assertIn("16 observers already watch", json.loads(late.recv(1 << 20))["refused"])
         late.close()
         for one in crowd:
             one.close()
@@ -190,12 +190,12 @@ class Live(unittest.TestCase):
     def test_has_an_address_that_its_user_alone_can_read_while_it_runs(self):
         run = self.start("experiments/lift-block.yaml")
         with dh.observe(self.out) as live:
-            file = live.session / "onlookers"
+            file = live.session / "observers"
             self.assertEqual(file.stat().st_mode & 0o777, 0o600)
             self.assertRegex(file.read_text(), "^dihaptic/session/[0-9a-f]{32}$")
             shutil.copytree(live.session, self.folder / "copy")
             live.end()
-        self.assertFalse(self.session(run)[0].folder.joinpath("onlookers").exists())
+        self.assertFalse(self.session(run)[0].folder.joinpath("observers").exists())
 
     @unittest.skipUnless(os.geteuid() == 0, "wants to be another user")
     def test_is_not_taken_from_another_users_program(self):
@@ -207,7 +207,7 @@ class Live(unittest.TestCase):
         )
         stranger(self, answers, name)
         self.out.mkdir()
-        (self.out / "onlookers").write_text(name)
+        (self.out / "observers").write_text(name)
         with self.assertRaisesRegex(dh.Error, "is answered by another user's program"):
             dh.observe(self.out, patience_s=0)
 

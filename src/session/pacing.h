@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include "session/live.h"
+#include "session/listeners/live.h"
 
 namespace dihaptic::session {
 

@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "session/onlookers.h"
-#include "session/outward.h"
+#include "session/listeners/listener.h"
 #include "session/phase_director.h"
 #include "session/session_run.h"
 #include "session/wait.h"
@@ -18,12 +17,10 @@ namespace dihaptic::session {
 
 class SessionDirector {
   public:
-    /// Prepares everything for the ticks, since they allocate nothing. The arguments must outlive
-    /// the director. `outward`: null if the session sends no data; `onlookers`: null if onlookers
-    /// are impossible.
-    SessionDirector(const Plan& plan, const RunOptions& options, const std::atomic<bool>& stop,
-                    const std::vector<recording::PhaseInfo>& phases, const servo::Servo& servo,
-                    Outward* outward, Onlookers* onlookers);
+    /// Prepares everything for the ticks, since they allocate nothing. All that the arguments refer
+    /// to must outlive the director.
+    SessionDirector(const Opening& session, const std::atomic<bool>& stop,
+                    std::vector<Listener*> listeners);
 
     void operator()(const frame::Frame& last, std::span<const frame::Handle> handles,
                     frame::Commands& commands);
@@ -51,10 +48,8 @@ class SessionDirector {
     const RunOptions& options_;
     const std::atomic<bool>& stop_;
     const servo::Servo& servo_;
-    Outward* const outward_;
-    Onlookers* const onlookers_;
-    Live* const live_;
     const bool real_;
+    const std::vector<Listener*> listeners_;
     PhaseDirector phases_;
     std::optional<task::TaskDirector> task_;
     std::optional<Wait> wait_;

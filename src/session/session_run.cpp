@@ -14,12 +14,16 @@
 #include "base/shell_word.h"
 #include "base/text.h"
 #include "base/text_file.h"
-#include "session/decider.h"
 #include "session/frozen_inputs.h"
+#include "session/listeners/decider.h"
+#include "session/listeners/log.h"
+#include "session/listeners/observers.h"
+#include "session/listeners/outlets.h"
+#include "session/listeners/sight.h"
+#include "session/listeners/sounds.h"
 #include "session/pacing.h"
 #include "session/resume.h"
 #include "session/session_director.h"
-#include "sound/player.h"
 #include "task/plan/levels.h"
 
 namespace dihaptic::session {
@@ -73,17 +77,6 @@ void check_words(const Plan& plan, const RunOptions& options) {
     check_text(options.command, "command", Lines::several);
     check_text(plan.file, "experiment file");
     check_text(plan.title, "title", Lines::several);
-}
-
-recording::LogHead log_head(const scene::Scene& scene, const frame::Settings& settings,
-                            const recording::Setup& setup) {
-    recording::LogHead head;
-    static_cast<recording::Setup&>(head) = setup;
-    head.tick = settings.tick();
-    head.fingers = scene::finger_names(scene);
-    for (const scene::Body& body : scene.bodies) head.bodies.push_back(body.name);
-    for (const scene::Joint& joint : recorded_joints(scene)) head.joints.push_back(joint.name);
-    return head;
 }
 
 /// On the virtual clock, a session that is run again gives the same file with the same identity,
@@ -160,7 +153,8 @@ class Run {
               options.out,
               options.participant.id.empty() ? name_ : name_ + "_" + options.participant.id)),
           live_(options.live),
-          servo_(make_servo(plan, std::move(devices))) {}
+          servo_(make_servo(plan, std::move(devices))),
+          opening_{plan_, options_, folder_, info_, *servo_, real_} {}
 
     RunResult run();
 
@@ -173,13 +167,13 @@ class Run {
     void prepare();
     void describe();
     void describe_task();
-    void open_record();
     void begin();
-    void open_sounds();
-    void let_others_watch();
+    void listen(std::unique_ptr<Listener> listener);
+    void try_to_listen(std::unique_ptr<Listener> (*open)(const Opening&));
     void make_director();
 
-    void take(const frame::Frame& frame);
+    void take(const frame::Frame& frame) noexcept;
+    bool asked_to_end() const noexcept;
     void run_ticks();
     void run_virtual_ticks(const frame::Director& director, const frame::FrameSink& sink);
     void run_real_ticks(const frame::Director& director, const frame::FrameSink& sink);
@@ -204,11 +198,10 @@ class Run {
     RunResult result_;
     recording::SessionInfo& info_ = result_.info;
     std::unique_ptr<servo::Servo> servo_;
-    std::optional<recording::Recorder> recorder_;
-    frame::FrameSink read_;           // receives the frames in place of recorder_
-    std::optional<Outward> outward_;  // real clock only: a rehearsal must not look like a session
-    std::optional<sound::Player> player_;
-    std::optional<Onlookers> onlookers_;
+    const Opening opening_;
+    std::unique_ptr<Log> log_;
+    std::vector<std::unique_ptr<Listener>> others_;
+    std::vector<Listener*> listeners_;  // all of them, and the watching thread's
     std::optional<SessionDirector> director_;
     Time whole_{0};                    // the session is over after this time
     std::atomic<int64_t> reached_{0};  // session time [ns]
@@ -217,8 +210,8 @@ class Run {
 RunResult Run::run() {
     result_.folder = folder_.path();
     prepare();
-    open_sounds();
-    let_others_watch();
+    try_to_listen(play_sounds);
+    try_to_listen(let_observe);
     make_director();
     const auto begun = Wall::now();
     run_ticks();
@@ -237,7 +230,6 @@ RunResult Run::run() {
 void Run::prepare() {
     try {
         describe();
-        open_record();
         begin();
     } catch (...) {
         std::error_code ignored;
@@ -301,24 +293,14 @@ void Run::describe_task() {
     info_.resumes = plan_.resumes;
 }
 
-void Run::open_record() {
-    const recording::LogHead head = log_head(plan_.scene, plan_.settings, info_);
-    if (options_.in_place_of_log) {
-        read_ = options_.in_place_of_log(folder_, info_, head);
-    } else {
-        recorder_.emplace(folder_.raw_log(), head,
-                          real_ ? recording::Writing::in_thread : recording::Writing::in_place,
-                          options_.sync);
-    }
+/// Opens the record, outlets and devices.
+void Run::begin() {
+    log_ = std::make_unique<Log>(opening_);
+    listeners_.push_back(log_.get());
     result_.lock.emplace(folder_);
     if (real_ || options_.sync > 0) folder_.sync();  // the inputs, before the session begins
-}
-
-/// Opens outlets and devices.
-void Run::begin() {
-    if (plan_.seeing) plan_.seeing->restart();
-    if (real_ && !plan_.rig.outlets.empty())
-        outward_.emplace(plan_, fs::path(folder_.path()).filename().string());
+    listen(open_outlets(opening_));
+    listen(show_to_person(opening_));
     servo_->activate();
     if (!options_.check) return;
     for (const Problem& warning : options_.check(servo_->devices()))
@@ -326,31 +308,18 @@ void Run::begin() {
     folder_.write_info(info_);
 }
 
-/// A session whose sounds cannot be played runs without them.
-void Run::open_sounds() {
-    if (!plan_.task || plan_.task->task.sounds.empty() || options_.in_place_of_log) return;
-    const display::SoundOutput output = plan_.rig.sound.value_or(display::SoundOutput{});
-    const bool in_real_time = output.to == display::SoundTo::speakers;
-    if (output.to == display::SoundTo::nowhere || (in_real_time && !real_)) return;
-    try {
-        player_.emplace(sound::Player::Plan{plan_.task->task.sounds, output, plan_.seed, real_},
-                        folder_);
-    } catch (const Error& e) {
-        info_.notes.push_back(fmt::format("The sounds are not played: {}", e.what()));
-        if (options_.warn) options_.warn(info_.notes.back());
-    }
+/// Null: there is nothing of this kind in the session.
+void Run::listen(std::unique_ptr<Listener> listener) {
+    if (!listener) return;
+    listeners_.push_back(listener.get());
+    others_.push_back(std::move(listener));
 }
 
-/// A session that no other program can watch runs nevertheless.
-void Run::let_others_watch() {
-    if (!options_.onlookers) return;
-    std::vector<std::string> states;
-    for (const recording::PhaseInfo& phase : info_.phases) states.push_back(phase.name);
+/// A session that cannot have such a listener runs without it.
+void Run::try_to_listen(std::unique_ptr<Listener> (*open)(const Opening&)) {
     try {
-        onlookers_.emplace(plan_, folder_.path(), real_, live_ != nullptr);
-        onlookers_->open(*servo_, states, info_.outcomes);
+        listen(open(opening_));
     } catch (const Error& e) {
-        onlookers_.reset();
         info_.notes.emplace_back(e.what());
         if (options_.warn) options_.warn(info_.notes.back());
     }
@@ -364,36 +333,26 @@ void Run::make_director() {
     if (live_ != nullptr) {
         live_->prepare(*servo_, plan_.scene);
         live_->set_folder(folder_.path());
+        listeners_.push_back(live_);
     }
     if (options_.decider != nullptr)
         options_.decider->begin(folder_.path(), !real_, options_.waiting);
-    director_.emplace(plan_, options_, stop_, info_.phases, *servo_,
-                      outward_ ? &*outward_ : nullptr, onlookers_ ? &*onlookers_ : nullptr);
+    director_.emplace(opening_, stop_, listeners_);
 }
 
-void Run::take(const frame::Frame& frame) {
-    if (recorder_) {
-        recorder_->record(frame);
-    } else {
-        read_(frame);
-        ++result_.ticks;
-    }
-    if (outward_) outward_->send(frame);
-    if (player_) player_->hear(frame);
-    if (plan_.seeing) plan_.seeing->see(frame);
-    if (live_ != nullptr) live_->show(frame);
-    if (onlookers_) onlookers_->show(frame);
+void Run::take(const frame::Frame& frame) noexcept {
+    for (Listener* listener : listeners_) listener->take(frame);
     reached_.store(frame.time.count(), std::memory_order_relaxed);
+}
+
+/// Whether a listener has asked for the session's end.
+bool Run::asked_to_end() const noexcept {
+    return std::ranges::any_of(listeners_, [](const Listener* l) { return l->ends(); });
 }
 
 void Run::run_ticks() {
     const frame::FrameSink sink = [this](const frame::Frame& frame) { take(frame); };
-    const frame::Director director = [this](const frame::Frame& last,
-                                            std::span<const frame::Handle> handles,
-                                            frame::Commands& commands) {
-        (*director_)(last, handles, commands);
-        commands.stop = commands.stop || (recorder_ && recorder_->failed());
-    };
+    const frame::Director director = std::ref(*director_);
     recording::ShowingsWriter showings(folder_);
     recording::HeadsWriter heads(folder_);
     const Watcher watcher([&] {
@@ -401,7 +360,7 @@ void Run::run_ticks() {
         // on the virtual clock a tick may wait for it
         if (options_.decider != nullptr && stop_) options_.decider->between()->leave();
         if (live_ == nullptr) return;
-        if (onlookers_ && onlookers_->ended()) live_->ended = true;  // even in a pause
+        if (asked_to_end()) live_->ended = true;  // even in a pause
         while (const auto showing = live_->take_showing()) {
             if (real_) showings.add(*showing);  // nobody watched a rehearsal in real time
         }
@@ -488,20 +447,11 @@ std::string Run::fault_text() const {
 }
 
 void Run::close_record() {
-    if (recorder_) {
-        recorder_->finish();
-        result_.ticks = recorder_->frames();
-        result_.dropped = recorder_->dropped();
+    for (Listener* listener : listeners_) {
+        for (const std::string& message : listener->finish()) info_.notes.push_back(message);
     }
-    if (outward_) {
-        for (const std::string& failure : outward_->finish()) info_.notes.push_back(failure);
-    }
-    if (player_) {
-        for (const std::string& failure : player_->finish()) info_.notes.push_back(failure);
-    }
-    if (onlookers_) {
-        for (const std::string& what : onlookers_->finish()) info_.notes.push_back(what);
-    }
+    result_.ticks = log_->frames();
+    result_.dropped = log_->dropped();
     if (options_.decider != nullptr) {
         result_.undecided = options_.decider->finish();
         info_.notes.insert(info_.notes.end(), result_.undecided.begin(), result_.undecided.end());
@@ -513,8 +463,7 @@ void Run::close_record() {
 void Run::note_how_it_ended() {
     // an open-ended session, with a mouse or a person, is complete whenever it ends
     const bool unfinished = plan_.task ? director_->trials_left() : !plan_.open_ended();
-    const bool ended = (live_ != nullptr && live_->ended) || (onlookers_ && onlookers_->ended());
-    result_.interrupted = stop_.load() || (ended && unfinished);
+    result_.interrupted = stop_.load() || (asked_to_end() && unfinished);
     if (servo_->fault()) {
         result_.fault = fault_text();
         // a session that waited for a remedy has already noted the fault

@@ -4,10 +4,10 @@
 #include <atomic>
 #include <optional>
 
-#include "recording/recorder.h"
+#include "recording/raw_log.h"
 #include "recording/session.h"
 #include "servo/run.h"
-#include "session/live.h"
+#include "session/listeners/live.h"
 #include "session/plan.h"
 
 namespace dihaptic::session {
@@ -44,8 +44,8 @@ struct RunOptions {
         in_place_of_log;
     /// Decides between trials; prepared for the plan, and must outlive the run.
     Decider* decider = nullptr;
-    /// Whether other programs may watch and steer the session (Onlookers).
-    bool onlookers = false;
+    /// Whether other programs may watch and steer the session (listeners/observers.h).
+    bool observers = false;
     Live* live = nullptr;  ///< link to the watching thread; must outlive the run
 };
 

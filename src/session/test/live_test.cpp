@@ -1,5 +1,5 @@
 // Tests sessions that another thread watches and steers, as a window does.
-#include "session/live.h"
+#include "session/listeners/live.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -442,7 +442,7 @@ TEST(Live, GivesASecondWatcherTheSameFrames) {
     for (int i = 0; i < 10; ++i) {
         frame.sequence = i;
         frame.time = i * milliseconds(1);
-        live.show(frame);
+        live.take(frame);
     }
     EXPECT_EQ(live.second->read().sequence, live.frame.read().sequence);
     EXPECT_GT(live.second->read().sequence, 4);
@@ -452,7 +452,7 @@ TEST(Live, TellsOfEachPictureInAHeadsetWhereTheHeadWasAndOfEachTickOnceThatItWas
     Live live;
     frame::Frame frame;
     frame.time = milliseconds(500);
-    live.show(frame);
+    live.take(frame);
     const Pose X_WV{rotation_xyz({0.1, 0, 0}), {0.1, -0.4, 0.3}};
     const auto now = Live::Clock::now();
     live.note_shown(500, now, X_WV, true);
@@ -500,7 +500,7 @@ TEST(Live, HandsOverEachAttemptAsItEnds) {
         frame.task.variables = {{0.1 * static_cast<double>(sequence)}};
         frame.grip_force = grip;
         frame.fingers[0].f_sent_W = {0, 0, -grip};
-        live.show(frame);
+        live.take(frame);
     };
     tick(0, 0, 0, -1, 9);
     tick(1, 1, 1, -1, 2);

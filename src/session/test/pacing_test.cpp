@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "recording/raw_log.h"
-#include "session/live.h"
+#include "session/listeners/live.h"
 #include "session/replay.h"
 #include "session/test/reaches.h"
 

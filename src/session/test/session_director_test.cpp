@@ -12,6 +12,9 @@ struct Bench {
     std::unique_ptr<servo::Servo> servo = make_servo(plan);
     RunOptions options;
     std::atomic<bool> stop{false};
+    recording::SessionInfo info;
+    const recording::SessionFolder folder =
+        recording::SessionFolder::create(files.folder.path(), "directed");
     frame::Frame last;
 
     Bench() {
@@ -19,6 +22,9 @@ struct Bench {
             last.bodies.emplace_back().X_WB = body.pose();
         last.fingers.resize(1);
         last.fingers[0].p_WP = {0, 0, 0.12};
+    }
+    Opening session() const {
+        return {plan, options, folder, info, *servo, options.clock == Clock::real};
     }
     frame::Commands order(SessionDirector& director) {
         const frame::Handle handle{{0, 0, 0.12}};
@@ -33,8 +39,7 @@ TEST(SessionDirector, TakesForceAwayAtTheOperatorsStopOnTheRealClockOnly) {
     bench.stop = true;
     for (const Clock clock : {Clock::virtual_clock, Clock::real}) {
         bench.options.clock = clock;
-        SessionDirector director(bench.plan, bench.options, bench.stop, {}, *bench.servo, nullptr,
-                                 nullptr);
+        SessionDirector director(bench.session(), bench.stop, {});
         EXPECT_EQ(bench.order(director).force_off, clock == Clock::real);
     }
 }
@@ -44,9 +49,7 @@ TEST(SessionDirector, DoesAsTheWatchingThreadAsks) {
     Live live;
     live.prepare(*bench.servo, bench.plan.scene);
     bench.options.clock = Clock::real;
-    bench.options.live = &live;
-    SessionDirector director(bench.plan, bench.options, bench.stop, {}, *bench.servo, nullptr,
-                             nullptr);
+    SessionDirector director(bench.session(), bench.stop, {&live});
     EXPECT_FALSE(bench.order(director).rest);
     live.paused = true;
     EXPECT_TRUE(bench.order(director).rest);

@@ -1,6 +1,8 @@
-#include "session/live.h"
+#include "session/listeners/live.h"
 
 #include <cmath>
+
+#include "task/run/task_director.h"
 
 namespace dihaptic::session {
 
@@ -61,7 +63,20 @@ void Live::note_trial(const frame::Frame& now) noexcept {
     trial_ends_.push(trial_);
 }
 
-void Live::show(const frame::Frame& now) noexcept {
+void Live::steer(const Steering& steering) noexcept {
+    frame::Commands& commands = steering.commands;
+    commands.rest = steering.real && paused.load(std::memory_order_relaxed);
+    commands.abandoned = steering.real ? abandoned() : 0;
+    knobs.turn(steering.last, seconds(steering.period), commands.knobs);
+    if (steering.task == nullptr) return;
+    if (skip.exchange(false, std::memory_order_relaxed)) steering.task->skip();
+    const double nowhere = task::Rating::kNowhere;
+    if (const double at = clicked.exchange(nowhere, std::memory_order_relaxed); at != nowhere)
+        steering.task->click(at);
+    done.store(steering.task->share(), std::memory_order_relaxed);
+}
+
+void Live::take(const frame::Frame& now) noexcept {
     note_zero(now.time);
     note_trial(now);
     // in a pause, each tick was requested separately

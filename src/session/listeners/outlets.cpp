@@ -1,8 +1,13 @@
-#include "session/outward.h"
+#include "session/listeners/outlets.h"
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
+#include "outlets/station.h"
 #include "rig/libraries.h"
+#include "session/plan.h"
+#include "task/run/task_director.h"
 
 namespace dihaptic::session {
 namespace {
@@ -24,14 +29,26 @@ outlets::About about(const Plan& plan, const std::string& session) {
     return out;
 }
 
-}  // namespace
+class Outlets : public Listener {
+  public:
+    Outlets(const Plan& plan, const std::string& session)
+        : station_(outlets_of(plan), about(plan, session)) {
+        if (station_.wants_samples()) values_.resize(6 * plan.scene.fingers.size());
+    }
 
-Outward::Outward(const Plan& plan, const std::string& session)
-    : station_(outlets_of(plan), about(plan, session)) {
-    if (station_.wants_samples()) values_.resize(6 * plan.scene.fingers.size());
-}
+    void steer(const Steering& steering) noexcept override {
+        const int code = station_.take_trigger();
+        if (code != 0 && steering.task != nullptr) steering.task->trigger(code);
+    }
+    void take(const frame::Frame& frame) noexcept override;
+    std::vector<std::string> finish() override { return station_.finish(); }
 
-void Outward::send(const frame::Frame& frame) noexcept {
+  private:
+    outlets::Station station_;
+    std::vector<float> values_;  // one per channel
+};
+
+void Outlets::take(const frame::Frame& frame) noexcept {
     for (size_t i = 0; i < values_.size() / 6; ++i) {
         const frame::FingerFrame& finger = frame.fingers[i];
         for (int k = 0; k < 3; ++k) {
@@ -40,6 +57,14 @@ void Outward::send(const frame::Frame& frame) noexcept {
         }
     }
     station_.send(frame.task.marker, values_);
+}
+
+}  // namespace
+
+std::unique_ptr<Listener> open_outlets(const Opening& opening) {
+    if (!opening.real || opening.plan.rig.outlets.empty()) return nullptr;
+    return std::make_unique<Outlets>(
+        opening.plan, std::filesystem::path(opening.folder.path()).filename().string());
 }
 
 }  // namespace dihaptic::session

@@ -1,7 +1,7 @@
-// Onlookers are other programs that watch a running session, and may steer it: dihaptic.observe()
+// Observers are other programs that watch a running session, and may steer it: dihaptic.observe()
 // in Python, or a program of your own. They connect to a UNIX socket of the type SOCK_SEQPACKET,
 // which keeps messages whole; only programs of the same user can connect. Its address is abstract
-// and unpredictable: while the session runs, the file `onlookers` in its folder, readable by this
+// and unpredictable: while the session runs, the file `observers` in its folder, readable by this
 // user alone, contains the address without the leading zero. A connecting program asks the kernel
 // for the owner of the answering program (SO_PEERCRED), because a folder may come from anywhere.
 // Both sides send objects of JSON:
@@ -22,17 +22,13 @@
 //
 // Moments arrive repeatedly, in real time; a refusal gives the reason and the remedy.
 //
-// Onlookers can watch any expression of recorded quantities (task/run/recorded.h). Knobs have the
+// Observers can watch any expression of recorded quantities (task/run/recorded.h). Knobs have the
 // names and units of the log's columns. A slow reader misses moments, but no end of an attempt, and
 // delays no other program: the tick copies its frame for the thread that does all this, and only
 // while a program is watching.
 #pragma once
 
-#include <memory>
-#include <string>
-#include <vector>
-
-#include "session/plan.h"
+#include "session/listeners/listener.h"
 
 namespace dihaptic::session {
 
@@ -40,34 +36,8 @@ namespace dihaptic::session {
 /// is running.
 std::string socket_name(const std::string& folder);
 
-class Onlookers {
-  public:
-    /// `knobs_elsewhere`: the operator's window turns the knobs, so that no onlooker can.
-    Onlookers(const Plan& plan, const std::string& folder, bool real, bool knobs_elsewhere);
-    ~Onlookers();
-    Onlookers(const Onlookers&) = delete;
-    Onlookers& operator=(const Onlookers&) = delete;
-
-    /// Call before the first tick: reserves memory, and lets programs connect. Throws Error when no
-    /// socket can be made.
-    void open(const servo::Servo& servo, const std::vector<std::string>& states,
-              const std::vector<std::string>& outcomes);
-
-    // Called in the tick; none of these waits or allocates.
-    void show(const frame::Frame& frame) noexcept;
-    /// The key that an onlooker pressed since the last call; 0: none.
-    char take_key() noexcept;
-    /// The trigger that an onlooker sent since the last call; 0: none.
-    int take_trigger() noexcept;
-    bool ended() const noexcept;
-    void turn_knobs(const frame::Frame& last, double h, frame::Knobs& now) noexcept;
-
-    /// Tells onlookers that the session is over; returns their actions, in sentences.
-    std::vector<std::string> finish();
-
-  private:
-    struct Parts;
-    std::unique_ptr<Parts> parts_;
-};
+/// Lets programs connect. If the session has a window, that turns the knobs, so that no observer
+/// can. Throws Error when no socket can be made.
+std::unique_ptr<Listener> let_observe(const Opening& opening);
 
 }  // namespace dihaptic::session

@@ -1,4 +1,4 @@
-#include "session/onlookers.h"
+#include "session/listeners/observers.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -29,7 +29,10 @@
 #include "base/ring.h"
 #include "base/text_file.h"
 #include "session/knob_turner.h"
+#include "session/plan.h"
+#include "session/session_run.h"
 #include "task/run/recorded.h"
+#include "task/run/task_director.h"
 
 namespace dihaptic::session {
 namespace {
@@ -42,12 +45,12 @@ constexpr int kBusy = 2, kIdle = 50;  // interval of checks, for frames and for 
 constexpr auto kLastPatience =
     std::chrono::seconds(1);                   // patience with readers after the session's end
 constexpr size_t kLongestMessage = 64 * 1024;  // [bytes]
-constexpr size_t kMostOnlookers = 16;
+constexpr size_t kMostObservers = 16;
 constexpr const char* kNames = "dihaptic/session/";  // prefix of all names
 constexpr int64_t kLongestName = 100;
 constexpr size_t kMostWatched = 64;
 
-/// A request by an onlooker that cannot be granted.
+/// A request by an observer that cannot be granted.
 struct Refusal {
     std::string why;
 };
@@ -61,7 +64,7 @@ std::string fresh_name() {
 }
 
 std::string name_file(const std::string& folder) {
-    return folder + "/onlookers";
+    return folder + "/observers";
 }
 
 Error cannot_be_watched(const std::string& why) {
@@ -125,21 +128,21 @@ class Listening {
     int socket_;
 };
 
-struct Onlooker {
+struct Observer {
     int socket;
     std::vector<task::RecordedValue> values;
     Wall::duration every{};
     Wall::time_point due{};
     bool watches = false;
 
-    explicit Onlooker(int descriptor) : socket(descriptor) {}
-    ~Onlooker() { close(socket); }
-    Onlooker(const Onlooker&) = delete;
-    Onlooker& operator=(const Onlooker&) = delete;
+    explicit Observer(int descriptor) : socket(descriptor) {}
+    ~Observer() { close(socket); }
+    Observer(const Observer&) = delete;
+    Observer& operator=(const Observer&) = delete;
 
     std::deque<Json> owed;  // messages that must not be lost, until there is room for them
 
-    /// Returns whether there was room for the message; an onlooker that does not read loses it.
+    /// Returns whether there was room for the message; an observer that does not read loses it.
     bool send(const Json& message) const {
         const std::string text =
             message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -182,124 +185,138 @@ void turn(T& knob, const frame::Knob& is, const Json& value) {
     }
 }
 
-}  // namespace
+class Observers : public Listener {
+  public:
+    explicit Observers(const Opening& opening);
+    ~Observers() override { Observers::finish(); }
 
-struct Onlookers::Parts {
-    Parts(const Plan& of, std::string in, bool on_real_clock, bool window_has_knobs)
-        : plan(of),
-          folder(std::move(in)),
-          real(on_real_clock),
-          knobs_elsewhere(window_has_knobs),
-          knobs(frame::Knobs::of(of.settings)) {}
+    void steer(const Steering& steering) noexcept override;
+    void take(const frame::Frame& frame) noexcept override;
+    bool ends() const noexcept override { return end_.load(std::memory_order_relaxed); }
+    std::vector<std::string> finish() override;
 
-    const Plan& plan;
-    const std::string folder;
-    const bool real;
-    const bool knobs_elsewhere;
-    std::vector<std::string> states;
-    std::vector<std::string> outcomes;
-
-    Latest<frame::Frame> newest;
-    ValueRing<Ended> ends{64};
-    std::atomic<bool> watched{false};
-    Time shown{0};
-    KnobTurner turner;
-    std::atomic<bool> turned{false};
-    std::atomic<char> key{0};
-    std::atomic<int> trigger{0};
-    std::atomic<bool> end{false};
-
-    // used by the thread
-    frame::Knobs knobs;
-    std::list<Onlooker> onlookers;
-    size_t came = 0, keys = 0, triggers = 0, turns = 0;
-    std::optional<Listening> listening;
-    std::atomic<bool> done{false};
-    std::thread thread;
-
+  private:
     void run();
     void welcome();
     void say_goodbye();
-    void hear(Onlooker& onlooker, const std::string& text);
-    void watch(Onlooker& onlooker, const Json& asked);
-    void steer(const Json& asked);
+    void hear(Observer& observer, const std::string& text);
+    void watch(Observer& observer, const Json& asked);
+    void request(const Json& asked);
     void turn_knobs(const Json& asked);
     void look(Wall::time_point now);
-    Json picture_of(const frame::Frame& frame, Onlooker& onlooker) const;
+    Json picture_of(const frame::Frame& frame, Observer& observer) const;
     Json name_of(const std::vector<std::string>& names, int32_t index) const {
         const auto i = static_cast<size_t>(index);
         return index < 0 || i >= names.size() ? Json() : Json(names[i]);
     }
+
+    const scene::Scene& scene_;
+    const std::string folder_;
+    const bool real_;
+    const bool knobs_elsewhere_;  // the window turns them
+    std::vector<std::string> states_;
+    std::vector<std::string> outcomes_;
+
+    Latest<frame::Frame> newest_;
+    ValueRing<Ended> ends_{64};
+    std::atomic<bool> watched_{false};
+    Time shown_{0};
+    KnobTurner turner_;
+    std::atomic<bool> turned_{false};
+    std::atomic<char> key_{0};
+    std::atomic<int> trigger_{0};
+    std::atomic<bool> end_{false};
+
+    // used by the thread
+    frame::Knobs knobs_;
+    std::list<Observer> observers_;
+    size_t keys_ = 0, triggers_ = 0, turns_ = 0;
+    std::optional<Listening> listening_;
+    std::atomic<bool> done_{false};
+    std::thread thread_;
 };
 
-void Onlookers::Parts::run() {
-    while (!done) {
-        std::vector<pollfd> waits{{listening->descriptor(), POLLIN, 0}};
-        for (const Onlooker& onlooker : onlookers) waits.push_back({onlooker.socket, POLLIN, 0});
-        const bool busy = watched.load(std::memory_order_relaxed);
+Observers::Observers(const Opening& opening)
+    : scene_(opening.plan.scene),
+      folder_(opening.folder.path()),
+      real_(opening.real),
+      knobs_elsewhere_(opening.options.live != nullptr),
+      outcomes_(opening.info.outcomes),
+      knobs_(frame::Knobs::of(opening.plan.settings)) {
+    for (const recording::PhaseInfo& phase : opening.info.phases) states_.push_back(phase.name);
+    turner_.prepare(opening.servo, scene_);
+    for (frame::Frame& frame : newest_.values()) opening.servo.reserve(frame);
+    listening_.emplace(folder_);
+    thread_ = std::thread([this] { run(); });
+}
+
+void Observers::run() {
+    while (!done_) {
+        std::vector<pollfd> waits{{listening_->descriptor(), POLLIN, 0}};
+        for (const Observer& observer : observers_) waits.push_back({observer.socket, POLLIN, 0});
+        const bool busy = watched_.load(std::memory_order_relaxed);
         poll(waits.data(), waits.size(), busy ? kBusy : kIdle);
         auto wait = waits.begin() + 1;
-        for (auto onlooker = onlookers.begin(); onlooker != onlookers.end(); ++wait) {
+        for (auto observer = observers_.begin(); observer != observers_.end(); ++wait) {
             bool gone = false;
             if (wait->revents != 0) {
                 std::string text(kLongestMessage, '\0');
-                const ssize_t size = recv(onlooker->socket, text.data(), text.size(), MSG_DONTWAIT);
+                const ssize_t size = recv(observer->socket, text.data(), text.size(), MSG_DONTWAIT);
                 gone = size == 0 || (size < 0 && errno != EAGAIN && errno != EINTR);
-                if (size > 0) hear(*onlooker, text.substr(0, static_cast<size_t>(size)));
+                if (size > 0) hear(*observer, text.substr(0, static_cast<size_t>(size)));
             }
-            onlooker = gone ? onlookers.erase(onlooker) : std::next(onlooker);
+            observer = gone ? observers_.erase(observer) : std::next(observer);
         }
         if (waits.front().revents != 0) welcome();
-        watched = !onlookers.empty();
+        watched_ = !observers_.empty();
         look(Wall::now());
     }
     say_goodbye();
 }
 
 /// Sends slow readers their owed messages, for a while.
-void Onlookers::Parts::say_goodbye() {
+void Observers::say_goodbye() {
     look(Wall::time_point::max());
-    const auto owes = [](const Onlooker& onlooker) { return !onlooker.owed.empty(); };
+    const auto owes = [](const Observer& observer) { return !observer.owed.empty(); };
     const auto until = Wall::now() + kLastPatience;
-    while (std::ranges::any_of(onlookers, owes) && Wall::now() < until) {
+    while (std::ranges::any_of(observers_, owes) && Wall::now() < until) {
         std::this_thread::sleep_for(std::chrono::milliseconds(kBusy));
-        for (Onlooker& onlooker : onlookers) onlooker.settle();
+        for (Observer& observer : observers_) observer.settle();
     }
-    for (const Onlooker& onlooker : onlookers) onlooker.send({{"over", true}});
-    onlookers.clear();
+    for (const Observer& observer : observers_) observer.send({{"over", true}});
+    observers_.clear();
 }
 
-void Onlookers::Parts::welcome() {
-    const int socket = listening->accept();
+void Observers::welcome() {
+    const int socket = listening_->accept();
     if (socket < 0) return;
-    const Onlooker& newcomer = onlookers.emplace_back(socket);
-    if (onlookers.size() > kMostOnlookers) {
-        newcomer.send({{"refused", fmt::format("{} onlookers already watch.", kMostOnlookers)}});
-        onlookers.pop_back();
+    const Observer& newcomer = observers_.emplace_back(socket);
+    if (observers_.size() > kMostObservers) {
+        newcomer.send({{"refused", fmt::format("{} observers already watch.", kMostObservers)}});
+        observers_.pop_back();
         return;
     }
-    ++came;
-    newcomer.send({{"session", folder},
-                   {"clock", real ? "real" : "virtual"},
-                   {"states", states},
-                   {"outcomes", outcomes}});
+    newcomer.send({{"session", folder_},
+                   {"clock", real_ ? "real" : "virtual"},
+                   {"states", states_},
+                   {"outcomes", outcomes_}});
 }
 
-void Onlookers::Parts::hear(Onlooker& onlooker, const std::string& text) {
+void Observers::hear(Observer& observer, const std::string& text) {
     try {
         const Json asked = parse_json(text);
         if (!asked.is_object()) throw Refusal{"A message is a JSON object: {\"key\": \"y\"}."};
         if (asked.contains("watch")) {
-            watch(onlooker, asked);
+            watch(observer, asked);
         } else {
-            steer(asked);
+            request(asked);
         }
     } catch (const Refusal& refusal) {
-        onlooker.send({{"refused", refusal.why}});
+        observer.send({{"refused", refusal.why}});
     }
 }
 
-void Onlookers::Parts::watch(Onlooker& onlooker, const Json& asked) {
+void Observers::watch(Observer& observer, const Json& asked) {
     const Json& wanted = asked["watch"];
     const Json every = asked.value("every_ms", Json(20));
     if (!wanted.is_array() || wanted.size() > kMostWatched || !every.is_number() ||
@@ -313,7 +330,7 @@ void Onlookers::Parts::watch(Onlooker& onlooker, const Json& asked) {
     for (const Json& of : wanted) {
         if (!of.is_string()) throw Refusal{"Each expression is a text."};
         Diagnostics diagnostics;
-        values.emplace_back(of.get<std::string>(), plan.scene, diagnostics);
+        values.emplace_back(of.get<std::string>(), scene_, diagnostics);
         if (diagnostics.has_errors()) {
             const Problem& problem = diagnostics.problems().front();
             throw Refusal{
@@ -321,26 +338,26 @@ void Onlookers::Parts::watch(Onlooker& onlooker, const Json& asked) {
         }
         watching.push_back({{"of", of}, {"unit", values.back().unit()}});
     }
-    onlooker.values = std::move(values);
-    onlooker.every = std::chrono::duration_cast<Wall::duration>(
+    observer.values = std::move(values);
+    observer.every = std::chrono::duration_cast<Wall::duration>(
         std::chrono::duration<double, std::milli>(every.get<double>()));
-    onlooker.watches = true;
-    onlooker.send({{"watching", watching}});
+    observer.watches = true;
+    observer.send({{"watching", watching}});
 }
 
-void Onlookers::Parts::steer(const Json& asked) {
+void Observers::request(const Json& asked) {
     for (const auto& [what, value] : asked.items()) {
         const std::string text = value.is_string() ? value.get<std::string>() : "";
         if (what == "key" && text.size() == 1) {
-            key = text[0];
-            ++keys;
+            key_ = text[0];
+            ++keys_;
         } else if (what == "trigger" && value.is_number_integer() && value >= 1 && value <= 255) {
-            trigger = value.get<int>();
-            ++triggers;
+            trigger_ = value.get<int>();
+            ++triggers_;
         } else if (what == "turn" && value.is_object()) {
             turn_knobs(value);
         } else if (what == "end" && value == true) {
-            end = true;
+            end_ = true;
         } else {
             throw Refusal{
                 fmt::format("{}: {} is not understood. Valid keys are watch, key (one character), "
@@ -350,9 +367,9 @@ void Onlookers::Parts::steer(const Json& asked) {
     }
 }
 
-void Onlookers::Parts::turn_knobs(const Json& asked) {
-    if (knobs_elsewhere) throw Refusal{"The operator's window turns the knobs of this session."};
-    frame::Knobs next = knobs;
+void Observers::turn_knobs(const Json& asked) {
+    if (knobs_elsewhere_) throw Refusal{"The operator's window turns the knobs of this session."};
+    frame::Knobs next = knobs_;
     for (const auto& [name, value] : asked.items()) {
         bool found = false;
         const std::string wanted = name;
@@ -371,38 +388,38 @@ void Onlookers::Parts::turn_knobs(const Json& asked) {
                 fmt::format("There is no knob {}. Known: {}.", wanted, fmt::join(names, ", "))};
         }
     }
-    turner.publish(knobs = next);
-    turned = true;
-    ++turns;
+    turner_.publish(knobs_ = next);
+    turned_ = true;
+    ++turns_;
 }
 
-void Onlookers::Parts::look(Wall::time_point now) {
-    while (const auto ended = ends.pop()) {
-        for (Onlooker& onlooker : onlookers)
-            onlooker.owed.push_back({{"tick", ended->tick},
+void Observers::look(Wall::time_point now) {
+    while (const auto ended = ends_.pop()) {
+        for (Observer& observer : observers_)
+            observer.owed.push_back({{"tick", ended->tick},
                                      {"time_s", ended->time},
                                      {"ended",
                                       {{"trial_num", ended->trial},
                                        {"attempt", ended->attempt},
-                                       {"outcome", name_of(outcomes, ended->outcome)}}}});
+                                       {"outcome", name_of(outcomes_, ended->outcome)}}}});
     }
-    for (Onlooker& onlooker : onlookers) onlooker.settle();
-    if (!newest.is_new()) return;
-    const auto is_due = [&](const Onlooker& onlooker) {
-        return onlooker.watches && onlooker.owed.empty() && now >= onlooker.due;
+    for (Observer& observer : observers_) observer.settle();
+    if (!newest_.is_new()) return;
+    const auto is_due = [&](const Observer& observer) {
+        return observer.watches && observer.owed.empty() && now >= observer.due;
     };
-    if (std::ranges::none_of(onlookers, is_due)) return;
-    const frame::Frame& frame = newest.read();
-    for (Onlooker& onlooker : onlookers) {
-        if (!is_due(onlooker)) continue;
-        onlooker.send(picture_of(frame, onlooker));
-        onlooker.due = std::max(onlooker.due + onlooker.every, now - onlooker.every);
+    if (std::ranges::none_of(observers_, is_due)) return;
+    const frame::Frame& frame = newest_.read();
+    for (Observer& observer : observers_) {
+        if (!is_due(observer)) continue;
+        observer.send(picture_of(frame, observer));
+        observer.due = std::max(observer.due + observer.every, now - observer.every);
     }
 }
 
-Json Onlookers::Parts::picture_of(const frame::Frame& frame, Onlooker& onlooker) const {
+Json Observers::picture_of(const frame::Frame& frame, Observer& observer) const {
     Json values = Json::array();
-    for (task::RecordedValue& value : onlooker.values) {
+    for (task::RecordedValue& value : observer.values) {
         const double is = value(frame);
         values.push_back(std::isfinite(is) ? Json(is) : Json());
     }
@@ -410,9 +427,43 @@ Json Onlookers::Parts::picture_of(const frame::Frame& frame, Onlooker& onlooker)
             {"time_s", seconds(frame.time)},
             {"trial_num", frame.trial},
             {"attempt", frame.task.attempt},
-            {"state", name_of(states, frame.phase)},
+            {"state", name_of(states_, frame.phase)},
             {"values", values}};
 }
+
+void Observers::steer(const Steering& steering) noexcept {
+    const char key = key_.exchange(0, std::memory_order_relaxed);
+    const int trigger = trigger_.exchange(0, std::memory_order_relaxed);
+    if (steering.task != nullptr && key != 0) steering.task->press(key);
+    if (steering.task != nullptr && trigger != 0) steering.task->trigger(trigger);
+    if (turned_.load(std::memory_order_relaxed))
+        turner_.turn(steering.last, seconds(steering.period), steering.commands.knobs);
+}
+
+void Observers::take(const frame::Frame& frame) noexcept {
+    if (!watched_.load(std::memory_order_relaxed)) return;
+    if (frame.task.outcome >= 0)
+        ends_.push({frame.sequence, seconds(frame.time), frame.trial, frame.task.attempt,
+                    frame.task.outcome});
+    if (frame.time - shown_ < kInterval) return;
+    shown_ = frame.time;
+    newest_.publish(frame);
+}
+
+std::vector<std::string> Observers::finish() {
+    if (!thread_.joinable()) return {};
+    done_ = true;
+    thread_.join();
+    listening_.reset();
+    if (keys_ + triggers_ + turns_ == 0 && !end_) return {};
+    return {
+        fmt::format("Other programs that watched the session steered it: {}, {}, {} of knobs{}.",
+                    counted(static_cast<int64_t>(keys_), "key"),
+                    counted(static_cast<int64_t>(triggers_), "trigger"),
+                    counted(static_cast<int64_t>(turns_), "turn"), end_ ? ", and its end" : "")};
+}
+
+}  // namespace
 
 std::string socket_name(const std::string& folder) {
     const std::string name = read_text_file(name_file(folder), kLongestName);
@@ -421,61 +472,9 @@ std::string socket_name(const std::string& folder) {
                 "Remove it: a running session writes its own.");
 }
 
-Onlookers::Onlookers(const Plan& plan, const std::string& folder, bool real, bool knobs_elsewhere)
-    : parts_(std::make_unique<Parts>(plan, folder, real, knobs_elsewhere)) {}
-
-Onlookers::~Onlookers() {
-    finish();
-}
-
-void Onlookers::open(const servo::Servo& servo, const std::vector<std::string>& states,
-                     const std::vector<std::string>& outcomes) {
-    parts_->states = states;
-    parts_->outcomes = outcomes;
-    parts_->turner.prepare(servo, parts_->plan.scene);
-    for (frame::Frame& frame : parts_->newest.values()) servo.reserve(frame);
-    parts_->listening.emplace(parts_->folder);
-    parts_->thread = std::thread([this] { parts_->run(); });
-}
-
-void Onlookers::show(const frame::Frame& frame) noexcept {
-    if (!parts_->watched.load(std::memory_order_relaxed)) return;
-    if (frame.task.outcome >= 0)
-        parts_->ends.push({frame.sequence, seconds(frame.time), frame.trial, frame.task.attempt,
-                           frame.task.outcome});
-    if (frame.time - parts_->shown < kInterval) return;
-    parts_->shown = frame.time;
-    parts_->newest.publish(frame);
-}
-
-char Onlookers::take_key() noexcept {
-    return parts_->key.exchange(0, std::memory_order_relaxed);
-}
-
-int Onlookers::take_trigger() noexcept {
-    return parts_->trigger.exchange(0, std::memory_order_relaxed);
-}
-
-bool Onlookers::ended() const noexcept {
-    return parts_->end.load(std::memory_order_relaxed);
-}
-
-void Onlookers::turn_knobs(const frame::Frame& last, double h, frame::Knobs& now) noexcept {
-    if (parts_->turned.load(std::memory_order_relaxed)) parts_->turner.turn(last, h, now);
-}
-
-std::vector<std::string> Onlookers::finish() {
-    Parts& p = *parts_;
-    if (!p.thread.joinable()) return {};
-    p.done = true;
-    p.thread.join();
-    p.listening.reset();
-    if (p.keys + p.triggers + p.turns == 0 && !p.end) return {};
-    return {
-        fmt::format("Other programs that watched the session steered it: {}, {}, {} of knobs{}.",
-                    counted(static_cast<int64_t>(p.keys), "key"),
-                    counted(static_cast<int64_t>(p.triggers), "trigger"),
-                    counted(static_cast<int64_t>(p.turns), "turn"), p.end ? ", and its end" : "")};
+std::unique_ptr<Listener> let_observe(const Opening& opening) {
+    if (!opening.options.observers) return nullptr;
+    return std::make_unique<Observers>(opening);
 }
 
 }  // namespace dihaptic::session

@@ -12,8 +12,8 @@
 #include "base/ring.h"
 #include "recording/heads.h"
 #include "recording/showings.h"
-#include "servo/servo.h"
 #include "session/knob_turner.h"
+#include "session/listeners/listener.h"
 #include "task/file/rating.h"
 
 namespace dihaptic::session {
@@ -46,7 +46,8 @@ struct TrialEnd {
     std::array<double, kNumbers> numbers{};
 };
 
-struct Live {
+class Live : public Listener {
+  public:
     /// Shortest time between frames handed over: screens are no faster.
     static constexpr Time kInterval = std::chrono::milliseconds(4);
     /// Shortest time between samples of the curves.
@@ -73,8 +74,12 @@ struct Live {
     }
     /// Call before the first tick: reserves memory for the frames of this servo and scene.
     void prepare(const servo::Servo& servo, const scene::Scene& scene);
-    /// In the tick: hands over a frame and a sample when they are due.
-    void show(const frame::Frame& now) noexcept;
+    /// Passes on what the watching thread requests. On the virtual clock the session stands still
+    /// in a pause (Pacing), and no person's hand is at risk.
+    void steer(const Steering& steering) noexcept override;
+    /// Hands over a frame and a sample when they are due.
+    void take(const frame::Frame& now) noexcept override;
+    bool ends() const noexcept override { return ended.load(std::memory_order_relaxed); }
     /// The oldest sample not yet taken.
     std::optional<CurveSample> take_sample() { return samples_.pop(); }
 

@@ -1,4 +1,4 @@
-#include "session/decider.h"
+#include "session/listeners/decider.h"
 
 #include <fmt/format.h>
 #include <poll.h>
