@@ -1,5 +1,5 @@
-// Reads the results of a running session's trials (errors, angles, the task's own measures), in a
-// separate thread, from the log that the session writes.
+// Reads the results of a running session's trials (errors, angles, the task's custom measures), in
+// a separate thread, from the log that the session writes.
 #pragma once
 
 #include <QObject>

@@ -74,8 +74,8 @@ struct Field {
         f.tighter = way;
         return f;
     }
-    /// The field was renamed. A file with the old name gets an error that says so; inputs that
-    /// an earlier version stored in a session are still read.
+    /// The field was renamed. A file with the old name is still read, with a warning that gives the
+    /// new one.
     constexpr Field formerly(const char* name) const {
         Field f = *this;
         f.old_name = name;

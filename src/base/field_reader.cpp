@@ -126,11 +126,17 @@ FieldReader::Given FieldReader::take_old(std::string_view name, const Field& fie
     for (size_t i = 0; i < old.size(); ++i) {
         const Node* node = mapping_.find(old[i]);
         if (node == nullptr || !used_.insert(old[i]).second) continue;
-        if (diagnostics_.unknown_keys() == UnknownKeys::are_errors) {
-            diagnostics_.error(node->place, old[i], fmt::format("is now called {}", now[i]),
-                               fmt::format("Write {}.", now[i]));
+        if (given.node != nullptr) {
+            diagnostics_.error(node->place, old[i],
+                               fmt::format("the same {} is also given as {}", name, given.key),
+                               fmt::format("Keep {}.", now[i]));
+            continue;
         }
-        if (given.node == nullptr) given = {node, old[i], all.empty() ? 1.0 : all[i].si};
+        if (diagnostics_.unknown_keys() == UnknownKeys::are_errors) {
+            diagnostics_.warning(node->place, old[i], fmt::format("is now called {}", now[i]),
+                                 fmt::format("Write {}.", now[i]));
+        }
+        given = {node, old[i], all.empty() ? 1.0 : all[i].si};
     }
     return given;
 }

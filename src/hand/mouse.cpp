@@ -12,8 +12,8 @@ MouseDriver::MouseDriver(const HandSpec& spec, const std::vector<std::string>& f
       phases_{{"mouse", 0, kLongestScript}},
       start_{spec.centre, spec.aperture},
       goal_(start_) {
-    way_.from.x = way_.goal = coordinates(goal_);
-    now_.publish(way_);
+    transit_.from.x = transit_.goal = coordinates(goal_);
+    now_.publish(transit_);
 }
 
 MouseDriver::Coordinates MouseDriver::coordinates(const Posture& posture) {
@@ -25,13 +25,13 @@ MouseDriver::Coordinates MouseDriver::coordinates(const Posture& posture) {
 void MouseDriver::follow(const Posture& goal, double t) noexcept {
     goal_ = goal;
     goal_.aperture = std::max(kTightest, goal.aperture);
-    way_.from = way_.at(t);
-    way_.start = t;
-    way_.goal = coordinates(goal_);
-    now_.publish(way_);
+    transit_.from = transit_.at(t);
+    transit_.start = t;
+    transit_.goal = coordinates(goal_);
+    now_.publish(transit_);
 }
 
-MouseDriver::Motion MouseDriver::Way::at(double t) const noexcept {
+MouseDriver::Motion MouseDriver::Transit::at(double t) const noexcept {
     const double s = std::max(0.0, t - start);
     const double w = 1 / kFollow;
     const Coordinates e = from.x - goal;

@@ -48,7 +48,7 @@ class MouseDriver final : public Driver {
         Coordinates x = Coordinates::Zero();
         Coordinates v = Coordinates::Zero();
     };
-    struct Way {
+    struct Transit {
         double start = 0;  // [s]
         Motion from;
         Coordinates goal = Coordinates::Zero();
@@ -62,8 +62,8 @@ class MouseDriver final : public Driver {
     std::vector<Phase> phases_;
     Posture start_;
     Posture goal_;
-    Way way_;                  // as set by follow()
-    mutable Latest<Way> now_;  // read by the servo, in the tick
+    Transit transit_;              // as set by follow()
+    mutable Latest<Transit> now_;  // read by the servo, in the tick
 };
 
 }  // namespace dihaptic::hand

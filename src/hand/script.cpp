@@ -20,9 +20,9 @@ ScriptDriver::ScriptDriver(const HandSpec& spec, const std::vector<std::string>&
     }
     Segment start;
     for (const FingerPlace& place : fingers_) {
-        Way& way = start.ways.emplace_back();
-        way.aperture0 = way.aperture1 = place.aperture.value_or(spec.aperture);
-        way.centre0 = way.centre1 = place.centre.value_or(spec.centre);
+        Motion& motion = start.motions.emplace_back();
+        motion.aperture0 = motion.aperture1 = place.aperture.value_or(spec.aperture);
+        motion.centre0 = motion.centre1 = place.centre.value_or(spec.centre);
     }
     segments_.push_back(start);
     for (const ScriptStep& step : spec.script) add(step, fingers);
@@ -61,21 +61,21 @@ void ScriptDriver::add(const ScriptStep& step, const std::vector<std::string>& f
             fmt::format("Known: {}.", fmt::join(fingers, ", ")));
     }
     for (size_t i = 0; i < fingers.size(); ++i) {
-        const Way& before = last.ways[i];
-        Way way;
-        way.aperture0 = way.aperture1 = before.aperture1;
-        way.centre0 = way.centre1 = before.centre1;
-        way.v0 = before.v1;
-        way.R0 = Quat(Eigen::AngleAxisd(before.angle, before.axis)) * before.R0;
+        const Motion& before = last.motions[i];
+        Motion motion;
+        motion.aperture0 = motion.aperture1 = before.aperture1;
+        motion.centre0 = motion.centre1 = before.centre1;
+        motion.v0 = before.v1;
+        motion.R0 = Quat(Eigen::AngleAxisd(before.angle, before.axis)) * before.R0;
         if (step.fingers.empty() ||
             std::find(step.fingers.begin(), step.fingers.end(), fingers[i]) != step.fingers.end()) {
-            way.aperture1 = step.aperture.value_or(way.aperture0);
-            way.centre1 = way.centre0 + step.move;
-            way.v1 = step.end_velocity;
-            way.angle = step.turn.norm();
-            if (way.angle > 0) way.axis = step.turn / way.angle;
+            motion.aperture1 = step.aperture.value_or(motion.aperture0);
+            motion.centre1 = motion.centre0 + step.move;
+            motion.v1 = step.end_velocity;
+            motion.angle = step.turn.norm();
+            if (motion.angle > 0) motion.axis = step.turn / motion.angle;
         }
-        segment.ways.push_back(way);
+        segment.motions.push_back(motion);
     }
     phases_.push_back({step.name, segment.start, segment.start + segment.duration});
     segments_.push_back(std::move(segment));
@@ -86,7 +86,7 @@ FingerTarget ScriptDriver::do_target(int finger, double t) const noexcept {
     for (const Segment& s : segments_) {
         if (t >= s.start) segment = &s;
     }
-    const Way& way = segment->ways[static_cast<size_t>(finger)];
+    const Motion& motion = segment->motions[static_cast<size_t>(finger)];
     const double T = segment->duration;
     const double s = (t - segment->start) / T;
     // a motion that does not start or end at rest has this speed only inside the segment
@@ -95,26 +95,26 @@ FingerTarget ScriptDriver::do_target(int finger, double t) const noexcept {
         segment->steady ? model::MinimumJerk{std::clamp(s, 0.0, 1.0), 1.0} : model::minimum_jerk(s);
     const double rate = inside ? step.rate / T : 0.0;
 
-    const double aperture_change = way.aperture1 - way.aperture0;
-    const Vec3 centre_change = way.centre1 - way.centre0;
-    Vec3 centre = way.centre0 + step.share * centre_change;
+    const double aperture_change = motion.aperture1 - motion.aperture0;
+    const Vec3 centre_change = motion.centre1 - motion.centre0;
+    Vec3 centre = motion.centre0 + step.share * centre_change;
     Vec3 v = rate * centre_change;
     if (!segment->steady) {
         const model::MinimumJerk from = model::start_speed_part(s);
         const model::MinimumJerk to = model::end_speed_part(s);
-        centre += T * (from.share * way.v0 + to.share * way.v1);
-        if (inside) v += from.rate * way.v0 + to.rate * way.v1;
+        centre += T * (from.share * motion.v0 + to.share * motion.v1);
+        if (inside) v += from.rate * motion.v0 + to.rate * motion.v1;
     }
     const FingerPlace& place = fingers_[static_cast<size_t>(finger)];
-    const Quat R = Quat(Eigen::AngleAxisd(step.share * way.angle, way.axis)) * way.R0;
+    const Quat R = Quat(Eigen::AngleAxisd(step.share * motion.angle, motion.axis)) * motion.R0;
     const Vec3 arm =
-        R * (place.offset + (way.aperture0 + step.share * aperture_change) / 2 * place.side);
+        R * (place.offset + (motion.aperture0 + step.share * aperture_change) / 2 * place.side);
     FingerTarget target;
     target.p_WT = centre + arm;
     target.v_WT =
-        v + rate * (aperture_change / 2 * (R * place.side) + way.angle * way.axis.cross(arm));
+        v + rate * (aperture_change / 2 * (R * place.side) + motion.angle * motion.axis.cross(arm));
     target.R_WT = R;
-    target.w_WT = rate * way.angle * way.axis;
+    target.w_WT = rate * motion.angle * motion.axis;
     return target;
 }
 

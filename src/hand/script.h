@@ -26,7 +26,7 @@ class ScriptDriver final : public Driver {
     FingerTarget do_target(int finger, double t) const noexcept override;
 
     /// The motion of one finger's hand in a step.
-    struct Way {
+    struct Motion {
         double aperture0 = 0, aperture1 = 0;                  // [m]
         Vec3 centre0 = Vec3::Zero(), centre1 = Vec3::Zero();  // [m]
         Vec3 v0 = Vec3::Zero(), v1 = Vec3::Zero();            // of the centre [m/s]
@@ -38,7 +38,7 @@ class ScriptDriver final : public Driver {
         double start = 0;
         double duration = 0;
         bool steady = false;
-        std::vector<Way> ways;  // by finger
+        std::vector<Motion> motions;  // by finger
     };
     void add(const ScriptStep& step, const std::vector<std::string>& fingers);
 

@@ -89,10 +89,12 @@ std::vector<GripMemory> looks_of(const scene::Scene& scene, const Traits& traits
 }
 
 /// Whether the state waits for a key.
-bool asks(const TaskPlan::Stage& stage) noexcept {
-    return std::any_of(stage.ways.begin(), stage.ways.end(), [](const TaskPlan::Way& way) {
-        return way.exit.when == When::key || way.exit.when == When::answered;
-    });
+bool asks(const TaskPlan::PlannedState& planned) noexcept {
+    return std::any_of(planned.transitions.begin(), planned.transitions.end(),
+                       [](const TaskPlan::Transition& transition) {
+                           return transition.exit.when == When::key ||
+                                  transition.exit.when == When::answered;
+                       });
 }
 
 Vec3 rotation_between(const Vec3& from, const Vec3& to) noexcept {
@@ -123,13 +125,13 @@ Person::Person(const Traits& traits, const Situation& situation)
       touch_(sides_of(places_), frictions_of(situation.scene), situation.tick),
       strains_(traits.visual_delay, situation.tick),
       known_(plan_->task.regions.size(), Vec3::Zero()),
-      rotations_(plan_->stages.size(), RotationMemory(traits.rotation(), traits.generalisation)),
-      gains_(plan_->stages.size(), GainMemory(traits.gain())),
-      forces_(plan_->stages.size(), ForceMemory(traits.force(), traits.force_generalisation)),
+      rotations_(plan_->states.size(), RotationMemory(traits.rotation(), traits.generalisation)),
+      gains_(plan_->states.size(), GainMemory(traits.gain())),
+      forces_(plan_->states.size(), ForceMemory(traits.force(), traits.force_generalisation)),
       grip_(traits, looks_of(situation.scene, traits, situation.seed), situation.tick) {
     for (const std::string& name : plan_->phases()) phases_.push_back({name, 0, 0});
-    for (const TaskPlan::Stage& stage : plan_->stages) {
-        std::vector<TaskPlan::Step>& own = steps_.emplace_back(stage.hand);
+    for (const TaskPlan::PlannedState& planned : plan_->states) {
+        std::vector<TaskPlan::Step>& own = steps_.emplace_back(planned.hand);
         own.erase(std::remove_if(own.begin(), own.end(), [](const auto& s) { return !s.moves(0); }),
                   own.end());
     }
@@ -276,8 +278,8 @@ void Person::follow_cues(const Sight& sight) noexcept {
     const double reaction = noisy(traits_.reaction_time, traits_.reaction_noise);
     const double begins = now_ + std::max(0.0, reaction - traits_.visual_delay) + delay_;
     delay_ = 0;
-    const TaskPlan::Stage& stage = plan_->stages[static_cast<size_t>(phase_ - 1)];
-    answer_at_ = asks(stage) ? begins + kDecision : -1;
+    const TaskPlan::PlannedState& planned = plan_->states[static_cast<size_t>(phase_ - 1)];
+    answer_at_ = asks(planned) ? begins + kDecision : -1;
     if (!new_attempt && steps_[static_cast<size_t>(phase_ - 1)].empty()) return;
     end_reach();
     acting_ = phase_;
@@ -601,21 +603,21 @@ bool Person::correct(const Sight& sight) noexcept {
 /// state waits means yes, the second no.
 void Person::answer(const Sight& sight) noexcept {
     answer_at_ = -1;
-    const TaskPlan::Stage& stage = plan_->stages[static_cast<size_t>(phase_ - 1)];
-    if (stage.question && stage.question->by != task::AnswerBy::cursor)
-        return rate(*stage.question);
+    const TaskPlan::PlannedState& planned = plan_->states[static_cast<size_t>(phase_ - 1)];
+    if (planned.question && planned.question->by != task::AnswerBy::cursor)
+        return rate(*planned.question);
     const double felt = (centre_ - felt_from_).norm();
     const double shown = (sight.hand - shown_from_).norm();
     const double evidence = felt > 0 && shown > 0 ? std::log(shown / felt) : 0;
     const bool yes = random_.uniform(0, 1) < traits_.answers().probability(evidence);
     char first = 0;
     char second = 0;
-    for (const TaskPlan::Way& way : stage.ways) {
-        if (way.exit.when != When::key) continue;
+    for (const TaskPlan::Transition& transition : planned.transitions) {
+        if (transition.exit.when != When::key) continue;
         if (first == 0) {
-            first = way.exit.key.front();
+            first = transition.exit.key.front();
         } else if (second == 0) {
-            second = way.exit.key.front();
+            second = transition.exit.key.front();
         }
     }
     key_ = yes || second == 0 ? first : second;

@@ -22,21 +22,21 @@ bool scales(const task::PerturbationSpec& perturbation) {
 }
 
 /// Number of keys for which a state waits: two or more form a question.
-size_t keys_of(const task::TaskPlan::Stage& stage) {
+size_t keys_of(const task::TaskPlan::PlannedState& planned) {
     std::set<std::string> keys;
-    for (const task::TaskPlan::Way& way : stage.ways) {
-        if (way.exit.when == task::When::key) keys.insert(way.exit.key);
+    for (const task::TaskPlan::Transition& transition : planned.transitions) {
+        if (transition.exit.when == task::When::key) keys.insert(transition.exit.key);
     }
     return keys.size();
 }
 
-bool reaches(const task::TaskPlan::Stage& stage) {
-    return std::any_of(stage.hand.begin(), stage.hand.end(),
+bool reaches(const task::TaskPlan::PlannedState& planned) {
+    return std::any_of(planned.hand.begin(), planned.hand.end(),
                        [](const task::TaskPlan::Step& step) { return step.step.reach.index >= 0; });
 }
 
 void warn_of_fields(const task::TaskPlan& plan, std::vector<Problem>& out) {
-    if (std::any_of(plan.stages.begin(), plan.stages.end(), reaches)) return;
+    if (std::any_of(plan.states.begin(), plan.states.end(), reaches)) return;
     for (const task::PerturbationSpec& perturbation : plan.task.perturbations) {
         if (perturbation.all_loads().empty()) continue;
         out.push_back({Severity::warning, perturbation.place, perturbation.name,
@@ -81,8 +81,8 @@ void warn_of_thresholds(const task::TaskPlan& plan, std::vector<Problem>& out) {
 void warn_of_answers(const task::TaskPlan& plan, std::vector<Problem>& out) {
     const bool lengths =
         std::any_of(plan.task.perturbations.begin(), plan.task.perturbations.end(), scales);
-    for (size_t i = 0; i < plan.stages.size(); ++i) {
-        const size_t keys = keys_of(plan.stages[i]);
+    for (size_t i = 0; i < plan.states.size(); ++i) {
+        const size_t keys = keys_of(plan.states[i]);
         if (keys < 2) continue;
         const task::State& state = plan.task.states[i];
         if (keys > 2) {
@@ -114,11 +114,11 @@ void warn_of_ratings(const task::TaskPlan& plan, std::vector<Problem>& out) {
 }
 
 void warn_of_buttons(const task::TaskPlan& plan, std::vector<Problem>& out) {
-    for (size_t i = 0; i < plan.stages.size(); ++i) {
-        for (const task::TaskPlan::Way& way : plan.stages[i].ways) {
-            const bool reads = way.exit.condition.find(".buttons") != std::string::npos;
-            if (way.exit.when != task::When::button && !reads) continue;
-            out.push_back({Severity::warning, way.exit.place, plan.task.states[i].name,
+    for (size_t i = 0; i < plan.states.size(); ++i) {
+        for (const task::TaskPlan::Transition& transition : plan.states[i].transitions) {
+            const bool reads = transition.exit.condition.find(".buttons") != std::string::npos;
+            if (transition.exit.when != task::When::button && !reads) continue;
+            out.push_back({Severity::warning, transition.exit.place, plan.task.states[i].name,
                            "waits for a button, which simulated people never press", kRemedy});
         }
     }

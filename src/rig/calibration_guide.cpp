@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "rig/way.h"
+#include "rig/guided_steps.h"
 
 namespace dihaptic::rig {
 namespace {
@@ -17,14 +17,14 @@ constexpr double kMostMoved = 2e-3;  // largest change of their distance in that
 class CalibrationWay {
   public:
     CalibrationWay(const Rig& rig, const Guide& guide)
-        : rig_(rig), sampler_(rig, nullptr), way_(sampler_.reader(), guide, count(rig)) {}
+        : rig_(rig), sampler_(rig, nullptr), steps_(sampler_.reader(), guide, count(rig)) {}
 
     CalibrationInput lead() {
-        way_.begin_step(
+        steps_.begin_step(
             "Hold each arm in the standard configuration: both links at right angles, the thigh "
             "level, the shin hanging. Let it rest on a block that keeps it there: any error here "
             "affects all positions. Leave devices without an arm in their rest positions.");
-        way_.wait();
+        steps_.wait();
         sampler_.activate();
         for (size_t other = 1; other < rig_.devices.size(); ++other) carry(other);
         for (size_t device = 0; device < rig_.devices.size(); ++device) touch(device);
@@ -42,64 +42,64 @@ class CalibrationWay {
         return fmt::format("{} and {}", rig_.devices[0].finger, rig_.devices[other].finger);
     }
     void carry(size_t other) {
-        way_.begin_step(
+        steps_.begin_step(
             fmt::format("Join the endpoints of {} with the link, and fasten it.", pair(other)));
-        way_.wait();
-        way_.begin_step(
+        steps_.wait();
+        steps_.begin_step(
             "Move the link through all of the workspace, turning it to all sides, for a minute.");
         size_t taken = 0;
         bool too_soon = false;
-        way_.sample([&](bool said) {
+        steps_.sample([&](bool said) {
             sampler_.add_link(other);
             if (++taken % 25 != 0 && !said) return true;
             const double depth = std::min(sampler_.cloud(0)[0], sampler_.cloud(other)[0]);
             const double share =
                 std::min({1.0, depth / kLeastDepth, static_cast<double>(taken) / kLeastSamples});
             too_soon = too_soon || said;
-            way_.tell(share,
-                      fmt::format("{:.0f} mm deep, {:.0f} needed; {} samples{}", depth * 1e3,
-                                  kLeastDepth * 1e3, taken,
-                                  too_soon && share < 1 ? ": go on, that is not enough" : ""));
+            steps_.tell(share,
+                        fmt::format("{:.0f} mm deep, {:.0f} needed; {} samples{}", depth * 1e3,
+                                    kLeastDepth * 1e3, taken,
+                                    too_soon && share < 1 ? ": go on, that is not enough" : ""));
             return !said || share < 1;
         });
     }
     void touch(size_t device) {
         for (size_t point = 0; point < rig_.jig.size(); ++point) {
-            way_.begin_step(
+            steps_.begin_step(
                 fmt::format("Touch '{}' of the jig with the {}'s endpoint, and keep it "
                             "there.",
                             rig_.jig[point].name, rig_.devices[device].finger));
-            way_.wait();
+            steps_.wait();
             int taken = 0;
-            way_.sample([&](bool) {
+            steps_.sample([&](bool) {
                 sampler_.add_touch(device, point);
                 return ++taken < kTouches;
             });
         }
     }
     void hold(size_t other) {
-        way_.begin_step(fmt::format(
+        steps_.begin_step(fmt::format(
             "Take the link away. Hold the endpoints of {} together, as at each session's start.",
             pair(other)));
         while (true) {
-            way_.wait();
+            steps_.wait();
             const size_t from = sampler_.input().together_samples.size();
             int taken = 0;
-            way_.sample([&](bool) {
+            steps_.sample([&](bool) {
                 sampler_.add_together(other);
                 return ++taken < kHeld;
             });
             const double moved = sampler_.moved_apart(from);
             if (moved <= kMostMoved) return;
             sampler_.forget_together(from);
-            way_.tell(
+            steps_.tell(
                 0, fmt::format("They moved by {:.1f} mm: hold them still once more.", moved * 1e3));
         }
     }
 
     const Rig& rig_;
     CalibrationSampler sampler_;
-    Way way_;
+    GuidedSteps steps_;
 };
 
 /// Two endpoints whose distance when held together is in the calibration.
@@ -164,18 +164,18 @@ std::vector<Together> check_together(const Rig& rig, const std::vector<std::stri
         return Vec3(X_WD[k] *
                     (reader.readings()[k].p_DH / devices.info(static_cast<int>(k)).scale));
     };
-    Way way(reader, guide, static_cast<int>(told.size()));
+    GuidedSteps steps(reader, guide, static_cast<int>(told.size()));
     std::vector<Together> out;
     for (const auto& [first, other, before] : told) {
         Together& pair = out.emplace_back();
         pair.first = fingers[first];
         pair.second = fingers[other];
         pair.before = before;
-        way.begin_step(
+        steps.begin_step(
             fmt::format("Hold the endpoints of {} and {} together.", pair.first, pair.second));
-        way.wait();
+        steps.wait();
         int taken = 0;
-        way.sample([&, a = first, b = other](bool) {
+        steps.sample([&, a = first, b = other](bool) {
             pair.apart += (p_W(a) - p_W(b)).norm() / kHeld;
             return ++taken < kHeld;
         });

@@ -7,7 +7,7 @@
 
 #include "base/random.h"
 #include "model/minimum_jerk.h"
-#include "rig/way.h"
+#include "rig/guided_steps.h"
 #include "rig/workspace.h"
 
 namespace dihaptic::rig {
@@ -220,7 +220,7 @@ CalibrationInput simulate_calibration(const Rig& rig, uint64_t seed,
     const auto end = from_seconds(hand.duration());
     for (Time now{0}; now < end; now += DeviceReader::kTick) {
         sampler.reader().tick(now);
-        if (now % Way::kEvery != Time(0)) continue;
+        if (now % GuidedSteps::kEvery != Time(0)) continue;
         if (!progress(seconds(now) / hand.duration())) break;
         if (!hand.samples(seconds(now))) continue;
         const CalibrationHand::Stretch& stretch = hand.at(seconds(now));

@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 #include "model/minimum_jerk.h"
-#include "rig/way.h"
+#include "rig/guided_steps.h"
 
 namespace dihaptic::rig {
 namespace {
@@ -31,9 +31,9 @@ class TouchingHand final : public hand::Driver {
         const double each = kMoveToCross + kRest;
         const auto i = std::min(static_cast<size_t>(std::max(0.0, t) / each), places_.size() - 1);
         const Vec3& from = places_[i == 0 ? 0 : i - 1];
-        const auto way = model::minimum_jerk((t - static_cast<double>(i) * each) / kMoveToCross);
+        const auto course = model::minimum_jerk((t - static_cast<double>(i) * each) / kMoveToCross);
         hand::FingerTarget out;
-        out.p_WT = from + way.share * (places_[i] - from);
+        out.p_WT = from + course.share * (places_[i] - from);
         return out;
     }
 
@@ -99,17 +99,17 @@ struct Rested {
 std::vector<Vec3> lead_person(const Rig& rig, const std::string& finger, const Guide& guide) {
     Endpoint endpoint(rig, finger, nullptr);
     const auto count = static_cast<int>(display::crosses().size());
-    Way way(endpoint.reader(), guide, count);
+    GuidedSteps steps(endpoint.reader(), guide, count);
     std::vector<Vec3> out;
     for (int i = 0; i < count; ++i) {
-        way.begin_step(
+        steps.begin_step(
             fmt::format("Put the {}'s endpoint where you see cross {}, and keep it "
                         "there. The head stays on its rest.",
                         finger, i + 1));
         while (true) {
-            way.wait();
+            steps.wait();
             Rested rested;
-            way.sample([&](bool) {
+            steps.sample([&](bool) {
                 rested.add(endpoint.p_W());
                 return rested.count < kCrossSamples;
             });
@@ -117,8 +117,8 @@ std::vector<Vec3> lead_person(const Rig& rig, const std::string& finger, const G
                 out.push_back(rested.mean());
                 break;
             }
-            way.tell(0, fmt::format("It moved by {:.1f} mm: hold it still once more.",
-                                    rested.moved() * 1e3));
+            steps.tell(0, fmt::format("It moved by {:.1f} mm: hold it still once more.",
+                                      rested.moved() * 1e3));
         }
     }
     return out;
@@ -138,7 +138,7 @@ std::vector<Vec3> simulate(const Rig& rig, const std::string& finger, const disp
     std::vector<Rested> rested(places.size());
     for (Time now{0}; now < from_seconds(hand.duration()); now += DeviceReader::kTick) {
         endpoint.reader().tick(now);
-        if (now % Way::kEvery != Time(0)) continue;
+        if (now % GuidedSteps::kEvery != Time(0)) continue;
         told.share = seconds(now) / hand.duration();
         guide.show(told);
         guide.done();  // throws if the person cancels

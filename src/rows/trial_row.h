@@ -90,7 +90,7 @@ struct TrialMeasures {
 /// The outcome of an attempt that no outcome ended.
 inline constexpr const char* kInterrupted = "interrupted";
 
-/// An attempt at a task's trial. Variables, levels, answers and the task's own measures have
+/// An attempt at a task's trial. Variables, levels, answers and the task's custom measures have
 /// further columns, which differ from task to task (RowFile::column).
 struct TrialRow {
     TrialHead head;

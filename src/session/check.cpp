@@ -48,10 +48,11 @@ void check_movement(const std::string& file, Diagnostics& diagnostics) {
 /// Warns of states that never end if the event for which they wait does not come.
 std::vector<Problem> endless_states(const task::TaskPlan& task) {
     std::vector<Problem> out;
-    for (size_t i = 0; i < task.stages.size(); ++i) {
-        const auto& ways = task.stages[i].ways;
-        const bool ends = std::any_of(ways.begin(), ways.end(),
-                                      [](const task::TaskPlan::Way& way) { return way.comes(); });
+    for (size_t i = 0; i < task.states.size(); ++i) {
+        const auto& transitions = task.states[i].transitions;
+        const bool ends = std::any_of(
+            transitions.begin(), transitions.end(),
+            [](const task::TaskPlan::Transition& transition) { return transition.comes(); });
         if (ends) continue;
         const task::State& state = task.task.states[i];
         out.push_back({Severity::warning, state.place, state.name,

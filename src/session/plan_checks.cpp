@@ -378,7 +378,7 @@ void check_columns(const Plan& plan, Diagnostics& diagnostics) {
         own.push_back(variable.name);
         own.push_back(task::next_column(variable.name));
     }
-    for (const task::OwnMeasure& measure : task.own_measures) own.push_back(measure.name);
+    for (const task::CustomMeasure& measure : task.custom_measures) own.push_back(measure.name);
     for (const task::LevelName& level : task::levels_of(task)) own.push_back(level.name);
     for (const task::AskSpec& ask : task::questions_of(task)) own.push_back(ask.name);
     std::set<std::string> known;

@@ -10,11 +10,11 @@ namespace dihaptic::session {
 
 Wait::Wait(const task::TaskPlan& plan)
     : bounds_{kLongestBetween + task::longest_opening(plan)}, attempt_bound_(bounds_.front()) {
-    for (const task::TaskPlan::Stage& stage : plan.stages) {
+    for (const task::TaskPlan::PlannedState& planned : plan.states) {
         double longest = 0;
-        for (const task::TaskPlan::Way& way : stage.ways) {
-            if (way.exit.when == task::When::time)
-                longest = std::max(longest, plan.largest(way.exit.hold));
+        for (const task::TaskPlan::Transition& transition : planned.transitions) {
+            if (transition.exit.when == task::When::time)
+                longest = std::max(longest, plan.largest(transition.exit.hold));
         }
         bounds_.push_back(longest + kLongest);
         attempt_bound_ += kRounds * bounds_.back();

@@ -28,21 +28,21 @@ size_t place_of(const Table& table, const char* name) {
 }
 
 /// Null if they cannot be computed.
-std::unique_ptr<task::OwnMeasures> own_measures(const task::Task& task,
-                                                const recording::SessionFolder& folder) {
+std::unique_ptr<task::CustomMeasures> custom_measures(const task::Task& task,
+                                                      const recording::SessionFolder& folder) {
     Diagnostics problems(UnknownKeys::are_left_out);
     const scene::Scene scene = scene::read_scene(folder.file("scene.yaml"), problems);
     task::TaskPlan plan = task::plan_task(task, scene, problems);
     if (problems.has_errors()) return nullptr;
     plan.trials = task::read_trial_list(plan.task, folder.file("trial-list.csv"));
-    return std::make_unique<task::OwnMeasures>(std::move(plan));
+    return std::make_unique<task::CustomMeasures>(std::move(plan));
 }
 
 }  // namespace
 
 std::vector<Table::Column> measure_columns_of(const task::Task& task) {
     std::vector<Table::Column> out = task::measure_columns();
-    const auto own = task::columns_of(task.own_measures);
+    const auto own = task::columns_of(task.custom_measures);
     out.insert(out.end() - 1, own.begin(), own.end());
     return out;
 }
@@ -55,8 +55,8 @@ std::optional<MeasureFinder> MeasureFinder::of(const recording::SessionFolder& f
     for (const std::string& name : task.measures) {
         if (const task::MeasureRow* row = task::measure_row(name)) out.measures_.push_back(row);
     }
-    out.own_measures_ = task.own_measures;
-    if (!out.own_measures_.empty()) out.own_ = own_measures(task, folder);
+    out.custom_measures_ = task.custom_measures;
+    if (!out.custom_measures_.empty()) out.own_ = custom_measures(task, folder);
     if (out.measures_.empty() && !out.own_) return std::nullopt;
     out.options_ = movement_of(task, head.fingers.empty() ? "" : head.fingers.front());
     const std::vector<std::string>& during = out.options_.during;
@@ -131,7 +131,7 @@ void MeasureFinder::end_attempt(const rows::LiftRow* lift) {
     for (size_t k = 0; k < own.size(); ++k) {
         row.cells.emplace_back(own[k]);
         if (std::isnan(own[k]))
-            missing += (missing.empty() ? "" : "; ") + own_measures_[k].name + ": not measured";
+            missing += (missing.empty() ? "" : "; ") + custom_measures_[k].name + ": not measured";
     }
     row.cells.emplace_back(missing);
     attempt_.samples.clear();
@@ -146,7 +146,7 @@ void MeasureFinder::add_to(Table& trials) const {
             trials.columns.push_back(std::move(column));
     }
     if (own_) {
-        const auto own = task::columns_of(own_measures_);
+        const auto own = task::columns_of(custom_measures_);
         trials.columns.insert(trials.columns.end(), own.begin(), own.end());
     }
     trials.columns.push_back(task::not_measured_column());

@@ -10,12 +10,12 @@
 #include "base/table.h"
 #include "recording/raw_log.h"
 #include "recording/session.h"
-#include "task/plan/own_measures.h"
+#include "task/plan/custom_measures.h"
 
 namespace dihaptic::analysis {
 
 /// Columns of all measures that trials.csv may have in a session with this task: named measures,
-/// the task's own measures, and unmeasured ones.
+/// the task's custom measures, and unmeasured ones.
 std::vector<Table::Column> measure_columns_of(const task::Task& task);
 
 class MeasureFinder {
@@ -37,8 +37,8 @@ class MeasureFinder {
     MotionSample sample(const frame::Frame& frame) const;
 
     std::vector<const task::MeasureRow*> measures_;
-    std::vector<task::OwnMeasure> own_measures_;
-    std::unique_ptr<task::OwnMeasures> own_;  // null if there are none
+    std::vector<task::CustomMeasure> custom_measures_;
+    std::unique_ptr<task::CustomMeasures> own_;  // null if there are none
     task::Movement options_;
     MeasurePhases phases_;
     std::vector<task::MovementPlan> plans_;  // by trial; empty if no measure requires a movement

@@ -148,7 +148,7 @@ struct Renamed {
     }
 };
 
-TEST(FieldReader, AnOldNameIsAnErrorInAFileAndIsReadInWhatWasFrozen) {
+TEST(FieldReader, AnOldNameIsReadWithAWarningAndWithoutOneInWhatWasFrozen) {
     const Node node = parse_yaml("hold_ms: 250\n", "old.yaml");
     Renamed read;
     Diagnostics frozen(UnknownKeys::are_left_out);
@@ -156,11 +156,18 @@ TEST(FieldReader, AnOldNameIsAnErrorInAFileAndIsReadInWhatWasFrozen) {
     EXPECT_TRUE(frozen.problems().empty());
     EXPECT_DOUBLE_EQ(read.wait, 0.25);
     Diagnostics written;
+    read.wait = 0;
     read_fields(read, node, written);
+    EXPECT_DOUBLE_EQ(read.wait, 0.25);
+    EXPECT_FALSE(written.has_errors());
     ASSERT_EQ(written.problems().size(), 1u);
     EXPECT_EQ(written.problems()[0].key, "hold_ms");
     EXPECT_EQ(written.problems()[0].place.line, 1);
     EXPECT_EQ(written.problems()[0].what, "is now called wait_ms");
+    Diagnostics both;
+    read_fields(read, parse_yaml("wait_ms: 100\nhold_ms: 250\n", "both.yaml"), both);
+    EXPECT_TRUE(both.has_errors());
+    EXPECT_DOUBLE_EQ(read.wait, 0.1);
 }
 
 TEST(FieldReader, ReportsAllProblemsOfAFile) {

@@ -484,6 +484,24 @@ TEST(Plan, WarnsOfTrialsThatTheirMeasuresWillNotShow) {
               std::string::npos);
 }
 
+TEST(Plan, ReadsFilesWithWordsThatWereReplacedSince) {
+    session::Files files;
+    files.replace("{ when: time, after_s: 5,", "{ when: time, hold_s: 5,");
+    files.replace("simulated_hand: [{ duration_s: 0.2, reach: target",
+                  "hand: [{ duration_s: 0.2, reach: target");
+    files.replace("  conditions:\n",
+                  "  own_measures: [{ name: lift_mm, of: block.z }]\n  conditions:\n");
+    const Plan plan = make_plan(files.request());
+    std::string all;
+    for (const Problem& p : plan.warnings) all += p.text() + "\n";
+    for (const char* said : {"hold_s: is now called after_s. Write after_s.",
+                             "hand: is now called simulated_hand. Write simulated_hand.",
+                             "own_measures: is now called custom_measures. Write custom_measures."})
+        EXPECT_NE(all.find(said), std::string::npos) << said << " is not in\n" << all;
+    EXPECT_EQ(plan.task->task.custom_measures.size(), 1u);
+    EXPECT_FALSE(plan.task->states[1].hand.empty());
+}
+
 TEST(Plan, SetWithoutValueSaysHow) {
     Files files;
     Request request = files.request();

@@ -69,7 +69,7 @@ TEST(RunningTrials, AreThoseOfTheSessionWhenItIsOver) {
 TEST(RunningTrials, KnowWhereBodiesRestInALogThatAThreadWrote) {
     Sessions sessions;
     sessions.files.replace("  reach: {",
-                           "  own_measures:\n    - { name: height_mm, of: block.z, take: min }\n"
+                           "  custom_measures:\n    - { name: height_mm, of: block.z, take: min }\n"
                            "  reach: {");
     sessions.files.keep_first_block();
     const std::string made = sessions.make(Mover::simulated_person, true);

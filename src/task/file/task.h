@@ -576,7 +576,7 @@ struct Task {
     std::vector<std::string> lines;  ///< texts below the message throughout the session
     std::optional<ReachMeasure> reach;
     std::vector<std::string> measures;  ///< names from kMeasureTable
-    std::vector<OwnMeasure> own_measures;
+    std::vector<CustomMeasure> custom_measures;
     std::optional<Movement> movement;  ///< analysed by `measures`
     Place place;
 
@@ -619,8 +619,10 @@ struct Task {
         v("measures", measures,
           says("Names of the [measures of behaviour](measures-of-behaviour.md) that "
                "are reported for each attempt."));
-        v("own_measures", own_measures,
-          says("Custom measures, given as expressions and reported for each attempt."));
+        v("custom_measures", custom_measures,
+          Field{}
+              .formerly("own_measures")
+              .says("Custom measures, given as expressions and reported for each attempt."));
         v("movement", movement,
           says("Movement that the measures analyse; keys omitted here are copied from 'reach'."));
     }

@@ -34,8 +34,8 @@ void BodyPlanner::check(const Condition& condition) {
     }
 }
 
-void BodyPlanner::plan_state(const State& state, TaskPlan::Stage& out) {
-    for (const StatePlace& place : state.places) add_put(place, out.puts);
+void BodyPlanner::plan_state(const State& state, TaskPlan::PlannedState& out) {
+    for (const StatePlace& place : state.places) add_placement(place, out.placements);
     for (const DriveSpec& drive : state.drives) add_drive(drive, out);
     for (const MotorSpec& motor : state.motors) add_motor(motor, out);
 }
@@ -57,13 +57,14 @@ void BodyPlanner::check_put(const StatePlace& place) {
               fmt::format("'{}' is fixed and stays in place anyway", place.body), "Leave it out.");
 }
 
-void BodyPlanner::add_put(const StatePlace& place, std::vector<TaskPlan::Put>& puts) {
+void BodyPlanner::add_placement(const StatePlace& place,
+                                std::vector<TaskPlan::Placement>& placements) {
     const int index = place.body.index;
     if (index < 0) return;
     check_placeable(place.body, place.place);
     check_put(place);
-    for (const TaskPlan::Put& put : puts) {
-        if (put.home.body == index)
+    for (const TaskPlan::Placement& put : placements) {
+        if (put.pose.body == index)
             error(place.place, "body", fmt::format("'{}' is placed twice", place.body),
                   "Keep one of the two.");
     }
@@ -71,12 +72,12 @@ void BodyPlanner::add_put(const StatePlace& place, std::vector<TaskPlan::Put>& p
     const FormulaVec3 position =
         place.removed ? as_formula(away)
                       : place.position.value_or(as_formula(body(place.body).position));
-    TaskPlan::Put& put = puts.emplace_back(TaskPlan::Put{
-        home(index, position), place.position || place.removed, place.held || place.removed});
-    if (place.velocity) put.home.velocity = *place.velocity;
+    TaskPlan::Placement& put = placements.emplace_back(TaskPlan::Placement{
+        start_pose(index, position), place.position || place.removed, place.held || place.removed});
+    if (place.velocity) put.pose.velocity = *place.velocity;
 }
 
-void BodyPlanner::add_drive(const DriveSpec& spec, TaskPlan::Stage& out) {
+void BodyPlanner::add_drive(const DriveSpec& spec, TaskPlan::PlannedState& out) {
     const int index = spec.body.index;
     if (index < 0) return;
     const scene::Body& driven = body(spec.body);
@@ -84,19 +85,19 @@ void BodyPlanner::add_drive(const DriveSpec& spec, TaskPlan::Stage& out) {
         error(spec.place, "body", fmt::format("'{}' is fixed in the scene", spec.body),
               "Write driven: yes there instead of fixed: yes.");
     const auto same = [&](const auto& other) {
-        if constexpr (requires { other.home; })
-            return other.home.body == index && other.stays;
+        if constexpr (requires { other.pose; })
+            return other.pose.body == index && other.stays;
         else
             return other.body() == index;
     };
     if (std::any_of(out.drives.begin(), out.drives.end(), same) ||
-        std::any_of(out.puts.begin(), out.puts.end(), same))
+        std::any_of(out.placements.begin(), out.placements.end(), same))
         error(spec.place, "body", fmt::format("'{}' is driven or held twice", spec.body),
               "Keep one of the two.");
     out.drives.emplace_back(spec, index, plan.quantities, diagnostics);
 }
 
-void BodyPlanner::add_motor(const MotorSpec& spec, TaskPlan::Stage& out) {
+void BodyPlanner::add_motor(const MotorSpec& spec, TaskPlan::PlannedState& out) {
     const int index = spec.joint.index;
     if (index < 0) return;
     const scene::Joint& joint = scene.joints[static_cast<size_t>(index)];
@@ -117,7 +118,7 @@ void BodyPlanner::add_motor(const MotorSpec& spec, TaskPlan::Stage& out) {
     out.motors.emplace_back(spec, joint, index, plan.quantities, diagnostics);
 }
 
-TaskPlan::Home BodyPlanner::home(int index, const FormulaVec3& position) const {
+TaskPlan::StartPose BodyPlanner::start_pose(int index, const FormulaVec3& position) const {
     const scene::Body& body = scene.bodies[static_cast<size_t>(index)];
     Pose X_WB = body.pose();
     X_WB.p = value(position);
@@ -137,9 +138,9 @@ bool BodyPlanner::is_placed(int body) const {
     return any(plan.task.conditions) || any(plan.task.rounds) || any(plan.task.states);
 }
 
-std::vector<TaskPlan::Home> BodyPlanner::homes(
+std::vector<TaskPlan::StartPose> BodyPlanner::start_poses(
     std::initializer_list<const Condition*> conditions) const {
-    std::vector<TaskPlan::Home> out;
+    std::vector<TaskPlan::StartPose> out;
     for (size_t i = 0; i < scene.bodies.size(); ++i) {
         const scene::Body& body = scene.bodies[i];
         if (!body.moves_at_all() && !body.driven && !is_placed(static_cast<int>(i))) continue;
@@ -156,9 +157,9 @@ std::vector<TaskPlan::Home> BodyPlanner::homes(
                 if (moved_by(place) == static_cast<int>(i)) by_joint = &place;
             }
         }
-        TaskPlan::Home& added = out.emplace_back(home(static_cast<int>(i), position));
+        TaskPlan::StartPose& added = out.emplace_back(start_pose(static_cast<int>(i), position));
         added.velocity = velocity;
-        if (by_joint != nullptr) put_by_joint(*by_joint, added);
+        if (by_joint != nullptr) place_by_joint(*by_joint, added);
     }
     hang(out);
     return out;
@@ -176,29 +177,29 @@ int BodyPlanner::moved_by(const BodyPlace& place) const {
     return joint == nullptr ? -1 : scene.find(joint->between.back());
 }
 
-void BodyPlanner::put_by_joint(const BodyPlace& place, TaskPlan::Home& home) const {
+void BodyPlanner::place_by_joint(const BodyPlace& place, TaskPlan::StartPose& start_pose) const {
     const scene::Joint& joint = *joint_of(place);
-    home.joint = on_joint(scene, joint);
-    home.coordinate = (joint.slides() ? place.displacement : place.angle).value_or(0.0);
-    home.rate = joint.slides() ? place.speed : place.rate;
+    start_pose.joint = on_joint(scene, joint);
+    start_pose.coordinate = (joint.slides() ? place.displacement : place.angle).value_or(0.0);
+    start_pose.rate = joint.slides() ? place.speed : place.rate;
 }
 
 /// Bodies attached to a body that a joint places move with it; each comes after the body to which
 /// it is attached.
-void BodyPlanner::hang(std::vector<TaskPlan::Home>& homes) const {
-    const auto home_of = [&](int body) {
-        return std::find_if(homes.begin(), homes.end(),
-                            [body](const auto& home) { return home.body == body; });
+void BodyPlanner::hang(std::vector<TaskPlan::StartPose>& start_poses) const {
+    const auto start_of = [&](int body) {
+        return std::find_if(start_poses.begin(), start_poses.end(),
+                            [body](const auto& start_pose) { return start_pose.body == body; });
     };
     std::vector<int> ordered;
-    for (const TaskPlan::Home& home : homes) {
-        if (home.joint) ordered.push_back(home.body);
+    for (const TaskPlan::StartPose& start_pose : start_poses) {
+        if (start_pose.joint) ordered.push_back(start_pose.body);
     }
     for (size_t i = 0; i < ordered.size(); ++i) {
         for (const scene::Joint& joint : scene.joints) {
             if (joint.between.size() < 2 || scene.find(joint.between[0]) != ordered[i]) continue;
-            const auto second = home_of(scene.find(joint.between[1]));
-            if (second == homes.end()) continue;
+            const auto second = start_of(scene.find(joint.between[1]));
+            if (second == start_poses.end()) continue;
             if (!second->joint) {
                 second->joint = on_joint(scene, joint);
                 ordered.push_back(second->body);
@@ -206,18 +207,20 @@ void BodyPlanner::hang(std::vector<TaskPlan::Home>& homes) const {
         }
     }
     // number of joints between it and a body that no joint places
-    const auto depth = [&](const TaskPlan::Home& home) {
+    const auto depth = [&](const TaskPlan::StartPose& start_pose) {
         size_t out = 0;
-        for (auto at = home_of(home.body); at != homes.end() && at->joint && out < homes.size();
-             at = home_of(at->joint->first))
+        for (auto at = start_of(start_pose.body);
+             at != start_poses.end() && at->joint && out < start_poses.size();
+             at = start_of(at->joint->first))
             ++out;
         return out;
     };
-    std::vector<std::pair<size_t, TaskPlan::Home>> by_depth;
-    for (const TaskPlan::Home& home : homes) by_depth.emplace_back(depth(home), home);
+    std::vector<std::pair<size_t, TaskPlan::StartPose>> by_depth;
+    for (const TaskPlan::StartPose& start_pose : start_poses)
+        by_depth.emplace_back(depth(start_pose), start_pose);
     std::stable_sort(by_depth.begin(), by_depth.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (size_t i = 0; i < homes.size(); ++i) homes[i] = by_depth[i].second;
+    for (size_t i = 0; i < start_poses.size(); ++i) start_poses[i] = by_depth[i].second;
 }
 
 }  // namespace dihaptic::task

@@ -14,9 +14,10 @@ class BodyPlanner : Planning {
     /// Checks the bodies that a condition places.
     void check(const Condition& condition);
     /// Initial placement of bodies in a trial; placements of later conditions replace earlier ones.
-    std::vector<TaskPlan::Home> homes(std::initializer_list<const Condition*> conditions) const;
+    std::vector<TaskPlan::StartPose> start_poses(
+        std::initializer_list<const Condition*> conditions) const;
     /// Plans the placements, drives and motors of a state.
-    void plan_state(const State& state, TaskPlan::Stage& out);
+    void plan_state(const State& state, TaskPlan::PlannedState& out);
 
   private:
     void error(const Place& place, const char* key, const std::string& what,
@@ -28,15 +29,15 @@ class BodyPlanner : Planning {
     }
     void check_placeable(const Ref<scene::Body>& body, const Place& place);
     void check_put(const StatePlace& place);
-    void add_put(const StatePlace& place, std::vector<TaskPlan::Put>& puts);
-    void add_drive(const DriveSpec& spec, TaskPlan::Stage& out);
-    void add_motor(const MotorSpec& spec, TaskPlan::Stage& out);
-    TaskPlan::Home home(int index, const FormulaVec3& position) const;
+    void add_placement(const StatePlace& place, std::vector<TaskPlan::Placement>& placements);
+    void add_drive(const DriveSpec& spec, TaskPlan::PlannedState& out);
+    void add_motor(const MotorSpec& spec, TaskPlan::PlannedState& out);
+    TaskPlan::StartPose start_pose(int index, const FormulaVec3& position) const;
     bool is_placed(int body) const;
     const scene::Joint* joint_of(const BodyPlace& place) const;
     int moved_by(const BodyPlace& place) const;
-    void put_by_joint(const BodyPlace& place, TaskPlan::Home& home) const;
-    void hang(std::vector<TaskPlan::Home>& homes) const;
+    void place_by_joint(const BodyPlace& place, TaskPlan::StartPose& start_pose) const;
+    void hang(std::vector<TaskPlan::StartPose>& start_poses) const;
 };
 
 }  // namespace dihaptic::task

@@ -41,9 +41,9 @@ class CellPlanner : Planning {
         for (const PerturbationSpec& spec :
              replaced(replaced(task.perturbations, round.perturbations), condition.perturbations))
             add_perturbation(out, spec, found);
-        out.homes = bodies_.homes({&round, &condition});
+        out.start_poses = bodies_.start_poses({&round, &condition});
         note_formulas(out.regions, out.formulas);
-        note_formulas(out.homes, out.formulas);
+        note_formulas(out.start_poses, out.formulas);
         note_formulas(out.perturbations, out.formulas);
         for (const Condition* of : {&round, &condition})
             seen_.add_looks(of->look, out.looks, found);

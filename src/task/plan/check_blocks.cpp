@@ -203,12 +203,15 @@ class BlockChecker {
     }
 
     bool is_named(int slot) const {
-        const auto in_way = [&](const TaskPlan::Way& way) { return way.condition.names(slot); };
+        const auto in_transition = [&](const TaskPlan::Transition& transition) {
+            return transition.condition.names(slot);
+        };
         return std::any_of(plan_.formulas.begin(), plan_.formulas.end(),
                            [&](const CompiledFormula& f) { return f.expression.names(slot); }) ||
-               std::any_of(plan_.stages.begin(), plan_.stages.end(),
-                           [&](const TaskPlan::Stage& stage) {
-                               return std::any_of(stage.ways.begin(), stage.ways.end(), in_way);
+               std::any_of(plan_.states.begin(), plan_.states.end(),
+                           [&](const TaskPlan::PlannedState& planned) {
+                               return std::any_of(planned.transitions.begin(),
+                                                  planned.transitions.end(), in_transition);
                            });
     }
 

@@ -154,7 +154,7 @@ constexpr auto enum_names(Take) {
 /// A custom measure of a task.
 struct State;
 
-struct OwnMeasure {
+struct CustomMeasure {
     std::string name;  ///< its column in trials.csv, with the unit
     std::string of;    ///< an expression, evaluated in each tick
     Take take = Take::max;

@@ -99,7 +99,7 @@ std::vector<int> SeenPlanner::lines(const std::vector<std::string>& texts, const
     return out;
 }
 
-void SeenPlanner::plan_state(const State& state, TaskPlan::Stage& out) {
+void SeenPlanner::plan_state(const State& state, TaskPlan::PlannedState& out) {
     add_looks(state.look, out.looks, diagnostics);
     show(state.show, state.show.place.line > 0 ? state.show.place : state.place, out);
     if (state.countdown) {
@@ -116,7 +116,7 @@ void SeenPlanner::plan_state(const State& state, TaskPlan::Stage& out) {
     for (const int line : lines(texts, state.place)) out.lines.push_back(line);
 }
 
-void SeenPlanner::show(const Show& given, const Place& place, TaskPlan::Stage& out) {
+void SeenPlanner::show(const Show& given, const Place& place, TaskPlan::PlannedState& out) {
     for (const std::string& name : given.targets) {
         const int i = names.find<Region>(name, place, "show", diagnostics);
         if (i >= 0) out.shown |= 1u << i;

@@ -13,7 +13,7 @@ class SeenPlanner : Planning {
     /// Index of a text among the plan's messages, to which a new text is added; -1 if it is empty.
     int text(const std::string& text, const Place& place, const char* key);
     /// Plans the display in the state, apart from its message.
-    void plan_state(const State& state, TaskPlan::Stage& out);
+    void plan_state(const State& state, TaskPlan::PlannedState& out);
     /// Adds looks to the existing ones. Problems go to `found`, once per call.
     void add_looks(const std::vector<LookSpec>& specs, TaskPlan::Looks& out,
                    Diagnostics& found) const;
@@ -21,7 +21,7 @@ class SeenPlanner : Planning {
     void plan_task();
 
   private:
-    void show(const Show& given, const Place& place, TaskPlan::Stage& out);
+    void show(const Show& given, const Place& place, TaskPlan::PlannedState& out);
     /// Reads "name: yes or no" for bodies or fingers; `first`: index of the first of them in
     /// frames.
     template <class T>

@@ -59,8 +59,8 @@ class StatePlanner : Planning {
     StatePlanner(const Planning& given, BodyPlanner& bodies, SeenPlanner& seen)
         : Planning(given), bodies_(bodies), seen_(seen) {}
 
-    TaskPlan::Stage stage(const State& state) {
-        TaskPlan::Stage out;
+    TaskPlan::PlannedState planned(const State& state) {
+        TaskPlan::PlannedState out;
         out.message = seen_.text(state.message, state.place, "message");
         seen_.plan_state(state, out);
         out.marker = state.marker;
@@ -69,7 +69,7 @@ class StatePlanner : Planning {
         if (state.ask) out.question = question(*state.ask);
         check_answered(state);
         bodies_.plan_state(state, out);
-        for (const Exit& exit : state.exits) out.ways.push_back(way(exit));
+        for (const Exit& exit : state.exits) out.transitions.push_back(transition(exit));
         for (const HandStep& step : state.hand) {
             TaskPlan::Step& added = out.hand.emplace_back(TaskPlan::Step{step});
             if (!step.fingers.empty()) added.fingers = fingers_of(step.fingers);
@@ -142,15 +142,16 @@ class StatePlanner : Planning {
         }
     }
 
-    TaskPlan::Way way(const Exit& exit) {
-        TaskPlan::Way out;
+    TaskPlan::Transition transition(const Exit& exit) {
+        TaskPlan::Transition out;
         out.exit = exit;
         if (exit.has(WhenRow::finger) && !exit.finger.empty())
             out.finger = names.find<scene::Finger>(exit.finger, exit.place, "finger", diagnostics);
         out.condition = condition(exit);
-        const int ways = !exit.to.empty() + !exit.outcome.empty() + (exit.chooses > 0);
-        if (ways != 1) {
-            error(exit.place, "to", ways == 0 ? "leads nowhere" : "has more than one destination",
+        const int transitions = !exit.to.empty() + !exit.outcome.empty() + (exit.chooses > 0);
+        if (transitions != 1) {
+            error(exit.place, "to",
+                  transitions == 0 ? "leads nowhere" : "has more than one destination",
                   "Give it exactly one of to (a state), outcome (the trial's result) and chooses "
                   "(an interval).");
         }
@@ -276,16 +277,16 @@ class StatePlanner : Planning {
 
 /// Checks that every state is reachable from the first one and leads out of the trial.
 void check_ways(const TaskPlan& plan, Diagnostics& diagnostics) {
-    const size_t n = plan.stages.size();
+    const size_t n = plan.states.size();
     std::vector<char> reached(n, 0);
     std::vector<char> leaves(n, 0);
     if (n > 0) reached[0] = 1;
     for (size_t round = 0; round < n; ++round) {
         for (size_t i = 0; i < n; ++i) {
-            for (const TaskPlan::Way& way : plan.stages[i].ways) {
-                if (way.outcome >= 0) leaves[i] = 1;
-                if (way.exit.to.index < 0) continue;
-                const auto to = static_cast<size_t>(way.exit.to.index);
+            for (const TaskPlan::Transition& transition : plan.states[i].transitions) {
+                if (transition.outcome >= 0) leaves[i] = 1;
+                if (transition.exit.to.index < 0) continue;
+                const auto to = static_cast<size_t>(transition.exit.to.index);
                 if (reached[i]) reached[to] = 1;
                 if (leaves[to]) leaves[i] = 1;
             }
@@ -315,7 +316,7 @@ scene::FingerSet fingers_of(const RefList<scene::Finger>& names) {
 void plan_states(const Planning& given, BodyPlanner& bodies, SeenPlanner& seen) {
     TaskPlan& plan = given.plan;
     StatePlanner planner(given, bodies, seen);
-    for (const State& state : plan.task.states) plan.stages.push_back(planner.stage(state));
+    for (const State& state : plan.task.states) plan.states.push_back(planner.planned(state));
     plan.skipped = static_cast<int>(plan.outcomes.size());
     plan.outcomes.push_back({kSkipped, false});
     check_ways(plan, given.diagnostics);

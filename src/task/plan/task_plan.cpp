@@ -7,9 +7,9 @@
 #include "rows/procedure_row.h"
 #include "task/plan/cell_planner.h"
 #include "task/plan/check_blocks.h"
+#include "task/plan/custom_measures.h"
 #include "task/plan/factors.h"
 #include "task/plan/levels.h"
-#include "task/plan/own_measures.h"
 #include "task/plan/plan_formulas.h"
 #include "task/plan/reach_plan.h"
 #include "task/plan/state_planner.h"
@@ -76,7 +76,7 @@ class Planner : Planning {
         check_reach();
         plan_rules(plan, diagnostics);
         check_measures(plan, scene, diagnostics);
-        plan_own_measures(plan, diagnostics);
+        plan_custom_measures(plan, diagnostics);
         for (const scene::Finger& finger : scene.fingers)
             plan.finger_radius.push_back(reach_of(finger));
     }

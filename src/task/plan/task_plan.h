@@ -52,7 +52,7 @@ struct TaskPlan {
     std::vector<Outcome> outcomes;
     int skipped = -1;  ///< the outcome of a trial that the operator skips
 
-    struct Way {
+    struct Transition {
         Exit exit;
         Expression condition;  ///< empty for key, button, trigger and time
         int finger = 0;        ///< finger with the button
@@ -74,13 +74,13 @@ struct TaskPlan {
     Quantities quantities;
 
     /// A body that is placed, and the box that must be clear of fingers.
-    struct Home {
+    struct StartPose {
         int body;
         Pose X_WB;
         scene::Bounds box;
         FormulaVec3 position;
-        /// Used in place of that position; such homes come after the home of the joint's first
-        /// body.
+        /// Used in place of that position; such start poses come after that of the joint's
+        /// first body.
         std::optional<OnJoint> joint = std::nullopt;
         Formula coordinate{};
         /// The body's initial velocity, or the rate of its joint.
@@ -99,18 +99,18 @@ struct TaskPlan {
             }
         }
     };
-    /// A body that a state places.
-    struct Put {
-        Home home;   // placement, unless it keeps its position
-        bool moves;  // whether its position changes
-        bool stays;  // whether it is kept there while the state lasts
+    /// A body that a state places, and where.
+    struct Placement {
+        StartPose pose;  // unless it keeps its position
+        bool moves;      // whether its position changes
+        bool stays;      // whether it is kept there while the state lasts
     };
     /// Looks of bodies, proxies and targets; the radius of a target is a factor.
     struct Looks {
         std::vector<frame::LookFrame> things;
         std::vector<frame::TargetFrame> targets;
     };
-    struct Stage {
+    struct PlannedState {
         uint32_t shown = 0;  ///< regions shown, one bit each
         Looks looks;
         bool holds_cursor = false;
@@ -120,24 +120,24 @@ struct TaskPlan {
         uint32_t sounds = 0;  ///< one bit each
         int interval = 0;
         std::optional<Question> question;
-        std::vector<Put> puts;
+        std::vector<Placement> placements;
         std::vector<Drive> drives;
         std::vector<Motor> motors;
-        std::vector<Way> ways;
+        std::vector<Transition> transitions;
         std::vector<Step> hand;
     };
-    std::vector<Stage> stages;  ///< by state
+    std::vector<PlannedState> states;  ///< by state
 
-    /// Regions, perturbations and placements of bodies for one condition in one round. Formulas get
-    /// their values for each trial (task/run/trial_numbers.h).
+    /// A cell of the design: regions, perturbations and start poses of bodies for one condition in
+    /// one round. Formulas get their values for each trial (task/run/trial_numbers.h).
     struct Cell {
         std::vector<Region> regions;
         std::vector<Vec3> p_W;  ///< centres of the regions
         std::vector<Perturbation> perturbations;
         std::vector<uint64_t> during;  ///< by perturbation: states in which it acts, one bit each
-        std::vector<Home> homes;
+        std::vector<StartPose> start_poses;
         Looks looks;
-        std::vector<int> formulas;  ///< of regions, homes and perturbations
+        std::vector<int> formulas;  ///< of regions, start poses and perturbations
 
         bool acts(int perturbation, int state) const {
             return state >= 0 && (during[static_cast<size_t>(perturbation)] >> state & 1u) != 0;
@@ -201,7 +201,7 @@ struct TaskPlan {
         uint64_t states = 0;  ///< one bit each
     };
     Quantities measured;  ///< `quantities`, and further ones for measures
-    std::vector<Measured> own_measures;
+    std::vector<Measured> custom_measures;
     /// Update of a variable after a trial.
     struct Change {
         std::optional<Expression> when;
@@ -238,16 +238,16 @@ struct TaskPlan {
     /// state.
     bool shows_standard(const Trial& trial, int state) const noexcept {
         return comparison >= 0 && state >= 0 &&
-               stages[static_cast<size_t>(state)].interval != interval_of(trial);
+               states[static_cast<size_t>(state)].interval != interval_of(trial);
     }
     /// Interval of the comparison.
     int interval_of(const Trial& trial) const noexcept {
         return static_cast<int>(trial.draws[static_cast<size_t>(comparison)]);
     }
     /// Outcome of a trial that ends with this exit.
-    int outcome_of(const Way& way, const Trial& trial) const noexcept {
-        if (way.exit.chooses == 0) return way.outcome;
-        return way.exit.chooses == interval_of(trial) ? chose_comparison : chose_standard;
+    int outcome_of(const Transition& transition, const Trial& trial) const noexcept {
+        if (transition.exit.chooses == 0) return transition.outcome;
+        return transition.exit.chooses == interval_of(trial) ? chose_comparison : chose_standard;
     }
     /// The number that the trial's procedure chooses; null if it chooses none.
     const Level* level_of(const Trial& trial) const noexcept {

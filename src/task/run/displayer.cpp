@@ -68,15 +68,15 @@ void Displayer::see(const frame::Frame& last) noexcept {
     if (object_ >= 0) row[fingers_] = frame::mapped_body(last, static_cast<size_t>(object_));
 }
 
-void Displayer::enter(const TaskPlan::Stage& stage, const TaskPlan::Cell& cell,
+void Displayer::enter(const TaskPlan::PlannedState& planned, const TaskPlan::Cell& cell,
                       bool new_trial) noexcept {
-    stage_ = &stage;
+    planned_ = &planned;
     cell_ = &cell;
     // a cursor that is held in two consecutive states keeps its position
-    if (stage.holds_cursor && (new_trial || !holds_)) {
+    if (planned.holds_cursor && (new_trial || !holds_)) {
         for (size_t i = 0; i < fingers_; ++i) held_[i] = past(i, 1);
     }
-    holds_ = stage.holds_cursor && seen_ > 0;
+    holds_ = planned.holds_cursor && seen_ > 0;
 }
 
 const Pose& Displayer::past(size_t thing, long ticks) const noexcept {
@@ -87,8 +87,8 @@ const Pose& Displayer::past(size_t thing, long ticks) const noexcept {
 }
 
 void Displayer::order(double now, frame::TaskFrame& out) noexcept {
-    if (stage_ == nullptr) return;
-    for (const TaskPlan::Looks* looks : {&cell_->looks, &stage_->looks}) {
+    if (planned_ == nullptr) return;
+    for (const TaskPlan::Looks* looks : {&cell_->looks, &planned_->looks}) {
         put_on(looks->things, out);
         put_on(looks->targets, out);
     }

@@ -18,7 +18,8 @@ class Displayer {
     void see(const frame::Frame& last) noexcept;
     /// Starts a state, in a new trial or in the running one. Its display applies until the next
     /// state starts, also between trials.
-    void enter(const TaskPlan::Stage& stage, const TaskPlan::Cell& cell, bool new_trial) noexcept;
+    void enter(const TaskPlan::PlannedState& planned, const TaskPlan::Cell& cell,
+               bool new_trial) noexcept;
     /// Call after the task's own orders, which contain the targets and the visual map.
     void order(double now, frame::TaskFrame& out) noexcept;
 
@@ -39,7 +40,7 @@ class Displayer {
     std::vector<Pose> past_;  // a ring buffer of rows with one pose per thing
     size_t newest_ = 0;       // row
     size_t seen_ = 0;         // number of filled rows
-    const TaskPlan::Stage* stage_ = nullptr;
+    const TaskPlan::PlannedState* planned_ = nullptr;
     const TaskPlan::Cell* cell_ = nullptr;
     bool holds_ = false;
     std::vector<Pose> held_;  // by finger

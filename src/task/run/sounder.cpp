@@ -4,9 +4,9 @@
 
 namespace dihaptic::task {
 
-void Sounder::order(const TaskPlan::Stage* stage, frame::TaskFrame& out) noexcept {
+void Sounder::order(const TaskPlan::PlannedState* planned, frame::TaskFrame& out) noexcept {
     const uint32_t wanted =
-        plan_.throughout | (stage == nullptr ? 0 : stage->sounds & plan_.going_on);
+        plan_.throughout | (planned == nullptr ? 0 : planned->sounds & plan_.going_on);
     const uint32_t before = std::exchange(going_, wanted);
     const uint32_t begin = std::exchange(once_, 0) | (wanted & ~before);
     const uint32_t end = before & ~wanted;

@@ -12,11 +12,13 @@ class Sounder {
     explicit Sounder(const TaskPlan& plan) : plan_(plan) {}
 
     /// Starts a state.
-    void enter(const TaskPlan::Stage& stage) noexcept { once_ |= stage.sounds & ~plan_.going_on; }
+    void enter(const TaskPlan::PlannedState& planned) noexcept {
+        once_ |= planned.sounds & ~plan_.going_on;
+    }
     /// Takes an exit of a state.
-    void take(const TaskPlan::Way& way) noexcept { once_ |= way.sounds; }
-    /// Call once in each tick, at its end. `stage`: the trial's current state; null: none.
-    void order(const TaskPlan::Stage* stage, frame::TaskFrame& out) noexcept;
+    void take(const TaskPlan::Transition& transition) noexcept { once_ |= transition.sounds; }
+    /// Call once in each tick, at its end. `planned`: the trial's current state; null: none.
+    void order(const TaskPlan::PlannedState* planned, frame::TaskFrame& out) noexcept;
 
   private:
     const TaskPlan& plan_;

@@ -9,11 +9,11 @@
 namespace dihaptic::task {
 namespace {
 
-constexpr double kAtHome = 1e-6;  // tolerance for a body at its home [m], [rad], [m/s]
+constexpr double kAtStart = 1e-6;  // tolerance for a body at its start pose [m], [rad], [m/s]
 constexpr double kNever = -1;
 
 bool same_pose(const Pose& a, const Pose& b) noexcept {
-    return (a.p - b.p).norm() < kAtHome && a.R.angularDistance(b.R) < kAtHome;
+    return (a.p - b.p).norm() < kAtStart && a.R.angularDistance(b.R) < kAtStart;
 }
 
 /// Whether a finger presses the body.
@@ -71,19 +71,19 @@ TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
         skip_done();
     }
     share_ = static_cast<double>(queue_.done()) / queue_.all();
-    size_t ways = 0;
-    size_t puts = 0;
+    size_t transitions = 0;
+    size_t placements = 0;
     size_t drives = 0;
     size_t motors = 0;
-    for (const TaskPlan::Stage& stage : plan.stages) {
-        ways = std::max(ways, stage.ways.size());
-        puts = std::max(puts, stage.puts.size());
-        drives = std::max(drives, stage.drives.size());
-        motors = std::max(motors, stage.motors.size());
+    for (const TaskPlan::PlannedState& planned : plan.states) {
+        transitions = std::max(transitions, planned.transitions.size());
+        placements = std::max(placements, planned.placements.size());
+        drives = std::max(drives, planned.drives.size());
+        motors = std::max(motors, planned.motors.size());
     }
-    judged_.assign(ways, {});
-    is_put_.assign(puts, 0);
-    put_at_.resize(puts);
+    judged_.assign(transitions, {});
+    is_put_.assign(placements, 0);
+    put_at_.resize(placements);
     drive_from_.resize(drives);
     motor_from_.resize(motors);
 }
@@ -97,7 +97,7 @@ void TaskDirector::operator()(const frame::Frame& last, std::span<const frame::H
     numbers_.quantities().update(last, handles);
     direct(last, handles, now, commands);
     displayer_.order(now, commands.task);
-    sounder_.order(state_ < 0 ? nullptr : &plan_.stages[static_cast<size_t>(state_)],
+    sounder_.order(state_ < 0 ? nullptr : &plan_.states[static_cast<size_t>(state_)],
                    commands.task);
     say(now, commands.task);
 }
@@ -120,18 +120,18 @@ void TaskDirector::direct(const frame::Frame& last, std::span<const frame::Handl
     take_answers(handles, input);
     if (state_ < 0) {
         begin(last, input.key, now, commands);
-    } else if (const TaskPlan::Way* way = way_out(last, input, now)) {
-        sounder_.take(*way);
-        if (way->feedback >= 0) {
-            (plan_.task.feedback_beside ? feedback_ : message_) = way->feedback;
+    } else if (const TaskPlan::Transition* transition = transition_taken(last, input, now)) {
+        sounder_.take(*transition);
+        if (transition->feedback >= 0) {
+            (plan_.task.feedback_beside ? feedback_ : message_) = transition->feedback;
             next_message_ = -1;
             feedback_until_ = now + plan_.task.feedback - tick_ / 2;
         }
-        if (way->exit.to.index < 0) {
-            finish(plan_.outcome_of(*way, trial()), way->exit.redo, now, commands);
+        if (transition->exit.to.index < 0) {
+            finish(plan_.outcome_of(*transition, trial()), transition->exit.redo, now, commands);
             return;
         }
-        enter(way->exit.to.index, now, commands);
+        enter(transition->exit.to.index, now, commands);
     }
     put_bodies(last, commands);
     drive_bodies(last, now, commands);
@@ -148,13 +148,13 @@ void TaskDirector::begin(const frame::Frame& last, char key, double now,
         message_ = plan_.move_away;
         return;
     }
-    for (const TaskPlan::Home& home : numbers_.cell().homes) {
+    for (const TaskPlan::StartPose& start_pose : numbers_.cell().start_poses) {
         const bool there =
             last.sequence >= 0 &&
-            (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, home.X_WB) &&
-             last.bodies[static_cast<size_t>(home.body)].v_WB.norm() < kAtHome &&
-             home.motion.v.isZero(0) && home.motion.w.isZero(0));
-        if (!there) put(home.body, home.X_WB, home.motion, commands);
+            (same_pose(last.bodies[static_cast<size_t>(start_pose.body)].X_WB, start_pose.X_WB) &&
+             last.bodies[static_cast<size_t>(start_pose.body)].v_WB.norm() < kAtStart &&
+             start_pose.motion.v.isZero(0) && start_pose.motion.w.isZero(0));
+        if (!there) put(start_pose.body, start_pose.X_WB, start_pose.motion, commands);
     }
     if (message_ == plan_.move_away) message_ = -1;
     enter(0, now, commands);
@@ -207,22 +207,25 @@ void TaskDirector::follow(const Decision& decision, double now) noexcept {
     feedback_until_ = now + plan_.task.feedback - tick_ / 2;
 }
 
-/// Whether all bodies can be returned to their homes.
+/// Whether all bodies can be returned to their start poses.
 bool TaskDirector::clear(const frame::Frame& last) const noexcept {
-    const auto& homes = numbers_.cell().homes;
-    return std::all_of(homes.begin(), homes.end(),
-                       [&](const TaskPlan::Home& home) { return clear(last, home, home.X_WB); });
+    const auto& start_poses = numbers_.cell().start_poses;
+    return std::all_of(start_poses.begin(), start_poses.end(),
+                       [&](const TaskPlan::StartPose& start_pose) {
+                           return clear(last, start_pose, start_pose.X_WB);
+                       });
 }
 
 /// Whether a body can be placed there. A body placed onto a finger would push the finger out; if a
 /// body between pressing fingers were removed, the fingers would collide.
-bool TaskDirector::clear(const frame::Frame& last, const TaskPlan::Home& home,
+bool TaskDirector::clear(const frame::Frame& last, const TaskPlan::StartPose& start_pose,
                          const Pose& X_WB) const noexcept {
     if (last.sequence < 0) return true;
-    if (same_pose(last.bodies[static_cast<size_t>(home.body)].X_WB, X_WB)) return true;
-    if (pressed(last, home.body)) return false;
+    if (same_pose(last.bodies[static_cast<size_t>(start_pose.body)].X_WB, X_WB)) return true;
+    if (pressed(last, start_pose.body)) return false;
     for (size_t i = 0; i < last.fingers.size(); ++i) {
-        if (in_the_way(X_WB, home.box, last.fingers[i].p_WP, plan_.finger_radius[i])) return false;
+        if (in_the_way(X_WB, start_pose.box, last.fingers[i].p_WP, plan_.finger_radius[i]))
+            return false;
     }
     return true;
 }
@@ -248,8 +251,8 @@ void TaskDirector::enter(int state, double now, frame::Commands& commands) noexc
     for (const int i : trial().perturb) {
         if (cell.acts(i, state) && !cell.acts(i, state_)) began_[static_cast<size_t>(i)] = now;
     }
-    displayer_.enter(plan_.stages[static_cast<size_t>(state)], cell, state_ < 0);
-    sounder_.enter(plan_.stages[static_cast<size_t>(state)]);
+    displayer_.enter(plan_.states[static_cast<size_t>(state)], cell, state_ < 0);
+    sounder_.enter(plan_.states[static_cast<size_t>(state)]);
     state_ = state;
     entered_ = now;
     numbers_.quantities().set(Quantities::kTimeInState, 0);  // drives use it in this tick
@@ -257,55 +260,58 @@ void TaskDirector::enter(int state, double now, frame::Commands& commands) noexc
     std::fill(judged_.begin(), judged_.end(), Judged{});
     std::fill(is_put_.begin(), is_put_.end(), 0);
     driving_ = false;
-    const TaskPlan::Stage& stage = plan_.stages[static_cast<size_t>(state)];
+    const TaskPlan::PlannedState& planned = plan_.states[static_cast<size_t>(state)];
     const bool waits = now < feedback_until_ && !plan_.task.feedback_beside;
-    if (stage.message >= 0) (waits ? next_message_ : message_) = stage.message;
-    commands.task.marker = stage.marker;
+    if (planned.message >= 0) (waits ? next_message_ : message_) = planned.message;
+    commands.task.marker = planned.marker;
 }
 
-const TaskPlan::Way* TaskDirector::way_out(const frame::Frame& last, const Input& input,
-                                           double now) noexcept {
-    const auto& ways = plan_.stages[static_cast<size_t>(state_)].ways;
+const TaskPlan::Transition* TaskDirector::transition_taken(const frame::Frame& last,
+                                                           const Input& input,
+                                                           double now) noexcept {
+    const auto& transitions = plan_.states[static_cast<size_t>(state_)].transitions;
     Quantities& quantities = numbers_.quantities();
     quantities.set(Quantities::kTimeInState, exact(now - entered_));
     quantities.set(Quantities::kTimeInTrial, exact(now - trial_began_));
-    for (size_t i = 0; i < ways.size(); ++i) {
-        const TaskPlan::Way& way = ways[i];
+    for (size_t i = 0; i < transitions.size(); ++i) {
+        const TaskPlan::Transition& transition = transitions[i];
         // half a tick of tolerance, because sums of ticks have rounding errors
-        if (way.exit.when == When::time) {
-            if (now - entered_ >= numbers_.of(way.exit.hold) - tick_ / 2) return &way;
+        if (transition.exit.when == When::time) {
+            if (now - entered_ >= numbers_.of(transition.exit.hold) - tick_ / 2) return &transition;
             continue;
         }
         Judged& judged = judged_[i];
-        if (!holds(way, last, input)) {
+        if (!holds(transition, last, input)) {
             judged.since = kNever;
             judged.met = false;
             continue;
         }
         if (judged.since == kNever) judged.since = now;
-        if (judged.met || now - judged.since < numbers_.of(way.exit.hold) - tick_ / 2) continue;
+        if (judged.met || now - judged.since < numbers_.of(transition.exit.hold) - tick_ / 2)
+            continue;
         judged.met = true;
-        if (++judged.count >= way.exit.count) return &way;
+        if (++judged.count >= transition.exit.count) return &transition;
     }
     return nullptr;
 }
 
-bool TaskDirector::holds(const TaskPlan::Way& way, const frame::Frame& last,
+bool TaskDirector::holds(const TaskPlan::Transition& transition, const frame::Frame& last,
                          const Input& input) const noexcept {
-    switch (way.exit.when) {
+    switch (transition.exit.when) {
         case When::key:
-            return input.key == way.exit.key.front();
+            return input.key == transition.exit.key.front();
         case When::button: {
-            const auto finger = static_cast<size_t>(std::max(0, way.finger));
-            return (last.fingers[finger].buttons >> way.exit.button & 1u) != 0;
+            const auto finger = static_cast<size_t>(std::max(0, transition.finger));
+            return (last.fingers[finger].buttons >> transition.exit.button & 1u) != 0;
         }
         case When::trigger:
             return input.trigger == kAnyTrigger ||
-                   (input.trigger != 0 && (way.exit.code == 0 || input.trigger == way.exit.code));
+                   (input.trigger != 0 &&
+                    (transition.exit.code == 0 || input.trigger == transition.exit.code));
         case When::answered:
             return !std::isnan(rating_.answer());
         default:
-            return way.condition(numbers_.values()) != 0;
+            return transition.condition(numbers_.values()) != 0;
     }
 }
 
@@ -358,7 +364,7 @@ void TaskDirector::say(double now, frame::TaskFrame& out) const noexcept {
     if (feedback_ >= 0 && now < feedback_until_) add_line(feedback_);
     if (rests) add_line(plan_.countdown);
     if (state_ >= 0) {
-        for (const int line : plan_.stages[static_cast<size_t>(state_)].lines) add_line(line);
+        for (const int line : plan_.states[static_cast<size_t>(state_)].lines) add_line(line);
     }
     for (const int line : plan_.lines) add_line(line);
 }
@@ -408,10 +414,11 @@ double TaskDirector::countdown(double now) const noexcept {
     const double rest = opening_.rest_left(now);
     if (rest >= 0) return std::ceil(rest - tick_ / 2);
     if (state_ < 0) return kUnmeasured;
-    for (const TaskPlan::Way& way : plan_.stages[static_cast<size_t>(state_)].ways) {
-        if (way.exit.when == When::time)
-            return std::max(0.0,
-                            std::ceil(numbers_.of(way.exit.hold) - (now - entered_) - tick_ / 2));
+    for (const TaskPlan::Transition& transition :
+         plan_.states[static_cast<size_t>(state_)].transitions) {
+        if (transition.exit.when == When::time)
+            return std::max(
+                0.0, std::ceil(numbers_.of(transition.exit.hold) - (now - entered_) - tick_ / 2));
     }
     return kUnmeasured;
 }
@@ -442,8 +449,8 @@ void TaskDirector::follow_rules(int outcome) noexcept {
 
 void TaskDirector::take_answers(std::span<const frame::Handle> handles,
                                 const Input& input) noexcept {
-    if (state_ < 0 || !plan_.stages[static_cast<size_t>(state_)].question) return;
-    const Question& question = *plan_.stages[static_cast<size_t>(state_)].question;
+    if (state_ < 0 || !plan_.states[static_cast<size_t>(state_)].question) return;
+    const Question& question = *plan_.states[static_cast<size_t>(state_)].question;
     if (question.by != AnswerBy::cursor) {
         rating_.press(input.key, question);
         if (question.by == AnswerBy::mouse && input.clicked != Rating::kNowhere)
@@ -501,19 +508,19 @@ void TaskDirector::take_answer(int outcome) noexcept {
 /// bodies in place.
 void TaskDirector::put_bodies(const frame::Frame& last, frame::Commands& commands) noexcept {
     if (state_ < 0) return;
-    const auto& puts = plan_.stages[static_cast<size_t>(state_)].puts;
-    for (size_t i = 0; i < puts.size(); ++i) {
-        const TaskPlan::Put& wanted = puts[i];
-        const int body = wanted.home.body;
+    const auto& placements = plan_.states[static_cast<size_t>(state_)].placements;
+    for (size_t i = 0; i < placements.size(); ++i) {
+        const TaskPlan::Placement& wanted = placements[i];
+        const int body = wanted.pose.body;
         if (is_put_[i] && !wanted.stays) continue;
         if (!is_put_[i]) {
-            const Pose X_WB{wanted.home.X_WB.R, numbers_.of(wanted.home.position)};
+            const Pose X_WB{wanted.pose.X_WB.R, numbers_.of(wanted.pose.position)};
             // before the first Frame, the positions of fingers are unknown
-            if (wanted.moves && (last.sequence < 0 || !clear(last, wanted.home, X_WB))) continue;
+            if (wanted.moves && (last.sequence < 0 || !clear(last, wanted.pose, X_WB))) continue;
             is_put_[i] = 1;
             put_at_[i] = wanted.moves ? X_WB : pose_of(body, last, commands);
         }
-        put(body, put_at_[i], {numbers_.of(wanted.home.velocity), Vec3::Zero()}, commands);
+        put(body, put_at_[i], {numbers_.of(wanted.pose.velocity), Vec3::Zero()}, commands);
     }
 }
 
@@ -522,8 +529,8 @@ void TaskDirector::put_bodies(const frame::Frame& last, frame::Commands& command
 void TaskDirector::drive_bodies(const frame::Frame& last, double now,
                                 frame::Commands& commands) noexcept {
     if (state_ < 0 || last.sequence < 0) return;
-    const auto& drives = plan_.stages[static_cast<size_t>(state_)].drives;
-    const auto& motors = plan_.stages[static_cast<size_t>(state_)].motors;
+    const auto& drives = plan_.states[static_cast<size_t>(state_)].drives;
+    const auto& motors = plan_.states[static_cast<size_t>(state_)].motors;
     if (!driving_) {
         for (size_t i = 0; i < drives.size(); ++i)
             drive_from_[i] = pose_of(drives[i].body(), last, commands);
@@ -549,10 +556,10 @@ void TaskDirector::order(double now, frame::Commands& commands) const noexcept {
     out.message = message_;
     out.variables = variables_;
     if (state_ < 0) return;
-    const TaskPlan::Stage& stage = plan_.stages[static_cast<size_t>(state_)];
+    const TaskPlan::PlannedState& planned = plan_.states[static_cast<size_t>(state_)];
     const TaskPlan::Cell& cell = numbers_.cell();
     for (size_t i = 0; i < cell.p_W.size(); ++i) {
-        if (stage.shown >> i & 1u)
+        if (planned.shown >> i & 1u)
             add(out.targets, {static_cast<int32_t>(i), cell.p_W[i], cell.regions[i].radius.value});
     }
     for (const int p : trial().perturb) {

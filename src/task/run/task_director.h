@@ -52,12 +52,12 @@ class TaskDirector {
   private:
     const Trial& trial() const { return plan_.trials[static_cast<size_t>(queue_.trial())]; }
     bool clear(const frame::Frame& last) const noexcept;
-    bool clear(const frame::Frame& last, const TaskPlan::Home& home,
+    bool clear(const frame::Frame& last, const TaskPlan::StartPose& start_pose,
                const Pose& X_WB) const noexcept;
     void put(int body, const Pose& X_WB, const BodyMotion& motion,
              frame::Commands& commands) noexcept;
     /// Starts the next trial once the last feedback and the block's pages are over and bodies can
-    /// be placed at their homes.
+    /// be placed at their start poses.
     void begin(const frame::Frame& last, char key, double now, frame::Commands& commands) noexcept;
     /// Asks the program that decides between trials, if there is one.
     void ask(int attempt, int outcome, double now) noexcept;
@@ -71,9 +71,10 @@ class TaskDirector {
         int trigger;  // 0: none
         double clicked;
     };
-    bool holds(const TaskPlan::Way& way, const frame::Frame& last,
+    bool holds(const TaskPlan::Transition& transition, const frame::Frame& last,
                const Input& input) const noexcept;
-    const TaskPlan::Way* way_out(const frame::Frame& last, const Input& input, double now) noexcept;
+    const TaskPlan::Transition* transition_taken(const frame::Frame& last, const Input& input,
+                                                 double now) noexcept;
     void finish(int outcome, bool redo, double now, frame::Commands& commands) noexcept;
     void order_end(double now, frame::Commands& commands) const noexcept;
     void order(double now, frame::Commands& commands) const noexcept;

@@ -57,7 +57,7 @@ void TaskHand::do_see(const frame::Frame& frame) noexcept {
                                       frame.task.attempt != attempt_);
     if (between && phase_ < 1) return;
     const auto& steps =
-        plan_->stages[static_cast<size_t>((between ? phase_ : frame.phase) - 1)].hand;
+        plan_->states[static_cast<size_t>((between ? phase_ : frame.phase) - 1)].hand;
     if (entered) {
         trial_ = frame.trial;
         phase_ = frame.phase;
@@ -73,7 +73,7 @@ void TaskHand::do_see(const frame::Frame& frame) noexcept {
 }
 
 void TaskHand::begin_step(double now) noexcept {
-    const TaskPlan::Step& next = plan_->stages[static_cast<size_t>(phase_ - 1)].hand[step_];
+    const TaskPlan::Step& next = plan_->states[static_cast<size_t>(phase_ - 1)].hand[step_];
     for (size_t i = 0; i < places_.size(); ++i) {
         to_[i] = from_[i] = posture(i, now);
         if (!next.moves(i)) continue;

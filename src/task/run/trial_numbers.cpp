@@ -106,8 +106,8 @@ void TrialNumbers::begin(int trial, int attempt, std::span<const frame::Variable
     // a value that is not known yet is detected when all trials are resolved before the session
     for (size_t i = 0; i < cell.p_W.size(); ++i)
         quantities_.set(quantities_.region(i), Vec3::Constant(kUnmeasured));
-    for (const TaskPlan::Home& home : cell.homes)
-        quantities_.set(quantities_.start(static_cast<size_t>(home.body)),
+    for (const TaskPlan::StartPose& start_pose : cell.start_poses)
+        quantities_.set(quantities_.start(static_cast<size_t>(start_pose.body)),
                         Vec3::Constant(kUnmeasured));
     place_regions(cell);
     place_bodies(cell);
@@ -126,22 +126,24 @@ void TrialNumbers::place_regions(TaskPlan::Cell& cell) noexcept {
 }
 
 void TrialNumbers::place_bodies(TaskPlan::Cell& cell) noexcept {
-    for (TaskPlan::Home& home : cell.homes) {
-        resolve_in(home);
-        if (home.joint) {
-            const auto first = std::find_if(
-                cell.homes.begin(), cell.homes.end(),
-                [&](const TaskPlan::Home& other) { return other.body == home.joint->first; });
-            const bool placed = first != cell.homes.end();
-            const Pose X_WA = placed ? first->X_WB : home.joint->X_WA;
-            home.X_WB = home.joint->pose(X_WA, home.coordinate.value);
-            home.motion = home.joint->motion(X_WA, placed ? first->motion : BodyMotion{}, home.X_WB,
-                                             home.rate.value);
+    for (TaskPlan::StartPose& start_pose : cell.start_poses) {
+        resolve_in(start_pose);
+        if (start_pose.joint) {
+            const auto first = std::find_if(cell.start_poses.begin(), cell.start_poses.end(),
+                                            [&](const TaskPlan::StartPose& other) {
+                                                return other.body == start_pose.joint->first;
+                                            });
+            const bool placed = first != cell.start_poses.end();
+            const Pose X_WA = placed ? first->X_WB : start_pose.joint->X_WA;
+            start_pose.X_WB = start_pose.joint->pose(X_WA, start_pose.coordinate.value);
+            start_pose.motion =
+                start_pose.joint->motion(X_WA, placed ? first->motion : BodyMotion{},
+                                         start_pose.X_WB, start_pose.rate.value);
         } else {
-            home.X_WB.p = value(home.position);
-            home.motion.v = value(home.velocity);
+            start_pose.X_WB.p = value(start_pose.position);
+            start_pose.motion.v = value(start_pose.velocity);
         }
-        quantities_.set(quantities_.start(static_cast<size_t>(home.body)), home.X_WB.p);
+        quantities_.set(quantities_.start(static_cast<size_t>(start_pose.body)), start_pose.X_WB.p);
     }
 }
 

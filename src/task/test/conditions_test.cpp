@@ -201,7 +201,7 @@ TEST(Conditions, ShortFormsAndFunctionsAgree) {
 
 TEST(Conditions, WhatComesByItselfIsKnown) {
     const auto comes = [](const std::string& exit) {
-        return Waiting(exit).plan.task->stages[0].ways[0].comes();
+        return Waiting(exit).plan.task->states[0].transitions[0].comes();
     };
     EXPECT_TRUE(comes("{ when: time_in_state > 2, outcome: done }"));
     EXPECT_TRUE(comes("{ when: key, key: y, outcome: done }"));

@@ -1,10 +1,10 @@
-#include "rig/way.h"
+#include "rig/guided_steps.h"
 
 #include <utility>
 
 namespace dihaptic::rig {
 
-void Way::sample(const std::function<bool(bool said)>& each) {
+void GuidedSteps::sample(const std::function<bool(bool said)>& each) {
     bool said = false;
     int64_t ticks = 0;
     constexpr int64_t kTicks = kEvery / DeviceReader::kTick;

@@ -1,4 +1,4 @@
-#include "task/plan/own_measures.h"
+#include "task/plan/custom_measures.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 namespace dihaptic::task {
 namespace {
 
-void check_name(const OwnMeasure& measure, const TaskPlan& plan, Diagnostics& diagnostics) {
+void check_name(const CustomMeasure& measure, const TaskPlan& plan, Diagnostics& diagnostics) {
     std::vector<Table::Column> columns = kTrialListColumns;
     for (const auto& more : {own_columns(plan.task), measure_columns()})
         columns.insert(columns.end(), more.begin(), more.end());
@@ -31,11 +31,11 @@ void check_name(const OwnMeasure& measure, const TaskPlan& plan, Diagnostics& di
 
 }  // namespace
 
-void plan_own_measures(TaskPlan& plan, Diagnostics& diagnostics) {
+void plan_custom_measures(TaskPlan& plan, Diagnostics& diagnostics) {
     plan.measured = plan.quantities;
-    const std::vector<OwnMeasure>& measures = plan.task.own_measures;
+    const std::vector<CustomMeasure>& measures = plan.task.custom_measures;
     check_names(measures, "measures", diagnostics);
-    for (const OwnMeasure& measure : measures) {
+    for (const CustomMeasure& measure : measures) {
         check_name(measure, plan, diagnostics);
         TaskPlan::Measured out;
         out.take = measure.take;
@@ -44,14 +44,14 @@ void plan_own_measures(TaskPlan& plan, Diagnostics& diagnostics) {
         const Formula of = formula_of(measure.of, measure.name, "of", measure.place);
         if (auto compiled = compile_formula(of, plan, plan.measured, diagnostics)) {
             out.value = std::move(*compiled);
-            plan.own_measures.push_back(std::move(out));
+            plan.custom_measures.push_back(std::move(out));
         }
     }
 }
 
-std::vector<Table::Column> columns_of(const std::vector<OwnMeasure>& measures) {
+std::vector<Table::Column> columns_of(const std::vector<CustomMeasure>& measures) {
     std::vector<Table::Column> out;
-    for (const OwnMeasure& measure : measures) {
+    for (const CustomMeasure& measure : measures) {
         const NameInUnit name = split_unit(measure.name);
         std::string unit;
         if (name.quantity != Quantity::none) unit = measure.name.substr(name.name.size() + 1);
@@ -62,15 +62,15 @@ std::vector<Table::Column> columns_of(const std::vector<OwnMeasure>& measures) {
     return out;
 }
 
-OwnMeasures::OwnMeasures(TaskPlan plan)
+CustomMeasures::CustomMeasures(TaskPlan plan)
     : plan_([&] {
           plan.quantities = plan.measured;
           return std::move(plan);
       }()),
       numbers_(plan_),
-      taken_(plan_.own_measures.size()) {}
+      taken_(plan_.custom_measures.size()) {}
 
-void OwnMeasures::add(const frame::Frame& frame) {
+void CustomMeasures::add(const frame::Frame& frame) {
     const double now = seconds(frame.time);
     if (began_ < 0) began_ = now;
     if (frame.phase != phase_) entered_ = now;
@@ -82,7 +82,7 @@ void OwnMeasures::add(const frame::Frame& frame) {
     handles_of(frame, handles_);
     quantities.update(frame, handles_);
     for (size_t i = 0; i < taken_.size(); ++i) {
-        const TaskPlan::Measured& measure = plan_.own_measures[i];
+        const TaskPlan::Measured& measure = plan_.custom_measures[i];
         if ((measure.states >> (frame.phase - 1) & 1u) == 0) continue;
         const double value = measure.value.value(numbers_.values());
         Taken& taken = taken_[i];
@@ -107,10 +107,10 @@ void OwnMeasures::add(const frame::Frame& frame) {
     }
 }
 
-std::vector<double> OwnMeasures::end_attempt() {
+std::vector<double> CustomMeasures::end_attempt() {
     std::vector<double> out;
     for (size_t i = 0; i < taken_.size(); ++i) {
-        const double si = plan_.own_measures[i].value.formula.to_si;
+        const double si = plan_.custom_measures[i].value.formula.to_si;
         out.push_back(taken_[i].ticks > 0 ? taken_[i].value / si : kUnmeasured);
         taken_[i] = {};
     }

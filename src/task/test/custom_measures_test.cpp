@@ -1,6 +1,6 @@
 // Tests measures of a task's own against what the recorded frames say, and the error for every
 // mistake.
-#include "task/plan/own_measures.h"
+#include "task/plan/custom_measures.h"
 
 #include <gtest/gtest.h>
 
@@ -12,18 +12,18 @@
 #include "recording/raw_log.h"
 #include "session/test/reaches.h"
 
-namespace dihaptic::task::own_measures_test {
+namespace dihaptic::task::custom_measures_test {
 namespace {
 
 using session::Mistake;
 
 const char* const kBlocks = "  blocks:\n";
 
-TEST(OwnMeasures, AreTakenOfEachAttemptInItsStates) {
+TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
     session::Files files;
     files.replace(kBlocks,
                   "  draws: [{ name: bonus, uniform: { from: 1, to: 2 } }]\n"
-                  "  own_measures:\n"
+                  "  custom_measures:\n"
                   "    - { name: top_speed_mm_s, of: index.speed, take: max, during: [reach] }\n"
                   "    - { name: way_mm, of: 'distance(index, start) * bonus', take: last }\n"
                   "    - { name: waited, of: time_in_state / 1 s, take: last, during: [home] }\n"
@@ -64,14 +64,14 @@ TEST(OwnMeasures, AreTakenOfEachAttemptInItsStates) {
     }
 }
 
-TEST(OwnMeasures, SayWhatTheyCouldNotTake) {
+TEST(CustomMeasures, SayWhatTheyCouldNotTake) {
     session::Files files;
     files.replace("        - { when: outside, region: shell, outcome: reached",
                   "        - { when: key, key: x, to: never }\n"
                   "        - { when: outside, region: shell, outcome: reached");
     files.replace("  reach: {",
                   "    - { name: never, exits: [{ when: time, after_s: 1, outcome: late }] }\n"
-                  "  own_measures: [{ name: z_mm, of: index.z, take: min, during: [never] }]\n"
+                  "  custom_measures: [{ name: z_mm, of: index.z, take: min, during: [never] }]\n"
                   "  reach: {");
     const session::RunResult result = files.run(session::make_plan(files.request()));
     analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
@@ -85,12 +85,12 @@ class MistakenMeasure : public ::testing::TestWithParam<Mistake> {};
 TEST_P(MistakenMeasure, IsRefusedWithFileLineAndRemedy) {
     session::Files files;
     const Mistake& mistake = GetParam();
-    const std::string by = std::string("  own_measures: [") + mistake.by + "]\n  blocks:\n";
+    const std::string by = std::string("  custom_measures: [") + mistake.by + "]\n  blocks:\n";
     session::expect_refused(files, {mistake.what, by.c_str(), mistake.said});
 }
 
 INSTANTIATE_TEST_SUITE_P(
-    OwnMeasures, MistakenMeasure,
+    CustomMeasures, MistakenMeasure,
     ::testing::Values(
         Mistake{kBlocks, "{ name: a_N, of: grip_forc, take: max }", "Did you mean grip_force?"},
         Mistake{kBlocks, "{ name: a_N, of: index.speed, take: max }", "but must be a"},
@@ -108,4 +108,4 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kBlocks, "{ name: a, of: 1, take: max, during: [raech] }", "Did you mean reach?"}));
 
 }  // namespace
-}  // namespace dihaptic::task::own_measures_test
+}  // namespace dihaptic::task::custom_measures_test

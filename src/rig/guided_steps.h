@@ -9,12 +9,13 @@
 
 namespace dihaptic::rig {
 
-class Way {
+class GuidedSteps {
   public:
     /// Time between samples.
     static constexpr Time kEvery = std::chrono::milliseconds(20);
 
-    Way(DeviceReader& reader, const Guide& guide, int steps) : reader_(reader), guide_(guide) {
+    GuidedSteps(DeviceReader& reader, const Guide& guide, int steps)
+        : reader_(reader), guide_(guide) {
         now_.steps = steps;
     }
 

@@ -11,17 +11,17 @@
 namespace dihaptic::task {
 
 /// Compiles the custom measures for the plan, whose other measures must have been checked.
-void plan_own_measures(TaskPlan& plan, Diagnostics& diagnostics);
+void plan_custom_measures(TaskPlan& plan, Diagnostics& diagnostics);
 
 /// The columns of the custom measures.
-std::vector<Table::Column> columns_of(const std::vector<OwnMeasure>& measures);
+std::vector<Table::Column> columns_of(const std::vector<CustomMeasure>& measures);
 
 /// Computes the custom measures of successive attempts.
-class OwnMeasures {
+class CustomMeasures {
   public:
     /// `plan`: with its trials; its custom measures must have been compiled.
-    explicit OwnMeasures(TaskPlan plan);
-    OwnMeasures(const OwnMeasures&) = delete;
+    explicit CustomMeasures(TaskPlan plan);
+    CustomMeasures(const CustomMeasures&) = delete;
 
     /// `frame`: belongs to an attempt at a trial.
     void add(const frame::Frame& frame);
