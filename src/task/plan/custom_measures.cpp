@@ -29,6 +29,14 @@ void check_name(const CustomMeasure& measure, const TaskPlan& plan, Diagnostics&
     }
 }
 
+/// The mean of the middle two of an even number of values.
+double median(std::vector<double> x) {
+    const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
+    std::nth_element(x.begin(), middle, x.end());
+    if (x.size() % 2 == 1) return *middle;
+    return (*middle + *std::max_element(x.begin(), middle)) / 2;
+}
+
 }  // namespace
 
 void plan_custom_measures(TaskPlan& plan, Diagnostics& diagnostics) {
@@ -67,8 +75,70 @@ CustomMeasures::CustomMeasures(TaskPlan plan)
           plan.quantities = plan.measured;
           return std::move(plan);
       }()),
-      numbers_(plan_),
-      taken_(plan_.custom_measures.size()) {}
+      numbers_(plan_) {
+    for (const TaskPlan::Measured& measure : plan_.custom_measures)
+        taken_.emplace_back(measure.take);
+}
+
+void CustomMeasures::Taken::add(double value) {
+    const bool first = ticks_++ == 0;
+    const auto count = static_cast<double>(ticks_);
+    const double off = value - mean_;
+    switch (take_) {
+        case Take::first:
+            if (first) value_ = value;
+            break;
+        case Take::last:
+            value_ = value;
+            break;
+        case Take::min:
+            value_ = first ? value : std::fmin(value_, value);
+            break;
+        case Take::max:
+            value_ = first ? value : std::fmax(value_, value);
+            break;
+        case Take::mean:
+            value_ += (value - value_) / count;
+            break;
+        case Take::median:
+            all_.push_back(value);
+            break;
+        case Take::sd:
+            mean_ += off / count;
+            squares_ += off * (value - mean_);
+            break;
+        case Take::rms:
+            squares_ += value * value;
+            break;
+    }
+}
+
+double CustomMeasures::Taken::statistic() const {
+    if (ticks_ == 0) return kUnmeasured;
+    const auto count = static_cast<double>(ticks_);
+    if (take_ == Take::median) return median(all_);
+    if (take_ == Take::sd) return ticks_ > 1 ? std::sqrt(squares_ / (count - 1)) : kUnmeasured;
+    if (take_ == Take::rms) return std::sqrt(squares_ / count);
+    return value_;
+}
+
+/// Updates the quantities. The tick that ends an attempt orders no perturbation any more: the
+/// display is still that of the tick before.
+void CustomMeasures::update(const frame::Frame& frame) {
+    handles_of(frame, handles_);
+    if (frame.task.outcome < 0) {
+        before_.task.visual = frame.task.visual;
+        before_.task.displaced = frame.task.displaced;
+        before_.task.looks = frame.task.looks;
+        numbers_.quantities().update(frame, handles_);
+        return;
+    }
+    frame::Frame last = frame;
+    last.task.visual = before_.task.visual;
+    last.task.displaced = before_.task.displaced;
+    last.task.looks = before_.task.looks;
+    numbers_.quantities().update(last, handles_);
+}
 
 void CustomMeasures::add(const frame::Frame& frame) {
     const double now = seconds(frame.time);
@@ -79,31 +149,11 @@ void CustomMeasures::add(const frame::Frame& frame) {
     Quantities& quantities = numbers_.quantities();
     quantities.set(Quantities::kTimeInState, now - entered_);
     quantities.set(Quantities::kTimeInTrial, now - began_);
-    handles_of(frame, handles_);
-    quantities.update(frame, handles_);
+    update(frame);
     for (size_t i = 0; i < taken_.size(); ++i) {
         const TaskPlan::Measured& measure = plan_.custom_measures[i];
         if ((measure.states >> (frame.phase - 1) & 1u) == 0) continue;
-        const double value = measure.value.value(numbers_.values());
-        Taken& taken = taken_[i];
-        const bool first = taken.ticks++ == 0;
-        switch (measure.take) {
-            case Take::first:
-                if (first) taken.value = value;
-                break;
-            case Take::last:
-                taken.value = value;
-                break;
-            case Take::min:
-                taken.value = first ? value : std::fmin(taken.value, value);
-                break;
-            case Take::max:
-                taken.value = first ? value : std::fmax(taken.value, value);
-                break;
-            case Take::mean:
-                taken.value += (value - taken.value) / static_cast<double>(taken.ticks);
-                break;
-        }
+        taken_[i].add(measure.value.value(numbers_.values()));
     }
 }
 
@@ -111,8 +161,8 @@ std::vector<double> CustomMeasures::end_attempt() {
     std::vector<double> out;
     for (size_t i = 0; i < taken_.size(); ++i) {
         const double si = plan_.custom_measures[i].value.formula.to_si;
-        out.push_back(taken_[i].ticks > 0 ? taken_[i].value / si : kUnmeasured);
-        taken_[i] = {};
+        out.push_back(taken_[i].statistic() / si);
+        taken_[i].clear();
     }
     phase_ = 0;
     began_ = -1;

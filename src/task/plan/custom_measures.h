@@ -30,14 +30,30 @@ class CustomMeasures {
     std::vector<double> end_attempt();
 
   private:
-    struct Taken {
-        double value = 0;
-        int64_t ticks = 0;
+    /// What is kept of a measure's values in an attempt.
+    class Taken {
+      public:
+        explicit Taken(Take take) : take_(take) {}
+        void add(double value);
+        /// NaN if there was no value.
+        double statistic() const;
+        void clear() { *this = Taken(take_); }
+
+      private:
+        Take take_;
+        int64_t ticks_ = 0;
+        double value_ = 0;         // first, last, least, largest, or mean
+        double mean_ = 0;          // for the SD
+        double squares_ = 0;       // of values (rms) or of deviations from the mean (SD), summed
+        std::vector<double> all_;  // for the median
     };
+    void update(const frame::Frame& frame);
+
     TaskPlan plan_;
     TrialNumbers numbers_;
     std::vector<frame::Handle> handles_;
     std::vector<Taken> taken_;
+    frame::Frame before_;  // the last frame with a visual map, for the attempt's last tick
     int phase_ = 0;
     double entered_ = 0;  // time of entry into the state [s]
     double began_ = -1;   // start of the attempt [s]; -1: no frame yet

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "analysis/session_report.h"
@@ -19,6 +20,22 @@ using session::Mistake;
 
 const char* const kBlocks = "  blocks:\n";
 
+/// Expects the row's SD, root mean square and median of x [mm].
+void expect_spread(const CsvFile& trials, size_t row, std::vector<double> x) {
+    const auto count = static_cast<double>(x.size());
+    double sum = 0;
+    double squares = 0;
+    for (const double value : x) sum += value;
+    for (const double value : x) squares += value * value;
+    EXPECT_NEAR(trials.number(row, "rms_x_mm"), std::sqrt(squares / count), 1e-6);
+    EXPECT_NEAR(trials.number(row, "sd_x_mm"),
+                std::sqrt((squares - sum * sum / count) / (count - 1)), 1e-6);
+    std::sort(x.begin(), x.end());
+    const size_t half = x.size() / 2;
+    EXPECT_NEAR(trials.number(row, "median_x_mm"),
+                x.size() % 2 == 1 ? x[half] : (x[half - 1] + x[half]) / 2, 1e-6);
+}
+
 TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
     session::Files files;
     files.replace(kBlocks,
@@ -28,6 +45,9 @@ TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
                   "    - { name: way_mm, of: 'distance(index, start) * bonus', take: last }\n"
                   "    - { name: waited, of: time_in_state / 1 s, take: last, during: [home] }\n"
                   "    - { name: mean_z_m, of: index.z, take: mean }\n"
+                  "    - { name: sd_x_mm, of: index.x, take: sd }\n"
+                  "    - { name: rms_x_mm, of: index.x, take: rms }\n"
+                  "    - { name: median_x_mm, of: index.x, take: median }\n"
                   "  blocks:\n");
     const session::Plan plan = session::make_plan(files.request());
     const session::RunResult result = files.run(plan);
@@ -35,6 +55,7 @@ TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
     struct Expected {
         double speed = 0, way = 0, entered = 0, waited = 0, z = 0;
         int phase = 0, ticks = 0;
+        std::vector<double> x;  // [mm]
     };
     std::map<int, Expected> expected;  // by trial
     recording::RawLogReader log(result.folder + "/raw.log");
@@ -50,6 +71,7 @@ TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
         e.way = (p_W - Vec3(0, 0, 0.12)).norm() *
                 plan.task->trials[static_cast<size_t>(frame->trial - 1)].draws[0];
         e.z += (p_W.z() - e.z) / ++e.ticks;
+        e.x.push_back(1e3 * p_W.x());
     }
     const CsvFile trials(result.folder + "/trials.csv");
     ASSERT_EQ(trials.rows(), 9u);
@@ -60,8 +82,31 @@ TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
         EXPECT_NEAR(trials.number(i, "way_mm"), 1e3 * e.way, 1e-6);
         EXPECT_NEAR(trials.number(i, "waited"), e.waited, 1e-6);
         EXPECT_NEAR(trials.number(i, "mean_z_m"), e.z, 1e-9);
+        expect_spread(trials, i, e.x);
         EXPECT_EQ(trials.text(i, kNotMeasured), "");
     }
+}
+
+TEST(CustomMeasures, OfWhatIsShownFollowTheDisplayToTheLastTick) {
+    session::Files files;
+    files.replace(kBlocks,
+                  "  variables: [{ name: rule_mm }]\n"
+                  "  after_trial: [{ set: rule_mm, to: index.shown.y }]\n"
+                  "  custom_measures:\n"
+                  "    - { name: shown_mm, of: index.shown.y, take: last, during: [reach] }\n"
+                  "    - { name: hand_mm, of: index.y, take: last, during: [reach] }\n"
+                  "  blocks:\n");
+    const session::RunResult result = files.run(session::make_plan(files.request()));
+    analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
+    const CsvFile trials(result.folder + "/trials.csv");
+    double aside = 0;
+    for (size_t i = 0; i < trials.rows(); ++i) {
+        const double shown = trials.number(i, "shown_mm");
+        // the rule sees the tick before the last one: a tick of a reach is half a millimetre
+        EXPECT_NEAR(shown, trials.number(i, "rule_mm"), 0.5);
+        aside = std::max(aside, std::abs(shown - trials.number(i, "hand_mm")));
+    }
+    EXPECT_GT(aside, 20);  // by the rotation, 30 degrees of 45 mm
 }
 
 TEST(CustomMeasures, SayWhatTheyCouldNotTake) {
