@@ -61,18 +61,6 @@ void check_columns(const Table& table, const std::string& list) {
     }
 }
 
-/// Columns of the task's variables, levels of procedures and answers.
-std::vector<Table::Column> columns_of_numbers(const recording::SessionInfo& info) {
-    std::vector<Table::Column> out;
-    for (const std::string& name : info.variables) {
-        out.push_back({name, "variable, in the trial"});
-        out.push_back({task::next_column(name), "variable, after the trial"});
-    }
-    for (const std::string& name : info.levels) out.push_back({name, "chosen by a procedure"});
-    for (const std::string& name : info.answers) out.push_back({name, "answered"});
-    return out;
-}
-
 /// Their values in the trial's first and last tick.
 std::vector<Table::Cell> cells_of_numbers(const recording::SessionInfo& info,
                                           const std::vector<frame::VariableFrame>& first,
@@ -100,6 +88,18 @@ std::vector<Table::Cell> cells_of_numbers(const recording::SessionInfo& info,
 }
 
 }  // namespace
+
+std::vector<NumberColumn> columns_of_numbers(const recording::SessionInfo& info) {
+    std::vector<NumberColumn> out;
+    for (const std::string& name : info.variables) {
+        out.push_back({{name, "variable, in the trial"}, true});
+        out.push_back({{task::next_column(name), "variable, after the trial"}, false});
+    }
+    for (const std::string& name : info.levels)
+        out.push_back({{name, "chosen by a procedure"}, true});
+    for (const std::string& name : info.answers) out.push_back({{name, "answered"}, false});
+    return out;
+}
 
 double angle_about(const Vec3& axis, const Vec3& from, const Vec3& to) {
     const Vec3 a = from - from.dot(axis) * axis;
@@ -202,7 +202,8 @@ Table TrialFinder::table(const recording::SessionInfo& info) const {
         std::min(column(list_, task::kFirstReachColumn), column(list_, task::kFirstMovementColumn));
     for (size_t k = 0; k < listed; ++k)
         table.columns.push_back({list_[0][k], listed_as(list_[0][k])});
-    append(table.columns, columns_of_numbers(info));
+    for (NumberColumn& column : columns_of_numbers(info))
+        table.columns.push_back(std::move(column));
     add_columns<rows::TrialMeasures>(table);
     check_columns(table, file_);
     for (const Row& r : rows_) {

@@ -84,6 +84,13 @@ void number_session(Table& own, const recording::SessionFolder& folder);
 /// Inserts the finished trials of the sessions that this one resumes before its own.
 Table with_earlier(const Table& own, const recording::SessionFolder& folder);
 
+/// The column of a variable, of a level of a procedure or of an answer.
+struct NumberColumn : Table::Column {
+    bool known_before = true;  ///< whether its value is known before the trial
+};
+/// Those of a session, in the order of trials.csv.
+std::vector<NumberColumn> columns_of_numbers(const recording::SessionInfo& info);
+
 /// Columns of trials.csv with their descriptions, with a task or without.
 std::vector<Table::Column> trial_columns();
 

@@ -15,6 +15,7 @@
 #include "base/figure.h"
 #include "base/regular_file.h"
 #include "rows/event_row.h"
+#include "task/plan/trials.h"
 
 namespace dihaptic::analysis::bids {
 namespace {
@@ -52,7 +53,8 @@ std::vector<Attempt> attempts_of(const rows::TrialFile& trials,
 
 /// Columns made from trials.csv and lifts.csv, with their descriptions.
 std::vector<Column> columns_for(const rows::TrialFile& trials, const rows::LiftFile* lifts,
-                                const recording::SessionFolder& session) {
+                                const recording::SessionFolder& session,
+                                const recording::SessionInfo& info) {
     std::vector<Column> out;
     const auto add = [&](const Table::Column& column, Column::Of of) {
         if (const auto from = trials.column(column.name)) out.push_back({column, of, *from});
@@ -62,9 +64,12 @@ std::vector<Column> columns_for(const rows::TrialFile& trials, const rows::LiftF
     std::vector<Table::Column> measured = list_figures(rows::TrialMeasures{}).columns;
     asked.insert(asked.begin() + 1, measured.front());  // the attempt's number
     measured.erase(measured.begin());
-    for (const Table::Column& c : asked) add(c, Column::Of::asked);
-    // events and measures of a trial: only the trial's own row has them
     const task::Task task = read_frozen_task(session.file("task.yaml"));
+    for (const Table::Column& c : asked) add(c, Column::Of::asked);
+    for (const Table::Column& c : task::own_columns(task)) add(c, Column::Of::asked);
+    for (const NumberColumn& c : columns_of_numbers(info))
+        add(c, c.known_before ? Column::Of::asked : Column::Of::measured);
+    // events and measures of a trial: only the trial's own row has them
     for (Table::Column& c : measure_columns_of(task)) measured.push_back(std::move(c));
     for (const Table::Column& c : measured) add(c, Column::Of::measured);
     if (lifts == nullptr) return out;
@@ -118,8 +123,11 @@ Json sidecar(const std::vector<Column>& columns, const recording::SessionInfo& i
 class EventRows {
   public:
     EventRows(const rows::TrialFile& trials, const rows::LiftFile* lifts,
-              const recording::MovedBy& by, const recording::SessionFolder& session)
-        : trials_(trials), lifts_(lifts), by_(by), columns_(columns_for(trials, lifts, session)) {
+              const recording::SessionInfo& info, const recording::SessionFolder& session)
+        : trials_(trials),
+          lifts_(lifts),
+          by_(info.moved_by),
+          columns_(columns_for(trials, lifts, session, info)) {
         for (size_t i = 0; lifts != nullptr && i < lifts->size(); ++i)
             lift_of_[{(*lifts)[i].trial, (*lifts)[i].attempt}] = i;
     }
@@ -183,7 +191,7 @@ std::optional<Events> events_of(const recording::SessionFolder& session,
     std::optional<rows::LiftFile> lifts;
     if (is_there(session.file("lifts.csv")))
         lifts.emplace(rows::read_lifts(session.file("lifts.csv")));
-    const EventRows maker(trials, lifts ? &*lifts : nullptr, info.moved_by, session);
+    const EventRows maker(trials, lifts ? &*lifts : nullptr, info, session);
     const std::vector<Attempt> attempts = attempts_of(trials, session);
 
     std::vector<std::pair<double, Row>> rows;  // by onset [s]
