@@ -325,7 +325,8 @@ class Collection {
     void append(const std::string& name, const Rows& table) {
         if (table.empty()) return;
         Rows& all = tables_[name];
-        std::vector<std::string> header{"seed", "group", "id"};
+        std::vector<std::string> header(session::kCollectedColumns.begin(),
+                                        session::kCollectedColumns.end());
         header.insert(header.end(), table[0].begin(), table[0].end());
         if (all.empty()) all.push_back(header);
         if (all[0] != header) {

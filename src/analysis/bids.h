@@ -4,6 +4,7 @@
 // same task becomes another run.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -11,6 +12,10 @@
 #include "recording/session.h"
 
 namespace dihaptic::analysis {
+
+/// Columns of events.tsv that BIDS or this program defines.
+inline constexpr std::array kEventColumns = {"onset",         "duration", "trial_type", "value",
+                                             "response_time", "HED",      "stim_file",  "sample"};
 
 struct Exported {
     std::string folder;            ///< folder of the exported files

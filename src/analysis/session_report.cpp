@@ -476,10 +476,11 @@ void note_imbalance(recording::SessionInfo& info, const SessionFigures& figures)
     if (figures.ticks_with(kUnbalanced) > 0) add_note(info, figures.describe_imbalance());
 }
 
-/// Writes all tables except session.nwb.
+/// Writes all tables except session.nwb. `conclude`: and the session's state, with which it is
+/// over.
 SessionFigures write_tables(const recording::SessionFolder& folder, recording::SessionInfo info,
                             const Reading& reading, const recording::NwbContent& content,
-                            const Table& events) {
+                            const Table& events, bool conclude = true) {
     SessionFigures out = reading.figures;
     if (reading.trials) out.trials = with_earlier(content.trials, folder);
     write_csv(out.trials.value_or(content.trials), folder.file("trials.csv"));
@@ -490,6 +491,7 @@ SessionFigures write_tables(const recording::SessionFolder& folder, recording::S
         write_csv(by(figure_table<rows::LiftRow>(reading.lifts)), folder.file("lifts.csv"));
     write_csv(events, folder.file("events.csv"));
     if (!reading.fault.rows.empty()) write_csv(reading.fault, folder.file("fault.csv"));
+    if (!conclude) return out;
     recording::seal(folder, info);
     folder.sync();  // all files are on the disk before the state changes
     folder.write_info(info);
@@ -552,7 +554,16 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     const Table events = events_of(reading, folder, info);
     content.events = as_intervals(events);
     content.settings = settings_left(folder);
-    recording::write_nwb(folder, content, part(0.4, 1));
+    try {
+        recording::write_nwb(folder, content, part(0.4, 1));
+    } catch (const Error&) {
+        // the error's own words are not to be lost in those of a full disk
+        try {
+            write_tables(folder, info, reading, content, events, false);
+        } catch (const Error&) {
+        }
+        throw;
+    }
     return write_tables(folder, info, reading, content, events);
 }
 

@@ -11,6 +11,7 @@
 #include <map>
 #include <optional>
 #include <random>
+#include <set>
 
 #include "base/disk.h"
 #include "base/output.h"
@@ -320,7 +321,15 @@ void write_dynamic_table(hid_t parent, const std::string& name, const Table& tab
     mark(group, type, space);
     write_attribute(group, "description", description);
     std::vector<std::string> names;
-    for (const Table::Column& column : table.columns) names.push_back(column.name);
+    std::set<std::string> taken(kReservedColumns.begin(), kReservedColumns.end());
+    for (const Table::Column& column : table.columns) {
+        if (!taken.insert(column.name).second) {
+            throw Error(fmt::format("the table of {} cannot have a column '{}': the name is taken",
+                                    name, column.name),
+                        "Give what has this name in the experiment another one.");
+        }
+        names.push_back(column.name);
+    }
     write_attribute(group, "colnames", names);
     std::vector<int64_t> ids;
     for (size_t i = 0; i < table.rows.size(); ++i) ids.push_back(static_cast<int64_t>(i));

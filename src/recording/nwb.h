@@ -10,6 +10,7 @@
 // The schema is not included (/specifications): readers use their own copy of that version.
 #pragma once
 
+#include <array>
 #include <functional>
 
 #include "base/table.h"
@@ -25,6 +26,10 @@ struct NwbContent {
     Table events;    ///< columns start_time and stop_time first
     Table settings;  ///< name, value, origin
 };
+
+/// Names that a column of an NWB table cannot have: those of the table's other members.
+inline constexpr std::array kReservedColumns = {
+    "id", "colnames", "description", "tags", "tags_index", "timeseries", "timeseries_index"};
 
 /// Writes the file from the folder's raw.log; an old file is replaced only once the new one is
 /// complete. `progress` receives the share done. Throws Error when the file cannot be written.

@@ -6,14 +6,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <set>
 #include <tuple>
 
+#include "analysis/bids.h"
 #include "analysis/trials.h"
 #include "model/grasp.h"
+#include "recording/nwb.h"
 #include "session/load_checks.h"
 #include "session/mass_checks.h"
+#include "session/rehearsal.h"
 #include "task/plan/levels.h"
 #include "task/run/trial_numbers.h"
 
@@ -381,12 +385,21 @@ void check_columns(const Plan& plan, Diagnostics& diagnostics) {
     for (const task::CustomMeasure& measure : task.custom_measures) own.push_back(measure.name);
     for (const task::LevelName& level : task::levels_of(task)) own.push_back(level.name);
     for (const task::AskSpec& ask : task::questions_of(task)) own.push_back(ask.name);
-    std::set<std::string> known;
-    for (const Table::Column& column : analysis::trial_columns()) known.insert(column.name);
+    std::map<std::string, const char*> known;
+    for (const char* name : analysis::kEventColumns)
+        known[name] = "is the name of a column of events in BIDS";
+    for (const char* name : recording::kReservedColumns)
+        known[name] = "is a name that NWB gives to a part of each table";
+    for (const char* name : kCollectedColumns)
+        known[name] = "is the name of a column of 'dihaptic collect'";
+    for (const Table::Column& column : analysis::trial_columns())
+        known[column.name] = "is the name of another column of trials.csv";
     for (const std::string& name : own) {
-        if (known.insert(name).second) continue;
+        const auto [at, is_new] =
+            known.emplace(name, "is the name of another column of trials.csv");
+        if (is_new) continue;
         diagnostics.error(
-            task.place, name, "is the name of another column of trials.csv",
+            task.place, name, at->second,
             "Give the factor, draw, variable, level, answer or measure another name.");
     }
 }

@@ -3,6 +3,7 @@
 // contains the request, from which `dihaptic collect` knows the missing people.
 #pragma once
 
+#include <array>
 #include <string>
 
 #include "base/field.h"
@@ -11,6 +12,8 @@
 namespace dihaptic::session {
 
 inline constexpr int kMostPeople = 9999;
+/// First columns of the tables that `dihaptic collect` makes: they say which person a row is of.
+inline constexpr std::array kCollectedColumns = {"seed", "group", "id"};
 
 /// The request of the latest command. It is not part of the rehearsal's identity.
 struct Asked {
