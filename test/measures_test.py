@@ -52,7 +52,7 @@ task:
     - name: stay
       exits: [{ when: time, after_s: 0.7, outcome: reached }]
   measures: [reaction_time, movement_time, peak_speed, time_of_peak_speed, path_length, lateral_deviation,
-             end_point_error, initial_direction, spectral_arc_length, channel_force, adaptation_index]
+             early_lateral_deviation, largest_lateral_deviation, end_point_error, initial_direction, spectral_arc_length, channel_force, adaptation_index]
   movement: { of: index, from: start, to: target, during: [reach, stay], go: reach, onset_speed_mm_s: 30, ideal: field }
   conditions:
     - { name: right }
@@ -163,6 +163,33 @@ def sparc(speed, rate):
     return -np.sum(np.hypot(1 / last, np.diff(amplitude)))
 
 
+def first_peak(speed):
+    """Index of the largest speed of the first stroke: before the first valley that is 20 % below it, and from which the
+    speed rises by 10 % of the largest; peaks below a quarter of the largest do not count."""
+    for valley in np.flatnonzero((speed[1:-1] <= speed[:-2]) & (speed[1:-1] < speed[2:])) + 1:
+        before = speed[:valley + 1].max()
+        # up to where the speed falls below this valley, which would then not be the lowest
+        deeper = np.flatnonzero(speed[valley + 1:] < speed[valley])
+        after = speed[valley:valley + 1 + (deeper[0] if len(deeper) else len(speed))].max()
+        if before >= speed.max() / 4 and speed[valley] <= 0.8 * before and after - speed[valley] >= 0.1 * speed.max():
+            return int(np.argmax(speed[:valley + 1]))
+    return int(np.argmax(speed))
+
+
+def first_turn(off):
+    """The value at which off first turns back, after and before changes of a tenth of its range, and 2 mm."""
+    least = max(0.002, 0.1 * np.ptp(off))
+    for i in range(1, len(off) - 1):
+        for sign in (1, -1):
+            x = sign * off
+            if x[i] - x[0] >= least and x[i] == x[:i + 1].max():
+                higher = np.flatnonzero(x[i:] > x[i])
+                until = i + (higher[0] if len(higher) else len(x) - i)
+                if x[i] - x[i:until].min() >= least:
+                    return off[i]
+    return off[np.argmax(np.abs(off))]
+
+
 class Measures(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -203,8 +230,9 @@ class Measures(unittest.TestCase):
                                                                                                       "to")]
         along = (target - start) / np.linalg.norm(target - start)
         left = np.cross([0, 0, 1], along)
-        speed = np.linalg.norm(velocity, axis=1)
-        peak = int(np.argmax(speed))
+        held = row["kind"] == "force_channel"
+        speed = np.abs(velocity @ along) if held else np.linalg.norm(velocity, axis=1)
+        peak = first_peak(speed)
         moves = speed >= 0.03
         onset = peak - int(np.argmin(moves[peak::-1])) + 1
         end = peak + int(np.argmin(moves[peak:]))
@@ -215,10 +243,12 @@ class Measures(unittest.TestCase):
         out = {
             "reaction_time_s": time[onset] - time[0],
             "movement_time_s": time[end] - time[onset],
-            "peak_speed_m_s": speed.max(),
+            "peak_speed_m_s": speed[peak],
             "time_of_peak_speed_s": time[peak] - time[onset],
             "path_length_mm": 1e3 * np.sum(np.linalg.norm(np.diff(place[part], axis=0), axis=1)),
-            "lateral_deviation_mm": 1e3 * off[part][np.argmax(np.abs(off[part]))],
+            "lateral_deviation_mm": 1e3 * first_turn(off[part]),
+            "early_lateral_deviation_mm": 1e3 * off[onset + int(round(0.15 / (time[1] - time[0])))],
+            "largest_lateral_deviation_mm": 1e3 * off[part][np.argmax(np.abs(off[part]))],
             "lateral_deviation_at_peak_speed_mm": 1e3 * off[peak],
             "lateral_deviation_area_mm2": 1e6 * np.trapz(off[part], (place[part] - start) @ along),
             "end_point_error_mm": 1e3 * np.linalg.norm(error),
@@ -227,7 +257,7 @@ class Measures(unittest.TestCase):
             "initial_direction_deg": np.degrees(np.arctan2(way @ left, way @ along)),
             "spectral_arc_length": sparc(speed[part], 1 / (time[1] - time[0])),
         }
-        if row["kind"] != "force_channel":
+        if not held:
             return out | {"field_share": 1.0 if row["perturbation"] == "field" else 0.0}
         pressed = (hand @ left)[part]
         ideal = -(6 * np.cross([0, 0, 1], velocity) @ left)[part]

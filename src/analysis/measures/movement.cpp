@@ -1,5 +1,7 @@
 #include "analysis/measures/movement.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -7,6 +9,7 @@
 #include <numeric>
 
 #include "analysis/trials.h"
+#include "base/figure.h"
 #include "base/unmeasured.h"
 
 namespace dihaptic::analysis {
@@ -19,6 +22,11 @@ constexpr double kLasts = 0.01;            // time for which grip must stay abov
 constexpr double kGripSpreads = 3;         // threshold in standard deviations
 constexpr double kLeastRise = 0.05;  // least threshold, because grip without noise has no SD [N]
 constexpr double kToMm2 = 1e6;
+constexpr double kLeastTime = 0.05;   // of a movement [s]
+constexpr double kLeastShare = 0.1;   // of the line that a movement covers
+constexpr double kIndexTime = 0.1;    // of a movement whose force is compared with a field's [s]
+constexpr double kIndexShare = 0.5;   // of the line
+constexpr double kLeastIdeal = 0.05;  // root mean square of the ideal force [N]
 
 using Values = std::vector<double>;
 
@@ -62,6 +70,19 @@ size_t columns_in(const task::MeasureRow& row) {
                       [](const task::MeasureColumn& c) { return c.name != nullptr; }));
 }
 
+/// Leaves out values outside their range of sense.
+void leave_out_nonsense(const task::MeasureRow& row, MeasuredValues& measured) {
+    for (size_t i = 0; i < measured.values.size(); ++i) {
+        const task::MeasureColumn& column = row.columns[i];
+        const double value = measured.values[i] * figure_form(column.name, column.unit).scale;
+        if (std::isnan(value) || (value >= column.least && value <= column.most)) continue;
+        measured.values[i] = kUnmeasured;
+        if (!measured.why.empty()) measured.why += ", ";
+        measured.why += fmt::format("{} would be {:.4g}, outside {:g} to {:g}", column.name, value,
+                                    column.least, column.most);
+    }
+}
+
 }  // namespace
 
 AttemptMeasures::AttemptMeasures(const Attempt& attempt, const task::Movement& options,
@@ -73,29 +94,18 @@ AttemptMeasures::AttemptMeasures(const Attempt& attempt, const task::Movement& o
           : attempt.samples.empty() ? kUnmeasured
                                     : attempt.samples.front().time),
       step_(time_of_phase(attempt.samples, phases.step)) {
+    along_W_ = attempt_.plan.along_W();
+    left_W_ = attempt_.plan.left_W();
     no_onset_ = find_movement(phases);
     if (!no_onset_.empty()) no_end_ = no_onset_;
     find_lines();
 }
 
 std::string AttemptMeasures::find_movement(const MeasurePhases& phases) {
-    const auto moves = [&](const MotionSample& s) {
-        return std::find(phases.during.begin(), phases.during.end(), s.phase) !=
-               phases.during.end();
-    };
-    const auto first = std::find_if(attempt_.samples.begin(), attempt_.samples.end(), moves);
-    run_ = {first, std::find_if_not(first, attempt_.samples.end(), moves)};
-    if (run_.empty()) return "its states were not reached";
-    for (const MotionSample& s : run_) {
-        if (!s.continues && &s != &run_.front()) return "ticks are missing, or it was paused";
-        speed_.push_back(s.v_W.norm());
-    }
-    peak_ = static_cast<size_t>(std::max_element(speed_.begin(), speed_.end()) - speed_.begin());
-    const double peak = speed_[peak_];
-    const double threshold = options_.onset_speed.value_or(options_.onset_share * peak);
-    if (!(peak >= options_.onset_speed.value_or(kLeastPeak))) return "no movement";
-    onset_ = peak_;
-    while (onset_ > 0 && speed_[onset_ - 1] >= threshold) --onset_;
+    if (std::string why = find_run(phases); !why.empty()) return why;
+    const double threshold = find_first_stroke();
+    const double least = options_.onset_speed.value_or(kLeastPeak);
+    if (!(speed_[peak_] >= least)) return "no movement";
     // shorter pauses belong to the movement
     const auto pause = static_cast<size_t>(std::round(options_.end_still / tick_));
     end_ = run_.size();
@@ -106,12 +116,83 @@ std::string AttemptMeasures::find_movement(const MeasurePhases& phases) {
     }
     if (onset_ == 0) return "it moved before its states began";
     if (end_ == run_.size()) no_end_ = "not over when its states ended";
+    return why_too_small();
+}
+
+std::string AttemptMeasures::find_run(const MeasurePhases& phases) {
+    const auto moves = [&](const MotionSample& s) {
+        return std::find(phases.during.begin(), phases.during.end(), s.phase) !=
+               phases.during.end();
+    };
+    const auto first = std::find_if(attempt_.samples.begin(), attempt_.samples.end(), moves);
+    run_ = {first, std::find_if_not(first, attempt_.samples.end(), moves)};
+    if (run_.empty()) return "its states were not reached";
+    for (const MotionSample& s : run_) {
+        if (!s.continues && &s != &run_.front()) return "ticks are missing, or it was paused";
+        speed_.push_back(in_channel() ? std::abs(s.v_W.dot(along_W_)) : s.v_W.norm());
+    }
+    return "";
+}
+
+double AttemptMeasures::find_first_stroke() {
+    const std::span<const double> speed = speed_;
+    const auto threshold = [&] {
+        return options_.onset_speed.value_or(options_.onset_share * speed[peak_]);
+    };
+    // a stroke that had begun before the states is followed by that which they ask for
+    for (size_t from = 0;;) {
+        const Stroke stroke = first_stroke(speed.subspan(from));
+        peak_ = from + stroke.peak;
+        onset_ = peak_;
+        while (onset_ > from && speed[onset_ - 1] >= threshold()) --onset_;
+        const size_t next = from + stroke.end;
+        if (onset_ > from) break;
+        if (next + 1 >= speed.size()) {
+            onset_ = 0;
+            break;
+        }
+        from = next;
+    }
+    return threshold();
+}
+
+double AttemptMeasures::extent(bool along) const {
+    double out = 0;
+    for (size_t i = onset_; i < std::min(end_ + 1, run_.size()); ++i) {
+        const Vec3 moved = run_[i].p_W - run_[onset_].p_W;
+        out = std::max(out, along ? std::abs(moved.dot(along_W_)) : moved.norm());
+    }
+    return out;
+}
+
+std::string AttemptMeasures::why_too_small() const {
+    const double line = (attempt_.plan.to_W - attempt_.plan.from_W).norm();
+    if (const double share = extent(false) / line; line > 0 && share < kLeastShare)
+        return fmt::format("it covered {:.0f} % of the way, less than {:.0f} %", 100 * share,
+                           100 * kLeastShare);
+    const double lasted = static_cast<double>(end_ - onset_) * tick_;
+    if (lasted < kLeastTime)
+        return fmt::format("it lasted {:.0f} ms, less than {:.0f}", 1e3 * lasted, 1e3 * kLeastTime);
+    return "";
+}
+
+std::string AttemptMeasures::why_no_index() const {
+    const double line = (attempt_.plan.to_W - attempt_.plan.from_W).norm();
+    if (const double share = extent(true) / line; !(share >= kIndexShare))
+        return fmt::format("it covered {:.0f} % of the line, less than {:.0f} %", 100 * share,
+                           100 * kIndexShare);
+    const double lasted = static_cast<double>(end_ - onset_) * tick_;
+    if (lasted < kIndexTime)
+        return fmt::format("it lasted {:.0f} ms, less than {:.0f}", 1e3 * lasted, 1e3 * kIndexTime);
+    double square = 0;
+    for (const double ideal : whole(ideal_)) square += ideal * ideal;
+    const double mean = std::sqrt(square / static_cast<double>(whole(ideal_).size()));
+    if (!(mean >= kLeastIdeal))
+        return fmt::format("the ideal force was {:.2g} N, less than {:g}", mean, kLeastIdeal);
     return "";
 }
 
 void AttemptMeasures::find_lines() {
-    along_W_ = attempt_.plan.along_W();
-    left_W_ = attempt_.plan.left_W();
     for (const MotionSample& s : run_) {
         left_.push_back((s.p_W - attempt_.plan.from_W).dot(left_W_));
         force_.push_back(s.f_W.dot(left_W_));
@@ -124,8 +205,10 @@ std::string AttemptMeasures::why_missing(const task::MeasureRow& row) const {
     using task::MeasureRow;
     if ((row.needs & MeasureRow::channel) && (attempt_.plan.channel == 0 || attempt_.share == 0))
         return "no channel";
-    if (row.needs & MeasureRow::movement)
-        return row.needs & MeasureRow::begun ? no_onset_ : no_end_;
+    if (row.needs & MeasureRow::movement) {
+        const std::string& why = row.needs & MeasureRow::begun ? no_onset_ : no_end_;
+        return why.empty() && (row.needs & MeasureRow::ideal) ? why_no_index() : why;
+    }
     if (row.needs & MeasureRow::step) return std::isnan(step_) ? "no load step" : "";
     return attempt_.lift == nullptr ? "no lift" : "";
 }
@@ -149,6 +232,10 @@ MeasuredValues AttemptMeasures::measure(const task::MeasureRow& row) const {
          [](const A& a) { return Values{a.time(a.peak_) - a.time(a.onset_)}; }, kNever},
         {"path_length", [](const A& a) { return Values{a.path_length()}; }, kNever},
         {"lateral_deviation", [](const A& a) { return a.lateral_deviation(); }, kAxis},
+        {"early_lateral_deviation", [](const A& a) { return a.early_lateral_deviation(); },
+         "over too soon after onset"},
+        {"largest_lateral_deviation",
+         [](const A& a) { return Values{largest_by_size(a.whole(a.left_))}; }, kAxis},
         {"end_point_error", [](const A& a) { return a.end_point_error(); }, kNever},
         {"initial_direction", [](const A& a) { return a.initial_direction(); },
          "over too soon after onset"},
@@ -181,6 +268,7 @@ MeasuredValues AttemptMeasures::measure(const task::MeasureRow& row) const {
     // known with or without a movement
     if (row.needs & task::MeasureRow::ideal)
         out.values.back() = attempt_.plan.field_share * attempt_.share;
+    leave_out_nonsense(row, out);
     return out;
 }
 
@@ -194,7 +282,12 @@ Values AttemptMeasures::lateral_deviation() const {
     double area = 0;  // by the trapezoidal rule, along the line
     for (size_t i = onset_; i < end_; ++i)
         area += (left_[i] + left_[i + 1]) / 2 * (run_[i + 1].p_W - run_[i].p_W).dot(along_W_);
-    return {largest_by_size(whole(left_)), left_[peak_], area * kToMm2};
+    return {left_[onset_ + first_turn(whole(left_))], left_[peak_], area * kToMm2};
+}
+
+Values AttemptMeasures::early_lateral_deviation() const {
+    const size_t at = onset_ + static_cast<size_t>(std::round(options_.deviation_after / tick_));
+    return {at < std::min(end_ + 1, run_.size()) ? left_[at] : kUnmeasured};
 }
 
 Values AttemptMeasures::end_point_error() const {
@@ -245,6 +338,44 @@ Values AttemptMeasures::grip_latency() const {
         if (above > lasts) return {all[i - lasts].time - step_};
     }
     return {kUnmeasured};
+}
+
+Stroke first_stroke(std::span<const double> speed) {
+    constexpr double kLeast = 0.25;  // of the largest speed
+    constexpr double kFall = 0.2;    // of the stroke's own
+    constexpr double kRise = 0.1;    // of the largest speed
+    const double most = speed.empty() ? 0 : *std::max_element(speed.begin(), speed.end());
+    Stroke out;
+    for (size_t i = 0; i < speed.size(); ++i) {
+        if (speed[i] > speed[out.peak]) {
+            out.peak = out.end = i;
+        } else if (speed[i] < speed[out.end]) {
+            out.end = i;
+        }
+        if (speed[out.peak] >= kLeast * most && speed[out.end] <= (1 - kFall) * speed[out.peak] &&
+            speed[i] - speed[out.end] >= kRise * most)
+            return out;
+    }
+    out.end = speed.empty() ? 0 : speed.size() - 1;
+    return out;
+}
+
+size_t first_turn(std::span<const double> x) {
+    constexpr double kLeast = 0.002;  // [m]
+    constexpr double kShare = 0.1;    // of the range
+    if (x.empty()) return 0;
+    const auto [least, most] = std::minmax_element(x.begin(), x.end());
+    const double turn = std::max(kLeast, kShare * (*most - *least));
+    size_t low = 0;
+    size_t high = 0;
+    for (size_t i = 0; i < x.size(); ++i) {
+        if (x[i] > x[high]) high = i;
+        if (x[i] < x[low]) low = i;
+        if (x[high] - x[0] >= turn && x[high] - x[i] >= turn) return high;
+        if (x[0] - x[low] >= turn && x[i] - x[low] >= turn) return low;
+    }
+    const auto size = [](double a, double b) { return std::abs(a) < std::abs(b); };
+    return static_cast<size_t>(std::max_element(x.begin(), x.end(), size) - x.begin());
 }
 
 double spectral_arc_length(std::span<const double> speed, double tick) {

@@ -56,10 +56,19 @@ class AttemptMeasures {
     using Values = std::vector<double>;
     /// Reason why no complete movement was found; empty if one was found.
     std::string find_movement(const MeasurePhases& phases);
+    std::string find_run(const MeasurePhases& phases);
+    /// Finds the tick of onset and that of peak speed in the first stroke; the speed of onset.
+    double find_first_stroke();
+    std::string why_too_small() const;
+    std::string why_no_index() const;
+    bool in_channel() const { return attempt_.plan.channel != 0 && attempt_.share != 0; }
+    /// Largest distance from its place at onset that the movement reached; `along`: along the line.
+    double extent(bool along) const;
     void find_lines();
     std::string why_missing(const task::MeasureRow& row) const;
 
     Values lateral_deviation() const;
+    Values early_lateral_deviation() const;
     Values end_point_error() const;
     Values initial_direction() const;
     Values channel_force() const;
@@ -83,8 +92,23 @@ class AttemptMeasures {
     std::string no_end_;
     size_t onset_ = 0, peak_ = 0, end_ = 0;
     Vec3 along_W_, left_W_;
-    std::vector<double> speed_, left_, force_, ideal_;  // in the run
+    /// In the run. The speed, by which the movement is found, is that along the line in a channel:
+    /// walls that catch the hand beside their line throw it onto it.
+    std::vector<double> speed_, left_, force_, ideal_;
 };
+
+/// The first stroke of a movement: its fastest tick, and the tick before the next stroke begins.
+/// A stroke ends where the speed has fallen by a fifth and rises again by a tenth of the largest
+/// speed; one with less than a quarter of that speed is no stroke yet.
+struct Stroke {
+    size_t peak = 0;
+    size_t end = 0;
+};
+Stroke first_stroke(std::span<const double> speed);
+
+/// Where x first turns back, after a change from its first value and before a return that are both
+/// at least a tenth of its range, and 2 mm; else where it is largest by magnitude [m].
+size_t first_turn(std::span<const double> x);
 
 /// Spectral arc length of a speed profile (Balasubramanian et al. 2015): over frequencies up to 10
 /// Hz whose amplitude is at least 5 % of the largest, after zero padding by a factor of 16.

@@ -151,6 +151,75 @@ TEST(Measures, SayWhyTheyAreMissing) {
     EXPECT_EQ(gap.take("grip_latency").why, "no load step");
 }
 
+/// A reach whose hand is pushed aside, and swings back beyond the line, by sizes [m].
+Reach pushed_aside(double aside, double back) {
+    Reach reach;
+    for (MotionSample& s : reach.attempt.samples) {
+        const double u = std::clamp((s.time - 1.3) / 0.5, 0.0, 1.0);
+        s.p_W.y() = u < 0.5 ? aside * std::sin(2 * std::numbers::pi * u)
+                            : back * std::sin(2 * std::numbers::pi * u);
+    }
+    return reach;
+}
+
+TEST(Measures, LateralDeviationIsThatOfTheFirstStrokeWhateverTheSwingBack) {
+    const Reach reach = pushed_aside(-0.02, -0.05);
+    EXPECT_NEAR(reach.value("lateral_deviation"), -0.02, 1e-5);
+    EXPECT_NEAR(reach.value("largest_lateral_deviation"), 0.05, 1e-5);
+    EXPECT_NEAR(reach.value("early_lateral_deviation"),
+                -0.02 * std::sin(2 * std::numbers::pi * (rise() + 0.15) / 0.5), 3e-4);
+    // what shakes by less than 2 mm before is no turn
+    Reach shaking = pushed_aside(0.02, 0.02);
+    for (MotionSample& s : shaking.attempt.samples) s.p_W.y() -= 9e-4 * std::sin(300 * s.time);
+    EXPECT_NEAR(shaking.value("lateral_deviation"), 0.02, 1.1e-3);
+}
+
+TEST(Measures, PeakSpeedIsThatOfTheFirstStrokeThoughACorrectionIsFaster) {
+    Reach reach;  // and a correction at 0.6 m/s, 0.2 s later
+    for (size_t i = 2000; i < 2100; ++i) reach.attempt.samples[i].v_W = {0.6, 0, 0};
+    EXPECT_NEAR(reach.value("peak_speed"), 0.375, 1e-12);
+    EXPECT_NEAR(reach.value("reaction_time"), 0.3 + rise(), kTick);
+    // and that of the reach though the hand still comes back from the last one as its state begins
+    Reach coming;
+    for (size_t i = 1000; i < 1100; ++i)
+        coming.attempt.samples[i].v_W = {-0.3 * (1 - (static_cast<double>(i) - 1000) / 100), 0, 0};
+    EXPECT_NEAR(coming.value("peak_speed"), 0.375, 1e-12);
+    EXPECT_NEAR(coming.value("reaction_time"), 0.3 + rise(), kTick);
+}
+
+TEST(Measures, AreLeftOutWhereTheyWouldBeNonsense) {
+    // walls that catch a hand beside their line throw it onto it, faster than it then reaches
+    Reach thrown;
+    thrown.attempt.plan.channel = 1;
+    thrown.attempt.plan.field_share = kUnmeasured;
+    const double index = thrown.value("adaptation_index");
+    for (size_t i = 1010; i < 1040; ++i) {
+        thrown.attempt.samples[i].v_W = {0, 0.9, 0};
+        thrown.attempt.samples[i].f_W = {0, -20, 0};
+    }
+    EXPECT_NEAR(thrown.value("adaptation_index"), index, 1e-12);
+    Reach half;
+    half.attempt.plan.channel = 1;
+    half.attempt.plan.to_W = {0.25, 0, 0};
+    EXPECT_EQ(half.take("adaptation_index").why, "it covered 40 % of the line, less than 50 %");
+    EXPECT_TRUE(std::isnan(half.value("adaptation_index")));
+    EXPECT_EQ(half.take("channel_force").why, "");
+    Reach weak;
+    weak.attempt.plan.channel = 1;
+    weak.attempt.plan.ideal *= 0.01;
+    EXPECT_EQ(weak.take("adaptation_index").why, "the ideal force was 0.033 N, less than 0.05");
+    Reach wild;
+    wild.attempt.plan.channel = 1;
+    for (MotionSample& s : wild.attempt.samples) s.f_W = {0, -60 * s.v_W.x(), 0};
+    const MeasuredValues of = wild.take("adaptation_index");
+    EXPECT_TRUE(std::isnan(of.values[0]));
+    EXPECT_NEAR(of.values[1], 4, 1e-9);
+    EXPECT_EQ(of.why, "adaptation_index would be 4, outside -3 to 3");
+    Reach still;
+    still.attempt.plan.to_W = {2, 0, 0};
+    EXPECT_EQ(still.take("reaction_time").why, "it covered 5 % of the way, less than 10 %");
+}
+
 TEST(Measures, GripLatencyIsFromTheStepToTheAnswer) {
     Reach held;
     held.phases.step = 2;
@@ -244,13 +313,17 @@ TEST(Measures, AreNoneWhereTheTaskListsNone) {
 }
 
 std::string measure_table() {
-    std::string out = "\n| measure | column | unit | meaning | source |\n|---|---|---|---|---|\n";
+    std::string out =
+        "\n| measure | column | unit | range | meaning | source |\n|---|---|---|---|---|---|\n";
     for (const task::MeasureRow& row : task::kMeasureTable) {
         std::string name = fmt::format("`{}`", row.name);
         std::string source = row.source;
-        for (const Table::Column& c : task::columns_of_measure(row)) {
-            out += fmt::format("| {} | `{}` | {} | {} | {} |\n", name, c.name, c.unit,
-                               c.description, source);
+        const std::vector<Table::Column> columns = task::columns_of_measure(row);
+        for (size_t i = 0; i < columns.size(); ++i) {
+            const Table::Column& c = columns[i];
+            out +=
+                fmt::format("| {} | `{}` | {} | {:g} to {:g} | {} | {} |\n", name, c.name, c.unit,
+                            row.columns[i].least, row.columns[i].most, c.description, source);
             name = source = "";
         }
     }

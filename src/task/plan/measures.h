@@ -28,6 +28,10 @@ struct MeasureColumn {
     const char* name = nullptr;
     const char* unit = "";
     const char* what = "";
+    /// Bounds of its range of sense, in the column's unit: a value outside it says something about
+    /// the recording or the rule, not about the person, and is left out.
+    double least = 0;
+    double most = 0;
 };
 
 struct MeasureRow {
@@ -47,89 +51,117 @@ inline constexpr MeasureRow kMeasureTable[] = {
     {"reaction_time",
      kMoves | MeasureRow::begun,
      "Georgopoulos et al. 1981",
-     {{{"reaction_time", "s", "from the go signal to the movement's onset"}}}},
+     {{{"reaction_time", "s", "from the go signal to the movement's onset", 0, 600}}}},
     {"movement_time",
      kMoves,
      "Georgopoulos et al. 1981",
-     {{{"movement_time", "s", "from onset to end"}}}},
-    {"peak_speed", kMoves, "Flash and Hogan 1985", {{{"peak_speed", "m/s", "largest speed"}}}},
+     {{{"movement_time", "s", "from onset to end", 0.05, 600}}}},
+    {"peak_speed",
+     kMoves,
+     "Flash and Hogan 1985",
+     {{{"peak_speed", "m/s", "largest speed in the first stroke", 0, 20}}}},
     {"time_of_peak_speed",
      kMoves,
      "Flash and Hogan 1985",
-     {{{"time_of_peak_speed", "s", "from onset to peak speed"}}}},
+     {{{"time_of_peak_speed", "s", "from onset to peak speed", 0, 600}}}},
     {"path_length",
      kMoves,
      "Flash and Hogan 1985",
-     {{{"path_length", "mm", "length of the path from onset to end"}}}},
+     {{{"path_length", "mm", "length of the path from onset to end", 0, 1e5}}}},
     {"lateral_deviation",
      kMoves,
      "Shadmehr and Mussa-Ivaldi 1994",
      {{{"lateral_deviation", "mm",
-        "largest deviation from the straight line by magnitude; positive: to the left"},
-       {"lateral_deviation_at_peak_speed", "mm", "deviation from the straight line at peak speed"},
-       {"lateral_deviation_area_mm2", "mm2", "signed area between path and line"}}}},
+        "deviation from the straight line where it first turns back; positive: to the left", -1000,
+        1000},
+       {"lateral_deviation_at_peak_speed", "mm", "deviation from the straight line at peak speed",
+        -1000, 1000},
+       {"lateral_deviation_area_mm2", "mm2", "signed area between path and line", -1e6, 1e6}}}},
+    {"early_lateral_deviation",
+     kMoves | MeasureRow::begun,
+     "Krakauer et al. 2000",
+     {{{"early_lateral_deviation", "mm",
+        "deviation from the straight line shortly after onset; positive: to the left", -1000,
+        1000}}}},
+    {"largest_lateral_deviation",
+     kMoves,
+     "Mattar and Ostry 2007",
+     {{{"largest_lateral_deviation", "mm",
+        "deviation from the straight line that is largest by magnitude, also after the first "
+        "stroke; positive: to the left",
+        -1000, 1000}}}},
     {"end_point_error",
      kMoves,
      "Gordon et al. 1994",
-     {{{"end_point_error", "mm", "distance from the target's centre at the end of the movement"},
-       {"end_point_extent_error", "mm", "component along the line; positive: overshoot"},
-       {"end_point_lateral_error", "mm", "component across the line; positive: to the left"}}}},
+     {{{"end_point_error", "mm", "distance from the target's centre at the end of the movement", 0,
+        2000},
+       {"end_point_extent_error", "mm", "component along the line; positive: overshoot", -2000,
+        2000},
+       {"end_point_lateral_error", "mm", "component across the line; positive: to the left", -2000,
+        2000}}}},
     {"initial_direction",
      kMoves | MeasureRow::begun,
      "Krakauer et al. 2000",
      {{{"initial_direction", "deg",
-        "angle from the straight line shortly after onset, about the axis"}}}},
+        "angle from the straight line shortly after onset, about the axis", -180, 180}}}},
     {"spectral_arc_length",
      kMoves,
      "Balasubramanian et al. 2015",
-     {{{"spectral_arc_length", "1", "spectral arc length of the speed; closer to 0: smoother"}}}},
+     {{{"spectral_arc_length", "1", "spectral arc length of the speed; closer to 0: smoother", -100,
+        0}}}},
     {"channel_force",
      kInChannel,
      "Scheidt et al. 2000",
      {{{"channel_force", "N",
-        "largest force of the hand on the channel by magnitude; positive: to the left"},
-       {"channel_force_at_peak_speed", "N", "force of the hand on the channel at peak speed"},
-       {"channel_force_impulse_Ns", "N*s", "integral of that force from onset to end"}}}},
+        "largest force of the hand on the channel by magnitude; positive: to the left", -200, 200},
+       {"channel_force_at_peak_speed", "N", "force of the hand on the channel at peak speed", -200,
+        200},
+       {"channel_force_impulse_Ns", "N*s", "integral of that force from onset to end", -1000,
+        1000}}}},
     {"adaptation_index",
      kInChannel | MeasureRow::ideal,
      "Smith et al. 2006",
-     {{{"adaptation_index", "1", "regression slope of channel force on ideal force, through zero"},
-       {"adaptation_index_slope", "1", "regression slope with an intercept"},
-       {"adaptation_index_offset", "N", "intercept of that regression"},
+     {{{"adaptation_index", "1", "regression slope of channel force on ideal force, through zero",
+        -3, 3},
+       {"adaptation_index_slope", "1", "regression slope with an intercept", -10, 10},
+       {"adaptation_index_offset", "N", "intercept of that regression", -200, 200},
        {"adaptation_index_r2", "1",
-        "share of the channel force's variance explained by that regression"},
-       {"field_share", "1", "share of the ideal field that acted; empty in a channel"}}}},
+        "share of the channel force's variance explained by that regression", 0, 1},
+       {"field_share", "1", "share of the ideal field that acted; empty in a channel", -100,
+        100}}}},
     {"grip_onset",
      MeasureRow::grip,
      "Johansson and Westling 1984",
-     {{{"grip_onset", "s", "from the go signal to first contact by a digit"}}}},
+     {{{"grip_onset", "s", "from the go signal to first contact by a digit", -600, 600}}}},
     {"load_onset",
      MeasureRow::grip,
      "Johansson and Westling 1984",
-     {{{"load_onset", "s", "from the go signal until a digit first carries load"}}}},
+     {{{"load_onset", "s", "from the go signal until a digit first carries load", -600, 600}}}},
     {"peak_grip",
      MeasureRow::grip,
      "Johansson and Westling 1988",
-     {{{"peak_grip_in_lift", "N", "largest grip force from touch to lowering"},
-       {"peak_grip_rate", "N/s", "largest rate of grip force before lift-off"},
-       {"peak_load_rate", "N/s", "largest rate of load force before lift-off"}}}},
+     {{{"peak_grip_in_lift", "N", "largest grip force from touch to lowering", 0, 500},
+       {"peak_grip_rate", "N/s", "largest rate of grip force before lift-off", 0, 1e5},
+       {"peak_load_rate", "N/s", "largest rate of load force before lift-off", 0, 1e5}}}},
     {"grip_load_r",
      MeasureRow::grip,
      "Flanagan and Wing 1993",
-     {{{"grip_load_r", "1", "correlation of the rates of grip and load force during loading"}}}},
+     {{{"grip_load_r", "1", "correlation of the rates of grip and load force during loading", -1,
+        1}}}},
     {"grip_load_lag",
      MeasureRow::grip,
      "Flanagan and Wing 1993",
      {{{"grip_load_lag", "s",
-        "lag of grip with the largest correlation; positive: grip follows load"}}}},
+        "lag of grip with the largest correlation; positive: grip follows load", -0.1, 0.1}}}},
     {"safety_margin",
      MeasureRow::grip,
      "Westling and Johansson 1984",
-     {{{"safety_margin", "1", "share of the static grip in excess of the minimum against slip"}}}},
+     {{{"safety_margin", "1", "share of the static grip in excess of the minimum against slip", -5,
+        1}}}},
     {"grip_latency",
      MeasureRow::grip | MeasureRow::step,
      "Cole and Abbs 1988",
-     {{{"grip_latency", "s", "from the load step until grip force responds"}}}},
+     {{{"grip_latency", "s", "from the load step until grip force responds", 0, 10}}}},
 };
 
 /// The row with this name; null if there is none.
@@ -146,9 +178,9 @@ inline constexpr const char* kNotMeasured = "not_measured";
 Table::Column not_measured_column();
 
 /// Statistic of the values in an attempt's ticks.
-enum class Take { first, last, min, max, mean };
+enum class Take { first, last, min, max, mean, median, sd, rms };
 constexpr auto enum_names(Take) {
-    return std::array{"first", "last", "min", "max", "mean"};
+    return std::array{"first", "last", "min", "max", "mean", "median", "sd", "rms"};
 }
 
 /// A custom measure of a task.
@@ -183,9 +215,10 @@ struct Movement {
     /// Speed that defines movement onset: absolute, or else a share of its peak.
     std::optional<double> onset_speed;  ///< [m/s]
     double onset_share = 0.05;
-    double end_still = 0;          ///< time below that speed after which it has ended [s]
-    double direction_after = 0.1;  ///< from onset to the initial direction [s]
-    std::optional<Vec3> axis;      ///< like ReachMeasure::axis
+    double end_still = 0;           ///< time below that speed after which it has ended [s]
+    double direction_after = 0.1;   ///< from onset to the initial direction [s]
+    double deviation_after = 0.15;  ///< from onset to the early lateral deviation [s]
+    std::optional<Vec3> axis;       ///< like ReachMeasure::axis
     std::string ideal;  ///< perturbation whose field defines the ideal force; empty: the first
     /// Column of a listed measure, without its unit: the error to which adaptation is fitted, since
     /// it shows how much of a perturbation is not yet learned.
@@ -221,6 +254,10 @@ struct Movement {
           Field::of(Quantity::time)
               .within(1e-3, 10)
               .says("Time from onset at which the initial direction is measured."));
+        v("deviation_after", deviation_after,
+          Field::of(Quantity::time)
+              .within(1e-3, 10)
+              .says("Time from onset at which the early lateral deviation is measured."));
         v("axis", axis,
           Field::number()
               .within(-1000, 1000)
