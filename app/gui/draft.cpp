@@ -42,9 +42,7 @@ Draft::Draft(const QString& file)
             ".draft") {}
 
 Draft::~Draft() {
-    if (lock_ < 0) return;
-    ::unlink(lock_of(path_).constData());
-    ::close(lock_);
+    if (lock_) ::unlink(lock_of(path_).constData());
 }
 
 /// The first line states to which file the draft belongs, also for human readers.
@@ -53,7 +51,7 @@ QString Draft::head() const {
 }
 
 bool Draft::take() {
-    if (lock_ >= 0) return true;
+    if (lock_) return true;
     make_folders(state_folder().toStdString(), kBelow);
     for (int tries = 0; tries < 100; ++tries) {
         if (try_lock()) return true;
@@ -68,22 +66,15 @@ bool Draft::take() {
 /// Sets errno; ENOENT: the previous window removed the draft meanwhile.
 bool Draft::try_lock() {
     const QByteArray name = lock_of(path_);
-    const int lock = ::open(name.constData(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600);
-    if (lock < 0) return false;
+    Descriptor lock(::open(name.constData(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0600));
     struct stat locked {
     }, named{};
-    if (::flock(lock, LOCK_EX | LOCK_NB) != 0) {
-        const int why = errno;
-        ::close(lock);
-        errno = why;
-        return false;
-    }
-    if (::fstat(lock, &locked) == 0 && ::lstat(name.constData(), &named) == 0 &&
+    if (!lock || ::flock(lock.get(), LOCK_EX | LOCK_NB) != 0) return false;
+    if (::fstat(lock.get(), &locked) == 0 && ::lstat(name.constData(), &named) == 0 &&
         locked.st_ino == named.st_ino) {
-        lock_ = lock;
+        lock_ = std::move(lock);
         return true;
     }
-    ::close(lock);
     errno = ENOENT;
     return false;
 }

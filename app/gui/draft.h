@@ -8,6 +8,8 @@
 #include <QString>
 #include <optional>
 
+#include "base/descriptor.h"
+
 namespace dihaptic::gui {
 
 class Draft {
@@ -38,7 +40,7 @@ class Draft {
 
     QString file_;
     QString path_;
-    int lock_ = -1;
+    Descriptor lock_;
 };
 
 }  // namespace dihaptic::gui

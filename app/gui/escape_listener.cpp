@@ -2,7 +2,6 @@
 
 #include <poll.h>
 #include <sys/eventfd.h>
-#include <unistd.h>
 #include <xcb/xinput.h>
 
 #include <QGuiApplication>
@@ -90,21 +89,20 @@ EscapeListener::EscapeListener() {
     active_ = QGuiApplication::applicationState() == Qt::ApplicationActive;
     connect(qApp, &QGuiApplication::applicationStateChanged, this,
             [this](Qt::ApplicationState now) { active_ = now == Qt::ApplicationActive; });
-    quit_ = eventfd(0, EFD_CLOEXEC);
-    if (quit_ < 0) return;
+    quit_ = Descriptor(eventfd(0, EFD_CLOEXEC));
+    if (!quit_) return;
     thread_ = std::thread([this] { listen(); });
 }
 
 EscapeListener::~EscapeListener() {
     if (!thread_.joinable()) return;
-    eventfd_write(quit_, 1);
+    eventfd_write(quit_.get(), 1);
     thread_.join();
-    close(quit_);
 }
 
 void EscapeListener::listen() {
     Keyboard keyboard;
-    std::array<pollfd, 2> files{pollfd{keyboard.file(), POLLIN, 0}, pollfd{quit_, POLLIN, 0}};
+    std::array<pollfd, 2> files{pollfd{keyboard.file(), POLLIN, 0}, pollfd{quit_.get(), POLLIN, 0}};
     while (keyboard.usable()) {
         if (keyboard.take_escape() && active_) Q_EMIT heard();
         poll(files.data(), files.size(), -1);

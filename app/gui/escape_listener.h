@@ -6,6 +6,8 @@
 #include <atomic>
 #include <thread>
 
+#include "base/descriptor.h"
+
 namespace dihaptic::gui {
 
 /// Only on X11; elsewhere it has no effect, and Escape is handled like any other key (Application).
@@ -26,7 +28,7 @@ class EscapeListener : public QObject {
     void listen();
 
     std::atomic<bool> active_{false};
-    int quit_ = -1;  ///< an eventfd
+    Descriptor quit_;  ///< an eventfd
     std::thread thread_;
 };
 

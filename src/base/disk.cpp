@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
+#include "base/descriptor.h"
 #include "base/diagnostics.h"
 
 namespace dihaptic {
@@ -21,15 +22,9 @@ void sync_to_disk(int descriptor, const std::string& name) {
 }
 
 void sync_to_disk(const std::string& name) {
-    const int descriptor = ::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (descriptor < 0) return;  // a file that we cannot read is not ours
-    try {
-        sync_to_disk(descriptor, name);
-    } catch (const Error&) {
-        ::close(descriptor);
-        throw;
-    }
-    ::close(descriptor);
+    const Descriptor descriptor(::open(name.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (!descriptor) return;  // a file that we cannot read is not ours
+    sync_to_disk(descriptor.get(), name);
 }
 
 std::string make_room(int error) {

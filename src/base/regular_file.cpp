@@ -7,7 +7,6 @@
 
 #include <cerrno>
 #include <cstring>
-#include <utility>
 
 #include "base/diagnostics.h"
 
@@ -29,36 +28,26 @@ RegularFile::RegularFile(const std::string& file)
     : file_(file),
       // a pipe without a writer would keep open() waiting
       descriptor_(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)) {
-    if (descriptor_ < 0 && errno != ENXIO) refuse(file, errno);
+    if (!descriptor_ && errno != ENXIO) refuse(file, errno);
     struct stat status {};
-    if (descriptor_ >= 0 && ::fstat(descriptor_, &status) == 0 && S_ISREG(status.st_mode)) {
+    if (descriptor_ && ::fstat(descriptor_.get(), &status) == 0 && S_ISREG(status.st_mode)) {
         size_ = status.st_size;
         return;
     }
-    if (descriptor_ >= 0) ::close(descriptor_);
     if (S_ISDIR(status.st_mode)) throw Error({file, 0}, "", "is a folder", "Name a file in it.");
     throw Error({file, 0}, "", "is not a file, but a pipe, a socket or a device",
                 "Replace it by a file with a copy of its output.");
 }
 
-RegularFile::~RegularFile() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-RegularFile::RegularFile(RegularFile&& other) noexcept
-    : file_(std::move(other.file_)),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      size_(other.size_) {}
-
 void RegularFile::look_again() {
     struct stat status {};
-    if (::fstat(descriptor_, &status) == 0) size_ = status.st_size;
+    if (::fstat(descriptor_.get(), &status) == 0) size_ = status.st_size;
 }
 
 size_t RegularFile::read(int64_t at, std::span<std::byte> out) const {
     size_t done = 0;
     while (done < out.size()) {
-        const ssize_t n = ::pread(descriptor_, out.data() + done, out.size() - done,
+        const ssize_t n = ::pread(descriptor_.get(), out.data() + done, out.size() - done,
                                   at + static_cast<int64_t>(done));
         if (n < 0 && errno == EINTR) continue;
         if (n < 0) refuse(file_, errno);

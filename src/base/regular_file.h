@@ -7,6 +7,8 @@
 #include <span>
 #include <string>
 
+#include "base/descriptor.h"
+
 namespace dihaptic {
 
 /// A file open for reading.
@@ -14,9 +16,6 @@ class RegularFile {
   public:
     /// Throws Error when the file does not exist, is not a regular file, or cannot be opened.
     explicit RegularFile(const std::string& file);
-    ~RegularFile();
-    RegularFile(RegularFile&& other) noexcept;
-    RegularFile& operator=(RegularFile&&) = delete;
 
     /// Size of the file when it was opened, or last checked again [bytes].
     int64_t size() const { return size_; }
@@ -28,7 +27,7 @@ class RegularFile {
 
   private:
     std::string file_;
-    int descriptor_ = -1;
+    Descriptor descriptor_;
     int64_t size_ = 0;
 };
 

@@ -66,8 +66,8 @@ void check_head(const LogHead& head, const std::string& file) {
 }  // namespace
 
 RawLogWriter::RawLogWriter(const std::string& file, const LogHead& head) : file_(file) {
-    descriptor_ = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-    if (descriptor_ < 0) {
+    descriptor_ = Descriptor(::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
+    if (!descriptor_) {
         throw Error({file, 0}, "", fmt::format("cannot be created: {}", std::strerror(errno)),
                     "Choose another folder with --out.");
     }
@@ -76,18 +76,17 @@ RawLogWriter::RawLogWriter(const std::string& file, const LogHead& head) : file_
     const std::string yaml = to_yaml(text);
     const auto bytes = std::as_bytes(std::span(yaml));
     session_ = session_of(bytes);
-    write_all(descriptor_, kFirstLine.data(), kFirstLine.size(), file_);
+    write_all(descriptor_.get(), kFirstLine.data(), kFirstLine.size(), file_);
     write_chunk(kHead, bytes);
 }
 
 RawLogWriter::~RawLogWriter() {
-    if (descriptor_ < 0) return;
+    if (!descriptor_) return;
     try {
         flush();
     } catch (const Error&) {
         // the disk is full: flush() has already reported it to a caller who could act
     }
-    ::close(descriptor_);
 }
 
 void RawLogWriter::add(std::span<const std::byte> frame) {
@@ -101,22 +100,21 @@ void RawLogWriter::flush() {
 }
 
 void RawLogWriter::sync() const {
-    sync_to_disk(descriptor_, file_);
+    sync_to_disk(descriptor_.get(), file_);
 }
 
 void RawLogWriter::finish() {
     flush();
     write_chunk(kDone, std::as_bytes(std::span(&frames_, 1)));
     sync();
-    ::close(descriptor_);
-    descriptor_ = -1;
+    descriptor_.close();
 }
 
 void RawLogWriter::write_chunk(uint32_t kind, std::span<const std::byte> payload) {
     ChunkHeader header{kind, static_cast<uint32_t>(payload.size()), session_, number_++, 0};
     header.checksum = checksum(header, payload);
-    write_all(descriptor_, &header, sizeof(header), file_);
-    write_all(descriptor_, payload.data(), payload.size(), file_);
+    write_all(descriptor_.get(), &header, sizeof(header), file_);
+    write_all(descriptor_.get(), payload.data(), payload.size(), file_);
 }
 
 RawLogReader::RawLogReader(const std::string& file) : file_(file), chunks_(file) {

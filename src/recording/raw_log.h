@@ -19,6 +19,7 @@
 #include <optional>
 #include <string>
 
+#include "base/descriptor.h"
 #include "base/field.h"
 #include "recording/chunk_reader.h"
 #include "recording/codec.h"
@@ -85,7 +86,7 @@ class RawLogWriter {
     void write_chunk(uint32_t kind, std::span<const std::byte> payload);
 
     std::string file_;
-    int descriptor_ = -1;
+    Descriptor descriptor_;
     uint64_t session_ = 0;
     uint32_t number_ = 0;  // number of the next chunk
     Packer packer_;

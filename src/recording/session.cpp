@@ -4,7 +4,6 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <unistd.h>
 
 #include <cctype>
 #include <cerrno>
@@ -289,20 +288,10 @@ std::vector<Problem> SessionFolder::changed(const std::vector<InputFile>& inputs
 SessionLock::SessionLock(const SessionFolder& folder)
     : descriptor_(::open(folder.raw_log().c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
     // a file system without locks offers nothing to wait for
-    if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
+    if (!descriptor_ || ::flock(descriptor_.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
         return;
-    ::close(descriptor_);
     throw Error({folder.path(), 0}, "", "is in use: another dihaptic records or recovers it",
                 "Wait until it has ended, or end it.");
-}
-
-SessionLock::~SessionLock() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-SessionLock& SessionLock::operator=(SessionLock&& other) noexcept {
-    std::swap(descriptor_, other.descriptor_);
-    return *this;
 }
 
 std::string iso_now() {

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/descriptor.h"
 #include "base/field.h"
 #include "recording/setup.h"
 
@@ -133,12 +134,9 @@ class SessionLock {
   public:
     /// Throws Error when another program holds the lock.
     explicit SessionLock(const SessionFolder& folder);
-    ~SessionLock();
-    SessionLock(SessionLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-    SessionLock& operator=(SessionLock&& other) noexcept;
 
   private:
-    int descriptor_ = -1;
+    Descriptor descriptor_;
 };
 
 /// The present time, as ISO 8601 with offset.

@@ -37,13 +37,13 @@ int ask_memory() {
     return mlockall(free ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT) == 0 ? 0 : errno;
 }
 
-int ask_awake(int& file) {
-    file = open(kAwake, O_WRONLY | O_CLOEXEC);
+int ask_awake(Descriptor& file) {
+    file = Descriptor(open(kAwake, O_WRONLY | O_CLOEXEC));
     // the file is absent if the kernel does not manage sleep, as in a container or virtual
     // machine
-    if (file < 0) return errno == ENOENT ? 0 : errno;
+    if (!file) return errno == ENOENT ? 0 : errno;
     const int32_t most_us = 0;
-    return write(file, &most_us, sizeof most_us) == sizeof most_us ? 0 : errno;
+    return write(file.get(), &most_us, sizeof most_us) == sizeof most_us ? 0 : errno;
 }
 
 /// Room on this thread's stack [bytes]: `ulimit -s` may have made it small.
@@ -79,7 +79,6 @@ RealTime::RealTime(int priority) {
 RealTime::~RealTime() {
     const sched_param ordinary{};
     pthread_setschedparam(pthread_self(), SCHED_OTHER, &ordinary);
-    if (awake_ >= 0) close(awake_);
     if (refusals_.memory == 0) munlockall();
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "base/clock.h"
+#include "base/descriptor.h"
 
 namespace dihaptic::servo {
 
@@ -33,7 +34,7 @@ class RealTime {
 
   private:
     Refusals refusals_;
-    int awake_ = -1;  // while this file is open, the processors stay awake
+    Descriptor awake_;  // while this file is open, the processors stay awake
 };
 
 /// Describes in one line the refusals and how to allow them; "" without refusals. `root`: whether

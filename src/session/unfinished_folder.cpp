@@ -10,7 +10,6 @@
 #include <cstring>
 #include <ctime>
 #include <filesystem>
-#include <utility>
 #include <vector>
 
 #include "base/diagnostics.h"
@@ -72,57 +71,45 @@ UnfinishedFolder::UnfinishedFolder(const std::string& rehearsal, const std::stri
     : id_(id), done_(rehearsal + "/" + id), path_(folder_of(rehearsal, id)) {
     std::error_code ignored;
     fs::create_directory(path_, ignored);
-    folder_ = ::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (folder_ >= 0) return;
+    folder_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+    if (folder_) return;
     if (errno == ELOOP || errno == ENOTDIR)
         refuse(path_, "is a link or a file, not a folder for a session");
     throw Error({path_, 0}, "", fmt::format("cannot be made: {}", std::strerror(errno)),
                 "Check the folder's permissions and the disk's space.");
 }
 
-UnfinishedFolder::~UnfinishedFolder() {
-    if (messages_ >= 0) ::close(messages_);
-    if (folder_ >= 0) ::close(folder_);
-}
-
-UnfinishedFolder::UnfinishedFolder(UnfinishedFolder&& other) noexcept
-    : id_(std::move(other.id_)),
-      done_(std::move(other.done_)),
-      path_(std::move(other.path_)),
-      folder_(std::exchange(other.folder_, -1)),
-      messages_(std::exchange(other.messages_, -1)) {}
-
 bool UnfinishedFolder::lock() {
-    messages_ =
-        ::openat(folder_, kMessages, O_CREAT | O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0644);
-    if (messages_ < 0 && errno != ELOOP && errno != ENXIO) {
+    messages_ = Descriptor(::openat(folder_.get(), kMessages,
+                                    O_CREAT | O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0644));
+    if (!messages_ && errno != ELOOP && errno != ENXIO) {
         throw Error({path_ + "/" + kMessages, 0}, "",
                     fmt::format("cannot be written: {}", std::strerror(errno)),
                     "Check the folder's permissions and the disk's space.");
     }
-    if (messages_ < 0 || !is_own_file(messages_))
+    if (!messages_ || !is_own_file(messages_.get()))
         refuse(path_ + "/" + kMessages, "is a link, is not a file, or belongs to another user");
     // on a file system without locks, waiting is pointless
-    return ::flock(messages_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+    return ::flock(messages_.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
 }
 
 std::optional<UnfinishedFolder> UnfinishedFolder::take(const std::string& rehearsal,
                                                        const std::string& id) {
     UnfinishedFolder out(rehearsal, id);
     if (!out.lock()) return std::nullopt;
-    for (const auto& entry : fs::directory_iterator(held(out.folder_))) {
+    for (const auto& entry : fs::directory_iterator(held(out.folder_.get()))) {
         if (entry.path().filename() == kMessages || is_session(entry, id)) continue;
         refuse(out.path_ + "/" + entry.path().filename().string(),
                "is not a session, and was not made by a rehearsal");
     }
     out.remove_sessions();
-    [[maybe_unused]] const int emptied = ::ftruncate(out.messages_, 0);
+    [[maybe_unused]] const int emptied = ::ftruncate(out.messages_.get(), 0);
     return out;
 }
 
 void UnfinishedFolder::remove_sessions() const {
     std::vector<fs::path> sessions;
-    for (const auto& entry : fs::directory_iterator(held(folder_))) {
+    for (const auto& entry : fs::directory_iterator(held(folder_.get()))) {
         if (is_session(entry, id_)) sessions.push_back(entry.path());
     }
     for (const fs::path& session : sessions) fs::remove_all(session);  // follows no link
@@ -150,10 +137,10 @@ void UnfinishedFolder::finish(const std::string& session) const {
 
 void UnfinishedFolder::remove() const {
     remove_sessions();
-    for (const auto& entry : fs::directory_iterator(held(folder_))) {
+    for (const auto& entry : fs::directory_iterator(held(folder_.get()))) {
         if (entry.path().filename() != kMessages) return;  // files from elsewhere stay
     }
-    ::unlinkat(folder_, kMessages, 0);
+    ::unlinkat(folder_.get(), kMessages, 0);
     ::rmdir(path_.c_str());
 }
 

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "base/descriptor.h"
+
 namespace dihaptic::session {
 
 /// Prefix of the name of a folder in which a person's session is made.
@@ -18,14 +20,11 @@ class UnfinishedFolder {
     /// Error when its name is a link, or when it contains anything that no rehearsal left.
     static std::optional<UnfinishedFolder> take(const std::string& rehearsal,
                                                 const std::string& id);
-    ~UnfinishedFolder();
-    UnfinishedFolder(UnfinishedFolder&& other) noexcept;
-    UnfinishedFolder& operator=(UnfinishedFolder&&) = delete;
 
     /// The path at which the session is to be made.
     const std::string& path() const { return path_; }
     /// The file, now empty, for the process's messages [descriptor].
-    int messages() const { return messages_; }
+    int messages() const { return messages_.get(); }
     /// Whether the person's session is complete: another program may have just completed it. Throws
     /// Error like has_session().
     bool is_done() const;
@@ -42,8 +41,8 @@ class UnfinishedFolder {
     std::string id_;
     std::string done_;
     std::string path_;
-    int folder_ = -1;    // held open: a link that takes its name later has no effect
-    int messages_ = -1;  // locked as long as a process has it
+    Descriptor folder_;    // held open: a link that takes its name later has no effect
+    Descriptor messages_;  // locked as long as a process has it
 };
 
 /// Whether a rehearsed person's folder exists. Throws Error when anything else has its name, which

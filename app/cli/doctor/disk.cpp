@@ -13,6 +13,7 @@
 #include <sstream>
 #include <vector>
 
+#include "base/descriptor.h"
 #include "base/disk.h"
 #include "base/number.h"
 #include "cli/doctor/machine.h"
@@ -53,28 +54,22 @@ bool is_in(const std::string& folder, const std::string& mount) {
 /// Error when this fails.
 double write_speed(const std::string& folder) {
     std::string name = folder + "/dihaptic-doctor-XXXXXX";
-    const int file = mkostemp(name.data(), O_CLOEXEC);
+    const Descriptor file(mkostemp(name.data(), O_CLOEXEC));
     const auto refused = [&] {
         return Error({folder, 0}, "", fmt::format("cannot be written to: {}", std::strerror(errno)),
                      "");
     };
-    if (file < 0) throw refused();
+    if (!file) throw refused();
     unlink(name.c_str());  // whatever happens from here on, no file remains
     const std::vector<char> block(1'000'000, 'd');
     const auto began = std::chrono::steady_clock::now();
-    try {
-        for (size_t written = 0; written < kWritten;) {
-            // a disk that becomes full accepts a part, and refuses the rest
-            const ssize_t size = write(file, block.data(), block.size());
-            if (size <= 0) throw refused();
-            written += static_cast<size_t>(size);
-        }
-        sync_to_disk(file, folder);
-    } catch (const Error&) {
-        close(file);
-        throw;
+    for (size_t written = 0; written < kWritten;) {
+        // a disk that becomes full accepts a part, and refuses the rest
+        const ssize_t size = write(file.get(), block.data(), block.size());
+        if (size <= 0) throw refused();
+        written += static_cast<size_t>(size);
     }
-    close(file);
+    sync_to_disk(file.get(), folder);
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began;
     return static_cast<double>(kWritten) / took.count();
 }

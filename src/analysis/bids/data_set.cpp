@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -97,11 +96,7 @@ std::string with(const std::string& list, const std::string& item) {
 Lock::Lock(const std::string& folder)
     : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
     // on a file system without locks, waiting is pointless
-    if (descriptor_ >= 0) ::flock(descriptor_, LOCK_EX);
-}
-
-Lock::~Lock() {
-    if (descriptor_ >= 0) ::close(descriptor_);
+    if (descriptor_) ::flock(descriptor_.get(), LOCK_EX);
 }
 
 DataSet::DataSet(std::string folder, const recording::SessionFolder& session,

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/descriptor.h"
 #include "recording/session.h"
 
 namespace dihaptic::analysis::bids {
@@ -13,12 +14,9 @@ namespace dihaptic::analysis::bids {
 class Lock {
   public:
     explicit Lock(const std::string& folder);
-    ~Lock();
-    Lock(const Lock&) = delete;
-    Lock& operator=(const Lock&) = delete;
 
   private:
-    int descriptor_;
+    Descriptor descriptor_;
 };
 
 class DataSet {

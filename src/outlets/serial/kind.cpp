@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/descriptor.h"
 #include "base/json_schema.h"
 
 namespace dihaptic::outlets::serial {
@@ -70,8 +71,8 @@ class Serial final : public Outlet {
   public:
     Serial(const Options& options, const Place& place) : options_(options) {
         // without waiting for the other side, and without making the line this process's terminal
-        file_ = open(options.port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-        if (file_ < 0) {
+        file_ = Descriptor(open(options.port.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+        if (!file_) {
             const int why = errno;
             throw Error(place, "port",
                         fmt::format("'{}' cannot be opened: {}", options.port, strerror(why)),
@@ -81,25 +82,22 @@ class Serial final : public Outlet {
                                         "the existing ones.");
         }
         termios raw{};
-        if (tcgetattr(file_, &raw) != 0) {
-            close(file_);
+        if (tcgetattr(file_.get(), &raw) != 0) {
             throw Error(place, "port", fmt::format("'{}' is not a serial line", options.port),
                         "Name one, e.g. /dev/ttyUSB0.");
         }
         cfmakeraw(&raw);
         cfsetspeed(&raw, speed_of(options.baud));
         raw.c_cflag |= CLOCAL | CREAD;
-        if (tcsetattr(file_, TCSANOW, &raw) != 0) {
-            close(file_);
+        if (tcsetattr(file_.get(), TCSANOW, &raw) != 0) {
             throw Error(place, "baud",
                         fmt::format("'{}' does not support {} baud", options.port, options.baud),
                         "Use a speed from its manual.");
         }
-        tcflush(file_, TCIOFLUSH);
+        tcflush(file_.get(), TCIOFLUSH);
     }
     ~Serial() override {
         if (release_) send(0, std::nothrow);
-        close(file_);
     }
     Serial(const Serial&) = delete;
     Serial& operator=(const Serial&) = delete;
@@ -118,7 +116,7 @@ class Serial final : public Outlet {
         int code = 0;
         std::array<unsigned char, 64> received;
         while (true) {
-            const ssize_t count = read(file_, received.data(), received.size());
+            const ssize_t count = read(file_.get(), received.data(), received.size());
             if (count < 0 && (errno == EAGAIN || errno == EINTR)) break;
             if (count <= 0) {  // 0: hung up; a line with nothing to read gives EAGAIN
                 throw Error(fmt::format("{} cannot be read: {}", options_.port,
@@ -134,7 +132,7 @@ class Serial final : public Outlet {
   private:
     bool send(int code, const std::nothrow_t&) noexcept {
         const auto byte = static_cast<unsigned char>(code);
-        return write(file_, &byte, 1) == 1;
+        return write(file_.get(), &byte, 1) == 1;
     }
     void send(int code) {
         if (!send(code, std::nothrow))
@@ -144,7 +142,7 @@ class Serial final : public Outlet {
     }
 
     Options options_;
-    int file_ = -1;
+    Descriptor file_;
     std::optional<Clock::time_point> release_;
 };
 
