@@ -100,7 +100,8 @@ int run_person(const RehearseOptions& options, const std::string& id,
     }
 }
 
-/// Starts a person's process, so that the others continue if it fails.
+/// Starts a person's process, so that the others continue if it fails. It is a copy of this one,
+/// with all that has been read.
 pid_t start(const RehearseOptions& options, const std::string& id,
             const session::UnfinishedFolder& place) {
     std::fflush(nullptr);

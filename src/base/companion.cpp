@@ -1,10 +1,8 @@
 #include "base/companion.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -18,6 +16,8 @@
 #include <chrono>
 #include <cstring>
 
+#include "base/child.h"
+#include "base/descriptor.h"
 #include "base/installed.h"
 
 namespace dihaptic {
@@ -30,29 +30,24 @@ class MemoryFile {
   public:
     explicit MemoryFile(const std::string& text)
         : descriptor_(memfd_create("dihaptic", MFD_CLOEXEC)) {
-        good_ = descriptor_ >= 0;
+        good_ = static_cast<bool>(descriptor_);
         for (size_t at = 0; good_ && at < text.size();) {
-            const ssize_t size = write(descriptor_, text.data() + at, text.size() - at);
+            const ssize_t size = write(descriptor_.get(), text.data() + at, text.size() - at);
             good_ = size > 0;
             if (good_) at += static_cast<size_t>(size);
         }
-        good_ = good_ && lseek(descriptor_, 0, SEEK_SET) == 0;
+        good_ = good_ && lseek(descriptor_.get(), 0, SEEK_SET) == 0;
     }
-    ~MemoryFile() {
-        if (descriptor_ >= 0) close(descriptor_);
-    }
-    MemoryFile(const MemoryFile&) = delete;
-    MemoryFile& operator=(const MemoryFile&) = delete;
 
     bool good() const { return good_; }
-    int descriptor() const { return descriptor_; }
+    int descriptor() const { return descriptor_.get(); }
     std::string text() const {
         struct stat about {};
-        if (fstat(descriptor_, &about) != 0) return "";
+        if (fstat(descriptor_.get(), &about) != 0) return "";
         std::string out(static_cast<size_t>(about.st_size), '\0');
         for (size_t at = 0; at < out.size();) {
             const ssize_t size =
-                pread(descriptor_, out.data() + at, out.size() - at, static_cast<off_t>(at));
+                pread(descriptor_.get(), out.data() + at, out.size() - at, static_cast<off_t>(at));
             if (size <= 0) return "";
             at += static_cast<size_t>(size);
         }
@@ -60,36 +55,9 @@ class MemoryFile {
     }
 
   private:
-    int descriptor_;
+    Descriptor descriptor_;
     bool good_ = false;
 };
-
-/// Starts a program; returns 0 or an error number. The program inherits neither our open files,
-/// which may be devices, nor our signal handlers and blocked signals.
-int start(const std::string& path, const CompanionTask& task, int in, int out, pid_t& process) {
-    std::vector<char*> words{const_cast<char*>(path.c_str())};
-    for (const std::string& word : task.arguments) words.push_back(const_cast<char*>(word.c_str()));
-    words.push_back(nullptr);
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_adddup2(&files, in, STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&files, out, STDOUT_FILENO);
-    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    posix_spawn_file_actions_addclosefrom_np(&files, STDERR_FILENO + 1);
-    posix_spawnattr_t how;
-    posix_spawnattr_init(&how);
-    sigset_t all;
-    sigset_t none;
-    sigfillset(&all);
-    sigemptyset(&none);
-    posix_spawnattr_setsigdefault(&how, &all);
-    posix_spawnattr_setsigmask(&how, &none);
-    posix_spawnattr_setflags(&how, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
-    const int error = posix_spawn(&process, path.c_str(), &files, &how, words.data(), environ);
-    posix_spawnattr_destroy(&how);
-    posix_spawn_file_actions_destroy(&files);
-    return error;
-}
 
 bool limit(pid_t process, const CompanionLimits& limits) {
     const auto set = [&](__rlimit_resource which, uint64_t soft, uint64_t hard) {
@@ -113,9 +81,9 @@ bool wait_for(pid_t process, const CompanionTask& task) {
     const auto begin = Clock::now();
     const auto end = begin + std::chrono::seconds(task.limits.time);
     auto tell = std::chrono::seconds(1);
-    const int watch = static_cast<int>(syscall(SYS_pidfd_open, process, 0));
-    if (watch < 0) return false;
-    pollfd ended{watch, POLLIN, 0};
+    const Descriptor watch(static_cast<int>(syscall(SYS_pidfd_open, process, 0)));
+    if (!watch) return false;
+    pollfd ended{watch.get(), POLLIN, 0};
     int ready = 0;
     do {
         const auto until = std::min(end, begin + tell);
@@ -127,12 +95,11 @@ bool wait_for(pid_t process, const CompanionTask& task) {
             told(task.what, static_cast<int>(tell.count()), task.limits.time);
         tell *= 2;
     } while (ready == 0 ? Clock::now() < end : ready < 0 && errno == EINTR);
-    close(watch);
     return ready > 0;
 }
 
 struct Ended {
-    int status = 1 << 8;  // if waitpid() fails, treated like a companion that refused its input
+    int status = 1 << 8;  // an unknown one counts as a refusal of the input
     bool late = false;
 };
 
@@ -143,10 +110,13 @@ Ended run(const CompanionTask& task, const std::string& path, int in, int out) {
                                  task.what, std::strerror(error)),
                      "End other programs and try again.");
     };
-    pid_t process = 0;
-    Ended ended;
-    if (const int error = start(path, task, in, out, process); error != 0) throw failed(error);
+    Child child;
+    const int error =
+        child.start({path, task.arguments, {in, out, Launch::kNothing}, Launch::kFreshSignals});
+    if (error != 0) throw failed(error);
+    const pid_t process = child.process();
     const bool limited = limit(process, task.limits);
+    Ended ended;
     {
         const std::stop_callback stopped(task.stop, [process] { kill(process, SIGTERM); });
         if (limited) ended.late = !wait_for(process, task);
@@ -157,7 +127,7 @@ Ended run(const CompanionTask& task, const std::string& path, int in, int out) {
             continue;
     }
     // only from now on may another program get its process number
-    while (waitpid(process, &ended.status, 0) < 0 && errno == EINTR) continue;
+    if (const auto status = child.wait()) ended.status = *status;
     if (!limited) throw failed(EPERM);
     return ended;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "base/descriptor.h"
 #include "devices/device_group.h"
 
 namespace dihaptic::devices {
@@ -22,12 +23,9 @@ class DeviceClaim {
     /// open device.
     DeviceClaim(const std::string& backend, const frame::DeviceInfo& info, const Place& place,
                 Time patience);
-    ~DeviceClaim();
-    DeviceClaim(DeviceClaim&& other) noexcept;
-    DeviceClaim& operator=(DeviceClaim&&) = delete;
 
   private:
-    int socket_ = -1;
+    Descriptor socket_;
 };
 
 /// Claims all of a group's devices. Simulated devices need no claim, so nothing is returned for

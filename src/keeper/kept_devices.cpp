@@ -1,17 +1,17 @@
 #include "keeper/kept_devices.h"
 
-#include <fcntl.h>
 #include <signal.h>
-#include <spawn.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstring>
 #include <thread>
 
+#include "base/child.h"
 #include "base/companion.h"
+#include "base/unix_socket.h"
 #include "keeper/force_off.h"
 #include "keeper/keeper.h"
 #include "keeper/messages.h"
@@ -40,19 +40,17 @@ constexpr Time kHope = std::chrono::microseconds(20);
 class Process {
   public:
     explicit Process(const std::string& program) {
-        int ends[2];
-        if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0) throw failure();
-        socket_ = ends[0];
-        const int memory = memfd_create("dihaptic keeper", MFD_CLOEXEC);
-        void* const at =
-            memory >= 0 && ftruncate(memory, sizeof(SharedPage)) == 0
-                ? mmap(nullptr, sizeof(SharedPage), PROT_READ | PROT_WRITE, MAP_SHARED, memory, 0)
-                : MAP_FAILED;
+        auto [ours, its] = unix_socket_pair(SOCK_SEQPACKET);
+        if (!ours) throw failure();
+        socket_ = std::move(ours);
+        const Descriptor memory(memfd_create("dihaptic keeper", MFD_CLOEXEC));
+        void* const at = memory && ftruncate(memory.get(), sizeof(SharedPage)) == 0
+                             ? mmap(nullptr, sizeof(SharedPage), PROT_READ | PROT_WRITE, MAP_SHARED,
+                                    memory.get(), 0)
+                             : MAP_FAILED;
         if (at != MAP_FAILED) page_ = new (at) SharedPage;
-        if (page_ != nullptr) spawn(program, ends[1], memory);
-        close(ends[1]);
-        if (memory >= 0) close(memory);
-        if (pid_ == 0) {
+        if (page_ != nullptr) start(program, its.get(), memory.get());
+        if (child_.process() == 0) {
             const Error error = failure();
             end();
             throw error;
@@ -71,8 +69,8 @@ class Process {
     json ask(const json& message, Time most, const std::function<bool()>& given_up = {}) {
         std::optional<json> answer;
         if (answers_) {
-            send(socket_, message);
-            answer = receive(socket_, most, given_up);
+            send(socket_.get(), message);
+            answer = receive(socket_.get(), most, given_up);
         }
         // a late answer would be mistaken for the next answer
         answers_ = answer.has_value();
@@ -95,52 +93,30 @@ class Process {
                 "Close other programs, and start again."};
     }
 
-    void spawn(const std::string& program, int socket, int memory) {
-        posix_spawn_file_actions_t files;
-        posix_spawn_file_actions_init(&files);
-        posix_spawn_file_actions_adddup2(&files, socket, kSocket);
-        posix_spawn_file_actions_adddup2(&files, memory, kMemory);
-        posix_spawn_file_actions_addclosefrom_np(&files, kMemory + 1);
-        posix_spawnattr_t attributes;
-        posix_spawnattr_init(&attributes);
+    void start(const std::string& program, int socket, int memory) {
+        static_assert(kSocket == 3 && kMemory == 4);
+        constexpr int kKept = Launch::kKept;
         // the keeper gets neither the terminal's keys nor the signals blocked or ignored here
-        sigset_t none;
-        sigset_t all;
-        sigemptyset(&none);
-        sigfillset(&all);
-        posix_spawnattr_setsigmask(&attributes, &none);
-        posix_spawnattr_setsigdefault(&attributes, &all);
-        posix_spawnattr_setflags(
-            &attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-        std::string name = program;
-        char* const arguments[] = {name.data(), nullptr};
-        const int failed =
-            posix_spawn(&pid_, program.c_str(), &files, &attributes, arguments, environ);
-        if (failed != 0) {
-            pid_ = 0;
-            errno = failed;
-        }
-        posix_spawnattr_destroy(&attributes);
-        posix_spawn_file_actions_destroy(&files);
+        const int failed = child_.start({program,
+                                         {},
+                                         {kKept, kKept, kKept, socket, memory},
+                                         POSIX_SPAWN_SETSID | Launch::kFreshSignals});
+        if (failed != 0) errno = failed;
     }
 
     void end() {
-        if (socket_ >= 0) close(socket_);  // this ends the keeper
-        socket_ = -1;
-        if (pid_ > 0) {
-            const int64_t begin = monotonic();
-            while (waitpid(pid_, nullptr, WNOHANG) == 0) {
-                if (monotonic() - begin > kSetDown.count()) kill(pid_, SIGKILL);
-                std::this_thread::sleep_for(std::chrono::milliseconds(1));
-            }
+        socket_.close();  // this ends the keeper
+        const int64_t begin = monotonic();
+        while (!child_.has_ended()) {
+            if (monotonic() - begin > kSetDown.count()) kill(child_.process(), SIGKILL);
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
         }
-        pid_ = 0;
         if (page_ != nullptr) munmap(page_, sizeof(SharedPage));
         page_ = nullptr;
     }
 
-    int socket_ = -1;
-    pid_t pid_ = 0;
+    Descriptor socket_;
+    Child child_;
     SharedPage* page_ = nullptr;
     bool answers_ = true;
 };

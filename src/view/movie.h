@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "base/child.h"
+#include "base/descriptor.h"
 #include "base/image.h"
 #include "base/output.h"
 
@@ -14,13 +16,10 @@ class Movie {
     /// Throws Error when ffmpeg is missing, or when width or height is odd, because players refuse
     /// odd sizes.
     Movie(const std::string& file, int width, int height, int frames_per_second);
-    /// Leaves no file unless finish() was called.
-    ~Movie();
-    Movie(const Movie&) = delete;
-    Movie& operator=(const Movie&) = delete;
 
     /// Throws an Error with ffmpeg's message when ffmpeg has ended prematurely.
     void add(const Image& image);
+    /// Without this call, no file remains.
     void finish();
 
   private:
@@ -29,9 +28,9 @@ class Movie {
 
     std::string file_;
     Output output_;
-    int pictures_ = -1;  // socket from which ffmpeg reads pictures
-    int said_ = -1;      // memory file to which ffmpeg writes its errors
-    int process_ = -1;
+    Descriptor pictures_;  // socket from which ffmpeg reads pictures
+    Descriptor said_;      // memory file to which ffmpeg writes its errors
+    Child ffmpeg_;         // last: it ends before the file is removed
 };
 
 }  // namespace dihaptic::view

@@ -6,15 +6,14 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <array>
+#include "base/unix_socket.h"
 
 namespace dihaptic::peer_test {
 namespace {
 
 TEST(Peers, AreWhoMadeTheSocket) {
-    std::array<int, 2> ends{};
-    ASSERT_EQ(socketpair(AF_UNIX, SOCK_SEQPACKET, 0, ends.data()), 0);
-    const auto peer = peer_of(ends[0]);
+    const auto [one, other] = unix_socket_pair(SOCK_SEQPACKET);
+    const auto peer = peer_of(one.get());
     ASSERT_TRUE(peer);
     EXPECT_EQ(peer->pid, getpid());
     EXPECT_TRUE(peer->is_trusted());
@@ -22,7 +21,6 @@ TEST(Peers, AreWhoMadeTheSocket) {
               std::string::npos)
         << peer->describe();
     EXPECT_NE(peer->describe().find(", since 20"), std::string::npos) << peer->describe();
-    for (const int end : ends) close(end);
 }
 
 TEST(Peers, OfOtherUsersAreNotTrusted) {

@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -15,11 +13,13 @@
 #include <optional>
 #include <thread>
 
+#include "base/descriptor.h"
 #include "base/json.h"
 #include "base/peer.h"
 #include "base/plural.h"
 #include "base/text.h"
 #include "base/unit.h"
+#include "base/unix_socket.h"
 
 namespace dihaptic::session {
 namespace {
@@ -54,40 +54,29 @@ std::string reason(std::string text) {
 /// The lines received through a socket.
 class Lines {
   public:
-    explicit Lines(const std::string& path) : descriptor_(socket(AF_UNIX, SOCK_STREAM, 0)) {
-        sockaddr_un address{};
-        address.sun_family = AF_UNIX;
-        if (path.size() >= sizeof(address.sun_path)) throw refused(path, "is too long a path");
-        std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
-        const auto* const to = reinterpret_cast<const sockaddr*>(&address);
-        if (descriptor_ < 0 || connect(descriptor_, to, sizeof(address)) != 0) {
-            const std::string why = std::strerror(errno);
-            if (descriptor_ >= 0) close(descriptor_);
-            throw refused(path, "does not answer: " + why);
-        }
-        if (const auto peer = peer_of(descriptor_); !peer || !peer->is_trusted()) {
-            close(descriptor_);
+    explicit Lines(const std::string& path) : socket_(unix_socket(SOCK_STREAM)) {
+        const auto address = UnixAddress::of_file(path);
+        if (!address) throw refused(path, "is too long a path");
+        if (!socket_ || !address->connect(socket_))
+            throw refused(path, std::string("does not answer: ") + std::strerror(errno));
+        if (const auto peer = peer_of(socket_.get()); !peer || !peer->is_trusted())
             throw refused(
                 path, "belongs to another user: " + (peer ? peer->describe() : "unknown owner"));
-        }
     }
-    ~Lines() { close(descriptor_); }
-    Lines(const Lines&) = delete;
-    Lines& operator=(const Lines&) = delete;
 
     /// Sends a line; a reader that has left, or does not read, loses it.
     void send(const Json& line) const {
         const std::string text = line.dump() + "\n";
-        ::send(descriptor_, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+        ::send(socket_.get(), text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     }
     /// Waits for a line, up to a time limit; nullopt: none came. `gone`: no more lines will come.
     std::optional<std::string> read(std::chrono::microseconds wait, bool& gone) {
         if (auto line = take()) return line;
-        pollfd what{descriptor_, POLLIN, 0};
+        pollfd what{socket_.get(), POLLIN, 0};
         const timespec time{0, static_cast<long>(wait.count()) * 1000};
         if (ppoll(&what, 1, &time, nullptr) <= 0) return std::nullopt;
         char bytes[4096];
-        const ssize_t size = recv(descriptor_, bytes, sizeof(bytes), 0);
+        const ssize_t size = recv(socket_.get(), bytes, sizeof(bytes), 0);
         if (size > 0) read_.append(bytes, static_cast<size_t>(size));
         const bool again = size < 0 && (errno == EAGAIN || errno == EINTR);
         gone = (size <= 0 && !again) || read_.size() > kLongestLine;
@@ -102,7 +91,7 @@ class Lines {
         read_.erase(0, end + 1);
         return line;
     }
-    int descriptor_;
+    Descriptor socket_;
     std::string read_;
 };
 

@@ -7,7 +7,6 @@
 #include <sys/random.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,19 +14,20 @@
 #include <atomic>
 #include <cerrno>
 #include <cmath>
-#include <cstddef>
 #include <cstring>
 #include <deque>
 #include <list>
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "base/descriptor.h"
 #include "base/json.h"
 #include "base/latest.h"
 #include "base/peer.h"
 #include "base/plural.h"
 #include "base/ring.h"
 #include "base/text_file.h"
+#include "base/unix_socket.h"
 #include "session/knob_turner.h"
 #include "session/plan.h"
 #include "session/session_run.h"
@@ -78,67 +78,46 @@ Error cannot_be_watched(const std::string& why) {
 class Listening {
   public:
     explicit Listening(const std::string& folder)
-        : file_(name_file(folder)),
-          socket_(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC, 0)) {
-        sockaddr_un address{};
-        address.sun_family = AF_UNIX;
+        : file_(name_file(folder)), socket_(unix_socket(SOCK_SEQPACKET | SOCK_NONBLOCK)) {
         const std::string name = fresh_name();
-        std::memcpy(address.sun_path + 1, name.data(), name.size());
-        const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
-        const auto* const at = reinterpret_cast<const sockaddr*>(&address);
-        if (!name.empty() && socket_ >= 0 && bind(socket_, at, size) == 0 &&
-            listen(socket_, 4) == 0 && publish(name))
-            return;
-        const std::string why = std::strerror(errno);
-        if (socket_ >= 0) close(socket_);
-        throw cannot_be_watched(why);
+        if (name.empty() || !socket_ || !UnixAddress::of_name(name).bind(socket_) ||
+            listen(socket_.get(), 4) != 0 || !publish(name))
+            throw cannot_be_watched(std::strerror(errno));
     }
-    ~Listening() {
-        unlink(file_.c_str());
-        close(socket_);
-    }
+    ~Listening() { unlink(file_.c_str()); }
     Listening(const Listening&) = delete;
     Listening& operator=(const Listening&) = delete;
 
-    int descriptor() const { return socket_; }
-    /// The socket of a newcomer started by this user, if any; else -1.
-    int accept() const {
-        const int newcomer = accept4(socket_, nullptr, nullptr, SOCK_CLOEXEC);
-        if (newcomer < 0) return -1;
-        if (const auto who = peer_of(newcomer); who && who->is_trusted()) return newcomer;
-        close(newcomer);
-        return -1;
+    int descriptor() const { return socket_.get(); }
+    /// The socket of a newcomer started by this user; not open if there is none.
+    Descriptor accept() const {
+        Descriptor newcomer(accept4(socket_.get(), nullptr, nullptr, SOCK_CLOEXEC));
+        const auto who = peer_of(newcomer.get());
+        return who && who->is_trusted() ? std::move(newcomer) : Descriptor();
     }
 
   private:
     /// Writes the name to the file in which this user's programs look for it.
     bool publish(const std::string& name) const {
-        const int file = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
-                                S_IRUSR | S_IWUSR);
-        if (file < 0) return false;
-        const bool written =
-            write(file, name.data(), name.size()) == static_cast<ssize_t>(name.size());
-        const int why = errno;
-        close(file);
-        errno = why;
-        return written;
+        const Descriptor file(::open(file_.c_str(),
+                                     O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC,
+                                     S_IRUSR | S_IWUSR));
+        return file &&
+               write(file.get(), name.data(), name.size()) == static_cast<ssize_t>(name.size());
     }
 
     std::string file_;
-    int socket_;
+    Descriptor socket_;
 };
 
 struct Observer {
-    int socket;
+    Descriptor socket;
     std::vector<task::RecordedValue> values;
     Wall::duration every{};
     Wall::time_point due{};
     bool watches = false;
 
-    explicit Observer(int descriptor) : socket(descriptor) {}
-    ~Observer() { close(socket); }
-    Observer(const Observer&) = delete;
-    Observer& operator=(const Observer&) = delete;
+    explicit Observer(Descriptor newcomer) : socket(std::move(newcomer)) {}
 
     std::deque<Json> owed;  // messages that must not be lost, until there is room for them
 
@@ -146,7 +125,7 @@ struct Observer {
     bool send(const Json& message) const {
         const std::string text =
             message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-        return ::send(socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT) >= 0;
+        return ::send(socket.get(), text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT) >= 0;
     }
     /// Sends owed messages, as far as there is room.
     void settle() {
@@ -253,7 +232,8 @@ Observers::Observers(const Opening& opening)
 void Observers::run() {
     while (!done_) {
         std::vector<pollfd> waits{{listening_->descriptor(), POLLIN, 0}};
-        for (const Observer& observer : observers_) waits.push_back({observer.socket, POLLIN, 0});
+        for (const Observer& observer : observers_)
+            waits.push_back({observer.socket.get(), POLLIN, 0});
         const bool busy = watched_.load(std::memory_order_relaxed);
         poll(waits.data(), waits.size(), busy ? kBusy : kIdle);
         auto wait = waits.begin() + 1;
@@ -261,7 +241,8 @@ void Observers::run() {
             bool gone = false;
             if (wait->revents != 0) {
                 std::string text(kLongestMessage, '\0');
-                const ssize_t size = recv(observer->socket, text.data(), text.size(), MSG_DONTWAIT);
+                const ssize_t size =
+                    recv(observer->socket.get(), text.data(), text.size(), MSG_DONTWAIT);
                 gone = size == 0 || (size < 0 && errno != EAGAIN && errno != EINTR);
                 if (size > 0) hear(*observer, text.substr(0, static_cast<size_t>(size)));
             }
@@ -288,9 +269,9 @@ void Observers::say_goodbye() {
 }
 
 void Observers::welcome() {
-    const int socket = listening_->accept();
-    if (socket < 0) return;
-    const Observer& newcomer = observers_.emplace_back(socket);
+    Descriptor socket = listening_->accept();
+    if (!socket) return;
+    const Observer& newcomer = observers_.emplace_back(std::move(socket));
     if (observers_.size() > kMostObservers) {
         newcomer.send({{"refused", fmt::format("{} observers already watch.", kMostObservers)}});
         observers_.pop_back();

@@ -5,14 +5,11 @@
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>
-#include <sys/un.h>
-#include <unistd.h>
 
-#include <cstddef>
-#include <cstring>
 #include <filesystem>
 #include <future>
 
+#include "base/unix_socket.h"
 #include "session/test/sessions.h"
 #include "testing/allocation_guard.h"
 
@@ -21,33 +18,24 @@ namespace {
 
 class Observer {
   public:
-    explicit Observer(const std::string& name) : socket_(::socket(AF_UNIX, SOCK_SEQPACKET, 0)) {
-        sockaddr_un address{};
-        address.sun_family = AF_UNIX;
-        std::memcpy(address.sun_path + 1, name.data(), name.size());
-        const size_t size = offsetof(sockaddr_un, sun_path) + 1 + name.size();
-        EXPECT_EQ(connect(socket_, reinterpret_cast<const sockaddr*>(&address),
-                          static_cast<socklen_t>(size)),
-                  0);
+    explicit Observer(const std::string& name) : socket_(unix_socket(SOCK_SEQPACKET)) {
+        EXPECT_TRUE(UnixAddress::of_name(name).connect(socket_));
         EXPECT_NE(read().find("\"session\""), std::string::npos);
     }
-    ~Observer() { close(socket_); }
-    Observer(const Observer&) = delete;
-    Observer& operator=(const Observer&) = delete;
 
     void send(const std::string& message) const {
-        EXPECT_GT(::send(socket_, message.data(), message.size(), 0), 0);
+        EXPECT_GT(::send(socket_.get(), message.data(), message.size(), 0), 0);
     }
     /// The next message; "" if there will be none.
     std::string read() const {
         std::string text(1 << 16, '\0');
-        const ssize_t size = recv(socket_, text.data(), text.size(), 0);
+        const ssize_t size = recv(socket_.get(), text.data(), text.size(), 0);
         text.resize(size > 0 ? static_cast<size_t>(size) : 0);
         return text;
     }
 
   private:
-    int socket_;
+    Descriptor socket_;
 };
 
 /// A session that other programs may watch; its ticks are the test's.
