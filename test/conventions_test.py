@@ -59,7 +59,8 @@ class Conventions(unittest.TestCase):
             "a status bit": (r"\bkAbandoned\b", "src/base/status.h", 3),
             "a device backend": (r"\bhaply\b", "src/devices/haply/", 3),
             "a contact solver": (r"\bstaggered_projections\b", "src/contact/staggered_projections/", 7),
-            "a kind of joint": (r"\buniversal\b", "src/scene/joint.h", 3)}
+            "a kind of joint": (r"\buniversal\b|\babout_two_axes\b", "src/scene/joint", 3),
+            "a joint's coordinate": (r"\bCoordinate::distance\b|\bis_distance\b|\bJointKind::distance\b", "src/scene/joint", 3)}
         sources = {path.as_posix(): re.sub(r"//.*", "", path.read_text()) for top in ("src", "app", "bench")
                    for path in pathlib.Path(top).rglob("*")
                    if path.suffix in (".h", ".cpp") and not {"test", "soak", "fuzz"} & set(path.parts)}

@@ -66,7 +66,7 @@ void World::Impl::add(const scene::Joint& joint) {
     const Joints::Side a = to_world ? Joints::Side{} : side(0);
     const Joints::Side b = side(to_world ? 0 : 1);
     joints.add(joint, a, b);
-    if (a.body == nullptr || joint.collide || joint.is_distance()) return;
+    if (a.body == nullptr || joint.lets_touch()) return;
     let_pass(*a.body, *b.body);
 }
 

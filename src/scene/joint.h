@@ -1,24 +1,15 @@
 // Describes a joint between two bodies, or between a body and the world, as given in a scene file.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/field_reader.h"
+#include "scene/joint_kind.h"
 #include "scene/spring_curve.h"
 
 namespace dihaptic::scene {
-
-/// The motion that a joint allows: rotation about its axis; sliding along it; rotation about its
-/// point; rotation about an axis fixed in the first body and a second axis fixed in the second
-/// body; none; all but a change of distance between a point of each body; everything, against
-/// springs and dampers.
-enum class JointKind { hinge, slider, ball, universal, fixed, distance, bushing };
-constexpr auto enum_names(JointKind) {
-    return std::array{"hinge", "slider", "ball", "universal", "fixed", "distance", "bushing"};
-}
 
 /// Joined bodies do not touch each other, unless `collide` is set or the joint is a distance
 /// joint. The joint coordinate is that of the second body relative to the first, zero at the
@@ -51,8 +42,15 @@ struct Joint {
     bool recorded = true;  ///< and available to tasks by its name
     Place place;
 
-    bool is_distance() const { return kind == JointKind::distance; }
-    bool is_bushing() const { return kind == JointKind::bushing; }
+    const JointKindRow& row() const { return describe(kind); }
+    bool is_distance() const { return row().coordinate == Coordinate::distance; }
+    bool has_coordinate() const { return row().has_coordinate(); }
+    /// Whether the joint coordinate, if any, is a length.
+    bool slides() const { return has_coordinate() && row().coordinate != Coordinate::angle; }
+    /// Whether a distance joint has no limits; it is then a rod.
+    bool is_rod() const { return is_distance() && !has_axis_spring() && !low && !high; }
+    /// Whether the joined bodies can touch each other.
+    bool lets_touch() const { return collide || row().sliding == Sliding::any; }
     /// Whether a spring acts along the joint coordinate.
     bool has_axis_spring() const { return stiffness > 0 || !curve.is_empty(); }
     bool has_spring() const {
@@ -61,12 +59,6 @@ struct Joint {
     bool has_damper() const {
         return damping > 0 || !dampings.isZero(0) || !turn_dampings.isZero(0);
     }
-    /// Whether the joint coordinate, if any, is a length.
-    bool slides() const { return kind == JointKind::slider || is_distance(); }
-    /// Whether the joint has a coordinate: a free axis or a distance.
-    bool has_coordinate() const { return kind == JointKind::hinge || slides(); }
-    /// Whether a distance joint has no limits; it is then a rod.
-    bool is_rod() const { return is_distance() && !has_axis_spring() && !low && !high; }
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -90,16 +82,7 @@ struct Joint {
         v("second_position", second_position,
           Field::length().within(-100, 100).says(
               "Initial position of a distance joint's point on the second body."));
-        visit_spring(v);
-        v("low", low,
-          Field::of(slides() ? Quantity::length : Quantity::angle)
-              .within(-kMostWay, kMostWay)
-              .says("Lower stop of the joint coordinate."));
-        v("high", high,
-          Field::of(slides() ? Quantity::length : Quantity::angle)
-              .within(-kMostWay, kMostWay)
-              .says("Upper stop of the joint coordinate; for a distance joint, the length of a "
-                    "rope."));
+        visit_coordinate(v);
         visit_bushing(v);
         v("collide", collide, says("Whether the two bodies can nevertheless touch each other."));
         v("recorded", recorded,
@@ -113,37 +96,41 @@ struct Joint {
     static constexpr double kMostWay = 1000;
     static constexpr double kMostDamping = 1e5;
 
+    static constexpr Field at_most(Quantity quantity, double most) {
+        return Field::of(quantity).within(0, most);
+    }
     template <class Visitor>
-    void visit_spring(Visitor& v) {
+    void visit_coordinate(Visitor& v) {
+        const auto of = [&](Quantity sliding, Quantity turning) {
+            return Field::of(slides() ? sliding : turning);
+        };
+        const Field way = of(Quantity::length, Quantity::angle).within(-kMostWay, kMostWay);
+        const Field force = of(Quantity::force, Quantity::torque);
         v("stiffness", stiffness,
-          Field::of(slides() ? Quantity::stiffness : Quantity::turn_stiffness)
+          of(Quantity::stiffness, Quantity::turn_stiffness)
               .within(0, kStiffest)
               .says("Stiffness of a spring about a hinge's axis, along a slider's axis, or along a "
                     "distance."));
         v("curve_at", curve.stretch,
-          Field::of(slides() ? Quantity::length : Quantity::angle)
-              .within(-kMostWay, kMostWay)
-              .says("For a spring that does not obey Hooke's law: stretches from its rest, "
-                    "ascending."));
+          way.says("For a spring that does not obey Hooke's law: stretches from its rest, "
+                   "ascending."));
         v("curve", curve.resistance,
-          Field::of(slides() ? Quantity::force : Quantity::torque)
-              .within(-kMostForce, kMostForce)
+          force.within(-kMostForce, kMostForce)
               .says("Resistance at these stretches, with straight lines between them and "
                     "beyond."));
         v("rest", rest,
-          Field::of(slides() ? Quantity::length : Quantity::angle)
-              .within(-kMostWay, kMostWay)
-              .says("Coordinate at which the spring is relaxed, 0 at the start; for a distance "
-                    "joint, "
-                    "the relaxed length."));
+          way.says("Coordinate at which the spring is relaxed, 0 at the start; for a distance "
+                   "joint, the relaxed length."));
         v("damping", damping,
-          Field::of(slides() ? Quantity::damping : Quantity::turn_damping)
+          of(Quantity::damping, Quantity::turn_damping)
               .within(0, kMostDamping)
               .says("Damping parallel to the spring."));
         v("friction", friction,
-          Field::of(slides() ? Quantity::force : Quantity::torque)
-              .within(0, kMostForce)
-              .says("Dry friction about or along the axis."));
+          force.within(0, kMostForce).says("Dry friction about or along the axis."));
+        v("low", low, way.says("Lower stop of the joint coordinate."));
+        v("high", high,
+          way.says("Upper stop of the joint coordinate; for a distance joint, the length of a "
+                   "rope."));
     }
     template <class Visitor>
     void visit_bushing(Visitor& v) {
@@ -153,20 +140,16 @@ struct Joint {
               .says("For a bushing: rotation of its axes from the world's at the start, about x, "
                     "then y, then z."));
         v("stiffnesses", stiffnesses,
-          Field::of(Quantity::stiffness)
-              .within(0, kStiffest)
+          at_most(Quantity::stiffness, kStiffest)
               .says("For a bushing: stiffnesses along its axes x, y and z."));
         v("turn_stiffnesses", turn_stiffnesses,
-          Field::of(Quantity::turn_stiffness)
-              .within(0, kStiffest)
+          at_most(Quantity::turn_stiffness, kStiffest)
               .says("For a bushing: rotational stiffnesses about these axes."));
         v("dampings", dampings,
-          Field::of(Quantity::damping)
-              .within(0, kMostDamping)
+          at_most(Quantity::damping, kMostDamping)
               .says("For a bushing: dampings along these axes."));
         v("turn_dampings", turn_dampings,
-          Field::of(Quantity::turn_damping)
-              .within(0, kMostDamping)
+          at_most(Quantity::turn_damping, kMostDamping)
               .says("For a bushing: rotational dampings about these axes."));
     }
 };

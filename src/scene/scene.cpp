@@ -353,7 +353,7 @@ void check_points(const Joint& joint, Diagnostics& diagnostics) {
 void check_bushing(const Joint& joint, Diagnostics& diagnostics) {
     const bool bushes = !joint.stiffnesses.isZero(0) || !joint.turn_stiffnesses.isZero(0) ||
                         !joint.dampings.isZero(0) || !joint.turn_dampings.isZero(0);
-    if (bushes != joint.is_bushing())
+    if (bushes != joint.row().yields)
         diagnostics.error(joint.place, "stiffnesses",
                           bushes ? fmt::format("belongs to a bushing joint, not to a {} joint",
                                                enum_name(joint.kind))
@@ -406,13 +406,15 @@ void check_axis(const Joint& joint, Diagnostics& diagnostics) {
             fmt::format("has a spring, damper, friction or stop, but a {} joint has no "
                         "single axis for it",
                         enum_name(joint.kind)),
-            joint.is_bushing() ? "Give stiffnesses and dampings for each axis."
-                               : "Leave it out, or set kind: hinge, slider or distance.");
+            joint.row().yields
+                ? "Give stiffnesses and dampings for each axis."
+                : fmt::format("Leave it out, or set kind: {}.",
+                              kinds_that(&JointKindRow::has_coordinate, &JointKindRow::name)));
     }
     constexpr double kShort = 1e-9;
     if (joint.axis.norm() < kShort)
         diagnostics.error(joint.place, "axis", "has no direction", "Write e.g. axis: [0, 0, 1].");
-    if (joint.kind == JointKind::universal &&
+    if (joint.row().turning == Turning::about_two_axes &&
         joint.axis.cross(joint.second_axis).norm() <
             kShort * joint.axis.norm() * joint.second_axis.norm())
         diagnostics.error(joint.place, "second_axis", "lies along the first axis",

@@ -90,11 +90,11 @@ void note_joints(std::span<const dynamics::JointState> states, frame::Frame& fra
     for (size_t i = 0; i < states.size(); ++i) {
         const dynamics::JointState& state = states[i];
         frame::JointFrame& out = frame.joints[i];
-        if (state.kind == scene::JointKind::hinge) {
+        const scene::JointKindRow& kind = scene::describe(state.kind);
+        if (kind.coordinate == scene::Coordinate::angle) {
             out.angle = state.position;
             out.angular_velocity = state.velocity;
-        } else if (state.kind == scene::JointKind::slider ||
-                   state.kind == scene::JointKind::distance) {
+        } else if (kind.has_coordinate()) {
             out.displacement = state.position;
             out.velocity = state.velocity;
         }

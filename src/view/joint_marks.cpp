@@ -41,7 +41,7 @@ void add_spring(Solids& out, const Vec3& a, const Vec3& b) {
 }  // namespace
 
 JointMark::JointMark(const scene::Joint& joint, const scene::Scene& scene)
-    : kind_(joint.kind), springs_(joint.has_axis_spring()) {
+    : kind_(joint.row()), springs_(joint.has_axis_spring()) {
     const bool to_world = joint.between.size() == 1;
     a_ = to_world ? -1 : scene.find(joint.between[0]);
     b_ = scene.find(joint.between[to_world ? 0 : 1]);
@@ -61,7 +61,6 @@ JointMark::JointMark(const scene::Joint& joint, const scene::Scene& scene)
 }
 
 void JointMark::add_to(Solids& out, const frame::Frame& frame, const gl::Model& ball) const {
-    using Kind = scene::JointKind;
     const Pose X_WA = shown(frame, a_);
     const Pose X_WB = shown(frame, b_);
     const Vec3 p = X_WA * p_A_;
@@ -73,15 +72,19 @@ void JointMark::add_to(Solids& out, const frame::Frame& frame, const gl::Model& 
     const auto add_ball = [&](double radius, const char* tint) {
         out.add_ball(ball, p, radius, ink(tint));
     };
-    if (kind_ == Kind::hinge || kind_ == Kind::universal) add_axis(axis);
-    if (kind_ == Kind::hinge && springs_) add_ball(0.8 * kBall, kSpring);
-    if (kind_ == Kind::universal) add_axis(X_WB.R * second_B_);
-    if (kind_ == Kind::ball) add_ball(kBall, kMetal);
-    if (kind_ == Kind::fixed) add_ball(0.6 * kBall, kMetal);
-    if (kind_ == Kind::bushing) add_ball(0.8 * kBall, kSpring);
-    if (kind_ == Kind::distance && springs_) add_spring(out, p, q);
-    if (kind_ == Kind::distance && !springs_) out.add_line(p, q, kThick / 2, ink(kMetal));
-    if (kind_ == Kind::slider) add_slider(out, X_WA, X_WB);
+    using scene::Coordinate;
+    using scene::Turning;
+    if (kind_.coordinate == Coordinate::displacement) return add_slider(out, X_WA, X_WB);
+    if (kind_.coordinate == Coordinate::distance)
+        return springs_ ? add_spring(out, p, q) : out.add_line(p, q, kThick / 2, ink(kMetal));
+    const bool two = kind_.turning == Turning::about_two_axes;
+    if (two || kind_.turning == Turning::about_axis) add_axis(axis);
+    if (two) add_axis(X_WB.R * second_B_);
+    if (kind_.yields || (kind_.has_coordinate() && springs_)) {
+        add_ball(0.8 * kBall, kSpring);
+    } else if (kind_.turning == Turning::any || kind_.turning == Turning::none) {
+        add_ball(kind_.turning == Turning::any ? kBall : 0.6 * kBall, kMetal);
+    }
 }
 
 void JointMark::add_slider(Solids& out, const Pose& X_WA, const Pose& X_WB) const {

@@ -19,7 +19,7 @@ class JointMark {
   private:
     void add_slider(Solids& out, const Pose& X_WA, const Pose& X_WB) const;
 
-    scene::JointKind kind_;
+    scene::JointKindRow kind_;
     bool springs_;
     int a_;        // index of the first body; -1: the world
     int b_;        // index of the second body

@@ -13,6 +13,9 @@ namespace {
 
 using contact::ProblemJoint;
 using contact::Vec6;
+using scene::Coordinate;
+using scene::Sliding;
+using scene::Turning;
 
 /// No joint is stiffer than steel. Otherwise a mechanism would be hurled apart when it passes a
 /// singular configuration, in which its joints do not determine its motion, such as a parallelogram
@@ -50,6 +53,22 @@ Vec6 velocity_of(const Joints::Side& side) {
 void turn(ProblemJoint& rows, int row, const Vec3& n) {
     rows.J_b.row(row).tail<3>() = n.transpose();
     rows.J_a.row(row).tail<3>() = -n.transpose();
+}
+
+/// Whether a joint prevents motion along F's k-th axis.
+bool holds(Sliding sliding, int k) {
+    return sliding == Sliding::none || (sliding == Sliding::along_axis && k > 0);
+}
+/// Whether a joint prevents rotation about its k-th turning_direction().
+bool holds(Turning turning, int k) {
+    return turning == Turning::none || (turning == Turning::about_axis && k > 0) ||
+           (turning == Turning::about_two_axes && k == 0);
+}
+/// The direction about which a joint's k-th angular row acts. F and G: axes of its frames.
+Vec3 turning_direction(Turning turning, const Mat3& F, const Mat3& G, int k) {
+    if (turning == Turning::about_axis) return G.col(0).cross(F.col(k));
+    if (turning == Turning::about_two_axes) return G.col(1).cross(F.col(0));
+    return F.col(k);
 }
 
 /// A row without effect.
@@ -126,10 +145,11 @@ double along_coordinate(const contact::ContactProblem& problem,
 }  // namespace
 
 void Joints::add(const scene::Joint& spec, const Side& a, const Side& b) {
-    const Vec3 second = spec.kind == scene::JointKind::universal ? spec.second_axis
-                                                                 : Vec3(spec.axis.unitOrthogonal());
+    const Vec3 second = spec.row().turning == Turning::about_two_axes
+                            ? spec.second_axis
+                            : Vec3(spec.axis.unitOrthogonal());
     const Quat R_WF =
-        spec.is_bushing() ? rotation_xyz(spec.rotation) : frame_along(spec.axis, second);
+        spec.row().yields ? rotation_xyz(spec.rotation) : frame_along(spec.axis, second);
     const Pose X_WF{R_WF, spec.position};
     const Pose X_WG{X_WF.R, spec.second_position.value_or(spec.position)};
     Joint& added = joints_.emplace_back(
@@ -147,37 +167,28 @@ Joints::Gaps Joints::gaps(const Joint& joint, const Pose& X_WA, const Pose& X_WB
     const Mat3 R = X_FG.R.toRotationMatrix();
     Gaps out;
     out.linear = X_FG.p;
-    switch (joint.spec.kind) {
-        case scene::JointKind::hinge: {
-            out.angular.tail<2>() = R.col(0).tail<2>();
-            const double turned = std::atan2(R(2, 1), R(1, 1));
-            constexpr double kTurn = 2 * std::numbers::pi;
-            out.q = turned + kTurn * std::round((q_near - turned) / kTurn);
-            break;
-        }
-        case scene::JointKind::slider:
-            out.q = X_FG.p.x();
-            [[fallthrough]];
-        case scene::JointKind::fixed:
-            out.angular = (X_FG.R.w() < 0 ? -2 : 2) * X_FG.R.vec();
-            break;
-        case scene::JointKind::universal:
-            out.angular[0] = R(0, 1);
-            break;
-        case scene::JointKind::distance:
-            out.q = X_FG.p.norm();
-            break;
-        case scene::JointKind::bushing:
-            out.angular = rotation_vector(X_FG.R);
-            break;
-        case scene::JointKind::ball:
-            break;
+    const scene::JointKindRow& kind = joint.spec.row();
+    if (kind.yields) {
+        out.angular = rotation_vector(X_FG.R);
+    } else if (kind.turning == Turning::none) {
+        out.angular = (X_FG.R.w() < 0 ? -2 : 2) * X_FG.R.vec();
+    } else if (kind.turning == Turning::about_axis) {
+        out.angular.tail<2>() = R.col(0).tail<2>();
+    } else if (kind.turning == Turning::about_two_axes) {
+        out.angular[0] = R(0, 1);
+    }
+    if (kind.coordinate == Coordinate::angle) {
+        const double turned = std::atan2(R(2, 1), R(1, 1));
+        constexpr double kTurn = 2 * std::numbers::pi;
+        out.q = turned + kTurn * std::round((q_near - turned) / kTurn);
+    } else if (kind.has_coordinate()) {
+        out.q = kind.has_axis() ? X_FG.p.x() : X_FG.p.norm();
     }
     return out;
 }
 
 Vec3 Joints::direction(const Joint& joint, const Pose& X_WA, const Pose& X_WB) noexcept {
-    if (joint.spec.kind == scene::JointKind::slider) return X_WA.R * joint.X_AF.R * Vec3::UnitX();
+    if (!joint.spec.is_distance()) return X_WA.R * joint.X_AF.R * Vec3::UnitX();
     constexpr double kTogether = 1e-9;  // coincident points: any direction is valid
     const Vec3 between = X_WB * joint.X_BF.p - X_WA * joint.X_AF.p;
     const double distance = between.norm();
@@ -196,31 +207,26 @@ void Joints::fill(const Joint& joint, const Pose& X_WA, const Pose& X_WB,
         // the axes are those of the first body, and turn with it
         out.J_a.row(row) << -d.transpose(), -(X_WG.p - X_WA.p).cross(d).transpose();
     };
-    using Kind = scene::JointKind;
-    const Kind kind = joint.spec.kind;
+    const scene::JointKindRow& kind = joint.spec.row();
     for (int k = 0; k < 3; ++k) {
-        if (kind == Kind::distance || (kind == Kind::slider && k == 0)) {
-            close(rows[0], k);
-        } else {
+        if (holds(kind.sliding, k)) {
             along(rows[0], k, F.col(k));
+        } else {
+            close(rows[0], k);
         }
-        if (kind == Kind::slider || kind == Kind::fixed || kind == Kind::bushing) {
-            turn(rows[1], k, F.col(k));
-        } else if (kind == Kind::hinge && k > 0) {
-            turn(rows[1], k, G.col(0).cross(F.col(k)));
-        } else if (kind == Kind::universal && k == 0) {
-            turn(rows[1], k, G.col(1).cross(F.col(0)));
+        if (holds(kind.turning, k)) {
+            turn(rows[1], k, turning_direction(kind.turning, F, G, k));
         } else {
             close(rows[1], k);
         }
-        if (kind == Kind::hinge) {
-            turn(rows[2], k, F.col(0));
-        } else if (joint.spec.slides()) {
+        if (joint.spec.slides()) {
             along(rows[2], k, direction(joint, X_WA, X_WB));
+        } else if (kind.has_coordinate()) {
+            turn(rows[2], k, F.col(0));
         }
         close(rows[2], k);
     }
-    if (kind == Kind::bushing) close_free(joint.spec, rows);
+    if (kind.yields) close_free(joint.spec, rows);
 }
 
 namespace {
@@ -268,7 +274,7 @@ double Joints::stored(const Joint& joint, double h, const Vec3& v_W, const Vec3&
     const scene::Joint& spec = joint.spec;
     const auto& rows = joint.rows;
     double energy = 0;
-    if (spec.is_bushing()) {
+    if (spec.row().yields) {
         for (int k = 0; k < 3; ++k) {
             const double gap =
                 joint.start.linear[k] + h / 2 * rows[0].J_b.row(k).head<3>().dot(v_W);
@@ -376,7 +382,7 @@ double Joints::ask(size_t i, double h, const Vec6& v_a, const Vec6& v_b) noexcep
     Joint& joint = joints_[i];
     const double q_near = states_[i].position;
     const Gaps then = gaps(joint, moved(joint.a, v_a, h), moved(joint.b, v_b, h), q_near);
-    if (joint.spec.is_bushing()) {
+    if (joint.spec.row().yields) {
         // an error of the guess changes a spring by the square of a step's rotation, so this
         // suffices
         ask_of_bushing(joint, then, h, v_a, v_b, joint.rows);
@@ -433,7 +439,7 @@ void Joints::add_rows(std::span<const size_t> which, std::span<const int> index,
         joint.acts_at_W = pose_of(joint.b) * joint.X_BF.p;
         if (joint.spec.has_axis_spring() || joint.motor)
             joint.inverse_mass = along_coordinate(problem, joint.rows);
-        if (joint.spec.is_bushing()) joint.inverse_masses = along_rows(problem, joint.rows);
+        if (joint.spec.row().yields) joint.inverse_masses = along_rows(problem, joint.rows);
         ask(i, h, expected(joint.a, joint.change_a, h), expected(joint.b, joint.change_b, h));
         for (size_t e = 0; e < kElements; ++e) {
             const ProblemJoint& rows = joint.rows[e];
@@ -500,13 +506,7 @@ void Joints::store(std::span<const size_t> which, std::span<const int> index,
         const Mat3 G = (pose_of(joint.b) * joint.X_BF).R.toRotationMatrix();
         for (int k = 0; k < 3; ++k) {
             const double moment = joint.impulses[1][k] / h;
-            if (joint.spec.kind == scene::JointKind::hinge) {
-                state.torque_W += moment * G.col(0).cross(F.col(k));
-            } else if (joint.spec.kind == scene::JointKind::universal) {
-                state.torque_W += moment * G.col(1).cross(F.col(0));
-            } else {
-                state.torque_W += moment * F.col(k);
-            }
+            state.torque_W += moment * turning_direction(joint.spec.row().turning, F, G, k);
         }
     }
 }
@@ -526,12 +526,12 @@ void Joints::read() noexcept {
         JointState& state = states_[i];
         const Pose X_WA = pose_of(joint.a);
         const Pose X_WB = pose_of(joint.b);
-        if (!joint.spec.has_coordinate() && !joint.spec.is_bushing()) continue;
+        if (!joint.spec.has_coordinate() && !joint.spec.row().yields) continue;
         std::array<ProblemJoint, kElements> rows;
         fill(joint, X_WA, X_WB, rows);
         const Vec6 v_a = velocity_of(joint.a);
         const Vec6 v_b = velocity_of(joint.b);
-        if (joint.spec.is_bushing()) {
+        if (joint.spec.row().yields) {
             for (int k = 0; k < 6; ++k)
                 joint.rates[k] = inside(rows[static_cast<size_t>(k / 3)], k % 3, v_a, v_b);
             continue;

@@ -105,7 +105,7 @@ void BodyPlanner::add_motor(const MotorSpec& spec, TaskPlan::PlannedState& out) 
         error(spec.place, "joint",
               fmt::format("'{}' has no axis for a motor: it is a {} joint", joint.name,
                           enum_name(joint.kind)),
-              "Name a hinge, a slider or a distance joint.");
+              fmt::format("Name {}.", scene::kinds_that(&scene::JointKindRow::has_coordinate)));
         return;
     }
     if (std::any_of(out.motors.begin(), out.motors.end(),
@@ -168,7 +168,7 @@ std::vector<TaskPlan::StartPose> BodyPlanner::start_poses(
 const scene::Joint* BodyPlanner::joint_of(const BodyPlace& place) const {
     if (place.joint.index < 0) return nullptr;
     const scene::Joint& joint = scene.joints[static_cast<size_t>(place.joint.index)];
-    return joint.has_coordinate() && !joint.is_distance() ? &joint : nullptr;
+    return joint.row().has_axis() ? &joint : nullptr;
 }
 
 /// The body placed by a joint; -1 if the placement is not by a joint.

@@ -64,11 +64,13 @@ void check_body(const BodyPlace& place, Diagnostics& diagnostics) {
 }
 
 void check_coordinate(const BodyPlace& place, const scene::Joint& joint, Diagnostics& diagnostics) {
-    if (!joint.has_coordinate() || joint.is_distance()) {
-        diagnostics.error(
-            place.place, "joint",
-            fmt::format("'{}' has no axis: it is neither a hinge nor a slider", joint.name),
-            "Name a hinge or a slider, or place the bodies of the joint.");
+    using Kind = scene::JointKindRow;
+    if (!joint.row().has_axis()) {
+        diagnostics.error(place.place, "joint",
+                          fmt::format("'{}' has no axis: it is neither {}", joint.name,
+                                      scene::kinds_that(&Kind::has_axis, &Kind::noun, " nor ")),
+                          fmt::format("Name {}, or place the bodies of the joint.",
+                                      scene::kinds_that(&Kind::has_axis)));
         return;
     }
     if (joint.slides() ? place.rate != 0 : place.speed != 0)
