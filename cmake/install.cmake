@@ -2,7 +2,7 @@
 # src/base/installed.h finds these folders from the program's own.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
-set(companions dihaptic-keeper)
+set(companions dihaptic-host)
 foreach(companion dihaptic-decompose dihaptic-gui dihaptic-mesh)
     if(TARGET ${companion})
         list(APPEND companions ${companion})

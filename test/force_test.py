@@ -101,7 +101,7 @@ class Program(unittest.TestCase):
             raise NoForce(process.communicate())
         for force in forces:
             self.assertLess(force, 3.7)
-        if RIGS[backend][0]:  # a library: its devices are opened by the keeper alone, and once
+        if RIGS[backend][0]:  # a library: its devices are opened by the device host alone, and once
             self.assertEqual(felt.opened(), [1, 1])
         return process, felt
 
@@ -166,14 +166,14 @@ class Signals(Program):
         for backend in RIGS:
             with self.subTest(backend=backend):
                 process, felt = self.start(backend)
-                keeper = subprocess.run(["pgrep", "-P", str(process.pid), "dihaptic-keeper"], capture_output=True, text=True)
+                device host = subprocess.run(["pgrep", "-P", str(process.pid), "dihaptic-host"], capture_output=True, text=True)
                 since = time.monotonic()
-                os.kill(int(keeper.stdout), signal.SIGKILL)
+                os.kill(int(device host.stdout), signal.SIGKILL)
                 if backend != "openhaptics":  # what its devices do by themselves nobody knows
                     gone = felt.gone_after(since, patient(1))
                     self.assertIsNotNone(gone, felt.devices())
-                    print(f"{backend:15s} keeper killed: force gone after {gone * 1e3:6.2f} ms", file=sys.stderr)
-                    self.assertLess(gone, patient(0.040))  # the firmware's watchdog, which the keeper had set, after 32
+                    print(f"{backend:15s} device host killed: force gone after {gone * 1e3:6.2f} ms", file=sys.stderr)
+                    self.assertLess(gone, patient(0.040))  # the firmware's watchdog, which the device host had set, after 32
                 told = b"".join(process.communicate(timeout=patient(60)))
                 self.assertEqual(process.returncode, 1, told)
                 self.assertIn(b"does not answer", told)

@@ -6,7 +6,7 @@
 #include "command.h"
 #include "common/steady_output.h"
 #include "common/stop_signals.h"
-#include "keeper/at_death.h"
+#include "host/at_death.h"
 #include "recording/session.h"
 
 namespace dihaptic::cli {
@@ -48,7 +48,7 @@ std::string command_line() {
 int main(int argc, char** argv) {
     using namespace dihaptic;
     app::stop_on_signals(cli::stop_requested);
-    keeper::take_force_away_at_death();
+    host::take_force_away_at_death();
     cli::make_output_steady();
     tell_companion_waits([](const std::string& what, int seconds, int most) {
         fmt::print(stderr, "{}: {} s so far, {} s at most\n", what, seconds, most);

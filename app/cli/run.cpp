@@ -17,7 +17,7 @@
 #include "escape_key.h"
 #include "person/population.h"
 #include "rig/calibration_guide.h"
-#include "session/listeners/decider.h"
+#include "session/listeners/trial_controller.h"
 #include "summary.h"
 
 namespace dihaptic::cli {
@@ -149,11 +149,11 @@ void run_one(SessionOptions& options) {
     session::Plan plan = session::make_plan(options.request);
     if (options.simulate && plan.task)
         session::sit_down(plan, person::draw_person(people, plan.seed, id));
-    std::optional<session::Decider> decider;
+    std::optional<session::TrialController> controller;
     if (!options.between.empty()) {
-        decider.emplace(options.between);
-        decider->prepare(plan);
-        options.run.decider = &*decider;
+        controller.emplace(options.between);
+        controller->prepare(plan);
+        options.run.controller = &*controller;
     }
     run_plan(std::move(plan), options.run);
 }
@@ -162,7 +162,7 @@ void run_one(SessionOptions& options) {
 
 void run_plan(session::Plan plan, session::RunOptions run) {
     run.observers = true;
-    auto devices = session::open_devices(plan, rig::is_real(plan.rig) ? keeper::program() : "",
+    auto devices = session::open_devices(plan, rig::is_real(plan.rig) ? host::program() : "",
                                          [] { return stop_requested.load(); });
     print(plan.warnings);
     fmt::print("{}\n", plan.title);

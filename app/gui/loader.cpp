@@ -51,7 +51,7 @@ Opened open(const Wanted& wanted, std::unique_ptr<devices::DeviceGroup>& devices
     out.frame = resting->tick(Time(0), {});
     if (wanted.to_run) {
         devices =
-            session::open_devices(out.plan, rig::is_real(out.plan.rig) ? keeper::program() : "",
+            session::open_devices(out.plan, rig::is_real(out.plan.rig) ? host::program() : "",
                                   [stop = wanted.request.stop] { return stop.stop_requested(); });
     }
     describe_devices(out, X_WD);

@@ -8,7 +8,7 @@
 #include "base/installed.h"
 #include "display_loss.h"
 #include "escape_listener.h"
-#include "keeper/at_death.h"
+#include "host/at_death.h"
 #include "lost_windows.h"
 #include "operator_window.h"
 #include "recording/session.h"
@@ -41,7 +41,7 @@ void end_unseen(QWidget* gone) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    dihaptic::keeper::take_force_away_at_death();
+    dihaptic::host::take_force_away_at_death();
     dihaptic::gui::Application app(argc, argv);
     dihaptic::gui::at_display_loss(dihaptic::gui::SessionRunner::end_program);
     QApplication::setOrganizationName("dihaptic");

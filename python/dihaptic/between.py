@@ -110,7 +110,7 @@ class BetweenTrials:
         failures: list[str] = self.__dict__.setdefault("_failures", [])
         return failures
 
-    # The other end of src/session/listeners/decider.h
+    # The other end of src/session/listeners/trial_controller.h
 
     def _answer(self, question: dict[str, Any]) -> dict[str, Any] | None:
         if "session" in question:

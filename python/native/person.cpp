@@ -13,7 +13,7 @@
 #include "parts.h"
 #include "person/population.h"
 #include "plans.h"
-#include "session/listeners/decider.h"
+#include "session/listeners/trial_controller.h"
 #include "session/record.h"
 #include "session/rehearsal.h"
 #include "session/unfinished_folder.h"
@@ -134,11 +134,11 @@ class Sitting {
         options.keep_log = doing.keep_recordings;
         const Forgetting at_the_end{*hand_};
         const py::gil_scoped_release others_may_run;
-        std::optional<session::Decider> decider;
+        std::optional<session::TrialController> controller;
         if (!doing.between.empty()) {
-            decider.emplace(doing.between);
-            decider->prepare(plan_);
-            options.decider = &*decider;
+            controller.emplace(doing.between);
+            controller->prepare(plan_);
+            options.controller = &*controller;
         }
         const session::Recorded session = session::record(plan_, options, stop_);
         return {session.folder, session.good(), session.notes};

@@ -15,7 +15,7 @@ struct Peer {
 
     /// Whether the process belongs to this user, or to root, who can do everything anyway.
     bool is_trusted() const;
-    /// "dihaptic-keeper (process 1234 of user jane, since 2026-01-31 09:30)", as far as
+    /// "dihaptic-host (process 1234 of user jane, since 2026-01-31 09:30)", as far as
     /// it is known.
     std::string describe() const;
 };

@@ -427,11 +427,11 @@ std::vector<frame::DeviceInfo> describe(const Rig& rig, const std::vector<std::s
 std::unique_ptr<devices::DeviceGroup> make_devices(const Rig& rig,
                                                    const std::vector<std::string>& fingers,
                                                    const devices::Context& context,
-                                                   const std::optional<keeper::Keeping>& keeping) {
+                                                   const std::optional<host::Hosting>& hosting) {
     check_libraries(rig);
     const auto [backend, configs] = held_by(rig, fingers);
-    auto group = backend.real && keeping
-                     ? keeper::keep_devices({backend.name, configs, context.tick, *keeping})
+    auto group = backend.real && hosting
+                     ? host::host_devices({backend.name, configs, context.tick, *hosting})
                      : backend.make(configs, context);
     std::vector<Adjustment> adjustments;
     bool adjusted = false;

@@ -7,7 +7,7 @@
 #include "display/display.h"
 #include "display/headset.h"
 #include "display/sound.h"
-#include "keeper/kept_devices.h"
+#include "host/hosted_devices.h"
 #include "outlets/head_tracker.h"
 #include "outlets/outlet.h"
 #include "rig/calibration.h"
@@ -182,13 +182,13 @@ Rig uncorrected(const Rig& rig);
 std::vector<frame::DeviceInfo> describe(const Rig& rig, const std::vector<std::string>& fingers,
                                         const devices::Context& context);
 /// Makes the devices for the scene's fingers, in the fingers' order, corrected and scaled.
-/// `keeping`: how a keeper owns real devices; nullopt: this process owns them. Throws Error when a
-/// finger has no device, or if the calibration belongs to other devices.
+/// `keeping`: how a device host owns real devices; nullopt: this process owns them. Throws Error
+/// when a finger has no device, or if the calibration belongs to other devices.
 std::unique_ptr<devices::DeviceGroup> make_devices(
     const Rig& rig, const std::vector<std::string>& fingers, const devices::Context& context,
-    const std::optional<keeper::Keeping>& keeping = {});
+    const std::optional<host::Hosting>& hosting = {});
 /// Claims the real devices that make_devices() made for this process, before it activates them; a
-/// keeper does this itself. Throws Error if another program has one.
+/// device host does this itself. Throws Error if another program has one.
 std::vector<devices::DeviceClaim> claim_devices(const Rig& rig,
                                                 const std::vector<std::string>& fingers,
                                                 const devices::DeviceGroup& devices);

@@ -452,16 +452,16 @@ void apply_setting(frame::Settings& settings, const std::string& text) {
     diagnostics.throw_if_errors();
 }
 
-std::unique_ptr<devices::DeviceGroup> open_devices(Plan& plan, const std::string& keeper,
+std::unique_ptr<devices::DeviceGroup> open_devices(Plan& plan, const std::string& host,
                                                    const std::function<bool()>& given_up) {
-    std::optional<keeper::Keeping> keeping;
-    if (!keeper.empty()) {
+    std::optional<host::Hosting> hosting;
+    if (!host.empty()) {
         // one tick more than the servo allows itself, like its own watchdog
         const double silence = plan.settings.safety.max_pause + plan.settings.tick();
-        keeping = {keeper, silence, plan.settings.real_time_priority, given_up};
+        hosting = {host, silence, plan.settings.real_time_priority, given_up};
     }
     auto out =
-        rig::make_devices(plan.rig, scene::finger_names(plan.scene), context_of(plan), keeping);
+        rig::make_devices(plan.rig, scene::finger_names(plan.scene), context_of(plan), hosting);
     if (out->descriptions() == plan.devices) return out;
     plan.devices = out->descriptions();
     Diagnostics diagnostics;

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/plural.h"
-#include "session/listeners/decider.h"
+#include "session/listeners/trial_controller.h"
 
 namespace dihaptic::session {
 
@@ -18,7 +18,7 @@ SessionDirector::SessionDirector(const Opening& session, const std::atomic<bool>
       phases_(session.info.phases, plan_.settings.tick()) {
     if (!plan_.task) return;
     task_.emplace(*plan_.task, plan_.seed, plan_.settings.tick(), plan_.done);
-    if (options_.decider != nullptr) task_->decide_by(*options_.decider->between());
+    if (options_.controller != nullptr) task_->decide_by(*options_.controller->between());
     if (plan_.seeing && !real_) wait_.emplace(*plan_.task);
 }
 

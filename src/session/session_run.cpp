@@ -15,12 +15,12 @@
 #include "base/text.h"
 #include "base/text_file.h"
 #include "session/frozen_inputs.h"
-#include "session/listeners/decider.h"
 #include "session/listeners/log.h"
 #include "session/listeners/observers.h"
 #include "session/listeners/outlets.h"
 #include "session/listeners/sight.h"
 #include "session/listeners/sounds.h"
+#include "session/listeners/trial_controller.h"
 #include "session/pacing.h"
 #include "session/resume.h"
 #include "session/session_director.h"
@@ -335,8 +335,8 @@ void Run::make_director() {
         live_->set_folder(folder_.path());
         listeners_.push_back(live_);
     }
-    if (options_.decider != nullptr)
-        options_.decider->begin(folder_.path(), !real_, options_.waiting);
+    if (options_.controller != nullptr)
+        options_.controller->begin(folder_.path(), !real_, options_.waiting);
     director_.emplace(opening_, stop_, listeners_);
 }
 
@@ -358,7 +358,7 @@ void Run::run_ticks() {
     const Watcher watcher([&] {
         if (progress_) progress_(std::min(1.0, share()));
         // on the virtual clock a tick may wait for it
-        if (options_.decider != nullptr && stop_) options_.decider->between()->leave();
+        if (options_.controller != nullptr && stop_) options_.controller->between()->leave();
         if (live_ == nullptr) return;
         if (asked_to_end()) live_->ended = true;  // even in a pause
         while (const auto showing = live_->take_showing()) {
@@ -452,8 +452,8 @@ void Run::close_record() {
     }
     result_.ticks = log_->frames();
     result_.dropped = log_->dropped();
-    if (options_.decider != nullptr) {
-        result_.undecided = options_.decider->finish();
+    if (options_.controller != nullptr) {
+        result_.undecided = options_.controller->finish();
         info_.notes.insert(info_.notes.end(), result_.undecided.begin(), result_.undecided.end());
     }
     result_.simulated = seconds(Time(reached_.load()));

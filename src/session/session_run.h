@@ -12,7 +12,7 @@
 
 namespace dihaptic::session {
 
-class Decider;
+class TrialController;
 
 enum class Clock { virtual_clock, real };
 
@@ -43,7 +43,7 @@ struct RunOptions {
                                    const recording::LogHead&)>
         in_place_of_log;
     /// Decides between trials; prepared for the plan, and must outlive the run.
-    Decider* decider = nullptr;
+    TrialController* controller = nullptr;
     /// Whether other programs may watch and steer the session (listeners/observers.h).
     bool observers = false;
     Live* live = nullptr;  ///< link to the watching thread; must outlive the run

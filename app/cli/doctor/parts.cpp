@@ -19,8 +19,7 @@ struct Part {
 constexpr std::array kParts{
     Part{"dihaptic-mesh", "reads meshes", true},
     Part{"dihaptic-decompose", "cuts concave meshes", true},
-    Part{"dihaptic-keeper", "owns real devices, and takes their force away if all else fails",
-         false},
+    Part{"dihaptic-host", "owns real devices, and takes their force away if all else fails", false},
     Part{"dihaptic-gui", "is the window", false},
 };
 

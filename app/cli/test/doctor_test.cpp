@@ -406,14 +406,14 @@ TEST(Doctor, NamesPartsThatAreMissing) {
         EXPECT_TRUE(of(found, needed).needed) << needed;
         EXPECT_EQ(commands(of(found, needed)).find("./dev build"), 0u);
     }
-    EXPECT_FALSE(of(found, "keeper").needed);
+    EXPECT_FALSE(of(found, "host").needed);
     EXPECT_EQ(commands(of(found, "ffmpeg")), "sudo apt install ffmpeg\n");
     EXPECT_EQ(of(found, "shipped files").verdict, Verdict::note);
 
     machine.put("/ffmpeg", "");
     fs::permissions(machine.root() + "/ffmpeg", fs::perms::owner_all);
     found = parts(here, "/nowhere:" + machine.root(), "/opt/dihaptic");
-    for (const char* what : {"mesh", "decompose", "keeper", "gui", "ffmpeg", "shipped files"})
+    for (const char* what : {"mesh", "decompose", "host", "gui", "ffmpeg", "shipped files"})
         EXPECT_EQ(of(found, what).verdict, Verdict::ok) << what;
 }
 

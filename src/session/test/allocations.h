@@ -11,7 +11,7 @@ namespace dihaptic::session {
 
 /// Expects as well that the task is done within `longest` [s]. `between`: decides between trials.
 inline void expect_no_allocation(const Plan& plan, double longest,
-                                 task::Between* between = nullptr) {
+                                 task::TrialControl* between = nullptr) {
     const auto servo = make_servo(plan);
     task::TaskDirector task(*plan.task, plan.seed, plan.settings.tick());
     if (between != nullptr) task.decide_by(*between);

@@ -160,7 +160,7 @@ void TaskDirector::begin(const frame::Frame& last, char key, double now,
     enter(0, now, commands);
 }
 
-void TaskDirector::decide_by(Between& between) noexcept {
+void TaskDirector::decide_by(TrialControl& between) noexcept {
     between_ = &between;
     ask(0, -1, 0);
 }

@@ -6,10 +6,10 @@
 #include <atomic>
 
 #include "frame/orders.h"
-#include "task/run/between.h"
 #include "task/run/displayer.h"
 #include "task/run/opening.h"
 #include "task/run/sounder.h"
+#include "task/run/trial_control.h"
 #include "task/run/trial_numbers.h"
 
 namespace dihaptic::task {
@@ -35,7 +35,7 @@ class TaskDirector {
     void skip() noexcept { skip_.store(true, std::memory_order_relaxed); }
     /// Makes the director ask `between`, which must outlive it, before each attempt. Call before
     /// the first tick.
-    void decide_by(Between& between) noexcept;
+    void decide_by(TrialControl& between) noexcept;
     /// Restarts a running trial. Call between two ticks.
     void interrupt() noexcept {
         if (!queue_.empty() && state_ >= 0) queue_.again();
@@ -139,7 +139,7 @@ class TaskDirector {
     Displayer displayer_;
     Sounder sounder_;
     Opening opening_;
-    Between* between_ = nullptr;
+    TrialControl* between_ = nullptr;
     bool asked_ = false;    // asked, but no decision yet
     double ask_until_ = 0;  // time limit for the decision [s]
     std::atomic<char> key_{0};

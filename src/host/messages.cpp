@@ -1,4 +1,4 @@
-#include "keeper/messages.h"
+#include "host/messages.h"
 
 #include <poll.h>
 #include <sys/socket.h>
@@ -8,7 +8,7 @@
 
 #include "base/field_writer.h"
 
-namespace dihaptic::keeper {
+namespace dihaptic::host {
 namespace {
 
 using nlohmann::json;
@@ -96,16 +96,16 @@ json to_json(const Order& order) {
             {"backend", order.backend},
             {"devices", configs},
             {"tick", order.tick},
-            {"longest_silence", order.keeping.longest_silence},
-            {"priority", order.keeping.priority}};
+            {"longest_silence", order.hosting.longest_silence},
+            {"priority", order.hosting.priority}};
 }
 
 Order order_of(const json& in) {
     Order out;
     in.at("backend").get_to(out.backend);
     in.at("tick").get_to(out.tick);
-    in.at("longest_silence").get_to(out.keeping.longest_silence);
-    in.at("priority").get_to(out.keeping.priority);
+    in.at("longest_silence").get_to(out.hosting.longest_silence);
+    in.at("priority").get_to(out.hosting.priority);
     for (const json& device : in.at("devices")) {
         devices::DeviceConfig config;
         device.at("finger").get_to(config.finger);
@@ -173,4 +173,4 @@ std::optional<json> receive(int socket, Time most, const std::function<bool()>& 
     return out;
 }
 
-}  // namespace dihaptic::keeper
+}  // namespace dihaptic::host

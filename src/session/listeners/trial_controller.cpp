@@ -1,4 +1,4 @@
-#include "session/listeners/decider.h"
+#include "session/listeners/trial_controller.h"
 
 #include <fmt/format.h>
 #include <poll.h>
@@ -103,7 +103,7 @@ struct Variable {
 
 }  // namespace
 
-struct Decider::Parts {
+struct TrialController::Parts {
     std::string path;
     Lines lines;
     std::vector<std::string> messages;
@@ -111,7 +111,7 @@ struct Decider::Parts {
     std::vector<std::string> outcomes;
     std::vector<Variable> variables;
     size_t trials = 0;
-    std::optional<task::Between> between;
+    std::optional<task::TrialControl> between;
     int64_t asked = 0;
     int asked_trial = 0;
     std::vector<std::string> notes;
@@ -143,7 +143,7 @@ struct Decider::Parts {
     }
 };
 
-void Decider::Parts::greet() {
+void TrialController::Parts::greet() {
     bool gone = false;
     for (int waited = 0; waited < kGreeting && !gone; waited += 100) {
         const auto line = lines.read(std::chrono::milliseconds(100), gone);
@@ -163,7 +163,7 @@ void Decider::Parts::greet() {
     throw refused(path, "does not greet");
 }
 
-void Decider::Parts::ask(const task::Ended& attempt) {
+void TrialController::Parts::ask(const task::Ended& attempt) {
     Json values = Json::object();
     for (size_t i = 0; i < variables.size(); ++i) {
         const double value = attempt.variables[i] / variables[i].si;
@@ -182,7 +182,7 @@ void Decider::Parts::ask(const task::Ended& attempt) {
          {"variables", values}});
 }
 
-void Decider::Parts::set(const Json& values, task::Decision& out) {
+void TrialController::Parts::set(const Json& values, task::Decision& out) {
     for (const auto& [name, value] : values.items()) {
         const auto found = std::ranges::find(variables, name, &Variable::name);
         if (found == variables.end()) {
@@ -197,7 +197,7 @@ void Decider::Parts::set(const Json& values, task::Decision& out) {
 }
 
 /// Reads the next trial and the message to show.
-void Decider::Parts::choose(const Json& json, task::Decision& out) {
+void TrialController::Parts::choose(const Json& json, task::Decision& out) {
     if (json.contains("next") && json["next"].is_number_integer()) {
         const auto next = json["next"].get<int64_t>();
         if (next >= 1 && next <= static_cast<int64_t>(trials)) {
@@ -216,7 +216,7 @@ void Decider::Parts::choose(const Json& json, task::Decision& out) {
     }
 }
 
-void Decider::Parts::take(const std::string& line) {
+void TrialController::Parts::take(const std::string& line) {
     const Json json = parse_json(line);
     if (!json.is_object() || !json.contains("number") || !json["number"].is_number_integer()) {
         note("sends an invalid answer");
@@ -235,7 +235,7 @@ void Decider::Parts::take(const std::string& line) {
 }
 
 /// On the virtual clock the session stands still until the answer arrives.
-void Decider::Parts::tell_of_silence() {
+void TrialController::Parts::tell_of_silence() {
     const auto silent = std::chrono::steady_clock::now() - asked_at;
     if (told_after == told_after.zero() || silent < told_after || between->gone()) return;
     told_after += kReminder;
@@ -244,10 +244,10 @@ void Decider::Parts::tell_of_silence() {
         "The program that decides between trials has not answered for {:.0f} s, after trial {}. "
         "After {} s the session continues without it; Ctrl-C ends the session.",
         std::chrono::duration<double>(silent).count(), asked_trial,
-        task::Between::kLongest.count()));
+        task::TrialControl::kLongest.count()));
 }
 
-void Decider::Parts::run(bool waits) noexcept {
+void TrialController::Parts::run(bool waits) noexcept {
     const std::chrono::microseconds pause(waits ? 50 : 1000);
     bool gone = false;
     while (!ended && !gone) {
@@ -259,15 +259,16 @@ void Decider::Parts::run(bool waits) noexcept {
     between->leave();
 }
 
-Decider::Decider(const std::string& socket) : parts_(std::make_unique<Parts>(socket)) {
+TrialController::TrialController(const std::string& socket)
+    : parts_(std::make_unique<Parts>(socket)) {
     parts_->greet();
 }
 
-Decider::~Decider() {
+TrialController::~TrialController() {
     finish();
 }
 
-void Decider::prepare(Plan& plan) {
+void TrialController::prepare(Plan& plan) {
     if (!plan.task) {
         throw Error({plan.file, 0}, "task",
                     "is missing: without trials, there is nothing to decide",
@@ -287,8 +288,8 @@ void Decider::prepare(Plan& plan) {
     plan.task = task;
 }
 
-void Decider::begin(const std::string& folder, bool waits,
-                    std::function<void(const std::string&)> waiting) {
+void TrialController::begin(const std::string& folder, bool waits,
+                            std::function<void(const std::string&)> waiting) {
     parts_->waiting = std::move(waiting);
     Json names = Json::array();
     for (const Variable& variable : parts_->variables) names.push_back(variable.name);
@@ -300,16 +301,16 @@ void Decider::begin(const std::string& folder, bool waits,
     parts_->thread = std::thread([this, waits] { parts_->run(waits); });
 }
 
-task::Between* Decider::between() const {
+task::TrialControl* TrialController::between() const {
     return parts_->between ? &*parts_->between : nullptr;
 }
 
-std::vector<std::string> Decider::finish() {
+std::vector<std::string> TrialController::finish() {
     parts_->ended = true;
     if (!parts_->thread.joinable()) return {};
     parts_->thread.join();
     std::vector<std::string> out = std::move(parts_->notes);
-    const task::Between& between = *parts_->between;
+    const task::TrialControl& between = *parts_->between;
     if (between.late() > 0) {
         out.push_back(
             fmt::format("The program that decides between trials was too late {}, or had left: the "

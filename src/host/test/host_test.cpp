@@ -1,4 +1,4 @@
-// Tests the keeper from its program's side, on fakes of the manufacturers' libraries, which it
+// Tests the device host from its program's side, on fakes of the manufacturers' libraries, which it
 // loads in its own process. test/force_test.py tests the whole program.
 #include <gtest/gtest.h>
 
@@ -14,13 +14,13 @@
 #include "base/number.h"
 #include "devices/test/felt_outside.h"
 #include "fake_makers.h"
-#include "keeper/force_off.h"
-#include "keeper/kept_devices.h"
-#include "keeper/messages.h"
+#include "host/force_off.h"
+#include "host/hosted_devices.h"
+#include "host/messages.h"
 #include "testing/allocation_guard.h"
 #include "testing/files.h"
 
-namespace dihaptic::keeper::keeper_test {
+namespace dihaptic::host::host_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -29,7 +29,7 @@ Order order_on(const std::string& backend) {
     const bool hd = backend == "openhaptics";
     Order order;
     order.backend = backend;
-    order.keeping.program = program();
+    order.hosting.program = program();
     for (const int i : {1, 2}) {
         const std::string which =
             hd ? "name: PHANToM " + number_text(i) : "serial: " + number_text(100 + i);
@@ -78,7 +78,7 @@ TEST(Messages, KeepWhatTheySay) {
     Order order;
     order.backend = "forcedimension";
     order.tick = 1.0 / 3000;
-    order.keeping = {"p", 0.0123456789, 55};
+    order.hosting = {"p", 0.0123456789, 55};
     devices::DeviceConfig config;
     config.finger = "thumb";
     config.X_WD = {rotation_xyz({0.1, 0.2, 0.3}), {1, 2, 1.0 / 3}};
@@ -89,7 +89,7 @@ TEST(Messages, KeepWhatTheySay) {
     const Order same = order_of(nlohmann::json::parse(to_json(order).dump()));
     ASSERT_EQ(same.configs.size(), 1u);
     EXPECT_EQ(same.tick, order.tick);
-    EXPECT_EQ(same.keeping.longest_silence, order.keeping.longest_silence);
+    EXPECT_EQ(same.hosting.longest_silence, order.hosting.longest_silence);
     EXPECT_EQ(same.configs[0].X_WD.p, config.X_WD.p);
     EXPECT_EQ(same.configs[0].X_WD.R.coeffs(), config.X_WD.R.coeffs());
     EXPECT_EQ(to_yaml(same.configs[0].options), to_yaml(config.options));
@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(Backends, Kept, ::testing::Values("openhaptics", "force
 
 TEST_P(Kept, DevicesAreThoseOfTheBackend) {
     const auto mine = devices::find_backend(GetParam())->make(order.configs, {});
-    const auto kept = keep_devices(order);
+    const auto kept = host_devices(order);
     EXPECT_EQ(kept->size(), 2);
     EXPECT_EQ(kept->paces(), mine->paces());
     EXPECT_EQ(kept->descriptions(), mine->descriptions());
@@ -129,7 +129,7 @@ TEST_P(Kept, DevicesThatAreNotThereAreToldOfWithTheirPlace) {
                        (hd ? "\nname: nobody" : "\nserial: 999"),
                    "rig.yaml");
     try {
-        keep_devices(order);
+        host_devices(order);
         FAIL();
     } catch (const Error& e) {
         EXPECT_EQ(e.problems().front().place.line, 12) << e.what();
@@ -138,7 +138,7 @@ TEST_P(Kept, DevicesThatAreNotThereAreToldOfWithTheirPlace) {
 }
 
 TEST_P(Kept, DevicesGiveTheForceOfEachTickWithoutAllocating) {
-    const auto kept = keep_devices(order);
+    const auto kept = host_devices(order);
     for (int life = 0; life < 2; ++life) {
         kept->activate();
         std::vector<devices::Reading> readings(2);
@@ -168,7 +168,7 @@ TEST_P(Kept, DevicesGiveTheForceOfEachTickWithoutAllocating) {
 }
 
 TEST_P(Kept, DevicesLoseTheirForceWhenTheProgramIsSilent) {
-    const auto kept = keep_devices(order);
+    const auto kept = host_devices(order);
     kept->activate();
     std::vector<devices::Reading> readings(2);
     int ticks = 0;
@@ -184,13 +184,13 @@ TEST_P(Kept, DevicesLoseTheirForceWhenTheProgramIsSilent) {
         again = std::max(again, ticks > 310 ? felt[0].force : 0.0);
         return ticks < 400;
     });
-    EXPECT_GT(gone, order.keeping.longest_silence - 0.005);
-    EXPECT_LT(gone, order.keeping.longest_silence + 0.5);  // allows for a busy machine
+    EXPECT_GT(gone, order.hosting.longest_silence - 0.005);
+    EXPECT_LT(gone, order.hosting.longest_silence + 0.5);  // allows for a busy machine
     EXPECT_GT(again, 1);  // whether force may come back is decided by the servo
 }
 
 TEST_P(Kept, DevicesAreAtZeroWhenTheProgramIsAboutToDie) {
-    const auto kept = keep_devices(order);
+    const auto kept = host_devices(order);
     kept->activate();
     std::vector<devices::Reading> readings(2);
     int ticks = 0;
@@ -221,7 +221,7 @@ TEST_P(Kept, DevicesAreAtZeroWhenTheProgramIsAboutToDie) {
     EXPECT_GT(again, 1);
 }
 
-/// The keeper that this process started last, which has no other children.
+/// The device host that this process started last, which has no other children.
 pid_t keeper_pid() {
     std::ifstream children("/proc/self/task/" + number_text(getpid()) + "/children");
     pid_t out = 0;
@@ -235,9 +235,9 @@ TEST_P(Kept, DevicesOfAKeeperThatWasStoppedLoseTheirForceAtOnceWhenItGoesOn) {
         for (devices::DeviceConfig& config : order.configs)
             config.options.set("watchdog", Node::plain_word("no"));
     }
-    const auto kept = keep_devices(order);
-    const pid_t keeper = keeper_pid();
-    ASSERT_GT(keeper, 0);
+    const auto kept = host_devices(order);
+    const pid_t host = keeper_pid();
+    ASSERT_GT(host, 0);
     kept->activate();
     std::vector<devices::Reading> readings(2);
     int ticks = 0;
@@ -247,31 +247,31 @@ TEST_P(Kept, DevicesOfAKeeperThatWasStoppedLoseTheirForceAtOnceWhenItGoesOn) {
         const bool last = ++ticks == 300;
         if (last) {
             EXPECT_GT(felt[0].force, 1);
-            kill(keeper, SIGSTOP);
-            waitpid(keeper, nullptr, WUNTRACED);
+            kill(host, SIGSTOP);
+            waitpid(host, nullptr, WUNTRACED);
         }
         kept->write(kPush);  // the request that it finds when resumed is old
         if (!last) return true;
         // longer than any force may last without a request, and than HD's missed callbacks
         std::this_thread::sleep_for(milliseconds(150));
         const int64_t begin = monotonic();
-        kill(keeper, SIGCONT);
+        kill(host, SIGCONT);
         gone = felt.gone_after(begin);
         return false;
     });
     // half of the further holding time of the force, on an idle machine
-    EXPECT_LT(gone, order.keeping.longest_silence / 2);
+    EXPECT_LT(gone, order.hosting.longest_silence / 2);
 }
 
-TEST(Keeper, ThatDoesNotAnswerIsGivenUpWhenTheProgramIsInterrupted) {
+TEST(Host, ThatDoesNotAnswerIsGivenUpWhenTheProgramIsInterrupted) {
     const testing::TemporaryFolder folder;
     Order order = order_on("forcedimension");
-    order.keeping.program = folder.write("silent", "#!/bin/sh\nexec sleep 60\n");
-    std::filesystem::permissions(order.keeping.program, std::filesystem::perms::owner_all);
+    order.hosting.program = folder.write("silent", "#!/bin/sh\nexec sleep 60\n");
+    std::filesystem::permissions(order.hosting.program, std::filesystem::perms::owner_all);
     const int64_t begin = monotonic();
-    order.keeping.given_up = [begin] { return monotonic() - begin > 100'000'000; };
+    order.hosting.given_up = [begin] { return monotonic() - begin > 100'000'000; };
     try {
-        keep_devices(order);
+        host_devices(order);
         FAIL();
     } catch (const Error& e) {
         EXPECT_NE(std::string(e.what()).find("interrupted while"), std::string::npos) << e.what();
@@ -281,9 +281,9 @@ TEST(Keeper, ThatDoesNotAnswerIsGivenUpWhenTheProgramIsInterrupted) {
 }
 
 TEST_P(Kept, DevicesHaveOneOwnerAtATime) {
-    const auto first = keep_devices(order);
+    const auto first = host_devices(order);
     const pid_t owner = keeper_pid();
-    const auto second = keep_devices(order);
+    const auto second = host_devices(order);
     first->activate();
     try {
         second->activate();
@@ -292,13 +292,13 @@ TEST_P(Kept, DevicesHaveOneOwnerAtATime) {
         const std::string told = e.what();
         EXPECT_NE(told.find("rig.yaml:11: error: serial: "), std::string::npos) << told;
         EXPECT_NE(
-            told.find("is in use by dihaptic-keeper (process " + number_text(owner) + " of user "),
+            told.find("is in use by dihaptic-host (process " + number_text(owner) + " of user "),
             std::string::npos)
             << told;
     }
     first->deactivate();
     second->activate();
-    // the kernel releases the claims of a killed keeper
+    // the kernel releases the claims of a killed device host
     kill(keeper_pid(), SIGKILL);
     first->activate();
 }
@@ -308,4 +308,4 @@ TEST(ForceOff, IsDoneWhereNothingIsKept) {
 }
 
 }  // namespace
-}  // namespace dihaptic::keeper::keeper_test
+}  // namespace dihaptic::host::host_test

@@ -1,4 +1,4 @@
-// The messages between the program and the keeper outside the cycle, as JSON: the devices to
+// The messages between the program and the device host outside the cycle, as JSON: the devices to
 // make, their properties, and errors.
 #pragma once
 
@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "keeper/order.h"
+#include "host/order.h"
 
-namespace dihaptic::keeper {
+namespace dihaptic::host {
 
 nlohmann::json to_json(const Order& order);
 Order order_of(const nlohmann::json& json);
@@ -26,4 +26,4 @@ void send(int socket, const nlohmann::json& message);
 std::optional<nlohmann::json> receive(int socket, Time most = Time(0),
                                       const std::function<bool()>& given_up = {});
 
-}  // namespace dihaptic::keeper
+}  // namespace dihaptic::host

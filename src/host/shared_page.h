@@ -1,9 +1,9 @@
-// The memory that the program and the keeper share: the data of each tick, and the
+// The memory that the program and the device host share: the data of each tick, and the
 // flag by which the program ends force.
 //
-// The program requests and the keeper answers; while devices pace, the keeper offers turns and the
-// program replies. Each side counts in its own words, on which the other side sleeps (futex).
-// Either side may die at any moment, so there is no lock here.
+// The program requests and the device host answers; while devices pace, the device host offers
+// turns and the program replies. Each side counts in its own words, on which the other side sleeps
+// (futex). Either side may die at any moment, so there is no lock here.
 #pragma once
 
 #include <atomic>
@@ -11,7 +11,7 @@
 
 #include "devices/device_group.h"
 
-namespace dihaptic::keeper {
+namespace dihaptic::host {
 
 constexpr size_t kMostDevices = 8;
 
@@ -19,19 +19,20 @@ enum class Request : uint32_t { read, write, pace, quit };
 
 struct SharedPage {
     // written by the program
-    std::atomic<uint32_t> bell{0};     ///< advances with each change below; the keeper sleeps on it
+    std::atomic<uint32_t> bell{
+        0};  ///< advances with each change below; the device host sleeps on it
     std::atomic<uint32_t> asked{0};    ///< number of requests
     std::atomic<uint32_t> replied{0};  ///< number of turns whose forces were given
     std::atomic<uint32_t> ended{0};    ///< 1: no more force, for any request
     std::atomic<uint32_t> closing{0};  ///< 1: pacing must end
-    /// Also written by the keeper when it ends; atomic, since its threads need no order here.
+    /// Also written by the device host when it ends; atomic, since its threads need no order here.
     std::atomic<Request> request{};
-    /// Time of the newest request, monotonic(): the keeper may have slept since.
+    /// Time of the newest request, monotonic(): the device host may have slept since.
     std::atomic<int64_t> asked_at{0};
     int64_t now = 0;  ///< time of a reading [ns]
     Wrench wrenches[kMostDevices];
 
-    // written by the keeper
+    // written by the device host
     std::atomic<uint32_t> answered{0};  ///< number of requests answered
     std::atomic<uint32_t> offered{0};   ///< number of turns offered, while devices pace
     std::atomic<uint32_t> off{0};       ///< 1: since `ended` no force is on any device
@@ -42,7 +43,7 @@ static_assert(std::atomic<Request>::is_always_lock_free);
 static_assert(std::atomic<int64_t>::is_always_lock_free);
 static_assert(sizeof(std::atomic<uint32_t>) == sizeof(uint32_t));
 
-/// Ends force: sets `ended`, and wakes the keeper. Async-signal-safe.
+/// Ends force: sets `ended`, and wakes the device host. Async-signal-safe.
 void end_force(SharedPage& page) noexcept;
 /// Sleeps while `word` is `old`, until woken or until `most` has passed. May wake without a cause,
 /// so the caller must check the word again. Allocates nothing.
@@ -58,4 +59,4 @@ bool await_change(const std::atomic<uint32_t>& word, uint32_t old, Time most,
 /// Nanoseconds of CLOCK_MONOTONIC. Async-signal-safe.
 int64_t monotonic() noexcept;
 
-}  // namespace dihaptic::keeper
+}  // namespace dihaptic::host

@@ -1,9 +1,9 @@
-#include "keeper/force_off.h"
+#include "host/force_off.h"
 
 #include <array>
 #include <ctime>
 
-namespace dihaptic::keeper {
+namespace dihaptic::host {
 namespace {
 
 /// The pages of active devices: a program has one group of them, rarely two.
@@ -47,4 +47,4 @@ bool force_off_now() noexcept {
     return all;
 }
 
-}  // namespace dihaptic::keeper
+}  // namespace dihaptic::host

@@ -1,7 +1,7 @@
-// Decider lets another program decide between a session's trials: a script that receives each
-// attempt's outcome, and sets the task's variables, chooses the next trial, or shows a message.
-// That program listens on a UNIX socket; the package dihaptic for Python does (docs/python.md). It
-// must belong to this user, or to root. Both sides send lines of JSON:
+// TrialController lets another program decide between a session's trials: a script that receives
+// each attempt's outcome, and sets the task's variables, chooses the next trial, or shows a
+// message. That program listens on a UNIX socket; the package dihaptic for Python does
+// (docs/python.md). It must belong to this user, or to root. Both sides send lines of JSON:
 //
 //   it       {"messages": ["Slower"]}
 //   session  {"session": "sessions/...", "outcomes": [...], "variables": [...], "patience_s": 1}
@@ -24,18 +24,18 @@
 #include <vector>
 
 #include "session/plan.h"
-#include "task/run/between.h"
+#include "task/run/trial_control.h"
 
 namespace dihaptic::session {
 
-class Decider {
+class TrialController {
   public:
     /// Connects, and receives the greeting. Throws Error when no program listens there, or when it
     /// sends anything else.
-    explicit Decider(const std::string& socket);
-    ~Decider();
-    Decider(const Decider&) = delete;
-    Decider& operator=(const Decider&) = delete;
+    explicit TrialController(const std::string& socket);
+    ~TrialController();
+    TrialController(const TrialController&) = delete;
+    TrialController& operator=(const TrialController&) = delete;
 
     /// Adds the messages that the program may show to the plan's. Throws Error when the plan has no
     /// trials.
@@ -45,7 +45,7 @@ class Decider {
     void begin(const std::string& folder, bool waits,
                std::function<void(const std::string& what)> waiting = {});
     /// The interface for the director's questions; null before begin().
-    task::Between* between() const;
+    task::TrialControl* between() const;
     /// Ends the exchange; returns its faults, in sentences.
     std::vector<std::string> finish();
 

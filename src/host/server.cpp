@@ -1,9 +1,9 @@
-#include "keeper/server.h"
+#include "host/server.h"
 
 #include <algorithm>
 #include <latch>
 
-namespace dihaptic::keeper {
+namespace dihaptic::host {
 namespace {
 
 /// Time between the watcher's checks if nothing wakes it.
@@ -18,9 +18,9 @@ constexpr Time kIdle = std::chrono::seconds(1);
 Server::Server(SharedPage& page, const Order& order, const InRealTime& in_real_time)
     : page_(page),
       in_real_time_(in_real_time),
-      longest_silence_(from_seconds(order.keeping.longest_silence)),
+      longest_silence_(from_seconds(order.hosting.longest_silence)),
       tick_(from_seconds(order.tick)),
-      priority_(order.keeping.priority),
+      priority_(order.hosting.priority),
       backend_(order.backend) {
     for (const devices::DeviceConfig& config : order.configs) places_.push_back(config.place);
     const devices::Backend* const backend = devices::find_backend(order.backend);
@@ -93,7 +93,7 @@ void Server::serve_all() noexcept {
             wait_on(page_.bell, bell, holding_ ? left : kIdle);
             continue;
         }
-        // after being stopped, a keeper finds requests that have waited meanwhile
+        // after being stopped, a device host finds requests that have waited meanwhile
         heard = page_.asked_at.load(std::memory_order_relaxed);
         const Request request = page_.request.load(std::memory_order_relaxed);
         if (request == Request::quit) return;
@@ -233,4 +233,4 @@ void Server::watch() noexcept {
     }
 }
 
-}  // namespace dihaptic::keeper
+}  // namespace dihaptic::host

@@ -1,4 +1,4 @@
-#include "keeper/shared_page.h"
+#include "host/shared_page.h"
 
 #include <linux/futex.h>
 #include <sys/syscall.h>
@@ -7,7 +7,7 @@
 #include <climits>
 #include <ctime>
 
-namespace dihaptic::keeper {
+namespace dihaptic::host {
 namespace {
 
 void futex(const std::atomic<uint32_t>& word, int what, uint32_t value, const timespec* most) {
@@ -53,4 +53,4 @@ bool await_change(const std::atomic<uint32_t>& word, uint32_t old, Time most, Ti
     return true;
 }
 
-}  // namespace dihaptic::keeper
+}  // namespace dihaptic::host

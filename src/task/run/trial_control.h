@@ -1,7 +1,7 @@
-// Between links a task's director to a program that makes decisions between trials, outside the
-// tick: a script that chooses the variables of the next trial, or the next trial itself. In real
-// time neither side waits for the other; late decisions are discarded, and the trials continue as
-// in the file. On the virtual clock the director waits, so that a rehearsal makes the same
+// TrialControl links a task's director to a program that makes decisions between trials, outside
+// the tick: a script that chooses the variables of the next trial, or the next trial itself. In
+// real time neither side waits for the other; late decisions are discarded, and the trials continue
+// as in the file. On the virtual clock the director waits, so that a rehearsal makes the same
 // decisions as a session.
 #pragma once
 
@@ -44,11 +44,11 @@ struct Decision {
     }
 };
 
-class Between {
+class TrialControl {
   public:
     /// `patience`: time limit for the answer after an attempt's end, in real time [s].
     /// `waits`: the clock is virtual.
-    Between(double patience, bool waits) : patience_(patience), waits_(waits) {}
+    TrialControl(double patience, bool waits) : patience_(patience), waits_(waits) {}
 
     double patience() const noexcept { return patience_; }
 

@@ -1,4 +1,4 @@
-#include "keeper/keeper.h"
+#include "host/host.h"
 
 #include <sys/mman.h>
 #include <sys/time.h>
@@ -9,11 +9,11 @@
 #include <cstdlib>
 #include <thread>
 
-#include "keeper/force_off.h"
-#include "keeper/messages.h"
-#include "keeper/server.h"
+#include "host/force_off.h"
+#include "host/messages.h"
+#include "host/server.h"
 
-namespace dihaptic::keeper {
+namespace dihaptic::host {
 namespace {
 
 using nlohmann::json;
@@ -46,7 +46,7 @@ class Control {
         try {
             const std::string what = message.value("do", "");
             if (what == "make") return make(message);
-            if (server_ == nullptr) return fail("the keeper has no devices yet");
+            if (server_ == nullptr) return fail("the device host has no devices yet");
             if (what == "activate") server_->activate();
             if (what == "deactivate") server_->deactivate();
             if (what == "explain") return {{"said", server_->explain(message.at("device"))}};
@@ -79,7 +79,8 @@ int keep(const InRealTime& in_real_time) {
         mmap(nullptr, sizeof(SharedPage), PROT_READ | PROT_WRITE, MAP_SHARED, kMemory, 0);
     if (at == MAP_FAILED) return EXIT_FAILURE;
     auto& page = *static_cast<SharedPage*>(at);
-    // the keeper ends with the program or with the machine, but not through the terminal's keys
+    // the device host ends with the program or with the machine, but not through the terminal's
+    // keys
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP, SIGTTIN, SIGTTOU})
         std::signal(signal, SIG_IGN);
     for (const int signal : kErrors) std::signal(signal, on_own_error);
@@ -99,4 +100,4 @@ int keep(const InRealTime& in_real_time) {
     return EXIT_SUCCESS;
 }
 
-}  // namespace dihaptic::keeper
+}  // namespace dihaptic::host

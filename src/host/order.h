@@ -1,4 +1,4 @@
-// The program's order to a keeper: the devices to make, and the rules for owning them.
+// The program's order to a device host: the devices to make, and the rules for owning them.
 #pragma once
 
 #include <functional>
@@ -7,14 +7,14 @@
 
 #include "devices/device_group.h"
 
-namespace dihaptic::keeper {
+namespace dihaptic::host {
 
-/// The settings of a keeper.
-struct Keeping {
-    std::string program;            ///< the keeper's path: program() of kept_devices.h
+/// The settings of a device host.
+struct Hosting {
+    std::string program;            ///< the device host's path: program() of hosted_devices.h
     double longest_silence = 0.04;  ///< of the program, after which force is set to zero [s]
     int priority = 80;              ///< for SCHED_FIFO, of the thread that serves the ticks
-    /// Returns true to end the wait for a keeper that does not answer, e.g. after
+    /// Returns true to end the wait for a device host that does not answer, e.g. after
     /// Ctrl-C. May be empty.
     std::function<bool()> given_up = {};
 };
@@ -24,7 +24,7 @@ struct Order {
     std::string backend;
     std::vector<devices::DeviceConfig> configs;
     double tick = 1e-3;  ///< [s]
-    Keeping keeping;
+    Hosting hosting;
 };
 
-}  // namespace dihaptic::keeper
+}  // namespace dihaptic::host

@@ -1,4 +1,4 @@
-#include "keeper/at_death.h"
+#include "host/at_death.h"
 
 #include <unistd.h>
 
@@ -7,9 +7,9 @@
 #include <csignal>
 #include <cstring>
 
-#include "keeper/force_off.h"
+#include "host/force_off.h"
 
-namespace dihaptic::keeper {
+namespace dihaptic::host {
 namespace {
 
 /// Async-signal-safe.
@@ -49,4 +49,4 @@ void take_force_away_at_death() {
     for (const int signal : kErrors) sigaction(signal, &action, nullptr);
 }
 
-}  // namespace dihaptic::keeper
+}  // namespace dihaptic::host

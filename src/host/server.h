@@ -1,4 +1,5 @@
-// The keeper's server: it serves the ticks of the keeper's devices, and takes their force away.
+// The device host's server: it serves the ticks of the device host's devices, and takes their force
+// away.
 //
 // It has two threads. One serves the program's requests in the cycle; only it reads and writes the
 // devices then. The other watches the first, and stops the devices when a call to the
@@ -10,11 +11,11 @@
 #include <thread>
 
 #include "devices/device_claim.h"
-#include "keeper/keeper.h"
-#include "keeper/order.h"
-#include "keeper/shared_page.h"
+#include "host/host.h"
+#include "host/order.h"
+#include "host/shared_page.h"
 
-namespace dihaptic::keeper {
+namespace dihaptic::host {
 
 class Server {
   public:
@@ -30,8 +31,8 @@ class Server {
     /// Ends the threads and switches the devices off, force first.
     void deactivate();
     std::string explain(int device) const { return devices_->explain(device); }
-    /// Stops the devices when the keeper itself is about to die. Whether a manufacturer's library
-    /// can be called from a signal handler is unknown, but there is no other means.
+    /// Stops the devices when the device host itself is about to die. Whether a manufacturer's
+    /// library can be called from a signal handler is unknown, but there is no other means.
     void stop_at_death() noexcept {
         if (devices_->active() && devices_->can_stop()) devices_->stop();
     }
@@ -75,4 +76,4 @@ class Server {
     std::thread watcher_;
 };
 
-}  // namespace dihaptic::keeper
+}  // namespace dihaptic::host

@@ -1,5 +1,5 @@
 // What decides between trials is asked once for each attempt, and late answers count for nothing.
-#include "task/run/between.h"
+#include "task/run/trial_control.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "session/test/allocations.h"
 #include "session/test/reaches.h"
 
-namespace dihaptic::task::between_test {
+namespace dihaptic::task::trial_control_test {
 namespace {
 
 Ended ended(int trial) {
@@ -24,8 +24,8 @@ Decision decision(int64_t number, int next) {
     return out;
 }
 
-TEST(Between, AnAnswerCountsForItsQuestionAlone) {
-    Between between(1, false);
+TEST(TrialControl, AnAnswerCountsForItsQuestionAlone) {
+    TrialControl between(1, false);
     EXPECT_FALSE(between.question());
     between.ask(ended(1));
     const auto first = between.question();
@@ -42,12 +42,12 @@ TEST(Between, AnAnswerCountsForItsQuestionAlone) {
     EXPECT_EQ(between.answer()->next, 7);
 }
 
-TEST(Between, ADecisionLeavesWhatItDoesNotName) {
+TEST(TrialControl, ADecisionLeavesWhatItDoesNotName) {
     for (const double value : Decision{}.variables) EXPECT_TRUE(std::isnan(value));
 }
 
-TEST(Between, OnTheVirtualClockTheDirectorWaits) {
-    Between between(1, true);
+TEST(TrialControl, OnTheVirtualClockTheDirectorWaits) {
+    TrialControl between(1, true);
     between.ask(ended(1));
     std::jthread other([&] {
         std::this_thread::sleep_for(std::chrono::milliseconds(30));
@@ -59,15 +59,15 @@ TEST(Between, OnTheVirtualClockTheDirectorWaits) {
 }
 
 /// In real time, and though nobody ever answers.
-TEST(Between, NoTickAllocatesOrWaits) {
+TEST(TrialControl, NoTickAllocatesOrWaits) {
     session::Files files;
-    Between between(0.1, false);
+    TrialControl between(0.1, false);
     session::expect_no_allocation(session::make_plan(files.request()), 120, &between);
     EXPECT_EQ(between.late(), 9) << "once before each trial";
 }
 
-TEST(Between, NobodyIsWaitedForWhoHasLeft) {
-    Between between(1, true);
+TEST(TrialControl, NobodyIsWaitedForWhoHasLeft) {
+    TrialControl between(1, true);
     between.ask(ended(1));
     between.leave();
     EXPECT_EQ(between.answer(), nullptr);
@@ -75,4 +75,4 @@ TEST(Between, NobodyIsWaitedForWhoHasLeft) {
 }
 
 }  // namespace
-}  // namespace dihaptic::task::between_test
+}  // namespace dihaptic::task::trial_control_test

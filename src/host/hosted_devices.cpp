@@ -1,4 +1,4 @@
-#include "keeper/kept_devices.h"
+#include "host/hosted_devices.h"
 
 #include <signal.h>
 #include <sys/mman.h>
@@ -12,22 +12,22 @@
 #include "base/child.h"
 #include "base/companion.h"
 #include "base/unix_socket.h"
-#include "keeper/force_off.h"
-#include "keeper/keeper.h"
-#include "keeper/messages.h"
-#include "keeper/shared_page.h"
+#include "host/force_off.h"
+#include "host/host.h"
+#include "host/messages.h"
+#include "host/shared_page.h"
 
-namespace dihaptic::keeper {
+namespace dihaptic::host {
 namespace {
 
 using nlohmann::json;
 
-/// A keeper is abandoned when its silence exceeds the program's tolerated silence
+/// A device host is abandoned when its silence exceeds the program's tolerated silence
 /// by this time.
 constexpr Time kPatience = std::chrono::milliseconds(20);
 /// Limit for making and activating devices: opening and calibrating them is slow.
 constexpr Time kSetUp = std::chrono::seconds(60);
-/// Limit for deactivating devices and ending their keeper.
+/// Limit for deactivating devices and ending their device host.
 constexpr Time kSetDown = std::chrono::seconds(2);
 /// Limit for the first tick of devices that pace.
 constexpr Time kBeginning = std::chrono::seconds(3);
@@ -36,14 +36,14 @@ constexpr Time kSilence = std::chrono::milliseconds(200);
 /// Time for which an answer is awaited without sleeping: most arrive sooner than a wake-up.
 constexpr Time kHope = std::chrono::microseconds(20);
 
-/// A keeper's process, its socket and the page shared with it.
+/// A device host's process, its socket and the page shared with it.
 class Process {
   public:
     explicit Process(const std::string& program) {
         auto [ours, its] = unix_socket_pair(SOCK_SEQPACKET);
         if (!ours) throw failure();
         socket_ = std::move(ours);
-        const Descriptor memory(memfd_create("dihaptic keeper", MFD_CLOEXEC));
+        const Descriptor memory(memfd_create("dihaptic device host", MFD_CLOEXEC));
         void* const at = memory && ftruncate(memory.get(), sizeof(SharedPage)) == 0
                              ? mmap(nullptr, sizeof(SharedPage), PROT_READ | PROT_WRITE, MAP_SHARED,
                                     memory.get(), 0)
@@ -64,7 +64,7 @@ class Process {
     /// Remains false after a missing answer.
     bool answers() const { return answers_; }
 
-    /// Sends a message and waits for the answer. Throws Error with the keeper's
+    /// Sends a message and waits for the answer. Throws Error with the device host's
     /// problems, or if it does not answer within `most` or before `given_up` returns true.
     json ask(const json& message, Time most, const std::function<bool()>& given_up = {}) {
         std::optional<json> answer;
@@ -96,7 +96,7 @@ class Process {
     void start(const std::string& program, int socket, int memory) {
         static_assert(kSocket == 3 && kMemory == 4);
         constexpr int kKept = Launch::kKept;
-        // the keeper gets neither the terminal's keys nor the signals blocked or ignored here
+        // the device host gets neither the terminal's keys nor the signals blocked or ignored here
         const int failed = child_.start({program,
                                          {},
                                          {kKept, kKept, kKept, socket, memory},
@@ -105,7 +105,7 @@ class Process {
     }
 
     void end() {
-        socket_.close();  // this ends the keeper
+        socket_.close();  // this ends the device host
         const int64_t begin = monotonic();
         while (!child_.has_ended()) {
             if (monotonic() - begin > kSetDown.count()) kill(child_.process(), SIGKILL);
@@ -121,15 +121,15 @@ class Process {
     bool answers_ = true;
 };
 
-class KeptDevices final : public devices::DeviceGroup {
+class HostedDevices final : public devices::DeviceGroup {
   public:
-    KeptDevices(Order order, std::unique_ptr<Process> process, const json& made)
+    HostedDevices(Order order, std::unique_ptr<Process> process, const json& made)
         : DeviceGroup(infos_of(made)),
           order_(std::move(order)),
           paces_(made.at("paces")),
-          limit_(from_seconds(order_.keeping.longest_silence) + kPatience),
+          limit_(from_seconds(order_.hosting.longest_silence) + kPatience),
           process_(std::move(process)) {}
-    ~KeptDevices() override { deactivate(); }
+    ~HostedDevices() override { deactivate(); }
 
     bool paces() const override { return paces_; }
     bool can_stop() const override { return true; }
@@ -146,16 +146,17 @@ class KeptDevices final : public devices::DeviceGroup {
   private:
     void do_activate() override {
         if (process_ == nullptr || !process_->answers()) {
-            // stored only once its devices are made: otherwise the next try starts another keeper
+            // stored only once its devices are made: otherwise the next try starts another device
+            // host
             process_.reset();
-            auto fresh = std::make_unique<Process>(order_.keeping.program);
-            fresh->ask(to_json(order_), kSetUp, order_.keeping.given_up);
+            auto fresh = std::make_unique<Process>(order_.hosting.program);
+            fresh->ask(to_json(order_), kSetUp, order_.hosting.given_up);
             process_ = std::move(fresh);
         }
         SharedPage& page = process_->page();
         page.ended.store(0);
         page.off.store(0);
-        process_->ask({{"do", "activate"}}, kSetUp, order_.keeping.given_up);
+        process_->ask({{"do", "activate"}}, kSetUp, order_.hosting.given_up);
         lost_ = false;
         watch_over(&page);
     }
@@ -168,11 +169,11 @@ class KeptDevices final : public devices::DeviceGroup {
         } catch (const Error&) {
             lost_ = true;
         }
-        // the next activation starts another keeper
+        // the next activation starts another device host
         if (lost_) process_.reset();
     }
 
-    /// Waits until the keeper has answered all requests. After a wait longer than `most`, this
+    /// Waits until the device host has answered all requests. After a wait longer than `most`, this
     /// remains false.
     bool await_answer(Time most) noexcept {
         SharedPage& page = process_->page();
@@ -237,8 +238,8 @@ class KeptDevices final : public devices::DeviceGroup {
         while (tick()) std::this_thread::sleep_for(std::chrono::duration<double>(order_.tick));
     }
 
-    /// Calls `tick` for each turn offered by the keeper, until `tick` returns false; returns true
-    /// if the keeper falls silent first.
+    /// Calls `tick` for each turn offered by the device host, until `tick` returns false; returns
+    /// true if the device host falls silent first.
     bool take_turns(uint32_t seen, const std::function<bool()>& tick) {
         SharedPage& page = process_->page();
         Time most = kBeginning;
@@ -267,14 +268,14 @@ class KeptDevices final : public devices::DeviceGroup {
     bool paces_;
     Time limit_;
     std::unique_ptr<Process> process_;  // null: it was abandoned
-    bool in_turn_ = false;              // the keeper offered a turn, and waits for its forces
-    bool lost_ = false;                 // the keeper no longer answers
+    bool in_turn_ = false;              // the device host offered a turn, and waits for its forces
+    bool lost_ = false;                 // the device host no longer answers
 };
 
 }  // namespace
 
 std::string program() {
-    constexpr const char* kProgram = "dihaptic-keeper";
+    constexpr const char* kProgram = "dihaptic-host";
     std::string out = companion(kProgram);
     if (out.empty()) {
         throw Error(
@@ -284,10 +285,10 @@ std::string program() {
     return out;
 }
 
-std::unique_ptr<devices::DeviceGroup> keep_devices(const Order& order) {
-    auto process = std::make_unique<Process>(order.keeping.program);
-    const json made = process->ask(to_json(order), kSetUp, order.keeping.given_up);
-    return std::make_unique<KeptDevices>(order, std::move(process), made);
+std::unique_ptr<devices::DeviceGroup> host_devices(const Order& order) {
+    auto process = std::make_unique<Process>(order.hosting.program);
+    const json made = process->ask(to_json(order), kSetUp, order.hosting.given_up);
+    return std::make_unique<HostedDevices>(order, std::move(process), made);
 }
 
-}  // namespace dihaptic::keeper
+}  // namespace dihaptic::host

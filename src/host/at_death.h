@@ -1,11 +1,11 @@
 // Takes force away from all kept devices when the program crashes, and reports this.
 #pragma once
 
-namespace dihaptic::keeper {
+namespace dihaptic::host {
 
 /// Installs handlers for signals caused by errors of the program (SIGSEGV, SIGBUS, SIGFPE,
 /// SIGILL, SIGSYS, SIGTRAP, and SIGABRT, from std::terminate), in any thread: force is
 /// taken away first, a message goes to standard error, and the program ends as usual.
 void take_force_away_at_death();
 
-}  // namespace dihaptic::keeper
+}  // namespace dihaptic::host

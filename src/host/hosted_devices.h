@@ -1,0 +1,22 @@
+// The program's side of real devices owned by another process, the device host.
+//
+// The device host (host.h) is a small program in which nothing else runs. It takes force away when
+// this program dies, stops or hangs, for any cause. README.md describes the communication between
+// the two, and its times.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "host/order.h"
+
+namespace dihaptic::host {
+
+/// Path of the device host's program, which is beside this one. Throws Error if it is missing.
+std::string program();
+
+/// Starts a device host that makes the devices of `order`. Throws Error with their backend's
+/// message.
+std::unique_ptr<devices::DeviceGroup> host_devices(const Order& order);
+
+}  // namespace dihaptic::host
