@@ -416,10 +416,17 @@ struct Insert {
     }
 };
 
+/// Whether a block is done in each round, or once beside them: before the first or after the last.
+enum class Once { no, before, after };
+constexpr auto enum_names(Once) {
+    return std::array{"no", "before", "after"};
+}
+
 struct Block {
     std::string name;
     TrialKind kind = TrialKind::baseline;
-    RefList<Condition> conditions;   ///< empty: all
+    RefList<Condition> conditions;  ///< empty: all
+    Once once = Once::no;
     int repeats = 1;                 ///< number of times that each condition is run
     Order order = Order::shuffled;   ///< order of the conditions, generated for each repeat
     Refs<PerturbationSpec> perturb;  ///< they act together
@@ -436,6 +443,9 @@ struct Block {
         v("name", name, Field::text().required().says("Name of the block."));
         v("kind", kind, says("Kind of the block's trials, for the analysis."));
         v("conditions", conditions, says("Conditions of the block; all if omitted."));
+        v("once", once,
+          says("Whether the block is done once beside the rounds, before the first or after the "
+               "last, and belongs to none."));
         v("repeats", repeats,
           Field::number().within(1, 10000).says("Number of times that each condition is run."));
         v("order", order, says("Order of the conditions, generated for each repeat."));

@@ -85,8 +85,11 @@ void plan_cells(const Planning& given, const BodyPlanner& bodies, const SeenPlan
     const auto or_one = [&](const std::vector<Condition>& list) {
         return list.empty() ? std::vector<Condition>{nothing} : list;
     };
+    std::vector<Condition> rounds = plan.task.rounds;
+    const auto beside = [](const Block& block) { return block.once != Once::no; };
+    if (rounds.empty() || std::ranges::any_of(plan.task.blocks, beside)) rounds.push_back(nothing);
     std::set<std::string> said;  // a mistake occurs in every cell, but is reported once
-    for (const Condition& round : or_one(plan.task.rounds)) {
+    for (const Condition& round : rounds) {
         for (const Condition& condition : or_one(plan.task.conditions)) {
             Diagnostics found;
             plan.cells.push_back(planner.cell(round, condition, found));

@@ -70,7 +70,7 @@ class BlockChecker {
                                   insert.gap, insert.count, trials),
                       "Insert fewer, reduce 'gap', or increase the block's repeats.");
         }
-        trials_ += trials * std::max<size_t>(1, task_.rounds.size());
+        trials_ += trials * (block.once == Once::no ? std::max<size_t>(1, task_.rounds.size()) : 1);
         if (trials_ > kMostTrials)
             error(block.place, "repeats",
                   fmt::format("makes more than {} trials in total", kMostTrials),

@@ -50,12 +50,27 @@ std::vector<Condition> crossed(const Task& task) {
     return out;
 }
 
-void check_named(const Task& task, Diagnostics& diagnostics) {
-    for (const Condition& condition : task.conditions) {
-        const Node& levels = condition.factors;
+void check_named(const std::vector<Condition>& owners, Diagnostics& diagnostics) {
+    for (const Condition& owner : owners) {
+        const Node& levels = owner.factors;
         if (levels.kind == Node::Kind::mapping || levels.kind == Node::Kind::null) continue;
         diagnostics.error(levels.place, "factors", "must have a key for each factor",
                           "Write e.g. factors: { mass_g: 100 }.");
+    }
+}
+
+bool has(const std::vector<Condition>& owners, const std::string& factor) {
+    return std::any_of(owners.begin(), owners.end(),
+                       [&](const Condition& owner) { return !level_of(owner, factor).empty(); });
+}
+
+void check_apart(const Task& task, Diagnostics& diagnostics) {
+    for (const Factor& factor : factors_of(task)) {
+        if (!has(task.conditions, factor.factor) || !has(task.rounds, factor.factor)) continue;
+        diagnostics.error(
+            factor.place, "factors",
+            fmt::format("'{}' is a factor of conditions and of rounds", factor.factor),
+            "Give it to one of the two, or use two names.");
     }
 }
 
@@ -84,7 +99,9 @@ bool check_cross(const Task& task, Diagnostics& diagnostics) {
 }  // namespace
 
 void cross_factors(Task& task, Diagnostics& diagnostics) {
-    check_named(task, diagnostics);
+    check_named(task.conditions, diagnostics);
+    check_named(task.rounds, diagnostics);
+    check_apart(task, diagnostics);
     if (task.cross.empty() || !check_cross(task, diagnostics)) return;
     check_names(task.conditions, "conditions", diagnostics);
     std::vector<Condition> made = crossed(task);
@@ -102,20 +119,27 @@ void cross_factors(Task& task, Diagnostics& diagnostics) {
 
 std::vector<Factor> factors_of(const Task& task) {
     std::vector<Factor> out;
-    for (const Condition& condition : task.conditions) {
-        for (const auto& [name, level] : condition.factors.entries) {
-            const auto same = [&own = name](const Factor& f) { return f.factor == own; };
-            auto factor = std::find_if(out.begin(), out.end(), same);
-            if (factor == out.end()) {
-                out.push_back({name, {}, level.place});
-                factor = out.end() - 1;
-            }
-            if (std::find(factor->levels.begin(), factor->levels.end(), level.scalar) ==
-                factor->levels.end())
-                factor->levels.push_back(level.scalar);
+    const auto add = [&](const std::string& name, const Node& level) {
+        const auto same = [&](const Factor& f) { return f.factor == name; };
+        auto factor = std::find_if(out.begin(), out.end(), same);
+        if (factor == out.end()) {
+            out.push_back({name, {}, level.place});
+            factor = out.end() - 1;
+        }
+        const std::vector<std::string>& known = factor->levels;
+        if (std::find(known.begin(), known.end(), level.scalar) == known.end())
+            factor->levels.push_back(level.scalar);
+    };
+    for (const auto* owners : {&task.conditions, &task.rounds}) {
+        for (const Condition& owner : *owners) {
+            for (const auto& [name, level] : owner.factors.entries) add(name, level);
         }
     }
     return out;
+}
+
+const std::vector<Condition>& owners_of(const Task& task, const std::string& factor) {
+    return has(task.conditions, factor) ? task.conditions : task.rounds;
 }
 
 std::string level_of(const Condition& condition, const std::string& factor) {

@@ -1,6 +1,6 @@
-// The factors of a task's conditions. Crossed, they make the conditions: each has one level of each
-// factor, and a name joined from the levels, e.g. "200 suede". Conditions that are written by hand
-// can have levels too.
+// The factors of a task's conditions and rounds. Crossed, they make the conditions: each has one
+// level of each factor, and a name joined from the levels, e.g. "200 suede". Conditions that are
+// written by hand can have levels too.
 #pragma once
 
 #include "task/file/task.h"
@@ -11,10 +11,13 @@ namespace dihaptic::task {
 /// them. A second call changes nothing. Problems go to `diagnostics`.
 void cross_factors(Task& task, Diagnostics& diagnostics);
 
-/// The factors of the conditions, each with the levels that occur, in order of occurrence.
+/// The factors of the conditions, then those of the rounds, each with the levels that occur, in
+/// order of occurrence.
 std::vector<Factor> factors_of(const Task& task);
 
-/// The condition's level of a factor; empty if it has none.
+/// The level of a factor that a condition, or a round, has; empty if it has none.
 std::string level_of(const Condition& condition, const std::string& factor);
+/// The conditions, or the rounds, to which the factor belongs.
+const std::vector<Condition>& owners_of(const Task& task, const std::string& factor);
 
 }  // namespace dihaptic::task

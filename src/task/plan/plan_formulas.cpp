@@ -27,6 +27,7 @@ class Definer {
 
     void define() {
         const Task& task = plan_.task;
+        if (!task.rounds.empty()) define_round(task);
         for (const DrawSpec& draw : task.draws) define(draw);
         for (const Factor& factor : factors_of(task)) define(factor);
         for (const Variable& variable : task.variables)
@@ -79,6 +80,15 @@ class Definer {
         return out;
     }
 
+    /// The name of the round.
+    void define_round(const Task& task) {
+        const std::vector<std::string> names = names_of(task.rounds);
+        const Symbol symbol = plan_.quantities.define_text("round", names, Kind::factor);
+        std::vector<double> levels = codes(names);
+        levels.push_back(kUnmeasured);  // beside the rounds
+        plan_.symbols.factors.push_back({symbol.slot, levels, true});
+    }
+
     void define(const DrawSpec& draw) {
         check(draw, diagnostics_);
         if (!check_name(draw.name, draw.place, "name")) return;
@@ -101,16 +111,19 @@ class Definer {
                                                                    factor.levels, Kind::factor)
                                     : number(factor.factor, Kind::factor);
         std::vector<double> levels;
-        for (const Condition& condition : plan_.task.conditions) {
-            const std::string level = level_of(condition, factor.factor);
+        const std::vector<Condition>& owners = owners_of(plan_.task, factor.factor);
+        for (const Condition& owner : owners) {
+            const std::string level = level_of(owner, factor.factor);
             levels.push_back(texts ? plan_.quantities.text(level)
                                    : unit.si * *finite_number(level));
         }
-        plan_.symbols.factors.push_back({symbol.slot, levels});
+        const bool of_rounds = &owners == &plan_.task.rounds;
+        if (of_rounds) levels.push_back(kUnmeasured);  // beside the rounds
+        plan_.symbols.factors.push_back({symbol.slot, levels, of_rounds});
     }
 
     bool all_have(const Factor& factor) {
-        for (const Condition& condition : plan_.task.conditions) {
+        for (const Condition& condition : owners_of(plan_.task, factor.factor)) {
             if (!level_of(condition, factor.factor).empty()) continue;
             diagnostics_.error(
                 condition.place, "factors",
@@ -283,11 +296,6 @@ std::optional<CompiledFormula> compile_formula(const Formula& formula, const Tas
 }
 
 void plan_formulas(TaskPlan& plan, Diagnostics& diagnostics) {
-    for (const Condition& round : plan.task.rounds) {
-        if (round.factors.kind != Node::Kind::null)
-            diagnostics.error(round.place, "factors", "are only for conditions, not for rounds",
-                              "Leave them out, or add the factor to 'cross'.");
-    }
     Definer(plan, diagnostics).define();
     if (!diagnostics.has_errors()) compile_all(plan, diagnostics);
 }

@@ -143,7 +143,7 @@ struct TaskPlan {
             return state >= 0 && (during[static_cast<size_t>(perturbation)] >> state & 1u) != 0;
         }
     };
-    std::vector<Cell> cells;            ///< by round, then condition
+    std::vector<Cell> cells;            ///< by round, and those beside all rounds; then condition
     size_t bodies = 0;                  ///< number in the scene
     std::vector<double> finger_radius;  ///< radius of the sphere around each finger's shape [m]
     double longest_delay = 0;           ///< in the loads [s]
@@ -182,7 +182,8 @@ struct TaskPlan {
         };
         struct Levels {
             int slot;
-            std::vector<double> by_condition;
+            std::vector<double> levels;  ///< by condition, or by round
+            bool of_round = false;
         };
         std::vector<Draw> draws;
         std::vector<Levels> factors;

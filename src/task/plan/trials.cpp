@@ -233,12 +233,14 @@ void draw_for(std::vector<Trial>& trials, const Task& task, int number, uint64_t
 void add_own_cells(const Task& task, const std::vector<Factor>& factors, const Trial& trial,
                    std::vector<Table::Cell>& row) {
     for (const Factor& factor : factors) {
-        const std::string level =
-            level_of(task.conditions[static_cast<size_t>(trial.condition)], factor.factor);
+        const std::vector<Condition>& owners = owners_of(task, factor.factor);
+        const auto of =
+            static_cast<size_t>(&owners == &task.rounds ? trial.round : trial.condition);
+        const std::string level = of < owners.size() ? level_of(owners[of], factor.factor) : "";
         if (are_texts(factor.levels)) {
             row.emplace_back(level);
         } else {
-            row.emplace_back(*finite_number(level));
+            row.emplace_back(finite_number(level).value_or(kUnmeasured));
         }
     }
     for (size_t k = 0; k < task.draws.size(); ++k) {
@@ -315,11 +317,11 @@ std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed) {
     // participants are counted from 1: the first one gets the first row
     const int row = std::max(0, number - 1);
     Random rounds_random(seed, stream_of("rounds", number));
-    const int rounds = std::max(1, static_cast<int>(task.rounds.size()));
     std::vector<Trial> out;
     int block_number = 0;
-    for (const int round : ordered(rounds, task.round_order, row, rounds_random)) {
+    const auto add = [&](int round, Once once) {
         for (size_t b = 0; b < task.blocks.size(); ++b) {
+            if (task.blocks[b].once != once) continue;
             // each block has its own random stream: a change to one does not affect the others
             const std::string stream = fmt::format("trials of block {} in round {}", b, round);
             Random random(seed, stream);
@@ -332,7 +334,12 @@ std::vector<Trial> make_trials(const Task& task, int number, uint64_t seed) {
                 out.push_back(trial);
             }
         }
-    }
+    };
+    const auto rounds = static_cast<int>(task.rounds.size());
+    add(rounds, Once::before);
+    for (const int round : ordered(std::max(1, rounds), task.round_order, row, rounds_random))
+        add(round, Once::no);
+    add(rounds, Once::after);
     draw_for(out, task, number, seed);
     return out;
 }
@@ -402,7 +409,8 @@ std::vector<Trial> read_trial_list(const Task& task, const std::string& file) {
         read_numbers(t, row, bad);
         t.block = blocks(row[2]);
         const auto kind = enum_named<TrialKind>(row[4]);
-        t.round = task.rounds.empty() ? 0 : rounds(row[5]);
+        const bool beside = task.rounds.empty() || row[5].empty();
+        t.round = beside ? static_cast<int>(task.rounds.size()) : rounds(row[5]);
         t.condition = task.conditions.empty() ? 0 : conditions(row[6]);
         t.perturb = read_perturbations(perturbations, row[7]);
         t.procedure = procedures(row[9]);

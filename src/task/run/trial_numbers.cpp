@@ -89,9 +89,10 @@ void TrialNumbers::begin(int trial, int attempt, std::span<const frame::Variable
     const TaskPlan::Symbols& symbols = plan_.symbols;
     for (size_t i = 0; i < symbols.draws.size(); ++i)
         quantities_.set(symbols.draws[i].slot, symbols.draws[i].value(now.draws[i]));
-    const auto condition = static_cast<size_t>(now.condition);
-    for (size_t i = 0; i < symbols.factors.size(); ++i)
-        quantities_.set(symbols.factors[i].slot, symbols.factors[i].by_condition[condition]);
+    for (const TaskPlan::Symbols::Levels& factor : symbols.factors) {
+        const int of = factor.of_round ? now.round : now.condition;
+        quantities_.set(factor.slot, factor.levels[static_cast<size_t>(of)]);
+    }
     quantities_.set(Quantities::kTimeInState, 0);
     quantities_.set(Quantities::kTimeInTrial, 0);
     quantities_.set(Quantities::kTrial, trial_);

@@ -109,6 +109,61 @@ TEST(CustomMeasures, OfWhatIsShownFollowTheDisplayToTheLastTick) {
     EXPECT_GT(aside, 20);  // by the rotation, 30 degrees of 45 mm
 }
 
+TEST(CustomMeasures, MayAskForTheRoundAndItsFactors) {
+    session::Files files;
+    files.keep_first_block();
+    files.replace(kBlocks,
+                  "  rounds:\n"
+                  "    - { name: by hand, factors: { gain: 1, by: hand } }\n"
+                  "    - { name: by knob, factors: { gain: 2, by: knob } }\n"
+                  "  custom_measures:\n"
+                  "    - { name: knob, of: '1 if round == \"by knob\" else 0', take: last }\n"
+                  "    - { name: same, of: '1 if by == \"knob\" else 0', take: last }\n"
+                  "    - { name: doubled, of: 2 * gain, take: last }\n"
+                  "  blocks:\n");
+    const session::RunResult result = files.run(session::make_plan(files.request()));
+    analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
+    const CsvFile trials(result.folder + "/trials.csv");
+    ASSERT_EQ(trials.rows(), 4u);
+    for (size_t i = 0; i < trials.rows(); ++i) {
+        const bool knob = trials.text(i, "round") == "by knob";
+        EXPECT_EQ(trials.text(i, "by"), knob ? "knob" : "hand");
+        EXPECT_EQ(trials.number(i, "gain"), knob ? 2 : 1);
+        EXPECT_EQ(trials.number(i, "knob"), knob ? 1 : 0);
+        EXPECT_EQ(trials.number(i, "same"), knob ? 1 : 0);
+        EXPECT_EQ(trials.number(i, "doubled"), knob ? 4 : 2);
+    }
+}
+
+TEST(CustomMeasures, AreTakenInBlocksBesideTheRoundsToo) {
+    session::Files files;
+    files.keep_first_block();
+    files.replace(
+        kBlocks,
+        "  rounds: [{ name: first, factors: { gain: 1 } }, { name: last, factors: { gain: 2 } }]\n"
+        "  custom_measures:\n"
+        "    - { name: last, of: '1 if round == \"last\" else 0', take: last }\n"
+        "  blocks:\n"
+        "    - { name: thanks, once: after, conditions: [far], repeats: 1 }\n"
+        "    - { name: practice, once: before, conditions: [far], repeats: 1 }\n");
+    const session::Plan plan = session::make_plan(files.request());
+    const session::RunResult result = files.run(plan);
+    analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
+    const CsvFile trials(result.folder + "/trials.csv");
+    std::string blocks;
+    for (size_t i = 0; i < trials.rows(); ++i) {
+        const std::string round = trials.text(i, "round");
+        blocks += trials.text(i, "block") + "/" + round + " ";
+        EXPECT_EQ(trials.text(i, "gain").empty(), round.empty());
+        EXPECT_EQ(trials.number(i, "last"), round == "last" ? 1 : 0);
+    }
+    EXPECT_EQ(blocks, "practice/ before/first before/first before/last before/last thanks/ ");
+    const std::vector<Trial> again =
+        read_trial_list(plan.task->task, result.folder + "/trial-list.csv");
+    ASSERT_EQ(again.size(), trials.rows());
+    for (size_t i = 0; i < again.size(); ++i) EXPECT_EQ(again[i].round, plan.task->trials[i].round);
+}
+
 TEST(CustomMeasures, SayWhatTheyCouldNotTake) {
     session::Files files;
     files.replace("        - { when: outside, region: shell, outcome: reached",
