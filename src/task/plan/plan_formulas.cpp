@@ -186,7 +186,9 @@ bool names_angle(const TaskPlan& plan, std::string_view text) {
                                [&](const auto& item) { return named(item.name); });
         };
         const std::vector<Factor> factors = factors_of(task);
-        return name == "deg" || name == "rad" || any(task.draws) || any(task.variables) ||
+        // atan2() and a joint's angle are in radians, whether or not the text says so
+        return name == "deg" || name == "rad" || name == "atan2" || name == "angle" ||
+               any(task.draws) || any(task.variables) ||
                std::any_of(factors.begin(), factors.end(),
                            [&](const Factor& f) { return named(f.factor); }) ||
                std::any_of(task.procedures.begin(), task.procedures.end(),
