@@ -4,6 +4,7 @@
 
 #include "base/plural.h"
 #include "session/listeners/trial_controller.h"
+#include "task/run/clearance.h"
 
 namespace dihaptic::session {
 
@@ -32,6 +33,22 @@ std::string SessionDirector::bounded() const {
         "within its bounds, {} in all; the last was '{}'",
         formula.place.file, formula.place.line, formula.key, counted(numbers.bounded(), "time"),
         formula.text);
+}
+
+std::string SessionDirector::endless_wait(const std::vector<recording::PhaseInfo>& phases) const {
+    if (!wait_ || !wait_->over()) return "";
+    const task::TaskDirector::Obstacle in_the_way = task_->obstacle();
+    if (in_the_way.body < 0) return wait_->describe(phases, "");
+    const scene::Scene& scene = plan_.scene;
+    const std::string& body = scene.bodies[static_cast<size_t>(in_the_way.body)].name;
+    if (in_the_way.finger < 0)
+        return wait_->describe(phases, fmt::format("A finger presses {}.", body));
+    const auto finger = static_cast<size_t>(in_the_way.finger);
+    return wait_->describe(
+        phases, fmt::format("{} is less than {:.1f} mm, to its centre, from the box around the "
+                            "place of {}.",
+                            scene.fingers[finger].name,
+                            1e3 * (plan_.task->finger_radius[finger] + task::kClearance), body));
 }
 
 void SessionDirector::operator()(const frame::Frame& last, std::span<const frame::Handle> handles,

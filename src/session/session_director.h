@@ -36,8 +36,8 @@ class SessionDirector {
     /// States that formulas of trials were kept within their bounds; "" if none was.
     std::string bounded() const;
     bool trials_left() const noexcept { return share().value_or(1) < 1; }
-    /// The wait that was so long that it ended the session; null if none.
-    const Wait* endless_wait() const { return wait_ && wait_->over() ? &*wait_ : nullptr; }
+    /// Describes the wait that was so long that it ended the session; "" if there was none.
+    std::string endless_wait(const std::vector<recording::PhaseInfo>& phases) const;
 
   private:
     void direct_task(const frame::Frame& last, std::span<const frame::Handle> handles,

@@ -472,10 +472,10 @@ void Run::note_how_it_ended() {
     }
     if (const std::string bounded = director_->bounded(); !bounded.empty())
         info_.notes.push_back(bounded);
-    if (const Wait* wait = director_->endless_wait()) {
+    if (const std::string wait = director_->endless_wait(info_.phases); !wait.empty()) {
         result_.interrupted = true;
-        result_.fault = wait->describe(info_.phases);
-        info_.notes.push_back(result_.fault);
+        result_.fault = wait;
+        info_.notes.push_back(wait);
     }
     if (result_.timing.stall) {
         result_.stall = servo::describe(*result_.timing.stall);

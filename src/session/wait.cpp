@@ -34,16 +34,20 @@ void Wait::look(const frame::Frame& last, const frame::Commands& commands) noexc
             now - begun_ > attempt_bound_;
 }
 
-std::string Wait::describe(const std::vector<recording::PhaseInfo>& phases) const {
+std::string Wait::describe(const std::vector<recording::PhaseInfo>& phases,
+                           const std::string& in_the_way) const {
     const auto i = static_cast<size_t>(phase_);
     return fmt::format(
         "The simulated hand never ended '{}' of trial {}: the session ends after {:.0f} s of "
         "waiting. {}",
         i < phases.size() ? phases[i].name : "a state", trial_, seen_ - since_,
         phase_ == task::kBetween
-            ? "Its fingers stay where an object is put back: let the last state move them away."
-            : "Give the state an exit by time, or the hand steps that reach an exit; states that "
-              "lead back to each other need a way out.");
+            ? "Its fingers stay where an object is put back: let the last state move them away, or "
+              "list the object under 'stays'. " +
+                  in_the_way
+            : std::string("Give the state an exit by time, or the hand steps that reach an exit; "
+                          "states that "
+                          "lead back to each other need a way out."));
 }
 
 }  // namespace dihaptic::session

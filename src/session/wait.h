@@ -19,8 +19,10 @@ class Wait {
     void look(const frame::Frame& last, const frame::Commands& commands) noexcept;
     /// Whether the wait is too long and the session must end.
     bool over() const noexcept { return over_; }
-    /// Describes the wait and the remedy. `phases`: the session's phases.
-    std::string describe(const std::vector<recording::PhaseInfo>& phases) const;
+    /// Describes the wait and the remedy. `phases`: the session's phases; `in_the_way`: a sentence
+    /// about the finger because of which an object could not be put back.
+    std::string describe(const std::vector<recording::PhaseInfo>& phases,
+                         const std::string& in_the_way) const;
 
   private:
     static constexpr double kLongestBetween = 60;  // between trials [s]

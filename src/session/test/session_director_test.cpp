@@ -57,7 +57,7 @@ TEST(SessionDirector, DoesAsTheWatchingThreadAsks) {
     live.ended = true;
     EXPECT_TRUE(bench.order(director).stop);
     EXPECT_TRUE(director.trials_left());
-    EXPECT_EQ(director.endless_wait(), nullptr);
+    EXPECT_EQ(director.endless_wait({}), "");
 }
 
 }  // namespace

@@ -577,6 +577,7 @@ struct Task {
     std::vector<Condition> rounds;  ///< the blocks are run once in each round; empty: once
     Order round_order = Order::sequential;
     std::vector<ProcedureSpec> procedures;
+    Refs<scene::Body> stays;  ///< bodies that are not put back between trials
     std::vector<Block> blocks;
     Redo redo = Redo::end_of_block;
     int most_attempts = 3;  ///< largest number of attempts at a trial
@@ -613,6 +614,9 @@ struct Task {
         v("procedures", procedures,
           says("Procedures that choose the share of a perturbation, or a number, from the answers "
                "so far."));
+        v("stays", stays,
+          says("Bodies that are not put back between trials: each trial begins with them where the "
+               "one before left them."));
         v("blocks", blocks, Field::text().required().says("Blocks of trials, in order."));
         v("redo", redo, says("Whether and when a failed trial is repeated."));
         v("most_attempts", most_attempts,

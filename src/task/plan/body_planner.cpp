@@ -31,6 +31,11 @@ void BodyPlanner::check(const Condition& condition) {
     for (const BodyPlace& place : condition.places) {
         check_joint(place, scene, diagnostics);
         if (place.joint.empty()) check_placeable(place.body, place.place);
+        if (place.body.index >= 0 &&
+            std::ranges::count(plan.task.stays.indices, place.body.index) > 0)
+            error(place.place, "body",
+                  fmt::format("'{}' is placed, but the task's 'stays' lists it", place.body),
+                  "Keep one of the two.");
     }
 }
 
@@ -144,6 +149,7 @@ std::vector<TaskPlan::StartPose> BodyPlanner::start_poses(
     for (size_t i = 0; i < scene.bodies.size(); ++i) {
         const scene::Body& body = scene.bodies[i];
         if (!body.moves_at_all() && !body.driven && !is_placed(static_cast<int>(i))) continue;
+        if (std::ranges::count(plan.task.stays.indices, static_cast<int>(i)) > 0) continue;
         FormulaVec3 position = as_formula(body.position);
         FormulaVec3 velocity{};
         const BodyPlace* by_joint = nullptr;

@@ -208,7 +208,7 @@ void TaskDirector::follow(const Decision& decision, double now) noexcept {
 }
 
 /// Whether all bodies can be returned to their start poses.
-bool TaskDirector::clear(const frame::Frame& last) const noexcept {
+bool TaskDirector::clear(const frame::Frame& last) noexcept {
     const auto& start_poses = numbers_.cell().start_poses;
     return std::all_of(start_poses.begin(), start_poses.end(),
                        [&](const TaskPlan::StartPose& start_pose) {
@@ -219,14 +219,17 @@ bool TaskDirector::clear(const frame::Frame& last) const noexcept {
 /// Whether a body can be placed there. A body placed onto a finger would push the finger out; if a
 /// body between pressing fingers were removed, the fingers would collide.
 bool TaskDirector::clear(const frame::Frame& last, const TaskPlan::StartPose& start_pose,
-                         const Pose& X_WB) const noexcept {
+                         const Pose& X_WB) noexcept {
     if (last.sequence < 0) return true;
     if (same_pose(last.bodies[static_cast<size_t>(start_pose.body)].X_WB, X_WB)) return true;
+    obstacle_ = {start_pose.body, -1};
     if (pressed(last, start_pose.body)) return false;
     for (size_t i = 0; i < last.fingers.size(); ++i) {
+        obstacle_.finger = static_cast<int>(i);
         if (in_the_way(X_WB, start_pose.box, last.fingers[i].p_WP, plan_.finger_radius[i]))
             return false;
     }
+    obstacle_ = {};
     return true;
 }
 

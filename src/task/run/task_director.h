@@ -46,14 +46,21 @@ class TaskDirector {
     /// The numbers of the trials so far, with a record of formulas that had to be kept within
     /// bounds.
     const TrialNumbers& numbers() const noexcept { return numbers_; }
+    /// A finger because of which a body cannot be put back where a trial begins. Call between
+    /// ticks.
+    struct Obstacle {
+        int body = -1;    ///< -1: there was none yet
+        int finger = -1;  ///< -1: a finger presses the body
+    };
+    Obstacle obstacle() const noexcept { return obstacle_; }
     /// Share of completed trials, from any thread.
     double share() const noexcept { return share_.load(std::memory_order_relaxed); }
 
   private:
     const Trial& trial() const { return plan_.trials[static_cast<size_t>(queue_.trial())]; }
-    bool clear(const frame::Frame& last) const noexcept;
+    bool clear(const frame::Frame& last) noexcept;
     bool clear(const frame::Frame& last, const TaskPlan::StartPose& start_pose,
-               const Pose& X_WB) const noexcept;
+               const Pose& X_WB) noexcept;
     void put(int body, const Pose& X_WB, const BodyMotion& motion,
              frame::Commands& commands) noexcept;
     /// Starts the next trial once the last feedback and the block's pages are over and bodies can
@@ -144,6 +151,7 @@ class TaskDirector {
     double ask_until_ = 0;  // time limit for the decision [s]
     std::atomic<char> key_{0};
     std::atomic<double> clicked_{Rating::kNowhere};
+    Obstacle obstacle_;
     std::atomic<int> trigger_{0};
     std::atomic<bool> skip_{false};
     std::atomic<double> share_{0};
