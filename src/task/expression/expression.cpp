@@ -44,6 +44,8 @@ class Compiler : Parts {
                                                : Expression::Type::number;
         out.dimension_ = value.dimension;
         out.latest_ = latest_;
+        if (!look_backs_.empty())
+            out.look_backs_ = std::make_shared<const std::vector<LookBack>>(look_backs_);
         return out;
     }
 
@@ -438,7 +440,7 @@ class Compiler : Parts {
         std::string_view name;
         Value (Compiler::*read)(const Token&);
     };
-    static constexpr size_t kShortFormCount = 8;
+    static constexpr size_t kShortFormCount = 12;
     static const std::array<ShortForm, kShortFormCount> kShortForms;
 
     bool ends_arguments() const { return token().is(")"); }
@@ -570,7 +572,47 @@ class Compiler : Parts {
                       name.column);
     }
 
+    Value mean(const Token& name) { return look_back(name, LookBack::Statistic::mean); }
+    Value median(const Token& name) { return look_back(name, LookBack::Statistic::median); }
+    Value sd(const Token& name) { return look_back(name, LookBack::Statistic::sd); }
+    Value best(const Token& name) { return look_back(name, LookBack::Statistic::best); }
+    Value look_back(const Token& name, LookBack::Statistic statistic) {
+        if (!quantities_.looks_back()) {
+            throw Fault{name.column, fmt::format("'{}' looks back over trials", name.text),
+                        "Use it in after_trial, to set a variable, and use that variable here."};
+        }
+        const Value of = choice();
+        demand(of, Type::number);
+        LookBack out;
+        out.statistic = statistic;
+        if (token().is(",") || statistic != LookBack::Statistic::best)
+            out.count = trials_argument(name);
+        emit(of.node[0], 0, out.of.program_);
+        out.slot = quantities_.define_unnamed(of.dimension).slot;
+        look_backs_.push_back(out);
+        note(Kind::figure);
+        return number(slot(out.slot), of.dimension, name.column);
+    }
+    /// The number of trials after a comma.
+    size_t trials_argument(const Token& name) {
+        const size_t column = token().column;
+        if (!take(","))
+            throw Fault{column, "the number of trials is missing",
+                        fmt::format("Write e.g. {}(x, 10).", name.text)};
+        const Value count = choice();
+        const double trials = count.type == Type::number && is_constant(count.node[0])
+                                  ? constant_of(count.node[0])
+                                  : 0;
+        if (!(trials >= 1 && trials <= LookBack::kMost) || trials != std::floor(trials))
+            throw Fault{column,
+                        fmt::format("the number of trials must be a whole number from 1 to {}",
+                                    LookBack::kMost),
+                        fmt::format("Write e.g. {}(x, 10).", name.text)};
+        return static_cast<size_t>(trials);
+    }
+
     Quantities& quantities_;
+    std::vector<LookBack> look_backs_;
     std::vector<Token> tokens_;
     size_t at_ = 0;
     int depth_ = 0;
@@ -587,6 +629,10 @@ constexpr std::array<Compiler::ShortForm, Compiler::kShortFormCount> Compiler::k
     {"lifted", &Compiler::lifted},
     {"still", &Compiler::still},
     {"contact_force", &Compiler::contact_force},
+    {"mean", &Compiler::mean},
+    {"median", &Compiler::median},
+    {"sd", &Compiler::sd},
+    {"best", &Compiler::best},
 }};
 
 Expression Expression::compile(std::string_view text, Quantities& quantities, const Place& place,
@@ -607,6 +653,11 @@ Expression Expression::compile(std::string_view text, Quantities& quantities, co
                           choices_of(fault.known));
         return {};
     }
+}
+
+const std::vector<LookBack>& Expression::look_backs() const {
+    static const std::vector<LookBack> kNone;
+    return look_backs_ ? *look_backs_ : kNone;
 }
 
 bool Expression::names(int slot) const {

@@ -19,6 +19,7 @@
 // A name that contains characters other than letters, digits and _ is quoted: "left plate".x.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -27,6 +28,8 @@
 #include "task/expression/quantities.h"
 
 namespace dihaptic::task {
+
+struct LookBack;
 
 class Expression {
   public:
@@ -60,6 +63,10 @@ class Expression {
     /// `values`: of the Quantities with which it was compiled, or of a copy.
     double operator()(std::span<const double> values) const noexcept;
 
+    /// The statistics over earlier trials that it names, each after those that it depends on.
+    /// Whoever evaluates it sets their slots.
+    const std::vector<LookBack>& look_backs() const;
+
   private:
     friend class Compiler;
     friend class Parts;
@@ -76,7 +83,21 @@ class Expression {
     std::vector<Step> program_;
     Type type_ = Type::number;
     Dimension dimension_;
-    Kind latest_ = Kind::draw;  // latest kind among its quantities
+    Kind latest_ = Kind::draw;                                 // latest kind among its quantities
+    std::shared_ptr<const std::vector<LookBack>> look_backs_;  // null: none
+};
+
+/// A statistic of an expression's values at the ends of the last trials: mean(x, 10), median(x,
+/// 10), sd(x, 10), best(x). An attempt that is to be repeated does not count, nor does an
+/// unmeasured value.
+struct LookBack {
+    enum class Statistic { mean, median, sd, best };
+    static constexpr size_t kMost = 1000;
+
+    Expression of;
+    Statistic statistic = Statistic::mean;
+    size_t count = 0;  ///< number of trials; 0: all of them, for best
+    int slot = -1;     ///< of its value
 };
 
 }  // namespace dihaptic::task

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstring>
 
+#include "base/unmeasured.h"
 #include "frame/displayed.h"
 
 namespace dihaptic::task {
@@ -159,6 +160,13 @@ Symbol Quantities::add(const std::string& name, Symbol symbol, int slots) {
 
 Symbol Quantities::define(std::string name, Dimension dimension, Kind kind) {
     return add(name, {.dimension = dimension, .kind = kind}, 1);
+}
+
+Symbol Quantities::define_unnamed(Dimension dimension) {
+    const Symbol out{static_cast<int>(values_.size()), Symbol::Type::number, dimension,
+                     Kind::figure};
+    values_.push_back(kUnmeasured);
+    return out;
 }
 
 Symbol Quantities::define_text(std::string name, std::vector<std::string> levels, Kind kind) {

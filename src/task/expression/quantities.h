@@ -74,6 +74,12 @@ class Quantities {
     Symbol define(std::string name, Dimension dimension, Kind kind);
     /// Defines a text with these possible values; its value is the index of a text, see text().
     Symbol define_text(std::string name, std::vector<std::string> levels, Kind kind);
+    /// Defines a number without a name, which expressions reach by what they were compiled from.
+    Symbol define_unnamed(Dimension dimension);
+    /// Whether expressions may look back over earlier trials (LookBack). Only what is evaluated
+    /// when a trial has ended may.
+    bool looks_back() const { return looks_back_; }
+    void let_look_back(bool allowed) { looks_back_ = allowed; }
     /// Index of a text in comparisons.
     int text(std::string_view text);
     const std::string& text(int index) const { return texts_[static_cast<size_t>(index)]; }
@@ -162,6 +168,7 @@ class Quantities {
     std::vector<std::string> texts_;
     std::vector<Source> sources_;
     std::vector<double> values_;
+    bool looks_back_ = false;
 };
 
 }  // namespace dihaptic::task

@@ -29,14 +29,6 @@ void check_name(const CustomMeasure& measure, const TaskPlan& plan, Diagnostics&
     }
 }
 
-/// The mean of the middle two of an even number of values.
-double median(std::vector<double> x) {
-    const auto middle = x.begin() + static_cast<std::ptrdiff_t>(x.size() / 2);
-    std::nth_element(x.begin(), middle, x.end());
-    if (x.size() % 2 == 1) return *middle;
-    return (*middle + *std::max_element(x.begin(), middle)) / 2;
-}
-
 }  // namespace
 
 void plan_custom_measures(TaskPlan& plan, Diagnostics& diagnostics) {
@@ -47,8 +39,7 @@ void plan_custom_measures(TaskPlan& plan, Diagnostics& diagnostics) {
         check_name(measure, plan, diagnostics);
         TaskPlan::Measured out;
         out.take = measure.take;
-        for (const int state : measure.during.indices) out.states |= uint64_t{1} << state;
-        if (measure.during.empty()) out.states = ~uint64_t{0};
+        out.states = states_of(measure);
         const Formula of = formula_of(measure.of, measure.name, "of", measure.place);
         if (auto compiled = compile_formula(of, plan, plan.measured, diagnostics)) {
             out.value = std::move(*compiled);
@@ -78,48 +69,6 @@ CustomMeasures::CustomMeasures(TaskPlan plan)
       numbers_(plan_) {
     for (const TaskPlan::Measured& measure : plan_.custom_measures)
         taken_.emplace_back(measure.take);
-}
-
-void CustomMeasures::Taken::add(double value) {
-    const bool first = ticks_++ == 0;
-    const auto count = static_cast<double>(ticks_);
-    const double off = value - mean_;
-    switch (take_) {
-        case Take::first:
-            if (first) value_ = value;
-            break;
-        case Take::last:
-            value_ = value;
-            break;
-        case Take::min:
-            value_ = first ? value : std::fmin(value_, value);
-            break;
-        case Take::max:
-            value_ = first ? value : std::fmax(value_, value);
-            break;
-        case Take::mean:
-            value_ += (value - value_) / count;
-            break;
-        case Take::median:
-            all_.push_back(value);
-            break;
-        case Take::sd:
-            mean_ += off / count;
-            squares_ += off * (value - mean_);
-            break;
-        case Take::rms:
-            squares_ += value * value;
-            break;
-    }
-}
-
-double CustomMeasures::Taken::statistic() const {
-    if (ticks_ == 0) return kUnmeasured;
-    const auto count = static_cast<double>(ticks_);
-    if (take_ == Take::median) return median(all_);
-    if (take_ == Take::sd) return ticks_ > 1 ? std::sqrt(squares_ / (count - 1)) : kUnmeasured;
-    if (take_ == Take::rms) return std::sqrt(squares_ / count);
-    return value_;
 }
 
 /// Updates the quantities. The tick that ends an attempt orders no perturbation any more: the

@@ -30,23 +30,6 @@ class CustomMeasures {
     std::vector<double> end_attempt();
 
   private:
-    /// What is kept of a measure's values in an attempt.
-    class Taken {
-      public:
-        explicit Taken(Take take) : take_(take) {}
-        void add(double value);
-        /// NaN if there was no value.
-        double statistic() const;
-        void clear() { *this = Taken(take_); }
-
-      private:
-        Take take_;
-        int64_t ticks_ = 0;
-        double value_ = 0;         // first, last, least, largest, or mean
-        double mean_ = 0;          // for the SD
-        double squares_ = 0;       // of values (rms) or of deviations from the mean (SD), summed
-        std::vector<double> all_;  // for the median
-    };
     void update(const frame::Frame& frame);
 
     TaskPlan plan_;

@@ -262,6 +262,13 @@ std::string error_column(const std::vector<std::string>& measures, const std::st
     return "";
 }
 
+uint64_t states_of(const CustomMeasure& measure) {
+    if (measure.during.empty()) return ~uint64_t{0};
+    uint64_t out = 0;
+    for (const int state : measure.during.indices) out |= uint64_t{1} << state;
+    return out;
+}
+
 Table::Column not_measured_column() {
     return {kNotMeasured, "measures that are missing, and the reasons"};
 }

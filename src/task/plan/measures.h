@@ -270,6 +270,8 @@ struct Movement {
           says("Value of a listed measure to which adaptation is fitted, by condition."));
     }
 };
+/// The states in which a custom measure is taken, one bit each.
+uint64_t states_of(const CustomMeasure& measure);
 inline constexpr const char* kHand = "hand";
 
 /// A trial's movement, as frozen in trial-list.csv.

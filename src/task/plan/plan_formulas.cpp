@@ -302,7 +302,59 @@ void plan_formulas(TaskPlan& plan, Diagnostics& diagnostics) {
     if (!diagnostics.has_errors()) compile_all(plan, diagnostics);
 }
 
+namespace {
+
+/// Names of custom measures in rules, without their units.
+constexpr const char* kMeasurePrefix = "measure.";
+
+std::vector<int> define_measures(TaskPlan& plan) {
+    std::vector<int> slots;
+    for (const CustomMeasure& measure : plan.task.custom_measures) {
+        const NameInUnit name = split_unit(measure.name);
+        const Symbol symbol = plan.quantities.define(kMeasurePrefix + std::string(name.name),
+                                                     dimension(name.quantity), Kind::figure);
+        slots.push_back(symbol.slot);
+    }
+    return slots;
+}
+
+/// Keeps what rules look back on, and the custom measures that they name.
+void plan_what_rules_need(TaskPlan& plan, const std::vector<int>& slots, Diagnostics& diagnostics) {
+    std::vector<const Expression*> rules;
+    for (const TaskPlan::Change& change : plan.changes) {
+        if (change.when) rules.push_back(&*change.when);
+        rules.push_back(&change.to.expression);
+    }
+    for (const Expression* rule : rules) {
+        const std::vector<LookBack>& own = rule->look_backs();
+        plan.look_backs.insert(plan.look_backs.end(), own.begin(), own.end());
+    }
+    for (const LookBack& look_back : plan.look_backs) rules.push_back(&look_back.of);
+    for (size_t i = 0; i < slots.size(); ++i) {
+        const auto names = [&](const Expression* rule) { return rule->names(slots[i]); };
+        if (std::none_of(rules.begin(), rules.end(), names)) continue;
+        const CustomMeasure& measure = plan.task.custom_measures[i];
+        if (measure.take == Take::median) {
+            diagnostics.error(measure.place, "take",
+                              "is median, which is known only after the session, but after_trial "
+                              "names the measure",
+                              "Take another statistic, or leave it out of the rules.");
+            continue;
+        }
+        const Formula of = formula_of(measure.of, measure.name, "of", measure.place);
+        Diagnostics told;  // plan_custom_measures() reports what is wrong with it
+        auto compiled = compile_formula(of, plan, plan.quantities, told);
+        if (!compiled) continue;
+        plan.rule_measures.push_back(
+            {{std::move(*compiled), measure.take, states_of(measure)}, slots[i]});
+    }
+}
+
+}  // namespace
+
 void plan_rules(TaskPlan& plan, Diagnostics& diagnostics) {
+    const std::vector<int> measures = define_measures(plan);
+    plan.quantities.let_look_back(true);
     std::vector<std::string> outcomes;
     for (const TaskPlan::Outcome& outcome : plan.outcomes) outcomes.push_back(outcome.name);
     plan.symbols.outcome = plan.quantities.define_text("outcome", outcomes, Kind::figure).slot;
@@ -319,6 +371,8 @@ void plan_rules(TaskPlan& plan, Diagnostics& diagnostics) {
             plan.changes.push_back(std::move(change));
         }
     }
+    plan.quantities.let_look_back(false);
+    plan_what_rules_need(plan, measures, diagnostics);
     for (const Block& block : plan.task.blocks)
         plan.until.push_back(
             condition(block.until, plan.between, block.place, "until", diagnostics));

@@ -202,6 +202,13 @@ struct TaskPlan {
         uint64_t states = 0;  ///< one bit each
     };
     Quantities measured;  ///< `quantities`, and further ones for measures
+    /// A custom measure that rules name: measure.hold, of hold_N.
+    struct RuleMeasure {
+        Measured measured;  ///< with the slots of `quantities`
+        int slot = -1;      ///< of its value when a trial has ended
+    };
+    std::vector<RuleMeasure> rule_measures;
+    std::vector<LookBack> look_backs;  ///< of rules, each after those that it depends on
     std::vector<Measured> custom_measures;
     /// Update of a variable after a trial.
     struct Change {

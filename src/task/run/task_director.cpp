@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "task/run/clearance.h"
@@ -45,6 +46,28 @@ double coordinate_of(int joint, const frame::Frame& last) noexcept {
     return std::isnan(frame.angle) ? frame.displacement : frame.angle;
 }
 
+/// Of the values at the ends of the last trials; `sorted`: memory for as many.
+double statistic_of(LookBack::Statistic statistic, const std::vector<double>& x,
+                    std::vector<double>& sorted) noexcept {
+    if (x.empty()) return kUnmeasured;
+    const auto count = static_cast<double>(x.size());
+    const double mean = std::accumulate(x.begin(), x.end(), 0.0) / count;
+    double squares = 0;
+    for (const double value : x) squares += (value - mean) * (value - mean);
+    switch (statistic) {
+        case LookBack::Statistic::mean:
+            return mean;
+        case LookBack::Statistic::sd:
+            return x.size() > 1 ? std::sqrt(squares / (count - 1)) : kUnmeasured;
+        case LookBack::Statistic::best:
+            return *std::max_element(x.begin(), x.end());
+        case LookBack::Statistic::median:
+            sorted.assign(x.begin(), x.end());
+            return median_of(sorted);
+    }
+    return kUnmeasured;
+}
+
 }  // namespace
 
 TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
@@ -81,6 +104,13 @@ TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
         drives = std::max(drives, planned.drives.size());
         motors = std::max(motors, planned.motors.size());
     }
+    for (const TaskPlan::RuleMeasure& measure : plan.rule_measures)
+        taken_.emplace_back(measure.measured.take);
+    for (const LookBack& look_back : plan.look_backs) {
+        Past& past = past_.emplace_back();
+        past.values.reserve(look_back.count);
+        past.sorted.reserve(look_back.count);
+    }
     judged_.assign(transitions, {});
     is_put_.assign(placements, 0);
     put_at_.resize(placements);
@@ -95,6 +125,7 @@ void TaskDirector::operator()(const frame::Frame& last, std::span<const frame::H
     displayer_.see(last);
     // texts contain quantities between trials too
     numbers_.quantities().update(last, handles);
+    if (state_ >= 0) take_measures();
     direct(last, handles, now, commands);
     displayer_.order(now, commands.task);
     sounder_.order(state_ < 0 ? nullptr : &plan_.states[static_cast<size_t>(state_)],
@@ -327,7 +358,7 @@ void TaskDirector::finish(int outcome, bool redo, double now, frame::Commands& c
     commands.task.attempt = last_attempt_;
     commands.task.outcome = outcome;
     commands.task.message = message_;
-    follow_rules(outcome);
+    follow_rules(outcome, redo);
     commands.task.variables = variables_;
     take_answer(outcome);
     queue_.finish(redo);
@@ -436,11 +467,47 @@ bool TaskDirector::is_done() noexcept {
     return trial().procedure >= 0 && procedures_[static_cast<size_t>(trial().procedure)].done();
 }
 
-void TaskDirector::follow_rules(int outcome) noexcept {
+/// As exits, measures see the last Frame and the present handles.
+void TaskDirector::take_measures() noexcept {
+    for (size_t i = 0; i < taken_.size(); ++i) {
+        const TaskPlan::Measured& measured = plan_.rule_measures[i].measured;
+        if ((measured.states >> state_ & 1u) != 0)
+            taken_[i].add(measured.value.value(numbers_.values()));
+    }
+}
+
+/// Sets what rules look back on. `counts`: the ended attempt is among the last trials.
+void TaskDirector::look_back(bool counts) noexcept {
+    Quantities& quantities = numbers_.quantities();
+    for (size_t i = 0; i < past_.size(); ++i) {
+        const LookBack& what = plan_.look_backs[i];
+        Past& past = past_[i];
+        const double value = what.of(quantities.values());
+        if (counts && std::isfinite(value)) {
+            past.best = std::fmax(past.best, value);
+            if (past.values.size() < what.count) {
+                past.values.push_back(value);
+            } else if (what.count > 0) {
+                past.values[past.next] = value;
+                past.next = (past.next + 1) % what.count;
+            }
+        }
+        quantities.set(what.slot, what.count == 0
+                                      ? past.best
+                                      : statistic_of(what.statistic, past.values, past.sorted));
+    }
+}
+
+void TaskDirector::follow_rules(int outcome, bool redo) noexcept {
     // a trial that is skipped before its start also has numbers
     if (!begun_) resolve();
     Quantities& quantities = numbers_.quantities();
     quantities.set(plan_.symbols.outcome, plan_.symbols.outcomes[static_cast<size_t>(outcome)]);
+    for (size_t i = 0; i < taken_.size(); ++i) {
+        quantities.set(plan_.rule_measures[i].slot, taken_[i].statistic());
+        taken_[i].clear();
+    }
+    look_back(!redo);
     for (const TaskPlan::Change& change : plan_.changes) {
         if (change.when && (*change.when)(quantities.values()) == 0) continue;
         const double value = change.to.value(quantities.values());

@@ -5,7 +5,9 @@
 
 #include <atomic>
 
+#include "base/unmeasured.h"
 #include "frame/orders.h"
+#include "task/plan/taken.h"
 #include "task/run/displayer.h"
 #include "task/run/opening.h"
 #include "task/run/sounder.h"
@@ -41,6 +43,7 @@ class TaskDirector {
         if (!queue_.empty() && state_ >= 0) queue_.again();
         state_ = -1;
         begun_ = false;
+        for (Taken& taken : taken_) taken.clear();
         motions_.forget();
     }
     /// The numbers of the trials so far, with a record of formulas that had to be kept within
@@ -104,7 +107,9 @@ class TaskDirector {
     void skip_done() noexcept;
     bool is_done() noexcept;
     /// Applies the rules to the variables at the end of a trial.
-    void follow_rules(int outcome) noexcept;
+    void follow_rules(int outcome, bool redo) noexcept;
+    void take_measures() noexcept;
+    void look_back(bool counts) noexcept;
     /// Chooses the numbers of the starting trial, and resolves its formulas.
     void resolve() noexcept;
     double level() const noexcept;
@@ -151,6 +156,15 @@ class TaskDirector {
     double ask_until_ = 0;  // time limit for the decision [s]
     std::atomic<char> key_{0};
     std::atomic<double> clicked_{Rating::kNowhere};
+    std::vector<Taken> taken_;  // by measure that rules name
+    /// Values at the ends of the last trials, by look-back.
+    struct Past {
+        std::vector<double> values;  // a ring, filled from the beginning
+        std::vector<double> sorted;
+        size_t next = 0;
+        double best = kUnmeasured;
+    };
+    std::vector<Past> past_;
     Obstacle obstacle_;
     std::atomic<int> trigger_{0};
     std::atomic<bool> skip_{false};

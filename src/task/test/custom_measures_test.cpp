@@ -109,6 +109,58 @@ TEST(CustomMeasures, OfWhatIsShownFollowTheDisplayToTheLastTick) {
     EXPECT_GT(aside, 20);  // by the rotation, 30 degrees of 45 mm
 }
 
+TEST(CustomMeasures, AreKnownToRulesWhichLookBackOverTrials) {
+    session::Files files;
+    files.replace(
+        kBlocks,
+        "  variables:\n"
+        "    [{ name: top_mm_s }, { name: mean_mm_s }, { name: middle_mm_s }, { name: sd_mm_s },\n"
+        "     { name: best_mm_s }, { name: ahead }]\n"
+        "  custom_measures: [{ name: speed_mm_s, of: index.speed, take: max, during: [reach] }]\n"
+        "  after_trial:\n"
+        "    - { set: top_mm_s, to: measure.speed }\n"
+        "    - { set: mean_mm_s, to: 'mean(measure.speed, 3)' }\n"
+        "    - { set: middle_mm_s, to: 'median(measure.speed, 4)' }\n"
+        "    - { set: sd_mm_s, to: 'sd(measure.speed, 3)' }\n"
+        "    - { set: best_mm_s, to: best(measure.speed) }\n"
+        "    - { when: 'measure.speed > median(measure.speed, 4)', set: ahead, to: ahead + 1 }\n"
+        "  blocks:\n");
+    const session::RunResult result = files.run(session::make_plan(files.request()));
+    analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
+    const CsvFile trials(result.folder + "/trials.csv");
+    ASSERT_EQ(trials.rows(), 9u);
+    const auto after = [&](size_t i, const char* name) {
+        return trials.number(i, next_column(name));
+    };
+    std::vector<double> tops;
+    int ahead = 0;
+    for (size_t i = 0; i < trials.rows(); ++i) {
+        EXPECT_NEAR(after(i, "top_mm_s"), trials.number(i, "speed_mm_s"), 1);
+        tops.push_back(after(i, "top_mm_s"));
+        const auto last = [&](size_t count) {
+            return std::vector<double>(tops.end() - static_cast<long>(std::min(count, tops.size())),
+                                       tops.end());
+        };
+        std::vector<double> x = last(3);
+        double mean = 0;
+        for (const double value : x) mean += value / static_cast<double>(x.size());
+        double squares = 0;
+        for (const double value : x) squares += std::pow(value - mean, 2);
+        EXPECT_NEAR(after(i, "mean_mm_s"), mean, 1e-5);
+        if (x.size() > 1)
+            EXPECT_NEAR(after(i, "sd_mm_s"),
+                        std::sqrt(squares / (static_cast<double>(x.size()) - 1)), 1e-4);
+        std::vector<double> four = last(4);
+        std::sort(four.begin(), four.end());
+        const size_t half = four.size() / 2;
+        const double middle = four.size() % 2 == 1 ? four[half] : (four[half - 1] + four[half]) / 2;
+        EXPECT_NEAR(after(i, "middle_mm_s"), middle, 1e-5);
+        EXPECT_NEAR(after(i, "best_mm_s"), *std::max_element(tops.begin(), tops.end()), 1e-5);
+        ahead += tops.back() > middle + 1e-9 ? 1 : 0;
+        EXPECT_EQ(after(i, "ahead"), ahead);
+    }
+}
+
 TEST(CustomMeasures, MayAskForTheRoundAndItsFactors) {
     session::Files files;
     files.keep_first_block();
@@ -205,7 +257,32 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kBlocks, "{ name: outcome, of: 1, take: max }", "is the name of another column"},
         Mistake{kBlocks, "{ name: a, of: 1, take: max }, { name: a, of: 2, take: max }",
                 "there are two measures 'a'"},
-        Mistake{kBlocks, "{ name: a, of: 1, take: max, during: [raech] }", "Did you mean reach?"}));
+        Mistake{kBlocks, "{ name: a, of: 1, take: max, during: [raech] }", "Did you mean reach?"},
+        Mistake{kBlocks, "{ name: a, of: 'mean(trial_num, 3)', take: max }",
+                "'mean' looks back over trials. Use it in after_trial"}));
+
+/// With a rule, and a measure that it may name.
+class MistakenRule : public ::testing::TestWithParam<Mistake> {};
+
+TEST_P(MistakenRule, IsRefused) {
+    session::Files files;
+    const Mistake& mistake = GetParam();
+    const std::string by = std::string(
+                               "  variables: [{ name: v_mm }]\n"
+                               "  custom_measures: [{ name: x_mm, of: index.x, take: ") +
+                           mistake.what + " }]\n  after_trial: [{ set: v_mm, to: '" + mistake.by +
+                           "' }]\n  blocks:\n";
+    session::expect_refused(files, {kBlocks, by.c_str(), mistake.said});
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    CustomMeasures, MistakenRule,
+    ::testing::Values(Mistake{"median", "measure.x", "is known only after the session"},
+                      Mistake{"last", "measure.y", "'measure.y' is not a quantity"},
+                      Mistake{"last", "mean(measure.x)", "the number of trials is missing"},
+                      Mistake{"last", "mean(measure.x, 0)", "a whole number from 1 to 1000"},
+                      Mistake{"last", "mean(measure.x, 2.5)", "a whole number from 1 to 1000"},
+                      Mistake{"last", "mean(measure.x > 1 mm, 3)", "but must be a number"}));
 
 }  // namespace
 }  // namespace dihaptic::task::custom_measures_test

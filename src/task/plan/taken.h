@@ -1,0 +1,34 @@
+// The statistic of a custom measure's values in the ticks of an attempt.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "task/plan/measures.h"
+
+namespace dihaptic::task {
+
+/// For all statistics but the median it allocates nothing.
+class Taken {
+  public:
+    explicit Taken(Take take) : take_(take) {}
+    void add(double value);
+    /// NaN if there was no value.
+    double statistic() const;
+    void clear() { *this = Taken(take_); }
+
+  private:
+    Take take_;
+    int64_t ticks_ = 0;
+    double value_ = 0;         // first, last, least, largest, or mean
+    double mean_ = 0;          // for the SD
+    double squares_ = 0;       // of values (rms) or of deviations from the mean (SD), summed
+    std::vector<double> all_;  // for the median
+};
+
+/// The median, the mean of the middle two of an even number of values. Reorders them; NaN if there
+/// are none.
+double median_of(std::span<double> x) noexcept;
+
+}  // namespace dihaptic::task
