@@ -14,82 +14,106 @@
 
 #include "help_page.h"
 #include "layers_menu.h"
+#include "reporter.h"
 #include "theme.h"
 
 namespace dihaptic::gui {
 
 void OperatorWindow::make_file_menu() {
     QMenu* file = menuBar()->addMenu(tr("&File"));
-    open_action_ =
-        file->addAction(tr("&Open ..."), QKeySequence::Open, this, &OperatorWindow::choose_file);
-    start_page_action_ = file->addAction(tr("S&tart page"), this, &OperatorWindow::show_start_page);
-    recent_menu_ = file->addMenu(tr("Open &recent"));
-    connect(recent_menu_, &QMenu::aboutToShow, this, &OperatorWindow::fill_recent);
-    edit_action_ = file->addAction(tr("&Edit"), QKeySequence("Ctrl+E"), this, [this] {
+    using Act = SessionControl::Act;
+    enable(file->addAction(tr("&Open ..."), QKeySequence::Open, this, &OperatorWindow::choose_file),
+           Act::open);
+    enable(file->addAction(tr("S&tart page"), this, &OperatorWindow::show_start_page), Act::open);
+    QMenu* recent = file->addMenu(tr("Open &recent"));
+    connect(recent, &QMenu::aboutToShow, this, [this, recent] { fill_recent(*recent); });
+    file->addAction(tr("&Edit"), QKeySequence("Ctrl+E"), this, [this] {
         compose_dock_->show();
         composer_->take_focus();
     });
-    undo_action_ =
-        file->addAction(tr("&Undo"), QKeySequence::Undo, this, [this] { composer_->undo(); });
-    redo_action_ =
-        file->addAction(tr("Re&do"), QKeySequence::Redo, this, [this] { composer_->redo(); });
-    undo_action_->setEnabled(false);
-    redo_action_->setEnabled(false);
-    save_action_ =
-        file->addAction(tr("Sa&ve"), QKeySequence::Save, this, [this] { composer_->save(); });
-    save_action_->setEnabled(false);
+    const auto add = [&](const QString& name, QKeySequence::StandardKey key, auto what,
+                         auto possible) {
+        QAction* action = file->addAction(name, key, composer_, what);
+        action->setEnabled(false);
+        connect(composer_, possible, action, &QAction::setEnabled);
+    };
+    add(tr("&Undo"), QKeySequence::Undo, &Composer::undo, &Composer::undo_available);
+    add(tr("Re&do"), QKeySequence::Redo, &Composer::redo, &Composer::redo_available);
+    add(tr("Sa&ve"), QKeySequence::Save, &Composer::save, &Composer::modified);
     file->addAction(tr("Save &as ..."), QKeySequence("Ctrl+Shift+S"), this,
                     &OperatorWindow::save_as);
     file->addAction(tr("Recorded &sessions ..."), QKeySequence("Ctrl+Shift+O"), this,
                     &OperatorWindow::choose_session);
     file->addAction(tr("&Folder of sessions"), this, [this] {
-        QDir().mkpath(out_);
-        QDesktopServices::openUrl(QUrl::fromLocalFile(QDir(out_).absolutePath()));
+        QDir().mkpath(control_.out());
+        QDesktopServices::openUrl(QUrl::fromLocalFile(QDir(control_.out()).absolutePath()));
     });
     file->addAction(tr("&Where sessions go ..."), this, &OperatorWindow::choose_folder);
+    auto* reporter = new Reporter(this);
+    connect(reporter, &Reporter::failed, this, [this](const QString& why) { log(why, true); });
+    connect(reporter, &Reporter::written, this, [this](const QString& page) {
+        log(tr("report: %1").arg(page));
+        QDesktopServices::openUrl(QUrl::fromLocalFile(QFileInfo(page).absoluteFilePath()));
+    });
     file->addAction(tr("Re&port of the last session"), QKeySequence("Ctrl+R"), this,
-                    &OperatorWindow::report);
+                    [this, reporter] {
+                        if (!control_.recorded().isEmpty())
+                            return reporter->write(control_.recorded());
+                        log(tr("There is no session of this file to report yet."));
+                    });
     file->addSeparator();
     file->addAction(tr("&Quit"), QKeySequence::Quit, this, &QWidget::close);
 }
 
+void OperatorWindow::enable(QAction* action, SessionControl::Act act) {
+    connect(&control_, &SessionControl::changed, action,
+            [this, action, act] { action->setEnabled(control_.may(act)); });
+}
+
 void OperatorWindow::make_session_menu() {
+    using Act = SessionControl::Act;
     QMenu* session = menuBar()->addMenu(tr("&Session"));
-    const auto add = [&](const QString& name, int key, auto what) {
-        QAction* action = session->addAction(name, QKeySequence(key), this, what);
+    const auto add = [&](const QString& name, int key, Act act, auto* on, auto what) {
+        QAction* action = session->addAction(name, QKeySequence(key), on, what);
         action->setShortcutContext(Qt::ApplicationShortcut);  // works in the subject's window too
-        return action;
+        enable(action, act);
     };
-    start_action_ = add(tr("&Start"), Qt::Key_F5, &OperatorWindow::start);
-    pause_action_ =
-        add(tr("&Pause, or continue"), Qt::Key_F6, [this] { pause(!runner_.paused()); });
-    stop_action_ = add(tr("S&top"), Qt::Key_F7, &OperatorWindow::stop);
-    skip_action_ = add(tr("S&kip the trial"), Qt::Key_F8, &OperatorWindow::skip);
-    back_action_ = add(tr("&Hand back to its start"), Qt::Key_F4, [this] {
+    add(tr("&Start"), Qt::Key_F5, Act::start, this, &OperatorWindow::start);
+    add(tr("&Pause, or continue"), Qt::Key_F6, Act::pause, &control_,
+        [this] { control_.pause(!control_.runner().paused()); });
+    add(tr("S&top"), Qt::Key_F7, Act::stop, &control_, &SessionControl::stop);
+    add(tr("S&kip the trial"), Qt::Key_F8, Act::skip, &control_, &SessionControl::skip);
+    add(tr("&Hand back to its start"), Qt::Key_F4, Act::move, this, [this] {
         if (!mouse_) return;
         mouse_->go_back();
         move_hand(0);
     });
-    step_action_ = session->addAction(tr("Do &one tick"), QKeySequence("Ctrl+."), this,
-                                      [this] { runner_.step(1); });
+    enable(session->addAction(tr("Do &one tick"), QKeySequence("Ctrl+."), this,
+                              [this] { control_.runner().step(1); }),
+           Act::step);
     // Application sees this key, whichever widget has the keyboard focus
-    force_off_action_ = add(tr("&Force off"), Qt::Key_Escape, &OperatorWindow::force_off);
+    add(tr("&Force off"), Qt::Key_Escape, Act::force_off, this, &OperatorWindow::force_off);
     session->addSeparator();
-    checklist_action_ = session->addAction(tr("Checklist &before the session ..."), this,
-                                           [this] { show_checklist(false); });
-    calibrate_action_ =
-        session->addAction(tr("&Calibrate the rig ..."), this, &OperatorWindow::calibrate);
-    register_action_ = session->addAction(tr("Re&gister the display ..."), this, [this] {
+    enable(session->addAction(tr("Checklist &before the session ..."), this,
+                              [this] { show_checklist(false); }),
+           Act::prepare);
+    enable(session->addAction(tr("&Calibrate the rig ..."), this, &OperatorWindow::calibrate),
+           Act::calibrate);
+    QAction* place = session->addAction(tr("Re&gister the display ..."), this, [this] {
         calibrator_->register_display(rig_file(), rig_named_by());
+    });
+    connect(&control_, &SessionControl::changed, place, [this, place] {
+        place->setEnabled(control_.may(Act::prepare) && !rig_file().isEmpty() &&
+                          !control_.plan()->rig.displays.empty());
     });
 }
 
 void OperatorWindow::make_view_menu() {
-    view_menu_ = menuBar()->addMenu(tr("&View"));
-    camera_menu_ = view_menu_->addMenu(tr("C&amera"));
-    view_menu_->addAction(tr("&Reset the camera"), QKeySequence(Qt::Key_Home), scene_,
-                          &SceneWidget::reset_camera);
-    follow_action_ = view_menu_->addAction(tr("&Workspace follows camera"));
+    QMenu* view = menuBar()->addMenu(tr("&View"));
+    camera_menu_ = view->addMenu(tr("C&amera"));
+    view->addAction(tr("&Reset the camera"), QKeySequence(Qt::Key_Home), scene_,
+                    &SceneWidget::reset_camera);
+    follow_action_ = view->addAction(tr("&Workspace follows camera"));
     follow_action_->setShortcut(QKeySequence(Qt::Key_F9));
     follow_action_->setCheckable(true);
     follow_action_->setChecked(QSettings().value("follow_camera", false).toBool());
@@ -99,25 +123,24 @@ void OperatorWindow::make_view_menu() {
                : tr("the devices' workspace turns back to its angle in the rig"));
         turn_workspaces();
     });
-    view_menu_->addSeparator();
-    add_layers(*view_menu_, *scene_);
-    add_layer(*view_menu_, *scene_, tr("Works&paces"), &SceneWidget::Layers::workspaces);
-    add_layer(*view_menu_, *scene_, tr("&Lines down to the table"),
-              &SceneWidget::Layers::drop_lines);
-    view_menu_->addSeparator();
-    subject_action_ = view_menu_->addAction(tr("&Subject's window"));
+    view->addSeparator();
+    add_layers(*view, *scene_);
+    add_layer(*view, *scene_, tr("Works&paces"), &SceneWidget::Layers::workspaces);
+    add_layer(*view, *scene_, tr("&Lines down to the table"), &SceneWidget::Layers::drop_lines);
+    view->addSeparator();
+    subject_action_ = view->addAction(tr("&Subject's window"));
     subject_action_->setCheckable(true);
     connect(subject_action_, &QAction::toggled, this, &OperatorWindow::show_subject_window);
-    connect(add_fine_pictures(*view_menu_, *scene_), &QAction::triggered, this,
+    connect(add_fine_pictures(*view, *scene_), &QAction::triggered, this,
             [this](bool on) { subjects_.each([on](SceneWidget& scene) { scene.set_fine(on); }); });
-    QAction* dark = view_menu_->addAction(tr("&Dark"));
+    QAction* dark = view->addAction(tr("&Dark"));
     dark->setCheckable(true);
     dark->setChecked(QSettings().value("dark", false).toBool());
     connect(dark, &QAction::toggled, this, [](bool on) {
         set_dark(on);
         QSettings().setValue("dark", on);
     });
-    QMenu* panels = view_menu_->addMenu(tr("Pa&nels"));
+    QMenu* panels = view->addMenu(tr("Pa&nels"));
     for (QDockWidget* dock : findChildren<QDockWidget*>()) {
         panels->addAction(dock->toggleViewAction());
         // a panel that shares its place with others is behind them
@@ -160,14 +183,14 @@ void OperatorWindow::show_page_of_docs(const QString& name) {
     if (!why.isEmpty()) log(why, true);
 }
 
-void OperatorWindow::fill_recent() {
-    recent_menu_->clear();
+void OperatorWindow::fill_recent(QMenu& menu) {
+    menu.clear();
     for (const QString& file : StartPage::recent_files()) {
-        recent_menu_->addAction(file, this, [this, file] {
-            if (open_action_->isEnabled()) open(file);
+        menu.addAction(file, this, [this, file] {
+            if (control_.may(SessionControl::Act::open)) open(file);
         });
     }
-    if (recent_menu_->isEmpty()) recent_menu_->addAction(tr("nothing yet"))->setEnabled(false);
+    if (menu.isEmpty()) menu.addAction(tr("nothing yet"))->setEnabled(false);
 }
 
 void OperatorWindow::remember(const QString& file) {

@@ -8,7 +8,6 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <limits>
-#include <utility>
 
 #include "rig/calibration_guide.h"
 
@@ -46,14 +45,6 @@ QString question_of(const session::Unfinished& session, const std::string& parti
              done, QString::fromStdString(session.moved_by.describe()));
 }
 
-/// A person's hand requires real time, and so does a script in its place.
-session::Clock clock_of(const session::Plan& plan, double pace) {
-    const bool at_own_pace = plan.moved_by.mover == recording::Mover::simulated_person || pace != 1;
-    return at_own_pace && !plan.moved_by.person() && !rig::is_real(plan.rig)
-               ? session::Clock::virtual_clock
-               : session::Clock::real;
-}
-
 /// Peak force of the weakest device [N].
 double least_peak(const session::Plan& plan) {
     double out = std::numeric_limits<double>::infinity();
@@ -66,25 +57,20 @@ double least_peak(const session::Plan& plan) {
 
 void OperatorWindow::start() {
     composer_->check_now();
-    start_when_opened_ = loader_.loading() && !starts_;
-    if (!plan_ || runner_.running() || loader_.loading()) return;
-    if (text_is_wrong_ && composer_->changed()) return refuse_to_start();
+    if (!control_.want_start()) return;
     // dangerous faults are checked before; the rest may be checked at any time
-    if (rig::is_real(plan_->rig)) {
+    if (rig::is_real(control_.plan()->rig)) {
         show_checklist(true);
     } else {
         start_checked();
     }
 }
 
-void OperatorWindow::refuse_to_start() {
-    log(tr("The text has errors: it was not saved, and no session starts."), true);
-}
-
 void OperatorWindow::show_checklist(bool before_start) {
     const std::string today = QDate::currentDate().toString(Qt::ISODate).toStdString();
     auto* list =
-        new Checklist(session::readiness(*plan_, out_.toStdString(), today), before_start, this);
+        new Checklist(session::readiness(*control_.plan(), control_.out().toStdString(), today),
+                      before_start, this);
     connect(list, &Checklist::chosen, this, &OperatorWindow::remedy);
     if (before_start) connect(list, &QDialog::accepted, this, &OperatorWindow::start_checked);
     list->open();
@@ -106,11 +92,11 @@ void OperatorWindow::remedy(session::Remedy remedy) {
 }
 
 void OperatorWindow::start_checked() {
-    if (!plan_ || runner_.running() || loader_.loading()) return;
+    if (!control_.may(SessionControl::Act::prepare)) return;
     if (session_->hand() == SessionPanel::Hand::person) {
         const QString id = session_->participant();
         begin({id.isEmpty() ? kSimulated : id.toStdString(), "", "", ""});
-    } else if (plan_->task) {
+    } else if (control_.plan()->task) {
         start_trials();
     } else {
         begin({session_->participant().toStdString(), "", "", ""});
@@ -120,7 +106,8 @@ void OperatorWindow::start_checked() {
 void OperatorWindow::start_trials() {
     const std::string id = session_->participant().toStdString();
     if (id != participant_.id) participant_ = {id, "", "", ""};
-    auto* dialog = new ParticipantDialog(participant_, task::needs_number(plan_->task->task), this);
+    auto* dialog =
+        new ParticipantDialog(participant_, task::needs_number(control_.plan()->task->task), this);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     connect(dialog, &QDialog::accepted, this, [this, dialog] {
         participant_ = dialog->participant();
@@ -131,10 +118,10 @@ void OperatorWindow::start_trials() {
 }
 
 void OperatorWindow::begin_or_go_on(const recording::Participant& participant) {
-    if (!plan_ || runner_.running()) return;
+    if (!control_.plan() || control_.runner().running()) return;
     if (participant.id.empty()) return begin(participant);
-    const auto sessions =
-        session::find_unfinished(out_.toStdString(), plan_->title, participant.id);
+    const auto sessions = session::find_unfinished(control_.out().toStdString(),
+                                                   control_.plan()->title, participant.id);
     if (sessions.empty()) return begin(participant);
     auto* box = new QMessageBox(this);
     box->setAttribute(Qt::WA_DeleteOnClose);
@@ -153,36 +140,24 @@ void OperatorWindow::begin_or_go_on(const recording::Participant& participant) {
 }
 
 void OperatorWindow::begin(const recording::Participant& participant, const std::string& resumes) {
-    if (!plan_ || runner_.running() || loader_.loading()) return;
+    if (!control_.may(SessionControl::Act::prepare)) return;
     if (resumes.empty() && !composer_->save()) return;
-    session::Request asked = request(file_);
-    asked.participant = participant.id;
-    starts_ = participant;
-    loader_.load({asked, true, session_->hand() == SessionPanel::Hand::person, resumes});
-    update_state();
+    const bool by_person = session_->hand() == SessionPanel::Hand::person;
+    control_.begin(request(), {participant, by_person, session_->pace()}, resumes);
 }
 
-void OperatorWindow::run(const session::Plan& made, const recording::Participant& participant,
-                         std::unique_ptr<devices::DeviceGroup> devices) {
-    session::RunOptions options;
-    options.out = out_.toStdString();
-    options.sync = sync_;
-    options.command = "dihaptic gui " + file_.toStdString();
-    options.participant = participant;
-    const std::vector<std::string> fingers = scene::finger_names(made.scene);
-    if (rig::can_check_together(made.rig, fingers)) {
-        options.check =
-            calibrator_->together_check(made.rig, fingers, [this] { return runner_.ending(); });
+void OperatorWindow::prepare(const session::Plan& plan, session::RunOptions& options) {
+    const std::vector<std::string> fingers = scene::finger_names(plan.scene);
+    if (rig::can_check_together(plan.rig, fingers)) {
+        options.check = calibrator_->together_check(plan.rig, fingers,
+                                                    [this] { return control_.runner().ending(); });
     }
-    changed_ = changed_ || !made.resumes.empty();  // the display is the session's, not the file's
-    options.clock = clock_of(made, session_->pace());
     start_page_->rest();
     centre_->setCurrentWidget(scene_);
-    runner_.start(made, options, session_->pace(), std::move(devices),
-                  made.rig.headset ? HeadsetView::frames_from(frame_) : nullptr);
-    const session::Plan& plan = runner_.plan();
+}
+
+void OperatorWindow::show_start(const session::Plan& plan) {
     follow_in_headset();
-    trials_->set_plan(plan.task);
     if (plan.mouse) {
         mouse_.emplace(plan.mouse->goal(), MouseHand::grip_of(least_peak(plan)));
         const bool squeezes = plan.scene.fingers.size() > 1;
@@ -191,15 +166,12 @@ void OperatorWindow::run(const session::Plan& made, const recording::Participant
     }
     turn_workspaces();
     scene_->setFocus();
-    log(tr("started: %1").arg(QString::fromStdString(plan.title)));
-    if (session_->hand() == SessionPanel::Hand::person && !plan.task)
-        log(tr("Simulated people do trials, but this file has none: its script moves the hand."));
-    update_state();
 }
 
 QString OperatorWindow::rig_file() const {
     QString rig = session_->rig();
-    if (rig.isEmpty() && plan_) rig = QString::fromStdString(plan_->rig.place.file);
+    if (rig.isEmpty() && control_.plan())
+        rig = QString::fromStdString(control_.plan()->rig.place.file);
     return rig.isEmpty() ? "" : QDir::cleanPath(rig);
 }
 
@@ -208,7 +180,7 @@ rig::NamedBy OperatorWindow::rig_named_by() const {
 }
 
 void OperatorWindow::calibrate() {
-    if (runner_.running() || loader_.loading()) return;
+    if (!control_.may(SessionControl::Act::calibrate)) return;
     const QString rig = rig_file();
     if (rig.isEmpty()) return log(tr("There is no rig file to calibrate: choose a rig."), true);
     calibrator_->calibrate(rig, rig_named_by());

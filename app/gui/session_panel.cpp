@@ -13,8 +13,8 @@ void set_up_identifier(QLineEdit& field) {
         new QRegularExpressionValidator(QRegularExpression("[A-Za-z0-9_-]{0,40}"), &field));
 }
 
-SessionPanel::SessionPanel(QWidget* parent)
-    : QWidget(parent),
+SessionPanel::SessionPanel(SessionControl& control)
+    : control_(control),
       file_(new QLabel(tr("none"))),
       rig_(new QComboBox),
       participant_(new QLineEdit),
@@ -66,11 +66,27 @@ SessionPanel::SessionPanel(QWidget* parent)
 
     connect(open_, &QPushButton::clicked, this, &SessionPanel::open_requested);
     connect(start_, &QPushButton::clicked, this, &SessionPanel::start_requested);
-    connect(pause_, &QPushButton::clicked, this, &SessionPanel::pause_requested);
-    connect(skip_, &QPushButton::clicked, this, &SessionPanel::skip_requested);
-    connect(stop_, &QPushButton::clicked, this, &SessionPanel::stop_requested);
+    connect(pause_, &QPushButton::clicked, &control_, &SessionControl::pause);
+    connect(skip_, &QPushButton::clicked, &control_, &SessionControl::skip);
+    connect(stop_, &QPushButton::clicked, &control_, &SessionControl::stop);
     connect(rig_, &QComboBox::activated, this, &SessionPanel::choice_changed);
-    set_state(State::nothing, false);
+    connect_control();
+    show_state();
+}
+
+void SessionPanel::connect_control() {
+    connect(&control_, &SessionControl::changed, this, &SessionPanel::show_state);
+    connect(&control_, &SessionControl::opened, this, [this] {
+        file_->setText(QFileInfo(control_.file()).fileName());
+        file_->setToolTip(control_.file());
+    });
+    connect(&control_, &SessionControl::progressed, this, [this](const SessionProgress& now) {
+        set_trial(now.trial);
+        set_progress(now.share, now.text);
+    });
+    connect(&control_, &SessionControl::finishing_progressed, this,
+            [this](double share) { set_progress(share, tr("writing files: %p %")); });
+    connect(&control_, &SessionControl::ended, this, [this] { set_trial(""); });
 }
 
 /// The choices of the mover of simulated hands, and of the speed of their time.
@@ -89,13 +105,8 @@ void SessionPanel::set_up_hand() {
     connect(hand_, &QComboBox::activated, this, &SessionPanel::choice_changed);
     connect(hand_, &QComboBox::currentIndexChanged, this,
             [this] { pace_->setVisible(hand() != Hand::mouse); });
-    connect(pace_, &QComboBox::activated, this, [this] { Q_EMIT pace_changed(pace()); });
+    connect(pace_, &QComboBox::activated, this, [this] { control_.set_pace(pace()); });
     pace_->hide();
-}
-
-void SessionPanel::set_file(const QString& file) {
-    file_->setText(QFileInfo(file).fileName());
-    file_->setToolTip(file);
 }
 
 void SessionPanel::set_rigs(const QStringList& files) {
@@ -109,16 +120,19 @@ double SessionPanel::pace() const {
     return hand() == Hand::mouse ? 1 : pace_->currentData().toDouble();
 }
 
-void SessionPanel::set_state(State state, bool trials) {
-    const bool opening = state == State::opening;
-    const bool idle = state == State::nothing || state == State::ready || opening;
-    const bool running = state == State::running || state == State::paused;
-    start_->setEnabled(state == State::ready);
-    pause_->setEnabled(running);
-    pause_->setChecked(state == State::paused);
-    stop_->setEnabled(running || opening);
+void SessionPanel::show_state() {
+    using State = SessionControl::State;
+    using Act = SessionControl::Act;
+    const bool idle = control_.may(Act::open);
+    const bool checked = control_.may(Act::prepare);
+    const bool opening = idle && control_.loading();
+    const bool trials = control_.has_trials();
+    start_->setEnabled(checked);
+    pause_->setEnabled(control_.may(Act::pause));
+    pause_->setChecked(control_.state() == State::paused);
+    stop_->setEnabled(control_.may(Act::stop));
     stop_->setText(opening ? tr("Cancel") : tr("Stop"));
-    skip_->setEnabled(state == State::running && trials);
+    skip_->setEnabled(control_.may(Act::skip));
     skip_->setVisible(trials);
     trial_->setVisible(trials);
     for (QWidget* choice : std::initializer_list<QWidget*>{open_, rig_, participant_, hand_})
@@ -128,7 +142,7 @@ void SessionPanel::set_state(State state, bool trials) {
         // bar has an end again
         progress_->setRange(0, 1);
         progress_->setValue(0);
-        progress_->setFormat(opening ? tr("opening") : state == State::ready ? tr("ready") : "");
+        progress_->setFormat(opening ? tr("opening") : checked ? tr("ready") : "");
     }
 }
 
@@ -141,12 +155,6 @@ void SessionPanel::set_progress(double share, const QString& text) {
 void SessionPanel::set_trial(const QString& text) {
     trial_->setText(text);
     trial_->setToolTip(text);
-}
-
-void SessionPanel::set_finishing(double share) {
-    progress_->setRange(0, 1000);
-    progress_->setValue(static_cast<int>(1000 * share));
-    progress_->setFormat(tr("writing files: %p %"));
 }
 
 }  // namespace dihaptic::gui

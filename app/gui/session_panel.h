@@ -1,4 +1,4 @@
-// The panel that selects, starts, pauses and stops a session.
+// The panel that selects, starts, pauses and stops a session, and shows its progress.
 #pragma once
 
 #include <QComboBox>
@@ -7,7 +7,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 
-#include "session/plan.h"
+#include "session_control.h"
 
 namespace dihaptic::gui {
 
@@ -18,20 +18,10 @@ class SessionPanel : public QWidget {
     Q_OBJECT
 
   public:
-    enum class State { nothing, opening, ready, running, paused, finishing };
+    explicit SessionPanel(SessionControl& control);
 
-    explicit SessionPanel(QWidget* parent = nullptr);
-
-    void set_file(const QString& file);
     /// The available rig files; the first choice is the rig named in the file.
     void set_rigs(const QStringList& files);
-    /// `trials`: whether the running or selected file has trials.
-    void set_state(State state, bool trials);
-    void set_progress(double share, const QString& text);
-    /// `text`: the running trial; empty: none.
-    void set_trial(const QString& text);
-    void set_finishing(double share);
-
     QString rig() const { return rig_->currentData().toString(); }
     QString participant() const { return participant_->text().trimmed(); }
     void set_participant(const QString& id) { participant_->setText(id); }
@@ -44,16 +34,17 @@ class SessionPanel : public QWidget {
     void open_requested();
     /// Another rig or another hand was chosen.
     void choice_changed();
-    void pace_changed(double pace);
     void start_requested();
-    void pause_requested(bool paused);
-    void skip_requested();
-    /// The session, or the opening of a file, should stop.
-    void stop_requested();
 
   private:
     void set_up_hand();
+    void connect_control();
+    void show_state();
+    void set_progress(double share, const QString& text);
+    /// `text`: the running trial; empty: none.
+    void set_trial(const QString& text);
 
+    SessionControl& control_;
     QLabel* file_;
     QComboBox* rig_;
     QLineEdit* participant_;

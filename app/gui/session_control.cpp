@@ -1,0 +1,318 @@
+#include "session_control.h"
+
+#include <QFileInfo>
+#include <algorithm>
+#include <utility>
+
+#include "frame/shown_texts.h"
+#include "headset_view.h"
+
+namespace dihaptic::gui {
+namespace {
+
+/// The texts that the task shows, one per line.
+QString texts_of(const session::Plan& plan, const frame::Frame& frame) {
+    QStringList out;
+    if (plan.task) {
+        for (const std::string& text : frame::shown_texts(frame.task, plan.task->messages))
+            out += QString::fromStdString(text);
+    }
+    return out.join("\n");
+}
+
+/// A person's hand requires real time, and so does a script in its place.
+session::Clock clock_of(const session::Plan& plan, double pace) {
+    const bool at_own_pace = plan.moved_by.mover == recording::Mover::simulated_person || pace != 1;
+    return at_own_pace && !plan.moved_by.person() && !rig::is_real(plan.rig)
+               ? session::Clock::virtual_clock
+               : session::Clock::real;
+}
+
+}  // namespace
+
+SessionControl::SessionControl(QString out, double sync, std::atomic<bool>& stop)
+    : out_(std::move(out)), sync_(sync), runner_(stop) {
+    connect(&loader_, &Loader::opened, this, &SessionControl::take);
+    connect(&loader_, &Loader::refused, this, &SessionControl::refuse);
+    // emitted by the loader's thread, so it arrives later, when loading may be over
+    connect(&loader_, &Loader::waits, this, [this](const QString& what, int seconds, int most) {
+        if (loader_.loading())
+            Q_EMIT progressed({"", most > 0 ? static_cast<double>(seconds) / most : 0,
+                               tr("%1: %2 s of %3 s at most").arg(what).arg(seconds).arg(most)});
+    });
+    reload_.setSingleShot(true);
+    connect(&watcher_, &QFileSystemWatcher::fileChanged, this, [this] { reload_.start(300); });
+    // a missing file has returned
+    connect(&watcher_, &QFileSystemWatcher::directoryChanged, this, [this] {
+        if (!watcher_.files().contains(file_) && QFileInfo::exists(file_)) reload_.start(300);
+    });
+    connect(&reload_, &QTimer::timeout, this, &SessionControl::file_changed);
+    connect(&runner_, &SessionRunner::ended, this, &SessionControl::end);
+    connect(&runner_, &SessionRunner::paused_at_once, this, [this] { pause(true); });
+    connect(&runner_, &SessionRunner::warned, this,
+            [this](const QString& message) { log(message, true); });
+    connect(&runner_, &SessionRunner::finishing_progressed, this,
+            &SessionControl::finishing_progressed);
+    connect(&figures_, &TrialFigures::found, this, &SessionControl::measured);
+}
+
+SessionControl::State SessionControl::state() const {
+    if (runner_.finishing()) return State::finishing;
+    if (runner_.running()) return runner_.paused() ? State::paused : State::running;
+    if (loader_.loading()) return starts_ ? State::starting : State::opening;
+    return plan_ ? State::checked : State::no_file;
+}
+
+bool SessionControl::may(Act act) const {
+    const auto in = [now = state()](std::initializer_list<State> states) {
+        return std::find(states.begin(), states.end(), now) != states.end();
+    };
+    switch (act) {
+        case Act::open:
+            return in({State::no_file, State::opening, State::checked, State::starting});
+        case Act::start:
+            return in({State::opening, State::checked, State::starting});
+        case Act::prepare:
+            return in({State::checked});
+        case Act::calibrate:
+            return in({State::no_file, State::checked});
+        case Act::pause:
+            return in({State::running, State::paused});
+        case Act::stop:
+            return in({State::opening, State::starting, State::running, State::paused});
+        case Act::skip:
+            return in({State::running}) && has_trials();
+        case Act::step:
+            return in({State::paused}) && runner_.on_virtual_clock();
+        case Act::move:
+            return in({State::running}) && runner_.plan().mouse;
+        case Act::force_off:
+            return in({State::running});
+    }
+    return false;
+}
+
+void SessionControl::set_out(const QString& folder) {
+    out_ = folder;
+    log(tr("sessions are stored in %1").arg(folder));
+}
+
+bool SessionControl::has_trials() const {
+    return runner_.running() ? runner_.plan().task != nullptr : plan_ && plan_->task;
+}
+
+SessionControl::Words SessionControl::words() const {
+    if (!runner_.running()) return {};
+    if (page_ < 0) return {said_, "", ""};
+    const task::TaskPlan::Page& page = runner_.plan().task->pages[static_cast<size_t>(page_)];
+    return {"", said_, QString::fromStdString(page.spec.picture)};
+}
+
+const task::AskSpec* SessionControl::asked_by_mouse() const {
+    if (!may(Act::skip)) return nullptr;
+    const frame::Frame& frame = runner_.frame();
+    if (frame.trial < 1 || frame.phase < 1 || frame.task.outcome >= 0) return nullptr;
+    const auto& ask = runner_.plan().task->task.states[static_cast<size_t>(frame.phase) - 1].ask;
+    return ask && ask->by == task::AnswerBy::mouse ? &*ask : nullptr;
+}
+
+void SessionControl::open(const QString& file) {
+    file_ = file;
+    starts_.reset();
+    recorded_.clear();
+    if (const QStringList watched = watcher_.files() + watcher_.directories(); !watched.isEmpty())
+        watcher_.removePaths(watched);
+    watcher_.addPath(file);
+    watcher_.addPath(QFileInfo(file).absolutePath());
+}
+
+void SessionControl::watch() {
+    // when an editor replaces the file, it is no longer watched
+    if (!watcher_.files().contains(file_)) watcher_.addPath(file_);
+}
+
+void SessionControl::read(const session::Request& request, const std::optional<std::string>& text) {
+    changed_ = runner_.running() || starts_;
+    if (changed_) return;
+    loader_.load({request, false, false, "", text});
+    Q_EMIT changed();
+}
+
+void SessionControl::take(const Opened& opened) {
+    auto devices = loader_.take_devices();  // closed again, unless a session starts now
+    if (runner_.running()) return;
+    plan_ = opened.plan;
+    frame_ = opened.frame;
+    complaint_.clear();
+    text_is_wrong_ = false;
+    // opened devices may have reported more
+    QStringList warnings;
+    for (const Problem& warning : plan_->warnings)
+        warnings += QString::fromStdString(warning.text());
+    Q_EMIT judged(warnings);
+    if ((!starts_ || rig::is_real(plan_->rig)) && !edited_) {
+        for (const QString& warning : warnings) log(warning, true);
+    }
+    Q_EMIT this->opened(opened);
+    for (const QString& line : opened.told) log(line);
+    if (starts_) {
+        Start start = *std::exchange(starts_, std::nullopt);
+        start.participant = opened.participant.value_or(start.participant);
+        return run(start, std::move(devices));
+    }
+    if (!edited_) log(tr("opened %1: %2").arg(file_, QString::fromStdString(plan_->title)));
+    Q_EMIT changed();
+    if (start_when_opened_) Q_EMIT start_due();
+}
+
+void SessionControl::refuse(const QStringList& problems) {
+    text_is_wrong_ = edited_;
+    if (std::exchange(start_when_opened_, false) && text_is_wrong_) refuse_to_start();
+    starts_.reset();
+    Q_EMIT judged(problems);
+    if (!edited_) {  // the user sees mistakes at their place while typing
+        complaint_ = problems.front();
+        for (const QString& problem : problems) log(problem, true);
+        if (plan_) log(tr("The open file stays as it is."));
+    }
+    Q_EMIT changed();
+    if (changed_) Q_EMIT file_changed();
+}
+
+bool SessionControl::want_start() {
+    start_when_opened_ = loader_.loading() && !starts_;
+    if (!may(Act::prepare)) return false;
+    if (!text_is_wrong_ || !edited_) return true;
+    refuse_to_start();
+    return false;
+}
+
+void SessionControl::refuse_to_start() {
+    log(tr("The text has errors: it was not saved, and no session starts."), true);
+}
+
+void SessionControl::forget_start() {
+    start_when_opened_ = false;
+    starts_.reset();
+}
+
+void SessionControl::begin(session::Request request, const Start& start,
+                           const std::string& resumes) {
+    request.participant = start.participant.id;
+    starts_ = start;
+    loader_.load({request, true, start.by_person, resumes});
+    Q_EMIT changed();
+}
+
+void SessionControl::run(const Start& start, std::unique_ptr<devices::DeviceGroup> devices) {
+    session::RunOptions options;
+    options.out = out_.toStdString();
+    options.sync = sync_;
+    options.command = "dihaptic gui " + file_.toStdString();
+    options.participant = start.participant;
+    options.clock = clock_of(*plan_, start.pace);
+    // the display is the session's, not the file's
+    changed_ = changed_ || !plan_->resumes.empty();
+    Q_EMIT prepared(*plan_, options);
+    runner_.start(*plan_, options, start.pace, std::move(devices),
+                  plan_->rig.headset ? HeadsetView::frames_from(frame_) : nullptr);
+    const session::Plan& plan = runner_.plan();
+    Q_EMIT started(plan);
+    log(tr("started: %1").arg(QString::fromStdString(plan.title)));
+    if (start.by_person && !plan.task)
+        log(tr("Simulated people do trials, but this file has none: its script moves the hand."));
+    Q_EMIT changed();
+}
+
+void SessionControl::stop() {
+    forget_start();
+    if (runner_.running()) runner_.end();
+    if (loader_.loading()) loader_.cancel();
+}
+
+void SessionControl::skip() {
+    if (!may(Act::skip)) return;
+    runner_.skip();
+    log(tr("trial skipped"));
+}
+
+void SessionControl::pause(bool paused) {
+    if (!may(Act::pause)) return;
+    runner_.set_paused(paused);
+    complaint_.clear();
+    log(!paused ? tr("continues")
+        : runner_.on_virtual_clock()
+            ? tr("paused. F6 continues, Ctrl+. does one tick, F7 ends the session.")
+            : tr("paused: force is off. F6 continues, F7 ends the session."));
+    if (paused) Q_EMIT rested(tr("paused"));
+    Q_EMIT changed();
+}
+
+void SessionControl::take_force_away(const QString& why) {
+    if (!runner_.running() || runner_.paused()) return;
+    pause(true);
+    complaint_ = why;
+    Q_EMIT changed();
+}
+
+void SessionControl::set_pace(double pace) {
+    if (starts_) starts_->pace = pace;
+    if (runner_.running() && runner_.on_virtual_clock()) runner_.set_pace(pace);
+}
+
+void SessionControl::turn_knobs(const frame::Knobs& knobs, const QString& what) {
+    if (!runner_.running()) return;
+    runner_.turn_knobs(knobs);
+    log(what);
+}
+
+void SessionControl::press(char key) {
+    if (key != 0 && runner_.running() && runner_.plan().task) runner_.press(key);
+}
+
+void SessionControl::click(double share) {
+    if (runner_.running() && runner_.plan().task) runner_.click(share);
+}
+
+void SessionControl::refresh() {
+    if (!runner_.running()) return;
+    if (const QString told = runner_.take_told(); !told.isEmpty()) {
+        complaint_ = told;
+        log(told, true);
+        Q_EMIT changed();
+    }
+    while (const auto sample = runner_.take_sample()) Q_EMIT sampled(*sample);
+    while (const auto end = runner_.take_trial_end()) Q_EMIT trial_ended(*end);
+    if (const QString folder = runner_.take_folder(); !folder.isEmpty() && runner_.plan().task)
+        figures_.follow(folder);
+    if (const frame::Frame& frame = runner_.read_frame(); frame.sequence >= 0) show(frame);
+    if (runner_.finishing()) Q_EMIT changed();
+}
+
+void SessionControl::show(const frame::Frame& frame) {
+    Q_EMIT framed(frame);
+    if (runner_.finishing()) return;
+    const QString said = texts_of(runner_.plan(), frame);
+    if (said != said_ || page_ != frame.task.page) {
+        said_ = said;
+        page_ = frame.task.page;
+        Q_EMIT changed();
+    }
+    Q_EMIT progressed(progress_of(runner_.plan(), frame, runner_.done()));
+}
+
+void SessionControl::end(const SessionEnd& end) {
+    cut_ = runner_.stopped();
+    said_.clear();
+    page_ = -1;
+    complaint_.clear();
+    for (const QString& message : end.messages) log(message, !end.good);
+    figures_.finish();
+    recorded_ = end.folder;
+    if (!end.folder.isEmpty()) log(tr("recorded in %1").arg(end.folder));
+    Q_EMIT rested(tr("at rest"));
+    Q_EMIT changed();
+    Q_EMIT ended();
+}
+
+}  // namespace dihaptic::gui

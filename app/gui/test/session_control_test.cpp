@@ -1,0 +1,217 @@
+// Tests the states of a session's control, what each of them allows, and what the control reports,
+// without a window.
+#include "session_control.h"
+
+#include <gtest/gtest.h>
+
+#include <QCoreApplication>
+#include <QElapsedTimer>
+#include <QThread>
+#include <algorithm>
+#include <map>
+
+#include "testing/files.h"
+
+namespace dihaptic::gui {
+namespace {
+
+class SessionControlTest : public ::testing::Test {
+  protected:
+    using State = SessionControl::State;
+    using Act = SessionControl::Act;
+
+    SessionControlTest() {
+        QObject::connect(&control_, &SessionControl::logged, &control_,
+                         [this](const QString& text) { log_ += text; });
+        QObject::connect(&control_, &SessionControl::start_due, &control_, [this] { ++due_; });
+        QObject::connect(&control_, &SessionControl::ended, &control_, [this] { ++ended_; });
+        QObject::connect(&control_, &SessionControl::finishing_progressed, &control_, [this] {
+            if (control_.state() == State::finishing && allows({})) ++finishing_;
+        });
+        QObject::connect(&control_, &SessionControl::framed, &control_, [this] { ++frames_; });
+        QObject::connect(&control_, &SessionControl::file_changed, &control_,
+                         [this] { ++file_changes_; });
+        QObject::connect(&control_, &SessionControl::judged, &control_,
+                         [this](const QStringList& problems) { problems_ = problems; });
+    }
+
+    /// Lets the control work until `condition` holds; false when that takes over twenty seconds.
+    template <class Condition>
+    bool answer_until(const Condition& condition) {
+        QElapsedTimer timer;
+        timer.start();
+        while (!condition()) {
+            if (timer.elapsed() > 20000) return false;
+            QCoreApplication::processEvents(QEventLoop::AllEvents, 10);
+            control_.refresh();
+            QThread::msleep(5);
+        }
+        return true;
+    }
+    bool comes_to(State state) {
+        return answer_until([&] { return control_.state() == state; });
+    }
+    session::Request request() const {
+        session::Request out;
+        out.file = control_.file().toStdString();
+        return out;
+    }
+    void open(const std::string& file) {
+        control_.open(QString::fromStdString(file));
+        control_.read(request(), std::nullopt);
+    }
+    /// Starts a session of the scene, ten times slower than in real time unless the mouse moves
+    /// the hand.
+    void run(bool mouse = false) {
+        open("scenes/block-on-table.yaml");
+        ASSERT_TRUE(comes_to(State::checked));
+        session::Request asked = request();
+        asked.mouse = mouse;
+        control_.begin(asked, {{"S07", "", "", ""}, false, mouse ? 1 : 0.1}, "");
+        ASSERT_TRUE(answer_until([&] { return frames_ > 0; }));
+    }
+    bool logged(const char* text) const { return log_.join('\n').contains(text); }
+    /// Whether exactly these acts are allowed.
+    ::testing::AssertionResult allows(const std::vector<Act>& acts) const {
+        const std::map<Act, const char*> names{
+            {Act::open, "open"},          {Act::start, "start"}, {Act::prepare, "prepare"},
+            {Act::pause, "pause"},        {Act::stop, "stop"},   {Act::calibrate, "calibrate"},
+            {Act::skip, "skip"},          {Act::step, "step"},   {Act::move, "move the hand"},
+            {Act::force_off, "force off"}};
+        for (const auto& [act, name] : names) {
+            const bool expected = std::find(acts.begin(), acts.end(), act) != acts.end();
+            if (control_.may(act) != expected)
+                return ::testing::AssertionFailure() << name << (expected ? " is not" : " is");
+        }
+        return ::testing::AssertionSuccess();
+    }
+
+    int words_ = 1;
+    char name_[2] = "t";
+    char* argument_ = name_;
+    QCoreApplication app_{words_, &argument_};
+    testing::TemporaryFolder folder_;
+    std::atomic<bool> stop_{false};
+    SessionControl control_{QString::fromStdString(folder_.path()), 0, stop_};
+    QStringList log_;
+    QStringList problems_;
+    int due_ = 0, ended_ = 0, finishing_ = 0, frames_ = 0, file_changes_ = 0;
+};
+
+TEST_F(SessionControlTest, AFileIsReadAndMayThenStart) {
+    EXPECT_EQ(control_.state(), State::no_file);
+    EXPECT_TRUE(allows({Act::open, Act::calibrate}));
+    open("scenes/block-on-table.yaml");
+    EXPECT_EQ(control_.state(), State::opening);
+    EXPECT_TRUE(allows({Act::open, Act::start, Act::stop}));
+    ASSERT_TRUE(comes_to(State::checked));
+    EXPECT_TRUE(allows({Act::open, Act::start, Act::prepare, Act::calibrate}));
+    EXPECT_EQ(control_.plan()->title, "A 100 g block on a table");
+    EXPECT_TRUE(logged("opened scenes/block-on-table.yaml"));
+    EXPECT_TRUE(control_.want_start());
+    EXPECT_EQ(due_, 0);
+}
+
+TEST_F(SessionControlTest, AFileWithErrorsLeavesTheLastGoodOne) {
+    open("scenes/block-on-table.yaml");
+    ASSERT_TRUE(comes_to(State::checked));
+    open(folder_.write("wrong.yaml", "title: [\n"));
+    ASSERT_TRUE(comes_to(State::checked));
+    EXPECT_FALSE(problems_.isEmpty());
+    EXPECT_FALSE(control_.complaint().isEmpty());
+    EXPECT_EQ(control_.plan()->title, "A 100 g block on a table");
+    EXPECT_TRUE(logged("The open file stays as it is."));
+}
+
+TEST_F(SessionControlTest, NoSessionStartsFromUnsavedTextWithErrors) {
+    open("scenes/block-on-table.yaml");
+    ASSERT_TRUE(comes_to(State::checked));
+    control_.set_edited(true);
+    control_.read(request(), "title: [\n");
+    ASSERT_TRUE(comes_to(State::checked));
+    EXPECT_FALSE(problems_.isEmpty());
+    EXPECT_TRUE(control_.complaint().isEmpty());  // they are shown at their place in the text
+    EXPECT_FALSE(control_.want_start());
+    EXPECT_TRUE(logged("The text has errors"));
+    control_.set_edited(false);
+    EXPECT_TRUE(control_.want_start());
+}
+
+TEST_F(SessionControlTest, AWantedStartWaitsForTheFile) {
+    open("scenes/block-on-table.yaml");
+    EXPECT_FALSE(control_.want_start());
+    ASSERT_TRUE(comes_to(State::checked));
+    EXPECT_EQ(due_, 1);
+    control_.read(request(), std::nullopt);
+    EXPECT_FALSE(control_.want_start());
+    control_.forget_start();
+    ASSERT_TRUE(comes_to(State::checked));
+    EXPECT_EQ(due_, 1);
+}
+
+TEST_F(SessionControlTest, ASessionStartsPausesAndEnds) {
+    run();
+    EXPECT_EQ(control_.state(), State::running);
+    EXPECT_TRUE(allows({Act::pause, Act::stop, Act::force_off}));  // the scene has no trials
+    control_.take_force_away("a reason");
+    EXPECT_EQ(control_.state(), State::paused);
+    EXPECT_TRUE(allows({Act::pause, Act::stop, Act::step}));
+    EXPECT_EQ(control_.complaint(), "a reason");
+    control_.pause(false);
+    EXPECT_EQ(control_.state(), State::running);
+    EXPECT_TRUE(control_.complaint().isEmpty());
+    control_.stop();
+    ASSERT_TRUE(answer_until([&] { return ended_ == 1; }));
+    EXPECT_GT(finishing_, 0);
+    EXPECT_EQ(control_.state(), State::checked);
+    EXPECT_FALSE(control_.recorded().isEmpty());
+    EXPECT_FALSE(control_.cut());
+    EXPECT_FALSE(control_.stale());
+    control_.take_force_away("too late");
+    EXPECT_TRUE(control_.complaint().isEmpty());
+}
+
+TEST_F(SessionControlTest, AMouseMovesTheHandInRealTime) {
+    run(true);
+    EXPECT_TRUE(allows({Act::pause, Act::stop, Act::move, Act::force_off}));
+    control_.pause(true);
+    EXPECT_TRUE(allows({Act::pause, Act::stop}));  // no single ticks in real time
+}
+
+TEST_F(SessionControlTest, ASessionThatIsAboutToStartCanBeDropped) {
+    open("scenes/block-on-table.yaml");
+    ASSERT_TRUE(comes_to(State::checked));
+    control_.begin(request(), {{"S07", "", "", ""}, false, 0.1}, "");
+    EXPECT_EQ(control_.state(), State::starting);
+    EXPECT_TRUE(allows({Act::open, Act::start, Act::stop}));
+    control_.drop_start();
+    EXPECT_EQ(control_.state(), State::opening);
+    ASSERT_TRUE(comes_to(State::checked));
+    EXPECT_FALSE(logged("started"));
+}
+
+TEST_F(SessionControlTest, AFileThatChangesIsReadOnceTheSessionIsOver) {
+    run();
+    control_.read(request(), std::nullopt);
+    EXPECT_TRUE(control_.stale());
+    EXPECT_EQ(control_.state(), State::running);
+    stop_ = true;
+    ASSERT_TRUE(answer_until([&] { return ended_ == 1; }));
+    EXPECT_TRUE(control_.stale());
+    EXPECT_TRUE(control_.cut());
+    control_.read(request(), std::nullopt);
+    EXPECT_FALSE(control_.stale());
+    EXPECT_EQ(control_.state(), State::opening);
+}
+
+TEST_F(SessionControlTest, AChangeOfTheFileIsReported) {
+    const std::string file = folder_.write("open.yaml", "title: one\n");
+    open(file);
+    ASSERT_TRUE(answer_until([&] { return !control_.loading(); }));
+    EXPECT_EQ(file_changes_, 0);
+    folder_.write("open.yaml", "title: two\n");
+    EXPECT_TRUE(answer_until([&] { return file_changes_ == 1; }));
+}
+
+}  // namespace
+}  // namespace dihaptic::gui
