@@ -5,7 +5,7 @@
 #include <deque>
 #include <vector>
 
-#include "chart_scale.h"
+#include "chart_painter.h"
 
 namespace dihaptic::gui {
 
@@ -15,10 +15,7 @@ class StripChart : public QWidget {
   public:
     static constexpr double kSeconds = 10;
 
-    struct Curve {
-        QString name;
-        QColor colour;
-    };
+    using Curve = ChartPainter::Entry;
     /// `unit`: unit of all curves. `least_range`: least range of the scale.
     StripChart(QString title, QString unit, std::vector<Curve> curves, double least_range,
                QWidget* parent = nullptr);
@@ -41,12 +38,6 @@ class StripChart : public QWidget {
     };
     /// Range of the scale. `lines`: approximate number of steps.
     Scale range(int lines) const;
-    struct Axes;
-    QColor ink() const;
-    void draw_values(QPainter& painter, const Axes& axes) const;
-    void draw_times(QPainter& painter, const Axes& axes) const;
-    void draw_legend(QPainter& painter, double left, double top) const;
-    void draw_curve(QPainter& painter, const Axes& axes, size_t curve) const;
 
     QString title_;
     QString unit_;

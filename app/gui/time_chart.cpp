@@ -1,12 +1,10 @@
 #include "time_chart.h"
 
 #include <QMouseEvent>
-#include <QPainter>
 #include <algorithm>
 #include <cmath>
 
 #include "base/palette.h"
-#include "chart_scale.h"
 
 namespace dihaptic::gui {
 namespace {
@@ -67,11 +65,6 @@ QRectF TimeChart::area() const {
             std::max(10.0, height() - line - 12.0)};
 }
 
-double TimeChart::x(double time) const {
-    const QRectF in = area();
-    return in.left() + (time - begin_) / (end_ - begin_) * in.width();
-}
-
 double TimeChart::time_at(double x) const {
     const QRectF in = area();
     const double share = std::clamp((x - in.left()) / in.width(), 0.0, 1.0);
@@ -92,64 +85,44 @@ void TimeChart::paintEvent(QPaintEvent*) {
     const QRectF in = area();
     const double row = in.height() / static_cast<double>(std::max<size_t>(1, curves_.size()));
     for (size_t i = 0; i < curves_.size(); ++i)
-        draw_row(painter, curves_[i], i,
+        draw_row(painter, i,
                  {in.left(), in.top() + static_cast<double>(i) * row, in.width(), row - 14});
-    draw_times(painter);
+    const ChartPainter chart(painter, *this, in, begin_, end_, {});
+    draw_times(chart);
     painter.setClipRect(in.adjusted(-1, 0, 1, 0));
-    QColor faint = palette().color(QPalette::WindowText);
-    faint.setAlpha(60);
-    painter.setPen(QPen(faint, 1, Qt::DotLine));
     for (const double moment : moments_) {
-        if (moment < begin_ || moment > end_) continue;
-        painter.drawLine(QPointF(x(moment), in.top()), QPointF(x(moment), in.bottom()));
+        if (moment >= begin_ && moment <= end_)
+            chart.draw_upright(moment, QPen(chart.ink(60), 1, Qt::DotLine));
     }
-    painter.setPen(QPen(palette().color(QPalette::WindowText), 1.5));
-    painter.drawLine(QPointF(x(cursor_), in.top()), QPointF(x(cursor_), in.bottom()));
+    chart.draw_upright(cursor_, QPen(chart.ink(), 1.5));
     if (share_ < 1)
         painter.drawText(in, Qt::AlignRight | Qt::AlignTop,
                          tr("reading, %1 % ").arg(std::lround(100 * share_)));
 }
 
-void TimeChart::draw_row(QPainter& painter, const RecordedCurve& curve, size_t row,
-                         const QRectF& in) const {
-    const QColor ink = palette().color(QPalette::WindowText);
-    QColor faint = ink;
-    faint.setAlpha(40);
+void TimeChart::draw_row(QPainter& painter, size_t row, const QRectF& in) const {
+    const RecordedCurve& curve = curves_[row];
+    const double part = (curves_end_ - curves_begin_) / static_cast<double>(curve.low.size());
+    std::vector<QPointF> points;
     double least = 0, most = 0;
     for (size_t i = 0; i < curve.low.size(); ++i) {
         if (!std::isfinite(curve.low[i]) || !std::isfinite(curve.high[i])) continue;
-        least = std::min(least, static_cast<double>(curve.low[i]));
-        most = std::max(most, static_cast<double>(curve.high[i]));
+        const double at = curves_begin_ + (static_cast<double>(i) + 0.5) * part;
+        points.emplace_back(at, curve.low[i]);
+        points.emplace_back(at, curve.high[i]);
+        least = std::min(least, points[points.size() - 2].y());
+        most = std::max(most, points.back().y());
     }
     if (most <= least) most = least + 1;
-    const int line = fontMetrics().height();
-    const auto [low, high, step] = scale_of(least, most, in.height() / (2.0 * line));
-    const auto y = [&, low = low, high = high](double value) {
-        return in.bottom() - (value - low) / (high - low) * in.height();
-    };
-    for (int i = 0; low + i * step < high + step / 2; ++i) {
-        const double value = low + i * step;
-        painter.setPen(faint);
-        painter.drawLine(QPointF(in.left(), y(value)), QPointF(in.right(), y(value)));
-        painter.setPen(ink);
-        painter.drawText(QRectF(0, y(value) - line / 2.0, in.left() - 5, line),
-                         Qt::AlignRight | Qt::AlignVCenter, QString::number(value, 'g', 4));
-    }
+    const double lines = in.height() / (2.0 * fontMetrics().height());
+    const ChartPainter chart(painter, *this, in, begin_, end_, scale_of(least, most, lines));
+    chart.draw_values();
     painter.save();
     painter.setClipRect(in);
+    // lines with ends of their own: in one curve, short ones would look thinner
     painter.setPen(QPen(colour_of(row), 1.4));
-    const double part = (curves_end_ - curves_begin_) / static_cast<double>(curve.low.size());
-    QPointF before;
-    bool joined = false;
-    for (size_t i = 0; i < curve.low.size(); ++i) {
-        if (!std::isfinite(curve.low[i]) || !std::isfinite(curve.high[i])) continue;
-        const double at = x(curves_begin_ + (static_cast<double>(i) + 0.5) * part);
-        const QPointF top(at, y(curve.high[i])), bottom(at, y(curve.low[i]));
-        if (joined) painter.drawLine(before, bottom);
-        painter.drawLine(bottom, top);
-        before = top;
-        joined = true;
-    }
+    for (size_t i = 1; i < points.size(); ++i)
+        painter.drawLine(chart.at(points[i - 1]), chart.at(points[i]));
     painter.restore();
     const QString value = static_cast<qsizetype>(row) < values_.size()
                               ? values_[static_cast<qsizetype>(row)]
@@ -160,15 +133,11 @@ void TimeChart::draw_row(QPainter& painter, const RecordedCurve& curve, size_t r
                                      : QString("%1   %2 %3").arg(curve.name, value, curve.unit));
 }
 
-void TimeChart::draw_times(QPainter& painter) const {
-    const QRectF in = area();
-    const int line = fontMetrics().height();
-    const double step = round_step((end_ - begin_) / std::max(2.0, in.width() / 90));
+void TimeChart::draw_times(const ChartPainter& chart) const {
+    const double step = round_step((end_ - begin_) / std::max(2.0, area().width() / 90));
     const int decimals = step < 0.01 ? 3 : step < 0.1 ? 2 : step < 1 ? 1 : 0;
-    painter.setPen(palette().color(QPalette::WindowText));
     for (double time = std::ceil(begin_ / step) * step; time <= end_ + 1e-9; time += step)
-        painter.drawText(QRectF(x(time) - 40, in.bottom() + 3, 80, line), Qt::AlignHCenter,
-                         QString::number(time, 'f', decimals) + " s");
+        chart.draw_tick(time, QString::number(time, 'f', decimals) + " s");
 }
 
 void TimeChart::mousePressEvent(QMouseEvent* event) {

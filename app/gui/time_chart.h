@@ -4,6 +4,7 @@
 
 #include <QWidget>
 
+#include "chart_painter.h"
 #include "curve_reader.h"
 
 namespace dihaptic::gui {
@@ -42,12 +43,10 @@ class TimeChart : public QWidget {
 
   private:
     QRectF area() const;
-    double x(double time) const;
     double time_at(double x) const;
     void show_stretch(double begin, double end);
-    void draw_row(QPainter& painter, const RecordedCurve& curve, size_t row,
-                  const QRectF& in) const;
-    void draw_times(QPainter& painter) const;
+    void draw_row(QPainter& painter, size_t row, const QRectF& in) const;
+    void draw_times(const ChartPainter& chart) const;
 
     double first_ = 0, last_ = 1;  // of the session [s]
     double begin_ = 0, end_ = 1;   // displayed stretch

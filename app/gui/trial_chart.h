@@ -4,7 +4,7 @@
 #include <QWidget>
 #include <vector>
 
-#include "chart_scale.h"
+#include "chart_painter.h"
 
 namespace dihaptic::gui {
 
@@ -27,10 +27,8 @@ class TrialChart : public QWidget {
     void paintEvent(QPaintEvent* event) override;
 
   private:
-    struct Axes;
-    void draw_axes(QPainter& painter, const Axes& axes) const;
-    void draw_legend(QPainter& painter, const QRectF& in) const;
-    void draw_points(QPainter& painter, const Axes& axes) const;
+    std::vector<ChartPainter::Entry> legend() const;
+    void draw_points(const ChartPainter& chart) const;
 
     QString name_;
     QStringList outcomes_;
