@@ -8,9 +8,9 @@
 #include <QSvgWidget>
 #include <QVBoxLayout>
 
+#include "participant_window.h"
 #include "recording/session.h"
 #include "rig/registration_run.h"
-#include "subject_window.h"
 
 namespace dihaptic::gui {
 

@@ -158,7 +158,7 @@ void OperatorWindow::show_opened(const Opened& opened) {
     const session::Plan& plan = opened.plan;
     remember(control_.file());
     scene_->set_scene(plan.scene, opened.frame, opened.workspaces, opened.turn);
-    subjects_.set_scene(plan.scene, opened.frame, plan.rig);
+    participants_.set_scene(plan.scene, opened.frame, plan.rig);
     camera_menu_->clear();
     for (const view::Camera& camera : scene_->cameras()) {
         camera_menu_->addAction(QString::fromStdString(camera.name), this,

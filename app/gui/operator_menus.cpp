@@ -75,7 +75,8 @@ void OperatorWindow::make_session_menu() {
     QMenu* session = menuBar()->addMenu(tr("&Session"));
     const auto add = [&](const QString& name, int key, Act act, auto* on, auto what) {
         QAction* action = session->addAction(name, QKeySequence(key), on, what);
-        action->setShortcutContext(Qt::ApplicationShortcut);  // works in the subject's window too
+        action->setShortcutContext(
+            Qt::ApplicationShortcut);  // works in the participant's window too
         enable(action, act);
     };
     add(tr("&Start"), Qt::Key_F5, Act::start, this, &OperatorWindow::start);
@@ -128,11 +129,12 @@ void OperatorWindow::make_view_menu() {
     add_layer(*view, *scene_, tr("Works&paces"), &SceneWidget::Layers::workspaces);
     add_layer(*view, *scene_, tr("&Lines down to the table"), &SceneWidget::Layers::drop_lines);
     view->addSeparator();
-    subject_action_ = view->addAction(tr("&Subject's window"));
-    subject_action_->setCheckable(true);
-    connect(subject_action_, &QAction::toggled, this, &OperatorWindow::show_subject_window);
-    connect(add_fine_pictures(*view, *scene_), &QAction::triggered, this,
-            [this](bool on) { subjects_.each([on](SceneWidget& scene) { scene.set_fine(on); }); });
+    participant_action_ = view->addAction(tr("&Participant's window"));
+    participant_action_->setCheckable(true);
+    connect(participant_action_, &QAction::toggled, this, &OperatorWindow::show_participant_window);
+    connect(add_fine_pictures(*view, *scene_), &QAction::triggered, this, [this](bool on) {
+        participants_.each([on](SceneWidget& scene) { scene.set_fine(on); });
+    });
     QAction* dark = view->addAction(tr("&Dark"));
     dark->setCheckable(true);
     dark->setChecked(QSettings().value("dark", false).toBool());

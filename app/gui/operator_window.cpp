@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "device_panel.h"
+#include "participant_mirror.h"
 #include "plots_panel.h"
-#include "subject_mirror.h"
 #include "trials_panel.h"
 #include "tuning_panel.h"
 
@@ -38,7 +38,7 @@ std::optional<view::PatchLook> patch_of(const session::Plan& plan, const frame::
 
 OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop)
     : control_(std::move(out), sync, stop),
-      subjects_(*this),
+      participants_(*this),
       calibrator_(new Calibrator(this)),
       centre_(new QStackedWidget),
       start_page_(new StartPage),
@@ -56,7 +56,7 @@ OperatorWindow::OperatorWindow(QString out, double sync, std::atomic<bool>& stop
     make_view_menu();
     make_help_menu();
     connect_scene();
-    connect_subjects();
+    connect_participants();
     connect_session();
     connect_files();
     auto* pictures = new QTimer(this);
@@ -94,7 +94,7 @@ void OperatorWindow::make_docks() {
     auto* trials_panel = new TrialsPanel;
     auto* device_panel = new DevicePanel;
     auto* tuning_panel = new TuningPanel;
-    auto* mirror = new SubjectMirror;
+    auto* mirror = new ParticipantMirror;
     connect_panels(plots_panel, trials_panel, device_panel, tuning_panel);
     connect_mirror(mirror);
     // `name`: for saveState(), in any language; `entry`: of the menu. The panel's title is the same
@@ -121,8 +121,8 @@ void OperatorWindow::make_docks() {
         add("Tuning", tr("&Tuning"), scrolled(tuning_panel), Qt::RightDockWidgetArea);
     QDockWidget* plots = add("Plots", tr("&Plots"), scrolled(plots_panel), Qt::RightDockWidgetArea);
     QDockWidget* trials = add("Trials", tr("T&rials"), trials_panel, Qt::RightDockWidgetArea);
-    QDockWidget* seen =
-        add("What the subject sees", tr("&What the subject sees"), mirror, Qt::RightDockWidgetArea);
+    QDockWidget* seen = add("What the participant sees", tr("&What the participant sees"), mirror,
+                            Qt::RightDockWidgetArea);
     seen->hide();
     tabifyDockWidget(plots, trials);
     tabifyDockWidget(trials, seen);
@@ -151,36 +151,38 @@ void OperatorWindow::connect_scene() {
     connect(scene_, &SceneWidget::camera_moved, this, &OperatorWindow::turn_workspaces);
     connect(scene_, &SceneWidget::presented, this, [this](qint64 tick) {
         control_.runner().watch();
-        if (subjects_.empty())
-            control_.runner().note_shown(tick);  // in this case the subject looks at this window
+        if (participants_.empty())
+            control_.runner().note_shown(
+                tick);  // in this case the participant looks at this window
     });
 }
 
-void OperatorWindow::connect_mirror(SubjectMirror* mirror) {
+void OperatorWindow::connect_mirror(ParticipantMirror* mirror) {
     const auto follow = [this, mirror] {
-        mirror->follow(subjects_.first(),
-                       subjects_.headset() != nullptr
-                           ? tr("The pictures in a headset are not shown here.")
-                           : tr("The subject has no window of its own: View > Subject's window."));
+        mirror->follow(
+            participants_.first(),
+            participants_.headset() != nullptr
+                ? tr("The pictures in a headset are not shown here.")
+                : tr("The participant has no window of its own: View > Participant's window."));
     };
     follow();
-    connect(&subjects_, &SubjectWindows::changed, mirror, follow);
+    connect(&participants_, &ParticipantWindows::changed, mirror, follow);
 }
 
-void OperatorWindow::connect_subjects() {
-    connect(&subjects_, &SubjectWindows::key_pressed, &control_, &SessionControl::press);
-    connect(&subjects_, &SubjectWindows::clicked, &control_, &SessionControl::click);
-    connect(&subjects_, &SubjectWindows::closed, this,
-            [this] { subject_action_->setChecked(false); });
-    connect(&subjects_, &SubjectWindows::told, this, &OperatorWindow::log);
-    connect(&subjects_, &SubjectWindows::headset_ended, this, [this] {
-        subject_action_->setChecked(false);
+void OperatorWindow::connect_participants() {
+    connect(&participants_, &ParticipantWindows::key_pressed, &control_, &SessionControl::press);
+    connect(&participants_, &ParticipantWindows::clicked, &control_, &SessionControl::click);
+    connect(&participants_, &ParticipantWindows::closed, this,
+            [this] { participant_action_->setChecked(false); });
+    connect(&participants_, &ParticipantWindows::told, this, &OperatorWindow::log);
+    connect(&participants_, &ParticipantWindows::headset_ended, this, [this] {
+        participant_action_->setChecked(false);
         control_.take_force_away(tr("The headset has stopped showing."));
     });
-    connect(&subjects_, &SubjectWindows::shown_to_head, this,
+    connect(&participants_, &ParticipantWindows::shown_to_head, this,
             [this](const headset::Showing& showing) { control_.runner().note_shown(showing); });
     // pictures in the first window count as seen
-    connect(&subjects_, &SubjectWindows::presented, this,
+    connect(&participants_, &ParticipantWindows::presented, this,
             [this](qint64 tick) { control_.runner().note_shown(tick); });
 }
 
@@ -207,8 +209,8 @@ void OperatorWindow::keyPressEvent(QKeyEvent* event) {
 
 void OperatorWindow::turn_workspaces() {
     const bool follow = follow_action_->isChecked();
-    // an object felt on the right must be seen on the right, by the subject too
-    if (follow) subjects_.each([&](SceneWidget& scene) { scene.set_camera(scene_->camera()); });
+    // an object felt on the right must be seen on the right, by the participant too
+    if (follow) participants_.each([&](SceneWidget& scene) { scene.set_camera(scene_->camera()); });
     if (control_.runner().running())
         control_.runner().turn_workspaces(follow ? view::azimuth(scene_->camera()) : 0);
 }
@@ -257,20 +259,20 @@ void OperatorWindow::refresh() {
 
 /// The picture that the person mainly watches.
 SceneWidget& OperatorWindow::first_scene() {
-    return subjects_.first() == nullptr ? *scene_ : *subjects_.first();
+    return participants_.first() == nullptr ? *scene_ : *participants_.first();
 }
 
 void OperatorWindow::show_frame(const frame::Frame& frame) {
     first_scene().set_patch(patch_of(control_.runner().plan(), frame));
     scene_->show_frame(frame);
-    subjects_.each([&](SceneWidget& scene) { scene.show_frame(frame); });
+    participants_.each([&](SceneWidget& scene) { scene.show_frame(frame); });
     show_question();
 }
 
 void OperatorWindow::show_question() {
     const task::AskSpec* question = control_.asked_by_mouse();
     scene_->rating().set_question(question);
-    subjects_.each([&](SceneWidget& scene) { scene.rating().set_question(question); });
+    participants_.each([&](SceneWidget& scene) { scene.rating().set_question(question); });
 }
 
 void OperatorWindow::move_hand(double h) {
@@ -283,16 +285,16 @@ void OperatorWindow::move_hand(double h) {
     runner.plan().mouse->follow(mouse_->goal(), seconds(frame.time));
 }
 
-void OperatorWindow::show_subject_window(bool shown) {
-    subjects_.close();
+void OperatorWindow::show_participant_window(bool shown) {
+    participants_.close();
     if (!shown) return;
     const auto& plan = control_.plan();
     const SessionRunner& runner = control_.runner();
-    subjects_.open(plan ? plan->rig : rig::Rig{});
+    participants_.open(plan ? plan->rig : rig::Rig{});
     const bool has_frame = runner.running() && runner.frame().sequence >= 0;
     if (plan)
-        subjects_.set_scene(plan->scene, has_frame ? runner.frame() : control_.first_frame(),
-                            plan->rig);
+        participants_.set_scene(plan->scene, has_frame ? runner.frame() : control_.first_frame(),
+                                plan->rig);
     follow_in_headset();
     turn_workspaces();
     show_state();
@@ -301,7 +303,7 @@ void OperatorWindow::show_subject_window(bool shown) {
 /// Lets the headset, if there is one, read the running session's frames.
 void OperatorWindow::follow_in_headset() {
     const SessionRunner& runner = control_.runner();
-    if (HeadsetView* const headset = subjects_.headset(); headset && runner.running())
+    if (HeadsetView* const headset = participants_.headset(); headset && runner.running())
         headset->follow(runner.plan().scene, runner.second());
 }
 
@@ -333,8 +335,8 @@ void OperatorWindow::show_state() {
         to.set_banner(words.message);
         to.set_page(words.page, words.picture);
     };
-    subjects_.each(show_words);
-    if (HeadsetView* const headset = subjects_.headset()) show_words(*headset);
+    participants_.each(show_words);
+    if (HeadsetView* const headset = participants_.headset()) show_words(*headset);
 }
 
 void OperatorWindow::log(const QString& text, bool problem) {
@@ -358,7 +360,7 @@ void OperatorWindow::closeEvent(QCloseEvent* event) {
     QSettings settings;
     settings.setValue("geometry", saveGeometry());
     settings.setValue("docks", saveState());
-    subjects_.close();
+    participants_.close();
     event->accept();
     // windows of recorded sessions do not keep the program running
     QMetaObject::invokeMethod(qApp, &QApplication::closeAllWindows, Qt::QueuedConnection);

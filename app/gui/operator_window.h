@@ -14,15 +14,15 @@
 #include "composer.h"
 #include "log_view.h"
 #include "participant_dialog.h"
+#include "participant_windows.h"
 #include "session_control.h"
 #include "session_panel.h"
 #include "start_page.h"
-#include "subject_windows.h"
 
 namespace dihaptic::gui {
 
 class PlotsPanel;
-class SubjectMirror;
+class ParticipantMirror;
 class TrialsPanel;
 class TuningPanel;
 
@@ -57,7 +57,7 @@ class OperatorWindow : public QMainWindow {
     void make_docks();
     void connect_panels(PlotsPanel* plots, TrialsPanel* trials, DevicePanel* devices,
                         TuningPanel* tuning);
-    void connect_mirror(SubjectMirror* mirror);
+    void connect_mirror(ParticipantMirror* mirror);
     void make_file_menu();
     void make_session_menu();
     /// Enables an action while the control may do that.
@@ -65,7 +65,7 @@ class OperatorWindow : public QMainWindow {
     /// To be called after make_docks(), whose docks it lists.
     void make_view_menu();
     void connect_scene();
-    void connect_subjects();
+    void connect_participants();
     void connect_session();
     void connect_files();
     void restore();
@@ -116,7 +116,7 @@ class OperatorWindow : public QMainWindow {
     SceneWidget& first_scene();
     void show_frame(const frame::Frame& frame);
     void move_hand(double h);
-    void show_subject_window(bool shown);
+    void show_participant_window(bool shown);
     void follow_in_headset();
     /// The text over the scene: the next step, or a fault.
     QString banner() const;
@@ -130,7 +130,7 @@ class OperatorWindow : public QMainWindow {
     void leave_text();
 
     SessionControl control_;
-    SubjectWindows subjects_;
+    ParticipantWindows participants_;
     Calibrator* calibrator_;
     QStackedWidget* centre_;
     StartPage* start_page_;
@@ -139,7 +139,7 @@ class OperatorWindow : public QMainWindow {
     Composer* composer_;
     LogView* log_;
     QDockWidget* compose_dock_ = nullptr;
-    QAction* subject_action_ = nullptr;
+    QAction* participant_action_ = nullptr;
     QAction* follow_action_ = nullptr;
     QMenu* camera_menu_ = nullptr;
     QElapsedTimer since_refresh_;

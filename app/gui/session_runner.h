@@ -87,8 +87,8 @@ class SessionRunner : public QObject {
     void skip() { session_->live.skip = true; }
     /// Share of completed trials.
     double done() const { return session_->live.done; }
-    /// The picture of a tick was handed just now to the screen that the subject looks at. May be
-    /// called at any time.
+    /// The picture of a tick was handed just now to the screen that the participant looks at. May
+    /// be called at any time.
     void note_shown(int64_t tick) {
         if (running()) session_->live.note_shown(tick, session::Live::Clock::now());
     }

@@ -124,8 +124,9 @@ void Eyes::connect() {
     get.formFactor = XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY;
     const XrResult found = xrGetSystem(instance_, &get, &system_);
     if (found == XR_ERROR_FORM_FACTOR_UNAVAILABLE || found == XR_ERROR_FORM_FACTOR_UNSUPPORTED)
-        throw Error(fmt::format("{} does not find a headset", runtime_),
-                    "Connect the headset and switch it on; then open the subject's window again.");
+        throw Error(
+            fmt::format("{} does not find a headset", runtime_),
+            "Connect the headset and switch it on; then open the participant's window again.");
     check(found, "xrGetSystem");
     auto system = xr::made<XrSystemProperties>(XR_TYPE_SYSTEM_PROPERTIES);
     check(xrGetSystemProperties(instance_, system_, &system), "xrGetSystemProperties");
@@ -265,7 +266,7 @@ void Eyes::take_note_of(XrSessionState state) {
         case XR_SESSION_STATE_EXITING:
         case XR_SESSION_STATE_LOSS_PENDING:
             throw Error(fmt::format("{} has ended the display in the headset", runtime_),
-                        "Restart it, then open the subject's window again.");
+                        "Restart it, then open the participant's window again.");
         default:
             break;
     }

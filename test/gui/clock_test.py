@@ -29,7 +29,7 @@ class Sessions(Window):
 
 class Trials(Participants):
     def assert_changes_were_seen(self):
-        """Of what came on and stayed, events.csv says when it came to the subject's screen."""
+        """Of what came on and stayed, events.csv says when it came to the participant's screen."""
         with open(self.recording() + "events.csv") as file:
             events = [row for row in csv.DictReader(file) if row["event"] in ("message", "perturbation")]
         self.assertGreater(len(events), 10)

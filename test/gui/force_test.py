@@ -73,8 +73,8 @@ class Force(Window):
         self.open()
         self.assertEqual(self.felt.opened(), [0, 0])  # what is only looked at is left alone
         self.key("alt+v", "s")
-        subject = self.wait("the subject's window",
-                            lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic: subject$")).strip()
+        participant = self.wait("the participant's window",
+                            lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic: participant$")).strip()
         self.xdotool("windowfocus", self.name)
         self.start()
         self.pushed()
@@ -96,9 +96,9 @@ class Force(Window):
                 self.key("Escape", "Escape")  # what was open is closed by now
                 self.xdotool("windowfocus", self.name)
                 self.key("F6")
-        with self.subTest("the subject's window"):
+        with self.subTest("the participant's window"):
             self.pushed()
-            self.xdotool("windowfocus", subject)
+            self.xdotool("windowfocus", participant)
             time.sleep(0.3)
             self.off_after(lambda: self.xdotool("key", "Escape"), 0.3)
             self.key("F6")

@@ -38,20 +38,20 @@ class Head(Window):
         os.replace(new, self.stream)
 
     def before_a_screen(self, eyes, head, rests=True):
-        """Opens a scene with a rig, and its subject's window; returns what that shows, if it rests."""
+        """Opens a scene with a rig, and its participant's window; returns what that shows, if it rests."""
         pathlib.Path(self.folder.name, "rig.yaml").write_text(RIG.format(eyes=eyes, head=head))
         file = pathlib.Path(self.folder.name, "experiment.yaml")
         file.write_text("scene: block.yaml\nrig: rig.yaml\n")
         self.open(str(file))
         self.key("alt+v", "s")
-        self.subject = self.wait("the subject's window", lambda: self.xdotool(
-            "search", "--onlyvisible", "--name", "^Dihaptic: subject$")).strip()
-        self.xdotool("windowmove", self.subject, "0", "0")
-        self.xdotool("windowraise", self.subject)
+        self.participant = self.wait("the participant's window", lambda: self.xdotool(
+            "search", "--onlyvisible", "--name", "^Dihaptic: participant$")).strip()
+        self.xdotool("windowmove", self.participant, "0", "0")
+        self.xdotool("windowraise", self.participant)
         return self.still() if rests else None
 
     def still(self):
-        """What the subject's window shows, once that changes no more."""
+        """What the participant's window shows, once that changes no more."""
         last = None
         for _ in range(40):
             time.sleep(1)
@@ -59,7 +59,7 @@ class Head(Window):
             if last is not None and (now == last).all():
                 return now
             last = now
-        self.fail("the subject's window does not come to rest")
+        self.fail("the participant's window does not come to rest")
 
     def resting(self, place):
         """What eyes at rest see at a place."""

@@ -1,4 +1,4 @@
-"""The subject's window as a headset, on the tests' OpenXR runtime, with OpenXR's validation layer between."""
+"""The participant's window as a headset, on the tests' OpenXR runtime, with OpenXR's validation layer between."""
 import csv
 import math
 import pathlib

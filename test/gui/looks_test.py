@@ -1,4 +1,4 @@
-"""The subject's window, the dark theme, and what else is drawn on request."""
+"""The participant's window, the dark theme, and what else is drawn on request."""
 import os
 import pathlib
 import time
@@ -10,16 +10,16 @@ from window import Window
 
 
 class Looks(Window):
-    def test_has_a_subjects_window_and_is_dark_and_remembers_it(self):
+    def test_has_a_participants_window_and_is_dark_and_remembers_it(self):
         self.open()
         self.key("alt+v", "d")  # View, Dark
         self.key("alt+v", "s")
-        subject = self.wait("the subject's window",
-                            lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic: subject$")).strip()
+        participant = self.wait("the participant's window",
+                            lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic: participant$")).strip()
         self.key("F5")
         time.sleep(1)
-        self.screenshot("subject")
-        self.xdotool("windowclose", subject)
+        self.screenshot("participant")
+        self.xdotool("windowclose", participant)
         self.key("F7")
         with self.ended("complete"):
             pass
@@ -69,17 +69,17 @@ class Looks(Window):
         self.assertGreater(((red > green + 40) & (green > blue + 20)).sum(), 50_000)  # oak
         self.assertGreater(((red > 110) & (red > 3 * green)).sum(), 1000)  # the apple's red cheek
 
-    def test_shows_the_operator_what_the_subject_sees(self):
+    def test_shows_the_operator_what_the_participant_sees(self):
         self.open()
         self.key("alt+v", "n", "Down", "Down", "Down", "Return")
-        self.screenshot("no-subject")
+        self.screenshot("no-participant")
         self.key("alt+v", "s")
-        subject = self.wait("the subject's window",
-                            lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic: subject$")).strip()
+        participant = self.wait("the participant's window",
+                            lambda: self.xdotool("search", "--onlyvisible", "--name", "^Dihaptic: participant$")).strip()
         self.key("F5")
         time.sleep(1)
         seen = self.pixels(0, 0, 800, 600)
-        self.xdotool("windowmove", subject, "1390", "890")
+        self.xdotool("windowmove", participant, "1390", "890")
         time.sleep(2)
         self.screenshot("mirror")
         panel = self.pixels(1020, 520, 370, 190)

@@ -413,7 +413,7 @@ TEST_F(HeadsetTest, SaysWhatIsMissing) {
         EXPECT_TRUE(notes[0].problem);
         EXPECT_EQ(notes[0].text,
                   "error: the tests' runtime does not find a headset. Connect the headset and "
-                  "switch it on; then open the subject's window again.");
+                  "switch it on; then open the participant's window again.");
     }
     pretence.has_headset = true;
     pretence.has_stage = false;
@@ -468,7 +468,7 @@ TEST_F(HeadsetTest, EndsWithItsRuntime) {
     const std::vector<Note> notes = notes_at_the_end(headset);
     EXPECT_EQ(notes.back().text,
               "error: the tests' runtime has ended the display in the headset. Restart it, then "
-              "open the subject's window again.");
+              "open the participant's window again.");
     EXPECT_EQ(messages(), "");
 }
 

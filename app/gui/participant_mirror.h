@@ -1,5 +1,5 @@
-// A small copy of the subject's view, for the operator: the picture of the subject's first window,
-// including texts.
+// A small copy of the participant's view, for the operator: the picture of the participant's first
+// window, including texts.
 #pragma once
 
 #include <QPixmap>
@@ -10,13 +10,13 @@
 
 namespace dihaptic::gui {
 
-class SubjectMirror : public QWidget {
+class ParticipantMirror : public QWidget {
     Q_OBJECT
 
   public:
-    SubjectMirror();
+    ParticipantMirror();
 
-    /// `scene`: widget of the subject's first window. Null: there is none, and `why` is shown
+    /// `scene`: widget of the participant's first window. Null: there is none, and `why` is shown
     /// instead.
     void follow(SceneWidget* scene, const QString& why);
 

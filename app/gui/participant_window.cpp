@@ -1,4 +1,4 @@
-#include "subject_window.h"
+#include "participant_window.h"
 
 #include <QCloseEvent>
 #include <QGuiApplication>
@@ -18,8 +18,8 @@ char task_key(const QKeyEvent& event) {
     return text[0].isLetterOrNumber() ? text[0].toLatin1() : '\0';
 }
 
-SubjectWindow::SubjectWindow() : scene_(new SceneWidget) {
-    setWindowTitle(tr("Dihaptic: subject"));
+ParticipantWindow::ParticipantWindow() : scene_(new SceneWidget) {
+    setWindowTitle(tr("Dihaptic: participant"));
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->addWidget(scene_);
@@ -43,11 +43,11 @@ QString show_on(QWidget& window, const QString& monitor, const QWidget& operator
         .arg(monitor, names.join(", "));
 }
 
-void SubjectWindow::keyPressEvent(QKeyEvent* event) {
+void ParticipantWindow::keyPressEvent(QKeyEvent* event) {
     if (const char key = task_key(*event); key != 0) Q_EMIT key_pressed(key);
 }
 
-void SubjectWindow::closeEvent(QCloseEvent* event) {
+void ParticipantWindow::closeEvent(QCloseEvent* event) {
     event->accept();
     Q_EMIT closed();
 }

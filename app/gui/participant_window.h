@@ -1,4 +1,4 @@
-// The subject's window: the scene and nothing else, full screen on a separate monitor.
+// The participant's window: the scene and nothing else, full screen on a separate monitor.
 #pragma once
 
 #include "scene_widget.h"
@@ -13,11 +13,11 @@ char task_key(const QKeyEvent& event);
 /// the operator's window, if there is one. Returns a fault with its remedy; empty if there is none.
 QString show_on(QWidget& window, const QString& monitor, const QWidget& operator_window);
 
-class SubjectWindow : public QWidget {
+class ParticipantWindow : public QWidget {
     Q_OBJECT
 
   public:
-    SubjectWindow();
+    ParticipantWindow();
 
     SceneWidget& scene() { return *scene_; }
 

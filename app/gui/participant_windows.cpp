@@ -1,4 +1,4 @@
-#include "subject_windows.h"
+#include "participant_windows.h"
 
 #include "base/field_writer.h"
 #include "rig/libraries.h"
@@ -16,13 +16,13 @@ size_t windows_of(const rig::Rig& rig) {
 
 }  // namespace
 
-SubjectWindows::SubjectWindows(QWidget& beside) : beside_(beside) {
+ParticipantWindows::ParticipantWindows(QWidget& beside) : beside_(beside) {
     follow_.setInterval(kFollow);
     follow_.setTimerType(Qt::PreciseTimer);
-    connect(&follow_, &QTimer::timeout, this, &SubjectWindows::follow_head);
+    connect(&follow_, &QTimer::timeout, this, &ParticipantWindows::follow_head);
 }
 
-void SubjectWindows::track(const std::optional<outlets::TrackedHead>& head) {
+void ParticipantWindows::track(const std::optional<outlets::TrackedHead>& head) {
     if (head && tracker_ && to_yaml(write_fields(*head)) == to_yaml(write_fields(head_))) return;
     tracker_.reset();
     if (head) tracker_ = std::make_unique<outlets::HeadTracker>(head_ = *head);
@@ -30,7 +30,7 @@ void SubjectWindows::track(const std::optional<outlets::TrackedHead>& head) {
 }
 
 /// A tracker's library may do anything once it is loaded.
-void SubjectWindows::track_head_of(const rig::Rig& rig) {
+void ParticipantWindows::track_head_of(const rig::Rig& rig) {
     try {
         if (rig.head) rig::check_libraries(rig);
         track(rig.head);
@@ -40,14 +40,14 @@ void SubjectWindows::track_head_of(const rig::Rig& rig) {
     }
 }
 
-void SubjectWindows::follow_head() {
+void ParticipantWindows::follow_head() {
     for (const outlets::HeadTracker::Told& told : tracker_->take_told())
         Q_EMIT this->told(QString::fromStdString(told.what), told.problem);
     if (const auto pose = tracker_->newest())
         each([&](SceneWidget& scene) { scene.set_head(*pose); });
 }
 
-void SubjectWindows::show_first(qint64 tick) {
+void ParticipantWindows::show_first(qint64 tick) {
     if (const auto& head = first()->shown_to()) {
         Q_EMIT shown_to_head(
             {tick, std::chrono::steady_clock::now(), {head->R_WT, head->eyes}, head->seen});
@@ -56,49 +56,50 @@ void SubjectWindows::show_first(qint64 tick) {
     }
 }
 
-void SubjectWindows::open(const rig::Rig& rig) {
+void ParticipantWindows::open(const rig::Rig& rig) {
     close();
     for (const display::Display& display : rig.displays) add(display);
     if (rig.headset) {
         add(*rig.headset);
     } else {
         if (windows_.empty()) add(std::optional<display::Display>());
-        connect(first(), &SceneWidget::presented, this, &SubjectWindows::show_first);
+        connect(first(), &SceneWidget::presented, this, &ParticipantWindows::show_first);
     }
     track_head_of(rig);
     Q_EMIT changed();
 }
 
-void SubjectWindows::close() {
+void ParticipantWindows::close() {
     windows_.clear();
     headset_.reset();
     track({});
     Q_EMIT changed();
 }
 
-void SubjectWindows::add(const display::Headset& headset) {
+void ParticipantWindows::add(const display::Headset& headset) {
     headset_ = std::make_unique<HeadsetView>(headset);
-    connect(headset_.get(), &HeadsetView::told, this, &SubjectWindows::told);
-    connect(headset_.get(), &HeadsetView::shown, this, &SubjectWindows::shown_to_head);
+    connect(headset_.get(), &HeadsetView::told, this, &ParticipantWindows::told);
+    connect(headset_.get(), &HeadsetView::shown, this, &ParticipantWindows::shown_to_head);
     // queued: the receiver deletes the headset
-    connect(headset_.get(), &HeadsetView::ended, this, &SubjectWindows::headset_ended,
+    connect(headset_.get(), &HeadsetView::ended, this, &ParticipantWindows::headset_ended,
             Qt::QueuedConnection);
 }
 
-void SubjectWindows::add(const std::optional<display::Display>& display) {
-    SubjectWindow& window = *windows_.emplace_back(std::make_unique<SubjectWindow>());
+void ParticipantWindows::add(const std::optional<display::Display>& display) {
+    ParticipantWindow& window = *windows_.emplace_back(std::make_unique<ParticipantWindow>());
     window.scene().set_display(display);
-    connect(&window, &SubjectWindow::key_pressed, this, &SubjectWindows::key_pressed);
-    connect(&window.scene().rating(), &RatingView::clicked, this, &SubjectWindows::clicked);
+    connect(&window, &ParticipantWindow::key_pressed, this, &ParticipantWindows::key_pressed);
+    connect(&window.scene().rating(), &RatingView::clicked, this, &ParticipantWindows::clicked);
     // queued: the receiver deletes the window
-    connect(&window, &SubjectWindow::closed, this, &SubjectWindows::closed, Qt::QueuedConnection);
+    connect(&window, &ParticipantWindow::closed, this, &ParticipantWindows::closed,
+            Qt::QueuedConnection);
     const QString monitor = display ? QString::fromStdString(display->monitor) : "";
     if (const QString wrong = show_on(window, monitor, beside_); !wrong.isEmpty())
         Q_EMIT told(wrong, true);
 }
 
-void SubjectWindows::set_scene(const scene::Scene& scene, const frame::Frame& frame,
-                               const rig::Rig& rig) {
+void ParticipantWindows::set_scene(const scene::Scene& scene, const frame::Frame& frame,
+                                   const rig::Rig& rig) {
     if (empty()) return;
     const bool same_headset =
         headset_ ? rig.headset && headset_->is_at(*rig.headset) : !rig.headset;

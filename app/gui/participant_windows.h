@@ -1,4 +1,4 @@
-// The windows for the subject: one for each display of the rig and its headset, or one window
+// The windows for the participant: one for each display of the rig and its headset, or one window
 // without a display.
 #pragma once
 
@@ -7,24 +7,24 @@
 #include <vector>
 
 #include "headset_view.h"
+#include "participant_window.h"
 #include "rig/rig.h"
-#include "subject_window.h"
 
 namespace dihaptic::gui {
 
-class SubjectWindows : public QObject {
+class ParticipantWindows : public QObject {
     Q_OBJECT
 
   public:
     /// `beside`: the operator's window, whose monitor is avoided if there is another.
-    explicit SubjectWindows(QWidget& beside);
+    explicit ParticipantWindows(QWidget& beside);
 
     /// Opens the windows for a rig.
     void open(const rig::Rig& rig);
     void close();
-    /// Whether the subject looks at the operator's window.
+    /// Whether the participant looks at the operator's window.
     bool empty() const { return windows_.empty() && !headset_; }
-    /// The subject's main window; null if there is none.
+    /// The participant's main window; null if there is none.
     SceneWidget* first() { return windows_.empty() ? nullptr : &windows_.front()->scene(); }
     HeadsetView* headset() { return headset_.get(); }
     /// Gives the windows a scene, and a rig, which may differ from the last one.
@@ -42,7 +42,7 @@ class SubjectWindows : public QObject {
     void key_pressed(char key);
     /// A question's line was clicked at a share of its length.
     void clicked(double share);
-    /// The picture of a tick was handed to the subject's main screen.
+    /// The picture of a tick was handed to the participant's main screen.
     void presented(qint64 tick);
     /// A picture was handed to a headset, or to a screen that is drawn for a tracked head.
     void shown_to_head(const dihaptic::headset::Showing& showing);
@@ -64,7 +64,7 @@ class SubjectWindows : public QObject {
     outlets::TrackedHead head_;  // the tracked head
     std::unique_ptr<outlets::HeadTracker> tracker_;
     QTimer follow_;
-    std::vector<std::unique_ptr<SubjectWindow>> windows_;
+    std::vector<std::unique_ptr<ParticipantWindow>> windows_;
     std::unique_ptr<HeadsetView> headset_;
 };
 

@@ -1,4 +1,4 @@
-#include "subject_mirror.h"
+#include "participant_mirror.h"
 
 #include <QPainter>
 
@@ -11,15 +11,15 @@ constexpr int kBetween = 250;
 
 }  // namespace
 
-SubjectMirror::SubjectMirror() {
-    setAccessibleName(tr("What the subject sees"));
+ParticipantMirror::ParticipantMirror() {
+    setAccessibleName(tr("What the participant sees"));
     setMinimumSize(160, 100);
     wait_.setSingleShot(true);
     wait_.setInterval(kBetween);
-    connect(&wait_, &QTimer::timeout, this, &SubjectMirror::look);
+    connect(&wait_, &QTimer::timeout, this, &ParticipantMirror::look);
 }
 
-void SubjectMirror::follow(SceneWidget* scene, const QString& why) {
+void ParticipantMirror::follow(SceneWidget* scene, const QString& why) {
     why_ = why;
     if (scene != scene_) {
         if (scene_) scene_->disconnect(this);
@@ -35,17 +35,17 @@ void SubjectMirror::follow(SceneWidget* scene, const QString& why) {
     update();
 }
 
-void SubjectMirror::look() {
+void ParticipantMirror::look() {
     if (!scene_ || !scene_->isVisible() || !isVisible()) return;
     picture_ = scene_->grab();
     update();
 }
 
-void SubjectMirror::showEvent(QShowEvent*) {
+void ParticipantMirror::showEvent(QShowEvent*) {
     wait_.start();
 }
 
-void SubjectMirror::paintEvent(QPaintEvent*) {
+void ParticipantMirror::paintEvent(QPaintEvent*) {
     QPainter painter(this);
     if (picture_.isNull()) {
         painter.drawText(rect().adjusted(8, 8, -8, -8), Qt::AlignCenter | Qt::TextWordWrap, why_);
