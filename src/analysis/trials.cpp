@@ -124,7 +124,7 @@ TrialFinder::TrialFinder(const recording::SessionFolder& folder,
         }
         const auto named = std::find(fingers.begin(), fingers.end(), plan.finger);
         const auto finger = static_cast<size_t>(named - fingers.begin());
-        reaches_.push_back({plan, finger < fingers.size() ? finger : 0});
+        reaches_.push_back({plan, finger < fingers.size() ? finger : 0, plan.phase_numbers()});
     }
 }
 
@@ -157,7 +157,8 @@ void TrialFinder::add(const frame::Frame& frame) {
 
     const auto i = static_cast<size_t>(frame.trial - 1);
     if (i >= reaches_.size() || !std::isnan(m.reach_time)) return;
-    if (frame.phase != reaches_[i].plan.phase) return;
+    const std::vector<int>& phases = reaches_[i].phases;
+    if (std::find(phases.begin(), phases.end(), frame.phase) == phases.end()) return;
     if (reaches_[i].plan.measure == task::Measure::extent) {
         measure_extent(row, reaches_[i], frame);
     } else {

@@ -67,6 +67,7 @@ class TrialFinder {
     struct Reach {
         task::ReachPlan plan;
         size_t finger = 0;
+        std::vector<int> phases;
     };
     void measure_angle(Row& row, const Reach& reach, const frame::Frame& frame) const;
     void measure_extent(Row& row, const Reach& reach, const frame::Frame& frame) const;

@@ -69,7 +69,7 @@ void ReachPaths::find_lines(const SessionData& session, const recording::LogHead
             plan.to_W = reach.to_W;
             plan.axis_W = reach.axis_W;
             add(plan);
-            phases_ = {reach.phase};
+            phases_ = reach.phase_numbers();
         }
     } else if (session.task.movement && !head.fingers.empty()) {
         const task::Movement movement = task::movement_of(session.task, head.fingers.front());

@@ -492,7 +492,7 @@ struct ReachMeasure {
     Ref<scene::Finger> finger;  ///< empty: the first
     Ref<Region> from;
     Ref<Region> to;
-    Ref<State> during;
+    Refs<State> during;
     double distance = 0.05;    ///< [m]
     std::optional<Vec3> axis;  ///< unset: the axis of the first perturbation that has one, or z
     Place place;
@@ -505,7 +505,9 @@ struct ReachMeasure {
         v("finger", finger, says("Finger that reaches; the scene's first finger if omitted."));
         v("from", from, Field::text().required().says("Region in which the reach starts."));
         v("to", to, Field::text().required().says("Region in which the target of the reach lies."));
-        v("during", during, Field::text().required().says("State in which the reach is measured."));
+        v("during", during,
+          Field::text().required().says(
+              "State in which the reach is measured, or a list of such states."));
         v("distance", distance,
           Field::length().within(1e-4, 10).says(
               "Distance from the start at which the angle is measured."));

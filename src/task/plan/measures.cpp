@@ -298,7 +298,8 @@ Movement movement_of(const Task& task, const std::string& first_finger) {
         fill(out.of, task.reach->finger);
         fill(out.from, task.reach->from);
         fill(out.to, task.reach->to);
-        if (out.during.empty()) out.during = {task.reach->during};
+        if (out.during.empty())
+            out.during.assign(task.reach->during.begin(), task.reach->during.end());
         if (!out.axis) out.axis = task.reach->axis;
     }
     fill(out.of, first_finger);

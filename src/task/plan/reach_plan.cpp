@@ -1,6 +1,9 @@
 #include "task/plan/reach_plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <sstream>
 #include <utility>
 
 #include "task/run/trial_numbers.h"
@@ -13,13 +16,21 @@ Vec3 usual_axis(const TaskPlan::Cell& cell) {
     return Vec3::UnitZ();
 }
 
+std::vector<int> ReachPlan::phase_numbers() const {
+    std::vector<int> out;
+    std::istringstream in(phases);
+    for (int phase = 0; in >> phase;) out.push_back(phase);
+    return out;
+}
+
 void add_reaches(Table& list, const TaskPlan& plan, const scene::Scene& scene) {
     add_columns<ReachPlan>(list);
     const ReachMeasure& measured = *plan.task.reach;
     ReachPlan reach;
     reach.finger = measured.finger.empty() ? scene.fingers.front().name : measured.finger;
     reach.distance = measured.distance;
-    reach.phase = measured.during.index + 1;
+    for (const int state : measured.during.indices)
+        reach.phases += fmt::format("{}{}", reach.phases.empty() ? "" : " ", state + 1);
     reach.measure = measured.measure;
     TrialNumbers numbers(plan);
     for (size_t i = 0; i < plan.trials.size(); ++i) {

@@ -16,8 +16,11 @@ struct ReachPlan {
     Vec3 from_W = Vec3::Zero();  ///< [m]
     Vec3 to_W = Vec3::Zero();
     Vec3 axis_W = Vec3::UnitZ();  ///< axis of the angles; unit vector
-    int phase = -1;               ///< phase in which it is measured; -1: none
+    std::string phases;           ///< phases in which it is measured, e.g. "2 3"
     Measure measure = Measure::angle;
+
+    /// Numbers in `phases`.
+    std::vector<int> phase_numbers() const;
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
@@ -26,7 +29,7 @@ struct ReachPlan {
         rows::visit_vector(v, "reach_from", f.from_W, "mm", "its start");
         rows::visit_vector(v, "reach_to", f.to_W, "mm", "its target");
         rows::visit_vector(v, "reach_axis", f.axis_W, "1", "axis of the angles");
-        v("reach_phase", f.phase, "1", "phase in which it is measured");
+        v("reach_phase", f.phases, "", "phases in which it is measured");
         v("reach_measure", f.measure, "", "measured quantity: angle or extent");
     }
 };

@@ -24,9 +24,19 @@ TEST(ReachPlan, IsReadAsItWasFrozen) {
         EXPECT_TRUE(reach.from_W.isApprox(Vec3(0, 0, 0.12)));
         EXPECT_TRUE(reach.to_W.isApprox(far ? Vec3(0, 0.05, 0.12) : Vec3(0.05, 0, 0.12)));
         EXPECT_EQ(reach.axis_W, Vec3::UnitZ());
-        EXPECT_EQ(plan.task->phases().at(static_cast<size_t>(reach.phase)), "reach");
+        EXPECT_EQ(plan.task->phases().at(static_cast<size_t>(reach.phase_numbers().at(0))),
+                  "reach");
         EXPECT_EQ(reach.measure, Measure::angle);
     }
+}
+
+TEST(ReachPlan, MayNameSeveralStates) {
+    session::Files files;
+    files.replace("during: reach,", "during: [home, reach],");
+    const session::Plan plan = session::make_plan(files.request());
+    const std::string list = files.folder.file("trial-list.csv");
+    write_csv(frozen_list(*plan.task, plan.scene), list);
+    EXPECT_EQ(read_reaches(list).at(0).phase_numbers(), (std::vector<int>{1, 2}));
 }
 
 TEST(MovementPlan, IsReadAsItWasFrozen) {
@@ -81,7 +91,7 @@ TEST(ReachPlan, IsReadByTheNamesOfItsColumns) {
     EXPECT_NEAR(reaches[0].distance, 0.02, 1e-12);
     EXPECT_NEAR(reaches[0].from_W.z(), 0.007, 1e-12);
     EXPECT_NEAR(reaches[0].to_W.y(), 0.005, 1e-12);
-    EXPECT_EQ(reaches[0].phase, 3);
+    EXPECT_EQ(reaches[0].phase_numbers(), std::vector<int>{3});
     EXPECT_EQ(reaches[0].measure, Measure::extent);
 }
 
