@@ -3,6 +3,7 @@
 Usage: outside/tables_test.py PROGRAM, from the project's folder.
 """
 import csv
+import io
 import os
 import pathlib
 import sys
@@ -290,6 +291,12 @@ class Sessions(unittest.TestCase):
             self.head, *self.rows = list(csv.reader(table))
         self.adaptation = self.reported()[1]
 
+    @staticmethod
+    def saved(rows):
+        out = io.StringIO()
+        csv.writer(out, lineterminator="\n").writerows(rows)
+        return out.getvalue()
+
     def reported(self):
         result = dihaptic("report", str(self.session))
         made = self.session / "adaptation.csv"
@@ -303,20 +310,20 @@ class Sessions(unittest.TestCase):
         self.assertIn("trials.csv", result.stderr, "a change is reported")
 
     def test_with_a_byte_order_mark_are_the_same(self):
-        self.same("\ufeff" + joined([self.head, *self.rows]).replace("\n", "\r\n"))
+        self.same("\ufeff" + self.saved([self.head, *self.rows]).replace("\n", "\r\n"))
 
     def test_with_a_column_that_numbers_the_rows_are_the_same(self):
-        self.same(joined([["", *self.head], *([str(i), *row] for i, row in enumerate(self.rows))]))
+        self.same(self.saved([["", *self.head], *([str(i), *row] for i, row in enumerate(self.rows))]))
 
     def test_with_a_comma_at_the_end_of_each_line_are_the_same(self):
-        self.same(joined([*row, ""] for row in [self.head, *self.rows]))
+        self.same(self.saved([*row, ""] for row in [self.head, *self.rows]))
 
     def test_with_whole_numbers_as_decimals_are_the_same(self):
         whole = [i for i, name in enumerate(self.head) if name in ("trial_num", "attempt", "session_num")]
-        self.same(joined([self.head, *([cell + ".0" if i in whole else cell for i, cell in enumerate(row)] for row in self.rows)]))
+        self.same(self.saved([self.head, *([cell + ".0" if i in whole else cell for i, cell in enumerate(row)] for row in self.rows)]))
 
     def test_with_the_names_of_the_columns_once_more_are_refused_with_the_line(self):
-        self.trials.write_text(joined([self.head, *self.rows[:5], self.head, *self.rows[5:]]))
+        self.trials.write_text(self.saved([self.head, *self.rows[:5], self.head, *self.rows[5:]]))
         result, _ = self.reported()
         self.assertEqual(result.returncode, 2)
         self.assertIn("trials.csv:7: error: kind: is 'kind', which is not one of: practice, baseline", result.stderr)
