@@ -39,11 +39,12 @@ struct VisualMap {
     double size = 1;
     double delay = 0;
     Vec3 noise = Vec3::Zero();
+    Vec3 shift_W = Vec3::Zero();
 
     Vec3 displayed(const Vec3& p_W) const noexcept {
         const Vec3 arm = p_W - p_WC;
-        if (along_W != Vec3::Zero()) return p_WC + arm.norm() * along_W;
-        return p_WC + R * scale.cwiseProduct(arm);
+        if (along_W != Vec3::Zero()) return p_WC + arm.norm() * along_W + shift_W;
+        return p_WC + R * scale.cwiseProduct(arm) + shift_W;
     }
     Pose displayed(const Pose& X_W) const noexcept { return {R * X_W.R, displayed(X_W.p)}; }
 
@@ -62,6 +63,7 @@ struct VisualMap {
         v(m.noise,
           {"noise", "m", "W",
            "Standard deviation of the noise on their displayed positions, along each axis."});
+        v(m.shift_W, {"shift", "m", "W", "Displacement of what is shown, after all else."});
     }
 };
 

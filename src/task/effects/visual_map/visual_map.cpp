@@ -25,10 +25,15 @@ bool displaces(const VisualSpec& visual) {
     return visual.delay != 0 || !visual.noise.isZero(0);
 }
 
-/// A map that only adds a delay or noise needs no centre.
+bool shifts(const VisualSpec& visual) {
+    return visual.shift != FormulaVec3{};
+}
+
+/// A map that only adds a shift, a delay or noise needs no centre.
 bool has_centre(const VisualSpec& visual) {
-    return !displaces(visual) || !visual.about.empty() || !visual.toward.empty() ||
-           visual.angle != 0 || visual.scale != kNoFactors || visual.size != 1;
+    return (!displaces(visual) && !shifts(visual)) || !visual.about.empty() ||
+           !visual.toward.empty() || visual.angle != 0 || visual.scale != kNoFactors ||
+           visual.size != 1;
 }
 
 }  // namespace
@@ -78,6 +83,7 @@ void VisualEffect::order(double share, std::span<const Vec3> regions_W, const Mo
     shown.size = part_of(share, spec_.size.value);
     shown.delay = share * spec_.delay.value;
     shown.noise = share * spec_.noise;
+    shown.shift_W = share * value(spec_.shift);
     if (spec_.toward.index >= 0) {
         const Vec3 way = regions_W[static_cast<size_t>(spec_.toward.index)] - shown.p_WC;
         if (way.norm() > 0) shown.along_W = way.normalized();
@@ -91,6 +97,10 @@ void say(const VisualSpec& spec, std::vector<std::string>& out) {
         out.push_back(fmt::format("rotation by {} deg about {}", in_words(spec.angle, kDegree),
                                   in_words(as_formula(spec.axis.value_or(Vec3::Zero())))));
     if (spec.scale != kNoFactors) out.push_back("visual gain " + in_words(spec.scale));
+    if (shifts(spec)) {
+        const auto mm = [&](size_t i) { return in_words(spec.shift[i], 1e-3); };
+        out.push_back(fmt::format("shown ({}, {}, {}) mm aside", mm(0), mm(1), mm(2)));
+    }
     say_factor("displayed size", spec.size, out);
     if (spec.delay != 0) out.push_back(fmt::format("shown {} ms late", in_words(spec.delay, 1e-3)));
     if (!spec.noise.isZero(0))

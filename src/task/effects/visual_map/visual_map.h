@@ -2,6 +2,8 @@
 //
 //     c + R(s angle, axis) (1 + s (scale - 1)) (p - c)      c: a region's centre; or on a line,
 //     c + |p - c| e                                         e: from c toward another region
+//
+// and then displaced by s times a shift.
 #pragma once
 
 #include <optional>
@@ -33,6 +35,7 @@ struct VisualSpec {
                                  ///< its true distance from `about`
     Formula size = 1;            ///< ratio of the object's displayed size to its true size
     Formula delay = 0;           ///< display delay of proxies and object [s]
+    FormulaVec3 shift{};         ///< displacement of what is shown, in W [m]
     Vec3 noise = Vec3::Zero();   ///< SD of noise on their displayed positions, in W [m]
     Place place;
 
@@ -63,6 +66,9 @@ struct VisualSpec {
           Field::of(Quantity::time)
               .within(0, 5)
               .says("Delay with which proxies and object are shown."));
+        v("shift", shift,
+          Field::length().within(-10, 10).says(
+              "Displacement of what is shown, along the world axes, after scaling and rotation."));
         v("noise", noise,
           Field::length().within(0, 1).says(
               "Standard deviation of noise on their displayed positions, along the world axes."));
