@@ -6,6 +6,7 @@
 
 #include "frame/frame.h"
 #include "scene/scene.h"
+#include "task/plan/taken.h"
 #include "task/run/trial_numbers.h"
 
 namespace dihaptic::task {

@@ -147,9 +147,10 @@ TEST(CustomMeasures, AreKnownToRulesWhichLookBackOverTrials) {
         double squares = 0;
         for (const double value : x) squares += std::pow(value - mean, 2);
         EXPECT_NEAR(after(i, "mean_mm_s"), mean, 1e-5);
-        if (x.size() > 1)
+        if (x.size() > 1) {
             EXPECT_NEAR(after(i, "sd_mm_s"),
                         std::sqrt(squares / (static_cast<double>(x.size()) - 1)), 1e-4);
+        }
         std::vector<double> four = last(4);
         std::sort(four.begin(), four.end());
         const size_t half = four.size() / 2;

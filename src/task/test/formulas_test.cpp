@@ -152,7 +152,7 @@ TEST(Formulas, CrossedFactorsMakeTheConditionsAndStandInTheTables) {
         numbers.begin(static_cast<int>(i), 1, plan.task->start);
         const bool heavy_silk = text(0) == "200" && text(1) == "silk";
         const Vec3 p_W = heavy_silk ? Vec3(0.06, 0, 0.02) : Vec3(0, 0, 0.02);
-        EXPECT_LT((numbers.cell().homes[0].X_WB.p - p_W).norm(), 1e-12);
+        EXPECT_LT((numbers.cell().start_poses[0].X_WB.p - p_W).norm(), 1e-12);
     }
 }
 
