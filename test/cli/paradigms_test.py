@@ -127,6 +127,12 @@ class Paradigms(unittest.TestCase):
         self.assertLess(early, -8)
         self.assertGreater(learned, early / 1.3)
         self.assertGreater(aftereffect, 2)
+        # each person's, whatever the swing back: the field pushes to the right, the after-effect goes to the left
+        for rows in done.people:
+            first = [numbers([row for row in where(rows, block=block) if row["kind"] != "force_channel"], "lateral_deviation_mm")
+                     for block in ("field", "washout")]
+            self.assertLess(max(first[0][:4]), 0, first[0][:4])
+            self.assertGreater(first[1][0], 0, first[1][:4])
         self.assertIn("adaptation_index", done.page)
 
     def test_unexpected_weight(self):

@@ -8,7 +8,9 @@
 #include <cstdlib>
 #include <fstream>
 #include <numbers>
+#include <random>
 
+#include "base/figure.h"
 #include "testing/files.h"
 
 namespace dihaptic::analysis::measures_test {
@@ -218,6 +220,67 @@ TEST(Measures, AreLeftOutWhereTheyWouldBeNonsense) {
     Reach still;
     still.attempt.plan.to_W = {2, 0, 0};
     EXPECT_EQ(still.take("reaction_time").why, "it covered 5 % of the way, less than 10 %");
+}
+
+/// A reach with a random pathology, or none: a swing back, a jump at onset, no movement, half a
+/// reach, a hand that has to wait at a wall, the wrong direction, noise, a slow start.
+Reach spoilt(std::mt19937& random) {
+    std::uniform_real_distribution<double> unit(0, 1);
+    const auto chance = [&](double share) { return unit(random) < share; };
+    Reach reach;
+    reach.attempt.plan.channel = chance(0.5) ? 1 : 0;
+    if (reach.attempt.plan.channel == 1) reach.attempt.plan.field_share = kUnmeasured;
+    const double size = chance(0.2) ? 0 : chance(0.3) ? unit(random) : 1;
+    const double turn = chance(0.2) ? 2 * std::numbers::pi * unit(random) : 0.1 * unit(random);
+    const double swing = chance(0.4) ? 0.2 * (unit(random) - 0.5) : 0;
+    const double noise = chance(0.5) ? 0.02 * unit(random) : 0;
+    const auto thrown = static_cast<size_t>(1000 + 400 * unit(random));
+    const double throws = chance(0.3) ? 3 * unit(random) : 0;
+    const double gain = chance(0.1) ? 1000 * unit(random) : 2 * unit(random);
+    const double aside = chance(0.1) ? 50 * unit(random) : unit(random);
+    std::normal_distribution<double> shakes(0, 1);
+    for (size_t i = 0; i < reach.attempt.samples.size(); ++i) {
+        MotionSample& s = reach.attempt.samples[i];
+        const double u = std::clamp((s.time - 1.3) / 0.5, 0.0, 1.0);
+        const Vec3 p = size * s.p_W;
+        const Vec3 v = size * s.v_W;
+        const Eigen::AngleAxisd R(turn, Vec3::UnitZ());
+        s.p_W = R * p + Vec3(0, swing * std::sin(2 * std::numbers::pi * u), 0);
+        s.v_W = R * v + noise * Vec3(shakes(random), shakes(random), 0);
+        if (i >= thrown && i < thrown + 30) s.v_W.y() += throws;
+        s.f_W = {0, -gain * 15 * v.x() + aside * shakes(random), 0};
+        if (chance(1e-5)) s.continues = false;
+    }
+    return reach;
+}
+
+TEST(Measures, OfTenThousandSpoiltReachesMakeSenseOrSayWhyTheyAreMissing) {
+    std::mt19937 random(1);
+    int measured = 0;
+    int missing = 0;
+    for (int i = 0; i < 10000; ++i) {
+        const Reach reach = spoilt(random);
+        const AttemptMeasures all(reach.attempt, reach.options, reach.phases, kTick);
+        for (const task::MeasureRow& row : task::kMeasureTable) {
+            if (row.needs & (task::MeasureRow::grip | task::MeasureRow::step)) continue;
+            const MeasuredValues of = all.measure(row);
+            for (size_t k = 0; k < of.values.size(); ++k) {
+                const task::MeasureColumn& column = row.columns[k];
+                const double value = of.values[k] * figure_form(column.name, column.unit).scale;
+                const bool known_in_channel = std::string(column.name) == "field_share";
+                if (std::isnan(value)) {
+                    ++missing;
+                    EXPECT_TRUE(!of.why.empty() || known_in_channel) << row.name;
+                } else {
+                    ++measured;
+                    EXPECT_GE(value, column.least) << row.name;
+                    EXPECT_LE(value, column.most) << row.name;
+                }
+            }
+        }
+    }
+    EXPECT_GT(measured, 50000);
+    EXPECT_GT(missing, 20000);
 }
 
 TEST(Measures, GripLatencyIsFromTheStepToTheAnswer) {
