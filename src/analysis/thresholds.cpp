@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
+#include <utility>
 
 #include "base/diagnostics.h"
 #include "base/unmeasured.h"
@@ -24,6 +27,85 @@ std::string ThresholdTrack::what() const {
     return number.empty() ? "share of " + perturbation : number;
 }
 
+std::vector<double> ThresholdTrack::reversals() const {
+    std::vector<double> out;
+    if (kind != "staircase") return out;
+    int way = 0;
+    for (size_t i = 1; i < answers.size(); ++i) {
+        const double step = answers[i].level - answers[i - 1].level;
+        const int now = step > 0 ? 1 : step < 0 ? -1 : 0;
+        if (now == 0) continue;
+        if (way * now < 0) out.push_back(share(answers[i - 1].level));
+        way = now;
+    }
+    const auto skipped = std::min<size_t>(out.size(), static_cast<size_t>(skipped_reversals));
+    out.erase(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(skipped));
+    return out;
+}
+
+double ThresholdTrack::weber_fraction(const model::Psychometric& function) const {
+    constexpr double kForcedChoice = 0.25;
+    if (number.empty() || !(standard > 0)) return kUnmeasured;
+    if (function.guess >= kForcedChoice)
+        return std::abs(share(function.threshold) - standard) / standard;
+    model::Psychometric sigmoid = function;
+    sigmoid.guess = sigmoid.lapse = 0;
+    return std::abs(share(sigmoid.level(0.75)) - share(sigmoid.level(0.25))) / 2 / standard;
+}
+
+namespace {
+
+/// Whether one function describes the answers of both.
+bool belong_together(const ThresholdTrack& a, const ThresholdTrack& b) {
+    const bool same_standard =
+        a.standard == b.standard || (std::isnan(a.standard) && std::isnan(b.standard));
+    return a.number == b.number && a.perturbation == b.perturbation &&
+           a.logarithmic == b.logarithmic && same_standard && a.model.sigmoid == b.model.sigmoid &&
+           a.model.shape == b.model.shape && a.model.guess == b.model.guess &&
+           a.model.guess_is_lapse == b.model.guess_is_lapse;
+}
+
+/// All answers of the tracks, in the order of the trials.
+ThresholdTrack pooled(const std::vector<const ThresholdTrack*>& tracks) {
+    ThresholdTrack out = *tracks.front();
+    out.kind = "all of these";
+    std::vector<std::pair<int, Answer>> answers;
+    std::string names;
+    for (const ThresholdTrack* track : tracks) {
+        names += (names.empty() ? "" : ", ") + track->procedure;
+        for (size_t i = 0; i < track->answers.size(); ++i)
+            answers.emplace_back(track->trials[i], track->answers[i]);
+    }
+    std::stable_sort(answers.begin(), answers.end(),
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
+    out.procedure = names;
+    out.trials.clear();
+    out.answers.clear();
+    for (const auto& [trial, answer] : answers) {
+        out.trials.push_back(trial);
+        out.answers.push_back(answer);
+    }
+    return out;
+}
+
+void add_pooled(std::vector<ThresholdTrack>& tracks) {
+    const size_t count = tracks.size();
+    std::vector<char> done(count, 0);
+    std::vector<ThresholdTrack> out;
+    for (size_t i = 0; i < count; ++i) {
+        std::vector<const ThresholdTrack*> together;
+        for (size_t j = i; j < count; ++j) {
+            if (done[j] || !belong_together(tracks[i], tracks[j])) continue;
+            together.push_back(&tracks[j]);
+            done[j] = 1;
+        }
+        if (together.size() > 1) out.push_back(pooled(together));
+    }
+    std::move(out.begin(), out.end(), std::back_inserter(tracks));
+}
+
+}  // namespace
+
 std::vector<ThresholdTrack> threshold_tracks(const rows::TrialFile& trials,
                                              const rows::ProcedureFile& procedures) {
     std::vector<ThresholdTrack> out;
@@ -33,6 +115,7 @@ std::vector<ThresholdTrack> threshold_tracks(const rows::TrialFile& trials,
         track.kind = p.kind;
         track.perturbation = p.perturbation;
         track.number = p.level;
+        track.standard = p.standard;
         track.logarithmic = p.logarithmic;
         track.model.sigmoid = p.sigmoid;
         // recordings before version 0.2 have no such column
@@ -51,7 +134,23 @@ std::vector<ThresholdTrack> threshold_tracks(const rows::TrialFile& trials,
             track.trials.push_back(row.asked.trial);
         }
     }
+    add_pooled(out);
     return out;
+}
+
+void list_psychophysics(const ThresholdTrack& track, const model::Psychometric& function,
+                        FigureLister& row) {
+    const std::vector<double> reversals = track.reversals();
+    const double sum = std::accumulate(reversals.begin(), reversals.end(), 0.0);
+    const auto count = static_cast<double>(reversals.size());
+    row("threshold_probability", function.probability(function.threshold), "1",
+        "probability of yes at the threshold, by the fitted function");
+    row("weber_fraction", track.weber_fraction(function), "1",
+        "what is just noticed over the standard: with a guess rate of 0.25 or more the threshold's "
+        "distance from it, else half the distance of the quartiles");
+    row("reversals", reversals.size(), "1", "reversals of a staircase that count");
+    row("mean_of_reversals", reversals.empty() ? kUnmeasured : sum / count, "1",
+        "their mean level, in the unit of threshold_share");
 }
 
 ThresholdFit fit_threshold(const ThresholdTrack& track) {

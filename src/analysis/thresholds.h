@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "analysis/fits/psychometric_fit.h"
+#include "base/figure.h"
 #include "rows/procedure_row.h"
 #include "rows/trial_row.h"
 
@@ -16,7 +17,9 @@ struct ThresholdTrack {
     std::string procedure;
     std::string kind;  ///< staircase, quest, quest_plus, constant
     std::string perturbation;
-    std::string number;  ///< name of the number that it chooses; empty: the perturbation's share
+    std::string number;   ///< name of the number that it chooses; empty: the perturbation's share
+    double standard = 0;  ///< standard value of the number; NaN: none
+    int skipped_reversals = 0;      ///< first ones, which do not count in their mean
     bool logarithmic = false;       ///< levels are log10 of shares, or of the number
     std::vector<Answer> answers;    ///< in order
     std::vector<int> trials;        ///< trial number of each answer in the session
@@ -25,12 +28,26 @@ struct ThresholdTrack {
     /// The share, or the number in the unit of its name, at a level.
     double share(double level) const;
     std::string what() const;  ///< description of the number that it chooses
+    /// The levels of a staircase at which its direction changed, as shares or numbers; none for
+    /// other procedures.
+    std::vector<double> reversals() const;
+    /// The Weber fraction of a fitted function: what is just noticed, over the standard; NaN
+    /// without a standard. With a guess rate of 0.25 or more that is the threshold's distance from
+    /// the standard; otherwise half the distance of the function's quartiles, since its threshold
+    /// is the point of subjective equality.
+    double weber_fraction(const model::Psychometric& function) const;
 };
 
-/// One track per procedure. Answers that are neither yes nor no, and trials without a procedure,
-/// are left out.
+/// One track per procedure; then one for each number, or share of a perturbation, that several
+/// procedures of one model chose: all of their answers. Answers that are neither yes nor no, and
+/// trials without a procedure, are left out.
 std::vector<ThresholdTrack> threshold_tracks(const rows::TrialFile& trials,
                                              const rows::ProcedureFile& procedures);
+
+/// Adds what a psychophysicist reads from a fitted function, and from a staircase, to a table's
+/// row.
+void list_psychophysics(const ThresholdTrack& track, const model::Psychometric& function,
+                        FigureLister& row);
 
 /// The fit of a track, or the reason why there is none.
 struct ThresholdFit {

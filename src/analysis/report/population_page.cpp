@@ -236,6 +236,7 @@ void add_thresholds(PopulationPage& out, const std::string& title, const Session
             row("trials", track.answers.size(), "1", "answers");
             row("threshold_share", track.share(f.threshold), "1",
                 "share of the perturbation; or the number, in the unit of its name");
+            list_psychophysics(track, f, row);
             row("shape", f.shape, "1", "shape of the sigmoid");
             row("lapse", f.lapse, "1", "share of answers that do not depend on the level");
             row("note", threshold.note, "", "reason for a missing fit, or a remark");

@@ -86,6 +86,12 @@ SessionData SessionData::read(const std::string& path) {
     if (is_there(folder.file("procedures.csv")))
         data.tracks =
             threshold_tracks(data.trials, rows::ProcedureFile(folder.file("procedures.csv")));
+    for (ThresholdTrack& track : data.tracks) {
+        for (const task::ProcedureSpec& spec : data.task.procedures) {
+            if (spec.name == track.procedure && spec.staircase)
+                track.skipped_reversals = spec.staircase->skipped_reversals;
+        }
+    }
     return data;
 }
 

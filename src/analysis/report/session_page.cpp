@@ -280,6 +280,7 @@ FigureLister threshold_row(const SessionData& session, const ThresholdTrack& tra
     row("threshold_95", threshold_95, "", "its interval, from the profile likelihood");
     row("threshold_share", track.share(f.threshold), "1",
         "share of the perturbation; or the number, in the unit of its name");
+    list_psychophysics(track, f, row);
     row("shape", f.shape, "1", "shape of the sigmoid");
     row("shape_95", shape_95, "", "its interval, from the profile likelihood");
     row("lapse", f.lapse, "1", "share of answers that do not depend on the level");

@@ -253,6 +253,38 @@ TEST(Thresholds, AreFittedToTheAnswersOfTheirProcedure) {
     EXPECT_NEAR(tracks[0].share(-0.5), 0.3162, 1e-4);
 }
 
+TEST(Thresholds, OfProceduresOverOneNumberArePooledAndHaveAWeberFraction) {
+    const testing::TemporaryFolder folder;
+    std::string text = "trial_num,mass_g,procedure,outcome\n";
+    const char* levels[] = {"240", "260", "230", "250", "220", "240", "210", "230"};
+    for (int i = 0; i < 8; ++i) {
+        text += fmt::format("{},{},down,{}\n", 2 * i + 1, levels[i], i % 2 == 0 ? "yes" : "no");
+        text += fmt::format("{},{},up,{}\n", 2 * i + 2, 200 + 10 * i, i > 3 ? "yes" : "no");
+    }
+    auto tracks = threshold_tracks(
+        rows::TrialFile(folder.write("trials.csv", text)),
+        rows::ProcedureFile(folder.write(
+            "procedures.csv",
+            "procedure,kind,perturbation,logarithmic,yes,no,sigmoid,guess,guess_is_lapse,level,"
+            "standard\ndown,staircase,,no,yes,no,normal,0,no,mass_g,200\n"
+            "up,staircase,,no,yes,no,normal,0,no,mass_g,200\n"
+            "share,staircase,p,no,yes,no,normal,0,no,,\n")));
+    ASSERT_EQ(tracks.size(), 4u);
+    EXPECT_EQ(tracks[3].procedure, "down, up");
+    EXPECT_EQ(tracks[3].answers.size(), 16u);
+    EXPECT_EQ(tracks[3].trials[1], 2);
+    EXPECT_EQ(tracks[3].answers[0].level, 240);
+    EXPECT_EQ(tracks[0].reversals(), (std::vector<double>{260, 230, 250, 220, 240, 210}));
+    tracks[0].skipped_reversals = 4;
+    EXPECT_EQ(tracks[0].reversals(), (std::vector<double>{240, 210}));
+    EXPECT_TRUE(tracks[1].reversals().empty());
+    // by the quartiles of a normal function, and by a forced choice's threshold
+    EXPECT_NEAR(tracks[3].weber_fraction({.threshold = 205, .shape = 20}), 0.0674490, 1e-6);
+    EXPECT_NEAR(tracks[3].weber_fraction({.threshold = 225, .shape = 20, .guess = 0.5}), 0.125,
+                1e-9);
+    EXPECT_TRUE(std::isnan(tracks[2].weber_fraction({})));
+}
+
 TEST(Page, ShowsAnyTextAsItIs) {
     Page page("a < b & \"c\"", "", "by </script>");
     Chart chart;
