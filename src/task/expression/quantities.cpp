@@ -6,6 +6,7 @@
 
 #include "base/unmeasured.h"
 #include "frame/displayed.h"
+#include "model/grasp.h"
 
 namespace dihaptic::task {
 namespace {
@@ -42,6 +43,30 @@ bool is_thing(const Quantities::Thing& thing, int body, int bodies) noexcept {
     const int finger = body - bodies;
     if (finger < 0) return body == thing.body;
     return scene::contains(thing.fingers, static_cast<size_t>(finger));
+}
+
+/// The pinch of a hand: half the sum of its fingers' normal forces along the axis from its first
+/// finger to the middle of the others, as grip_force of all fingers.
+double grip_of(const scene::FingerSet& hand, const frame::Frame& last) noexcept {
+    std::array<size_t, scene::kMostFingers> fingers{};
+    size_t count = 0;
+    for (size_t i = 0; i < last.fingers.size(); ++i) {
+        if (scene::contains(hand, i)) fingers[count++] = i;
+    }
+    if (count < 2) return kUnmeasured;
+    const Vec3 axis = model::grasp_axis(
+        count, [&](size_t i) -> const Vec3& { return last.fingers[fingers[i]].p_WP; });
+    const auto bodies = static_cast<int>(last.bodies.size());
+    double squeeze = 0;
+    for (const frame::ContactFrame& contact : last.contacts) {
+        for (size_t i = 0; i < count; ++i) {
+            const int proxy = bodies + static_cast<int>(fingers[i]);
+            if (contact.a != proxy && contact.b != proxy) continue;
+            const double on_proxy = (contact.b == proxy ? 1 : -1) * contact.n_W.dot(axis);
+            squeeze += (i == 0 ? -1 : 1) * contact.normal_force * on_proxy;
+        }
+    }
+    return squeeze / 2;
 }
 
 double fingers_that_press(const Quantities::Thing& body, const Quantities::Thing& who,
@@ -363,6 +388,10 @@ std::optional<Symbol> Quantities::find_of_hand(const std::string& name, std::str
         sources_.push_back(source);
         return out;
     }
+    if (member == "grip_force" && fingers.count() > 1) {
+        return Symbol{slot_of({.from = Source::From::grip, .a = {-1, fingers}}),
+                      Symbol::Type::number, dimension(Quantity::force)};
+    }
     auto component = component_of(member, "");
     if (!component) component = component_of(member, "position");
     if (!component) {
@@ -462,6 +491,8 @@ double Quantities::read(const Source& source, const frame::Frame& last,
             return fingers_that_press(source.a, source.b, last);
         case From::contact:
             return normal_force_between(source.a, source.b, last);
+        case From::grip:
+            return grip_of(source.a.fingers, last);
     }
     if (item == nullptr) return kUnmeasured;
     return number_at(item + source.offset, source.format) * source.scale;

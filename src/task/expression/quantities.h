@@ -8,6 +8,7 @@
 //     index, index.x, index.speed         a finger's handle
 //     left, left.x, left.speed            the middle of a hand's handles
 //     index.shown, left.shown             the displayed position
+//     left.grip_force                     pinch of the hand's own fingers
 //     block.start                         a body's position at the beginning of the trial
 //     hinge.angle, rail.displacement      a joint's coordinate; joints have no position
 //     goal, goal.x, goal.radius           a region
@@ -126,7 +127,18 @@ class Quantities {
   private:
     /// Instruction for reading a value of the tick.
     struct Source {
-        enum class From { frame, finger, handle, turn, body, joint, middle, pressing, contact };
+        enum class From {
+            frame,
+            finger,
+            handle,
+            turn,
+            body,
+            joint,
+            middle,
+            pressing,
+            contact,
+            grip
+        };
         enum class Format { f64, i32, i64, u32, norm };
         From from = From::frame;
         Format format = Format::f64;
@@ -134,7 +146,7 @@ class Quantities {
         int index = 0;   ///< of the finger, body or joint
         int offset = 0;  ///< from the beginning of the item [bytes]
         double scale = 1;
-        Thing a{};  ///< for middle, pressing, contact
+        Thing a{};  ///< for middle, pressing, contact, grip
         Thing b{};
         bool shown = false;  ///< for middle
     };

@@ -46,6 +46,37 @@ TEST(RecordedValue, IsThatOfTheFrameInUnitsThatPeopleRead) {
     }
 }
 
+TEST(RecordedValue, OfAHandHasItsOwnGrip) {
+    Quantities quantities({{"thumb", "index", "other thumb", "other index"},
+                           {"block"},
+                           {},
+                           {},
+                           {{"A", scene::FingerSet{3}}, {"B", scene::FingerSet{12}}}});
+    frame::Frame now = frame();
+    now.fingers.resize(4);
+    const double x[] = {-0.02, 0.02, 0.08, 0.12};
+    for (size_t i = 0; i < 4; ++i) now.fingers[i].p_WP = {x[i], 0, 0};
+    // each finger presses the block, body 0, at its side; normals point from the block to the proxy
+    const double pressed[] = {2, 2.4, 3, 3};
+    for (int i = 0; i < 4; ++i) {
+        frame::ContactFrame contact;
+        contact.a = 0;
+        contact.b = 1 + i;
+        contact.normal_force = pressed[i];
+        contact.n_W = {i % 2 == 0 ? -1.0 : 1.0, 0, 0};
+        now.contacts.push_back(contact);
+    }
+    const std::vector<frame::Handle> handles(4);
+    for (const auto& [text, value] : {std::pair{"A.grip_force", 2.2}, {"B.grip_force", 3.0}}) {
+        Diagnostics diagnostics;
+        const Expression grip = Expression::compile(text, quantities, {}, "of", diagnostics);
+        ASSERT_TRUE(diagnostics.problems().empty()) << diagnostics.problems()[0].text();
+        quantities.update(now, handles);
+        EXPECT_NEAR(grip(quantities.values()), value, 1e-12) << text;
+        EXPECT_EQ(grip.dimension(), dimension(Quantity::force));
+    }
+}
+
 TEST(RecordedValue, OfAMistakeIsNothing) {
     Diagnostics diagnostics;
     RecordedValue recorded("grip_forse + 1", block_and_fingers(), diagnostics);
