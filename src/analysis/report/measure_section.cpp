@@ -86,6 +86,9 @@ using Levels = std::vector<std::pair<double, std::string>>;
 
 Levels levels_of(const rows::TrialFile& trials, size_t i, const std::vector<std::string>& factors) {
     Levels out;
+    // rounds are never averaged over
+    if (const std::string& round = trials[i].asked.round; !round.empty())
+        out.emplace_back(0, round);
     for (const std::string& factor : factors) {
         const auto column = trials.column(factor);
         const double number = trials.number(i, column);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -314,8 +315,46 @@ void add_lifts(PopulationPage& out, const std::string& title, const Sessions& se
     out.page.table(table, "Over people, of each person's median. " + origin);
 }
 
-std::array<Table*, 4> tables_of(PopulationPage& page) {
-    return {&page.people, &page.adaptation, &page.thresholds, &page.lifts};
+/// Lists the measures of the last attempts at trials, by round, condition and kind of trials.
+void list_measures(PopulationPage& out, const std::string& title, const Sessions& sessions) {
+    using Key = std::array<std::string, 3>;  // round, condition, kind
+    for (const Table::Column& column : measured_columns(*sessions.front())) {
+        std::map<Key, ByPerson> values;
+        std::map<Key, int> trials_of, empty;
+        for (const SessionData* session : sessions) {
+            const rows::TrialFile& trials = session->trials;
+            const auto measured = trials.column(column.name);
+            for (size_t i = 0; i < trials.size(); ++i) {
+                const rows::AskedRow& asked = trials[i].asked;
+                const bool again =
+                    i + 1 < trials.size() && trials[i + 1].asked.trial == asked.trial;
+                if (again) continue;  // another attempt at the trial follows
+                const Key key{asked.round, asked.condition, std::string(enum_name(asked.kind))};
+                const double value = trials.number(i, measured);
+                ++trials_of[key];
+                empty[key] += std::isnan(value) ? 1 : 0;
+                ByPerson& of_people = values[key];
+                if (!std::isnan(value)) of_people.add(person_of(*session), value);
+            }
+        }
+        for (const auto& [key, of_people] : values) {
+            FigureLister row;
+            row("experiment", title, "", "title");
+            row("measure", column.name, "", "column of trials.csv; each person's mean counts");
+            row("unit", column.unit, "", "its unit");
+            row("round", key[0], "", "name");
+            row("condition", key[1], "", "name");
+            row("kind", key[2], "", "kind of the trials");
+            row("trials", trials_of[key], "1", "number over all people, the last attempt at each");
+            row("left_out", empty[key], "1", "trials without the measure: not_measured says why");
+            list(row, of_people.over_people());
+            add_row(out.measures, row);
+        }
+    }
+}
+
+std::array<Table*, 5> tables_of(PopulationPage& page) {
+    return {&page.people, &page.adaptation, &page.thresholds, &page.lifts, &page.measures};
 }
 
 /// Adds the sessions of one experiment and one kind of people.
@@ -341,6 +380,7 @@ void add_group(PopulationPage& out, const std::string& title, const std::string&
     add_not_measured(out, title, sessions);
     add_adaptation(out, title, sessions, origin);
     add_measures_of_people(out.page, sessions, origin);
+    list_measures(out, title, sessions);
     add_thresholds(out, title, sessions, origin);
     add_lifts(out, title, sessions, origin);
     const auto tables = tables_of(out);

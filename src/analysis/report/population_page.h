@@ -15,6 +15,7 @@ struct PopulationPage {
     Table adaptation{};  ///< a row per round and trial; empty without reaches
     Table thresholds{};  ///< a row per session and procedure; empty without procedures
     Table lifts{};       ///< a row per experiment, group of trials and figure; empty without lifts
+    Table measures{};    ///< a row per measure, round, condition and kind of trials
 };
 
 PopulationPage population_page(const std::vector<SessionData>& sessions, const std::string& folder,

@@ -106,6 +106,7 @@ ReportResult report_folder(const std::string& folder, const std::string& command
     write(result, made.adaptation, file("population-adaptation.csv"));
     write(result, made.lifts, file("population-lifts.csv"));
     write(result, made.thresholds, file("population-thresholds.csv"));
+    write(result, made.measures, file("population-measures.csv"));
     result.page = file("report.html");
     write_file(made.page.html(), result.page);
     return result;

@@ -21,9 +21,9 @@ struct ReportResult {
 
 /// For one session, writes report.html in its folder, with adaptation.csv and fits.csv if it has
 /// reaches. For a folder with sessions in it, at any depth, writes report.html there, with
-/// population-people.csv, population-adaptation.csv, population-thresholds.csv and
-/// population-lifts.csv. `command`: the command line, shown in the report. Throws Error when there
-/// is no session.
+/// population-people.csv, population-adaptation.csv, population-thresholds.csv,
+/// population-lifts.csv and population-measures.csv. `command`: the command line, shown in the
+/// report. Throws Error when there is no session.
 ReportResult write_report(const std::string& path, const std::string& command,
                           const std::function<void(double)>& progress);
 

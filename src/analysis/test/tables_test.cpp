@@ -28,7 +28,9 @@ SessionData session_in(const testing::TemporaryFolder& folder) {
     return {recording::SessionFolder::open_tables(folder.path()),
             {},
             {},
-            rows::TrialFile(folder.write("trials.csv", "trial_num,attempt\n1,1\n")),
+            rows::TrialFile(folder.write("trials.csv",
+                                         "trial_num,attempt,kind,peak_speed_m_s,not_measured\n"
+                                         "1,1,baseline,0.3,\n")),
             rows::LiftFile(folder.write("lifts.csv", "trial_num,attempt,preload_s\n1,1,0.1\n")),
             {curve},
             {ThresholdTrack{}},
@@ -73,7 +75,10 @@ std::string tables() {
            table("population-thresholds.csv", "A row for each person and procedure.",
                  people.thresholds.columns) +
            table("population-lifts.csv", "A row for each group of trials and figure.",
-                 people.lifts.columns);
+                 people.lifts.columns) +
+           table("population-measures.csv",
+                 "A row for each measure, round, condition and kind of trials.",
+                 people.measures.columns);
 }
 
 /// What stands before the tables is written by hand.
