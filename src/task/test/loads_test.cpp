@@ -271,6 +271,38 @@ TEST(Load, ABodyOnASpringOscillatesWithItsPeriod) {
     EXPECT_GT(rate * t, 3 * std::numbers::pi);
 }
 
+TEST(Load, ALinkPullsBothOfItsEndsAlike) {
+    for (const std::string acts : {"both", "pulls", "pushes"}) {
+        SCOPED_TRACE(acts);
+        InTheAir files(
+            "    - { name: tie, loads: [{ kind: link, between: [index, block], stiffness_N_m: 30, "
+            "damping_Ns_m: 0.4, length_mm: 380, acts: " +
+                acts + " }] }\n",
+            "tie");
+        const std::vector<frame::Frame> frames = files.run();
+        ASSERT_GT(frames.size(), 300u);
+        int acted = 0;
+        for (size_t i = 1; i < frames.size(); ++i) {
+            const frame::FingerFrame& a = frames[i].fingers[0];
+            const frame::BodyFrame& b = frames[i - 1].bodies[1];
+            const Vec3 d = a.p_WH - b.X_WB.p;
+            const Vec3 u = d.normalized();
+            const double stretch = d.norm() - 0.38;
+            double pull = 30 * stretch + 0.4 * (a.v_WH - b.v_WB).dot(u);
+            if (acts == "pulls") pull = stretch > 0 ? std::max(pull, 0.0) : 0;
+            if (acts == "pushes") pull = stretch < 0 ? std::min(pull, 0.0) : 0;
+            Vec3 of_finger = Vec3::Zero();
+            Vec3 of_block = Vec3::Zero();
+            for (const frame::LoadFrame& load : frames[i].task.loads)
+                (load.body == 1 ? of_block : of_finger) += load.force_W;
+            EXPECT_LT((of_finger + pull * u).norm(), 1e-9) << i;
+            EXPECT_LT((of_finger + of_block).norm(), 1e-12) << i;
+            acted += pull != 0 ? 1 : 0;
+        }
+        EXPECT_GT(acted, 30);
+    }
+}
+
 TEST(Load, ATorqueTurnsABodyByItsInertia) {
     InTheAir files(
         "    - { name: twist, loads: [{ kind: constant, on: block, torque_mNm: [0, 0, 1], "

@@ -1,5 +1,7 @@
 #include "task/effects/load/load.h"
 
+#include <fmt/format.h>
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -31,6 +33,10 @@ bool LoadSpec::pushes_by_velocity() const {
 Load::Load(const LoadSpec& spec, const Names& names, const scene::Scene& scene,
            Diagnostics& diagnostics)
     : spec_(spec) {
+    if (spec.kind == LoadKind::link) {
+        spec_.on = spec.between;
+        check_link(diagnostics);
+    }
     check_things(names, scene, diagnostics);
     switch (spec.kind) {
         case LoadKind::constant:
@@ -57,12 +63,27 @@ Load::Load(const LoadSpec& spec, const Names& names, const scene::Scene& scene,
             look_up_place(names, diagnostics);
             check_spring(diagnostics);
             break;
+        case LoadKind::link:
+            break;
+    }
+}
+
+void Load::check_link(Diagnostics& diagnostics) const {
+    if (spec_.between.size() != 2) {
+        diagnostics.error(
+            spec_.place, "between",
+            fmt::format("has {} items, but a link has two ends", spec_.between.size()),
+            "Name two, e.g. between: [A index, B index].");
+    }
+    if (spec_.stiffness == 0 && spec_.damping == 0) {
+        diagnostics.error(spec_.place, "stiffness", "is missing, and so is damping",
+                          "Add e.g. stiffness_N_m: 100.");
     }
 }
 
 void Load::check_things(const Names& names, const scene::Scene& scene,
                         Diagnostics& diagnostics) const {
-    if (spec_.on.empty()) {
+    if (spec_.on.empty() && spec_.kind != LoadKind::link) {
         diagnostics.error(spec_.place, "on", "has no items",
                           "Name fingers and bodies, e.g. on: [thumb, index].");
     }
@@ -168,8 +189,8 @@ bool Load::is_computed() const {
     const auto computed = [](const FormulaVec3& v) {
         return v[0].computed() || v[1].computed() || v[2].computed();
     };
-    return spec_.damping.computed() || spec_.stiffness.computed() || spec_.delay.computed() ||
-           computed(spec_.force) || computed(spec_.torque);
+    return spec_.length.computed() || spec_.damping.computed() || spec_.stiffness.computed() ||
+           spec_.delay.computed() || computed(spec_.force) || computed(spec_.torque);
 }
 
 double Load::longest_delay() const {
@@ -187,7 +208,7 @@ Load::Demand Load::demand() const {
     out.torque = value(spec_.torque).norm();
     // a load that holds a hand in place may be as stiff as the device allows
     out.holds = spec_.kind == LoadKind::channel || spec_.one_sided;
-    out.springs = out.holds || spec_.kind == LoadKind::spring;
+    out.springs = out.holds || spec_.kind == LoadKind::spring || spec_.kind == LoadKind::link;
     if (spec_.kind == LoadKind::general) {
         out.stiffness = spec_.A.operatorNorm();
         out.damping = spec_.B.operatorNorm();
@@ -229,12 +250,36 @@ Wrench Load::act(double share, std::span<const Vec3> regions_W,
         case LoadKind::spring:
         case LoadKind::channel:
             return {pull(share, regions_W, motion), Vec3::Zero()};
+        case LoadKind::link:  // depends on two motions
+            break;
     }
     return {};
 }
 
+void Load::order_link(double share, const Motions& motions, frame::TaskFrame& out) const noexcept {
+    if (on().size() != 2) return;
+    const Motion* const a = motions.of(on()[0], spec_.delay.value);
+    const Motion* const b = motions.of(on()[1], spec_.delay.value);
+    if (a == nullptr || b == nullptr) return;
+    const Vec3 d = a->p_W - b->p_W;
+    const double distance = d.norm();
+    if (distance <= 0) return;
+    const Vec3 u = d / distance;
+    const double stretch = distance - spec_.length.value;
+    if ((spec_.acts == LinkActs::pulls && stretch <= 0) ||
+        (spec_.acts == LinkActs::pushes && stretch >= 0))
+        return;
+    const double rate = (a->v_W - b->v_W).dot(u);
+    double pull = share * (spec_.stiffness.value * stretch + spec_.damping.value * rate);
+    if (spec_.acts == LinkActs::pulls) pull = std::max(pull, 0.0);
+    if (spec_.acts == LinkActs::pushes) pull = std::min(pull, 0.0);
+    add(out.loads, {on()[0], -pull * u, Vec3::Zero()});
+    add(out.loads, {on()[1], pull * u, Vec3::Zero()});
+}
+
 void Load::order(double share, std::span<const Vec3> regions_W, const Motions& motions,
                  frame::TaskFrame& out) const noexcept {
+    if (spec_.kind == LoadKind::link) return order_link(share, motions, out);
     for (const int thing : on()) {
         const Motion* const motion = motions.of(thing, spec_.delay.value);
         if (motion == nullptr) continue;
@@ -307,6 +352,10 @@ void say(const LoadSpec& spec, std::vector<std::string>& out) {
             out.push_back(fmt::format("force channel{} of {} N/m",
                                       spec.normal || spec.free ? " (a plane)" : "",
                                       in_words(spec.stiffness)));
+            break;
+        case LoadKind::link:
+            out.push_back(fmt::format("link of {} N/m between {} and {}", in_words(spec.stiffness),
+                                      spec.between.front(), spec.between.back()));
             break;
     }
 }

@@ -6,9 +6,12 @@
 //     general    f = f0 + A (p - p0) + B v
 //     spring     f = -k d - b v_d
 //     channel    the same, with k > 0
+//     link       f = -(k (|d| - L) + b d/dt |d|) d / |d| on one thing, and -f on the other
 //
 // p and v are the position and velocity of the handle or body; d is the vector to p from a point,
-// or from the nearest point of a line or plane, and v_d is the component of v that changes d.
+// or from the nearest point of a line or plane, and v_d is the component of v that changes d. In a
+// link d leads from the other thing: a spring or rod joins them, a rope pulls alone, and a wall
+// between two hands pushes alone.
 // Beyond a zone around p0, or around the point, line or plane, a load fades to zero: its factor
 // falls linearly with the distance.
 #pragma once
@@ -31,9 +34,15 @@ class Load;
 class Names;
 struct Thing;  ///< the object of a load: a body, or the handle of a finger
 
-enum class LoadKind { constant, viscous, curl, general, spring, channel };
+enum class LoadKind { constant, viscous, curl, general, spring, channel, link };
 constexpr auto enum_names(LoadKind) {
-    return std::array{"constant", "viscous", "curl", "general", "spring", "channel"};
+    return std::array{"constant", "viscous", "curl", "general", "spring", "channel", "link"};
+}
+
+/// What a link may do: rods do both, ropes pull, walls push.
+enum class LinkActs { both, pulls, pushes };
+constexpr auto enum_names(LinkActs) {
+    return std::array{"both", "pulls", "pushes"};
 }
 
 /// A load as described in an experiment file. Keys that its kind does not use are unknown.
@@ -57,14 +66,22 @@ struct LoadSpec {
     bool one_sided = false;      ///< a plane acts only opposite to its normal
     std::optional<double> zone;  ///< distance at which fading starts [m]
     double fade = 0.01;          ///< distance over which it fades [m]
-    Formula delay = 0;           ///< age of p and v in the law [s]
+    Refs<Thing> between;         ///< the two ends of a link
+    Formula length = 0;          ///< L of a link [m]
+    LinkActs acts = LinkActs::both;
+    Formula delay = 0;  ///< age of p and v in the law [s]
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("kind", kind, Field::text().required().says("Law of the load."));
-        v("on", on,
-          Field::text().required().says("Bodies, and fingers on whose handles the load acts."));
+        if (kind == LoadKind::link) {
+            v("between", between,
+              Field::text().required().says("The two bodies or fingers that the link joins."));
+        } else {
+            v("on", on,
+              Field::text().required().says("Bodies, and fingers on whose handles the load acts."));
+        }
         switch (kind) {
             case LoadKind::constant:
                 visit_force(v);
@@ -110,6 +127,15 @@ struct LoadSpec {
                   Field::of(Quantity::stiffness).within(0, 1e5).says("Stiffness."));
                 visit_place(v);
                 visit_zone(v, "break_out");
+                break;
+            case LoadKind::link:
+                v("stiffness", stiffness,
+                  Field::of(Quantity::stiffness).within(0, 1e5).says("Stiffness."));
+                visit_damping(v);
+                v("length", length,
+                  Field::length().within(0, 100).says(
+                      "Distance of its ends at which a link is slack."));
+                v("acts", acts, says("Whether it pulls, pushes, or does both."));
                 break;
         }
         if (kind != LoadKind::constant)
@@ -210,6 +236,8 @@ class Load {
     void look_up_place(const Names& names, Diagnostics& diagnostics);
     void check_spring(Diagnostics& diagnostics) const;
     void check_general(Diagnostics& diagnostics);
+    void check_link(Diagnostics& diagnostics) const;
+    void order_link(double share, const Motions& motions, frame::TaskFrame& out) const noexcept;
     Vec3 pull(double share, std::span<const Vec3> regions_W, const Motion& motion) const noexcept;
     double left_at(double distance) const noexcept;
 
