@@ -39,6 +39,7 @@ void plan_custom_measures(TaskPlan& plan, Diagnostics& diagnostics) {
         check_name(measure, plan, diagnostics);
         TaskPlan::Measured out;
         out.take = measure.take;
+        out.window = measure.window.value_or(0);
         out.states = states_of(measure);
         const Formula of = formula_of(measure.of, measure.name, "of", measure.place);
         if (auto compiled = compile_formula(of, plan, plan.measured, diagnostics)) {
@@ -56,7 +57,11 @@ std::vector<Table::Column> columns_of(const std::vector<CustomMeasure>& measures
         if (name.quantity != Quantity::none) unit = measure.name.substr(name.name.size() + 1);
         std::replace(unit.begin(), unit.end(), '_', '/');
         out.push_back(
-            {measure.name, fmt::format("{} of {}", enum_name(measure.take), measure.of), unit});
+            {measure.name,
+             fmt::format(
+                 "{} of {}{}", enum_name(measure.take), measure.of,
+                 measure.window ? fmt::format(", moving mean over {:g} s", *measure.window) : ""),
+             unit});
     }
     return out;
 }
@@ -69,6 +74,7 @@ CustomMeasures::CustomMeasures(TaskPlan plan)
       numbers_(plan_) {
     for (const TaskPlan::Measured& measure : plan_.custom_measures)
         taken_.emplace_back(measure.take);
+    windows_.resize(taken_.size());
 }
 
 /// Updates the quantities. The tick that ends an attempt orders no perturbation any more: the
@@ -101,8 +107,31 @@ void CustomMeasures::add(const frame::Frame& frame) {
     update(frame);
     for (size_t i = 0; i < taken_.size(); ++i) {
         const TaskPlan::Measured& measure = plan_.custom_measures[i];
-        if ((measure.states >> (frame.phase - 1) & 1u) == 0) continue;
-        taken_[i].add(measure.value.value(numbers_.values()));
+        if ((measure.states >> (frame.phase - 1) & 1u) == 0) {
+            windows_[i] = {};
+            continue;
+        }
+        const double value = measure.value.value(numbers_.values());
+        if (measure.window > 0) {
+            add_to_window(i, now, value);
+        } else {
+            taken_[i].add(value);
+        }
+    }
+}
+
+/// Takes the mean of the values within a window's length, once there are so many.
+void CustomMeasures::add_to_window(size_t i, double now, double value) {
+    constexpr double kTolerance = 1e-6;  // sums of ticks have rounding errors [s]
+    Window& window = windows_[i];
+    window.values.emplace_back(now, value);
+    window.sum += value;
+    const double length = plan_.custom_measures[i].window;
+    while (now - window.values.front().first >= length - kTolerance) {
+        // the oldest value is that of the tick before the window
+        window.sum -= window.values.front().second;
+        window.values.pop_front();
+        taken_[i].add(window.sum / static_cast<double>(window.values.size()));
     }
 }
 
@@ -112,6 +141,7 @@ std::vector<double> CustomMeasures::end_attempt() {
         const double si = plan_.custom_measures[i].value.formula.to_si;
         out.push_back(taken_[i].statistic() / si);
         taken_[i].clear();
+        windows_[i] = {};
     }
     phase_ = 0;
     began_ = -1;

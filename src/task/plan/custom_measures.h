@@ -2,6 +2,8 @@
 // evaluated for each attempt as its frames pass.
 #pragma once
 
+#include <deque>
+#include <utility>
 #include <vector>
 
 #include "frame/frame.h"
@@ -32,11 +34,17 @@ class CustomMeasures {
 
   private:
     void update(const frame::Frame& frame);
+    void add_to_window(size_t i, double now, double value);
 
     TaskPlan plan_;
     TrialNumbers numbers_;
     std::vector<frame::Handle> handles_;
     std::vector<Taken> taken_;
+    struct Window {
+        std::deque<std::pair<double, double>> values;  // with their times [s]
+        double sum = 0;
+    };
+    std::vector<Window> windows_;
     frame::Frame before_;  // the last frame with a visual map, for the attempt's last tick
     int phase_ = 0;
     double entered_ = 0;  // time of entry into the state [s]

@@ -190,7 +190,8 @@ struct CustomMeasure {
     std::string name;  ///< its column in trials.csv, with the unit
     std::string of;    ///< an expression, evaluated in each tick
     Take take = Take::max;
-    RefList<State> during;  ///< empty: all
+    std::optional<double> window;  ///< the statistic is of moving means over this time [s]
+    RefList<State> during;         ///< empty: all
     Place place;
 
     template <class Visitor>
@@ -200,6 +201,11 @@ struct CustomMeasure {
               "Name of its column in trials.csv, with the unit, e.g. squeeze_N."));
         v("of", of, Field::text().required().says("Expression that is evaluated in each tick."));
         v("take", take, Field::text().required().says("Statistic of its values that is reported."));
+        v("window", window,
+          Field::of(Quantity::time)
+              .within(1e-3, 600)
+              .says("Time over which a moving mean is taken before the statistic: take: max gives "
+                    "the highest value that was sustained for so long."));
         v("during", during, says("States in which it is evaluated; all if omitted."));
     }
 };

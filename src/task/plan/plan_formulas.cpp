@@ -334,11 +334,12 @@ void plan_what_rules_need(TaskPlan& plan, const std::vector<int>& slots, Diagnos
         const auto names = [&](const Expression* rule) { return rule->names(slots[i]); };
         if (std::none_of(rules.begin(), rules.end(), names)) continue;
         const CustomMeasure& measure = plan.task.custom_measures[i];
-        if (measure.take == Take::median) {
-            diagnostics.error(measure.place, "take",
-                              "is median, which is known only after the session, but after_trial "
-                              "names the measure",
-                              "Take another statistic, or leave it out of the rules.");
+        if (measure.take == Take::median || measure.window) {
+            diagnostics.error(
+                measure.place, measure.window ? "window" : "take",
+                "makes a measure that is known only after the session, but after_trial "
+                "names the measure",
+                "Take another statistic, or leave it out of the rules.");
             continue;
         }
         const Formula of = formula_of(measure.of, measure.name, "of", measure.place);
@@ -346,7 +347,7 @@ void plan_what_rules_need(TaskPlan& plan, const std::vector<int>& slots, Diagnos
         auto compiled = compile_formula(of, plan, plan.quantities, told);
         if (!compiled) continue;
         plan.rule_measures.push_back(
-            {{std::move(*compiled), measure.take, states_of(measure)}, slots[i]});
+            {{std::move(*compiled), measure.take, 0, states_of(measure)}, slots[i]});
     }
 }
 

@@ -199,6 +199,7 @@ struct TaskPlan {
     struct Measured {
         CompiledFormula value;  ///< with the slots of `measured`
         Take take = Take::max;
+        double window = 0;    ///< of moving means [s]; 0: none
         uint64_t states = 0;  ///< one bit each
     };
     Quantities measured;  ///< `quantities`, and further ones for measures

@@ -38,24 +38,27 @@ void expect_spread(const CsvFile& trials, size_t row, std::vector<double> x) {
 
 TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
     session::Files files;
-    files.replace(kBlocks,
-                  "  draws: [{ name: bonus, uniform: { from: 1, to: 2 } }]\n"
-                  "  custom_measures:\n"
-                  "    - { name: top_speed_mm_s, of: index.speed, take: max, during: [reach] }\n"
-                  "    - { name: way_mm, of: 'distance(index, start) * bonus', take: last }\n"
-                  "    - { name: waited, of: time_in_state / 1 s, take: last, during: [home] }\n"
-                  "    - { name: mean_z_m, of: index.z, take: mean }\n"
-                  "    - { name: sd_x_mm, of: index.x, take: sd }\n"
-                  "    - { name: rms_x_mm, of: index.x, take: rms }\n"
-                  "    - { name: median_x_mm, of: index.x, take: median }\n"
-                  "  blocks:\n");
+    files.replace(
+        kBlocks,
+        "  draws: [{ name: bonus, uniform: { from: 1, to: 2 } }]\n"
+        "  custom_measures:\n"
+        "    - { name: top_speed_mm_s, of: index.speed, take: max, during: [reach] }\n"
+        "    - { name: way_mm, of: 'distance(index, start) * bonus', take: last }\n"
+        "    - { name: waited, of: time_in_state / 1 s, take: last, during: [home] }\n"
+        "    - { name: mean_z_m, of: index.z, take: mean }\n"
+        "    - { name: sd_x_mm, of: index.x, take: sd }\n"
+        "    - { name: held_m_s, of: index.speed, take: max, window_s: 0.05, during: [reach] }\n"
+        "    - { name: rms_x_mm, of: index.x, take: rms }\n"
+        "    - { name: median_x_mm, of: index.x, take: median }\n"
+        "  blocks:\n");
     const session::Plan plan = session::make_plan(files.request());
     const session::RunResult result = files.run(plan);
     analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
     struct Expected {
         double speed = 0, way = 0, entered = 0, waited = 0, z = 0;
         int phase = 0, ticks = 0;
-        std::vector<double> x;  // [mm]
+        std::vector<double> x;       // [mm]
+        std::vector<double> speeds;  // in the reach [m/s]
     };
     std::map<int, Expected> expected;  // by trial
     recording::RawLogReader log(result.folder + "/raw.log");
@@ -72,6 +75,7 @@ TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
                 plan.task->trials[static_cast<size_t>(frame->trial - 1)].draws[0];
         e.z += (p_W.z() - e.z) / ++e.ticks;
         e.x.push_back(1e3 * p_W.x());
+        if (frame->phase == 2) e.speeds.push_back(frame->fingers[0].v_WH.norm());
     }
     const CsvFile trials(result.folder + "/trials.csv");
     ASSERT_EQ(trials.rows(), 9u);
@@ -83,6 +87,13 @@ TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
         EXPECT_NEAR(trials.number(i, "waited"), e.waited, 1e-6);
         EXPECT_NEAR(trials.number(i, "mean_z_m"), e.z, 1e-9);
         expect_spread(trials, i, e.x);
+        double held = 0;  // the best mean of 50 ticks
+        for (size_t k = 50; k <= e.speeds.size(); ++k) {
+            double sum = 0;
+            for (size_t j = k - 50; j < k; ++j) sum += e.speeds[j];
+            held = std::max(held, sum / 50);
+        }
+        EXPECT_NEAR(trials.number(i, "held_m_s"), held, 1e-4);
         EXPECT_EQ(trials.text(i, kNotMeasured), "");
     }
 }
