@@ -25,9 +25,14 @@ struct Mean {
 /// The reaches of one condition in a round.
 struct Direction {
     Vec3 along_W = Vec3::Zero();
+    Vec3 axis_W = Vec3::UnitZ();  // of the angles
     bool trained = false;
-    Mean probes;  // compensation [deg]
+    Mean before;  // compensation in baseline trials and in probes before training [deg]
+    Mean probes;  // after it began
 };
+
+/// Directions that differ by less are the same, whatever their conditions' names [deg].
+constexpr double kSameDirection = 1;
 
 struct Round {
     std::map<std::string, Direction> directions;  // by condition
@@ -43,6 +48,11 @@ Vec3 direction_of(const std::vector<task::ReachPlan>& reaches, int number) {
     return (reaches[i].to_W - reaches[i].from_W).normalized();
 }
 
+Vec3 axis_of(const std::vector<task::ReachPlan>& reaches, int number) {
+    const auto i = static_cast<size_t>(number - 1);
+    return number < 1 || i >= reaches.size() ? Vec3::Constant(kUnmeasured) : reaches[i].axis_W;
+}
+
 std::map<std::string, Round> rounds_of(const rows::TrialFile& trials,
                                        const std::vector<task::ReachPlan>& reaches) {
     std::map<std::string, Round> rounds;
@@ -52,46 +62,66 @@ std::map<std::string, Round> rounds_of(const rows::TrialFile& trials,
         const double compensation = -row.measures.hand_angle_deg;
         Direction& direction = round.directions[row.asked.condition];
         direction.along_W = direction_of(reaches, row.asked.trial);
+        direction.axis_W = axis_of(reaches, row.asked.trial);
         if (kind == rows::TrialKind::perturbed) {
             direction.trained = true;
             round.trained = true;
         }
         if (std::isnan(compensation)) continue;
-        if (kind == rows::TrialKind::baseline) round.baseline.add(compensation);
         const bool probe = is_clamp(kind) || kind == rows::TrialKind::catch_trial;
         if (probe && round.trained) direction.probes.add(compensation);
+        if (kind == rows::TrialKind::baseline || (probe && !round.trained)) {
+            round.baseline.add(compensation);
+            direction.before.add(compensation);
+        }
     }
     return rounds;
 }
 
-/// Angle from the nearest trained direction [deg].
+/// Signed angle from the nearest trained direction [deg].
 double angle_from_trained(const Direction& direction, const Round& round) {
     double nearest = kUnmeasured;
     for (const auto& [name, other] : round.directions) {
         if (!other.trained) continue;
         const double cosine = direction.along_W.dot(other.along_W);
-        nearest = std::fmin(nearest, std::acos(std::clamp(cosine, -1.0, 1.0)));
+        const double size = std::acos(std::clamp(cosine, -1.0, 1.0));
+        if (std::abs(nearest) <= size) continue;
+        const bool behind = direction.axis_W.dot(other.along_W.cross(direction.along_W)) < 0;
+        nearest = behind ? -size : size;
     }
     return nearest * 180 / std::numbers::pi;
+}
+
+/// Mean compensation of the probes, less the baseline of the same direction or, if it has none, of
+/// all.
+double compensation_of(const Direction& direction, const Round& round) {
+    const Mean& before = direction.before.count > 0 ? direction.before : round.baseline;
+    return direction.probes.value() - (before.count > 0 ? before.value() : 0);
+}
+
+const char* baseline_of(const Direction& direction, const Round& round) {
+    if (direction.before.count > 0) return "its condition";
+    return round.baseline.count > 0 ? "all conditions" : "none";
 }
 
 /// Results of a round, by rising angle; empty unless it has probes in untrained directions.
 std::vector<Generalisation> generalisation_of(const std::string& name, const Round& round) {
     std::vector<Generalisation> out;
-    const double bias = round.baseline.count == 0 ? 0 : round.baseline.value();
     Mean at_trained;
     bool any = false;
     for (const auto& [condition, direction] : round.directions) {
-        if (direction.trained && direction.probes.count > 0)
-            at_trained.add(direction.probes.value() - bias);
-        any = any || (!direction.trained && direction.probes.count > 0);
+        if (direction.probes.count == 0) continue;
+        const bool trained = std::abs(angle_from_trained(direction, round)) < kSameDirection;
+        if (trained) at_trained.add(compensation_of(direction, round));
+        any = any || !trained;
     }
     if (!any || !round.trained) return out;
     for (const auto& [condition, direction] : round.directions) {
         if (direction.probes.count == 0) continue;
-        const double compensation = direction.probes.value() - bias;
+        const double compensation = compensation_of(direction, round);
         out.push_back({name, condition, angle_from_trained(direction, round), compensation,
-                       compensation / at_trained.value(), direction.probes.count});
+                       baseline_of(direction, round), compensation / at_trained.value(),
+                       direction.probes.count});
     }
     std::stable_sort(out.begin(), out.end(), [](const Generalisation& a, const Generalisation& b) {
         return a.angle_deg < b.angle_deg;

@@ -15,6 +15,7 @@ struct Generalisation {
     std::string condition;
     double angle_deg = 0;
     double compensation_deg = 0;
+    std::string baseline;
     double share = 0;
     int trials = 0;
 
@@ -22,10 +23,16 @@ struct Generalisation {
     static void visit(Self& f, Visitor& v) {
         v("round", f.round, "", "name");
         v("condition", f.condition, "", "name");
-        v("angle_deg", f.angle_deg, "deg", "angle from the nearest trained direction");
+        v("angle_deg", f.angle_deg, "deg",
+          "angle from the nearest trained direction, positive about the axis of the reach");
         v("compensation_deg", f.compensation_deg, "deg", "mean compensation, minus the baseline's");
+        v("baseline", f.baseline, "",
+          "trials that gave the baseline: those of the condition before training, those of all "
+          "conditions, or none");
         v("share", f.share, "1",
-          "share of the compensation in the trained directions; empty if none was probed");
+          "share of the compensation in trained directions, whatever their conditions' names; "
+          "empty "
+          "if none was probed");
         v("trials", f.trials, "1", "trials in which no error was seen");
     }
 };

@@ -147,33 +147,41 @@ TEST(Generalisation, IsToldByProbesInDirectionsThatWereNotTrained) {
         "reach_to_y_mm,reach_to_z_mm\n";
     std::string trials = "trial_num,kind,condition,round,hand_angle_deg\n";
     int number = 0;
-    const auto add = [&](const char* kind, double degrees, double compensation) {
+    const auto add = [&](const char* kind, double degrees, double compensation,
+                         const std::string& name = "at") {
         const double angle = degrees * std::numbers::pi / 180;
         list += "thumb,0,0,100," + number_text(50 * std::cos(angle)) + "," +
                 number_text(50 * std::sin(angle)) + ",100\n";
-        trials += number_text(++number) + "," + kind + ",at " +
+        trials += number_text(++number) + "," + kind + "," + name + " " +
                   number_text(static_cast<int>(degrees)) + ",z," + number_text(-compensation) +
                   "\n";
     };
     for (const double angle : {0.0, 45.0, 90.0}) add("baseline", angle, 1);
-    add("visual_clamp", 45, 20);  // before training, so it is no probe
+    add("visual_clamp", 45, 3);  // before training: the bias of this direction, and no probe
     for (int i = 0; i < 10; ++i) add("perturbed", 0, 3.0 * i);
     for (int i = 0; i < 2; ++i) {
         add("visual_clamp", 0, 21);
         add("visual_clamp", 45, 11);
         add("catch", 90, 3);
+        add("visual_clamp", 0, 21, "straight");  // no baseline of its own
+        add("catch", -45, 5);
     }
     const auto reaches = task::read_reaches(folder.write("trial-list.csv", list));
     const auto found =
         find_generalisation(rows::TrialFile(folder.write("trials.csv", trials)), reaches);
-    ASSERT_EQ(found.size(), 3u);
-    const double angles[] = {0, 45, 90};
-    const double shares[] = {1, 0.5, 0.1};
-    for (size_t i = 0; i < 3; ++i) {
+    ASSERT_EQ(found.size(), 5u);
+    const double angles[] = {-45, 0, 0, 45, 90};
+    const double all = (1 + 1 + 1 + 3) / 4.0;  // baseline of those without their own
+    const double trained = (20 + 21 - all) / 2;
+    const double compensations[] = {5 - all, 20, 21 - all, 9, 2};
+    const char* const baselines[] = {"all conditions", "its condition", "all conditions",
+                                     "its condition", "its condition"};
+    for (size_t i = 0; i < 5; ++i) {
         EXPECT_EQ(found[i].trials, 2);
         EXPECT_NEAR(found[i].angle_deg, angles[i], 1e-4);
-        EXPECT_NEAR(found[i].compensation_deg, 20 * shares[i], 1e-6);
-        EXPECT_NEAR(found[i].share, shares[i], 1e-6);
+        EXPECT_NEAR(found[i].compensation_deg, compensations[i], 1e-6);
+        EXPECT_NEAR(found[i].share, compensations[i] / trained, 1e-6);
+        EXPECT_EQ(found[i].baseline, baselines[i]);
     }
     // probes in the trained direction alone show no generalisation
     const std::string one =
