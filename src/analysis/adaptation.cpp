@@ -128,8 +128,11 @@ Window rebound(const std::vector<Stretch>& stretches) {
         const Stretch& before = stretches[i - 1];
         if (first == 0 && std::abs(before.perturbation) > kSame) first = before.perturbation;
         if (!stretches[i].clamp || first * before.perturbation >= 0) continue;
-        return difference(last_of(stretches[i].compensation, kFew),
-                          last_of(before.compensation, kLast), std::copysign(1.0, first));
+        const std::vector<double>& clamp = stretches[i].compensation;
+        // without channels in the opposite field, its end is not measured: the clamp begins there
+        const auto from = before.compensation.empty() ? first_of(clamp, kLast)
+                                                      : last_of(before.compensation, kLast);
+        return difference(last_of(clamp, kFew), from, std::copysign(1.0, first));
     }
     return {};
 }
@@ -331,11 +334,25 @@ void AdaptationCurve::list_landmarks(FigureLister& row) const {
     w.clamp_last.list(row, "clamp_last", "last eight trials of that block");
     w.washout_first.list(row, "washout_first",
                          "first eight trials of the first washout block after it");
-    w.savings.list(
-        row, "savings",
-        "relearning after another perturbation: first eight trials, less those of the first time");
+    w.savings.list(row, "savings",
+                   "relearning: mean of the first eight measured trials of the next block with the "
+                   "first perturbation, after a block with another or none, less that of its first "
+                   "block; positive: in the direction of that perturbation");
     w.rebound.list(row, "rebound",
-                   "last eight of a clamp after the opposite perturbation, less the two before it");
+                   "mean of the last eight measured trials of the first clamp block after the "
+                   "opposite perturbation, less that of the last two measured trials of the block "
+                   "before it or, if none was measured there, of the clamp's first two; positive: "
+                   "in the direction of the first perturbation");
+    const auto is_shown = [&](const Trial& t) { return !in_channels() || t.clamp; };
+    const auto counted_as = [&](bool missing) {
+        return std::count_if(trials.begin(), trials.end(), [&](const Trial& t) {
+            return is_shown(t) && std::isnan(t.compensation) == missing;
+        });
+    };
+    row("measured", counted_as(false), "1",
+        "trials with a compensation; with an adaptation index those in channels");
+    row("left_out", counted_as(true), "1",
+        "such trials without one: repeated attempts, and those whose reason not_measured gives");
 }
 
 Table block_table(const std::vector<AdaptationCurve>& curves) {
