@@ -12,14 +12,14 @@ constexpr int kDeepestJson = 32;
 
 /// Discarded (is_discarded()) if the text is not JSON, or is nested too deeply.
 inline nlohmann::json parse_json(std::string_view text) {
-    using Json = nlohmann::json;
+    using Value = nlohmann::json;
     bool too_deep = false;
-    const auto keep = [&](int depth, Json::parse_event_t, const Json&) {
+    const auto keep = [&](int depth, Value::parse_event_t, const Value&) {
         too_deep = too_deep || depth > kDeepestJson;
         return !too_deep;
     };
-    Json out = Json::parse(text.begin(), text.end(), keep, false);
-    return too_deep ? Json(Json::value_t::discarded) : out;
+    Value out = Value::parse(text.begin(), text.end(), keep, false);
+    return too_deep ? Value(Value::value_t::discarded) : out;
 }
 
 }  // namespace dihaptic
