@@ -347,14 +347,14 @@ Stroke first_stroke(std::span<const double> speed) {
     const double most = speed.empty() ? 0 : *std::max_element(speed.begin(), speed.end());
     Stroke out;
     for (size_t i = 0; i < speed.size(); ++i) {
+        if (speed[out.peak] >= kLeast * most && speed[out.end] <= (1 - kFall) * speed[out.peak] &&
+            speed[i] - speed[out.end] >= kRise * most)
+            return out;
         if (speed[i] > speed[out.peak]) {
             out.peak = out.end = i;
         } else if (speed[i] < speed[out.end]) {
             out.end = i;
         }
-        if (speed[out.peak] >= kLeast * most && speed[out.end] <= (1 - kFall) * speed[out.peak] &&
-            speed[i] - speed[out.end] >= kRise * most)
-            return out;
     }
     out.end = speed.empty() ? 0 : speed.size() - 1;
     return out;

@@ -203,13 +203,13 @@ TEST(Measures, AreLeftOutWhereTheyWouldBeNonsense) {
     Reach half;
     half.attempt.plan.channel = 1;
     half.attempt.plan.to_W = {0.25, 0, 0};
-    EXPECT_EQ(half.take("adaptation_index").why, "it covered 40 % of the line, less than 50 %");
+    EXPECT_EQ(half.take("adaptation_index").why, "it covered 39 % of the line, less than 50 %");
     EXPECT_TRUE(std::isnan(half.value("adaptation_index")));
     EXPECT_EQ(half.take("channel_force").why, "");
     Reach weak;
     weak.attempt.plan.channel = 1;
     weak.attempt.plan.ideal *= 0.01;
-    EXPECT_EQ(weak.take("adaptation_index").why, "the ideal force was 0.033 N, less than 0.05");
+    EXPECT_EQ(weak.take("adaptation_index").why, "the ideal force was 0.04 N, less than 0.05");
     Reach wild;
     wild.attempt.plan.channel = 1;
     for (MotionSample& s : wild.attempt.samples) s.f_W = {0, -60 * s.v_W.x(), 0};

@@ -346,7 +346,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kCross, "  conditions: [{ name: a, factors: { mass_g: 1 } }, { name: b }]\n",
                 "'b' has no level of mass_g"},
         Mistake{"  blocks:\n", "  rounds: [{ name: a, factors: { side: 1 } }]\n  blocks:\n",
-                "not for rounds"},
+                "'side' is already the quantity side"},
         Mistake{"side * reach", "sied * reach", "sied"},
         Mistake{"side * reach", "wait", "must be a length"},
         Mistake{"side * reach", "side * reach *", "position_mm"},
