@@ -490,7 +490,7 @@ TEST(Plan, ReadsFilesWithWordsThatWereReplacedSince) {
     files.replace("simulated_hand: [{ duration_s: 0.2, reach: target",
                   "hand: [{ duration_s: 0.2, reach: target");
     files.replace("  conditions:\n",
-                  "  own_measures: [{ name: lift_mm, of: block.z }]\n  conditions:\n");
+                  "  own_measures: [{ name: lift_mm, of: block.z, take: last }]\n  conditions:\n");
     const Plan plan = make_plan(files.request());
     std::string all;
     for (const Problem& p : plan.warnings) all += p.text() + "\n";
