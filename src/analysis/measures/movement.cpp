@@ -346,7 +346,7 @@ Stroke first_stroke(std::span<const double> speed) {
     constexpr double kRise = 0.1;    // of the largest speed
     const double most = speed.empty() ? 0 : *std::max_element(speed.begin(), speed.end());
     Stroke out;
-    for (size_t i = 0; i < speed.size(); ++i) {
+    for (size_t i = 0; i < speed.size() && most > 0; ++i) {
         if (speed[out.peak] >= kLeast * most && speed[out.end] <= (1 - kFall) * speed[out.peak] &&
             speed[i] - speed[out.end] >= kRise * most)
             return out;

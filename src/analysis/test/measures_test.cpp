@@ -136,6 +136,9 @@ TEST(Measures, SayWhyTheyAreMissing) {
     EXPECT_EQ(cut.take("movement_time").why, "not over when its states ended");
     EXPECT_NEAR(cut.value("reaction_time"), 0.3 + rise(), kTick);
     EXPECT_EQ(cut.take("initial_direction").why, "");
+    Reach resting;
+    for (MotionSample& s : resting.attempt.samples) s.v_W.setZero();
+    EXPECT_EQ(resting.take("peak_speed").why, "no movement");
     Reach early;
     early.phases.during = {3};
     EXPECT_EQ(early.take("peak_speed").why, "its states were not reached");
