@@ -103,20 +103,39 @@ AttemptMeasures::AttemptMeasures(const Attempt& attempt, const task::Movement& o
 
 std::string AttemptMeasures::find_movement(const MeasurePhases& phases) {
     if (std::string why = find_run(phases); !why.empty()) return why;
-    const double threshold = find_first_stroke();
-    const double least = options_.onset_speed.value_or(kLeastPeak);
-    if (!(speed_[peak_] >= least)) return "no movement";
+    const std::span<const double> speed = speed_;
+    // a stroke that had begun before the states, or is too small, is passed over
+    bool before = false;
+    for (size_t from = 0;;) {
+        const Stroke stroke = first_stroke(speed.subspan(from));
+        const size_t next = from + stroke.end;
+        find_ends(from, from + stroke.peak);
+        before = onset_ == from && (from == 0 || before);
+        const std::string small = why_too_small();
+        if ((before || !small.empty()) && next + 1 < speed.size()) {
+            from = next;
+            continue;
+        }
+        if (!(speed[peak_] >= options_.onset_speed.value_or(kLeastPeak))) return "no movement";
+        if (before) return "it moved before its states began";
+        if (end_ == run_.size()) no_end_ = "not over when its states ended";
+        return small;
+    }
+}
+
+/// Finds the onset, from a tick on, and the end of the movement around a stroke's peak.
+void AttemptMeasures::find_ends(size_t from, size_t peak) {
+    peak_ = onset_ = peak;
+    const double threshold = options_.onset_speed.value_or(options_.onset_share * speed_[peak]);
+    while (onset_ > from && speed_[onset_ - 1] >= threshold) --onset_;
     // shorter pauses belong to the movement
     const auto pause = static_cast<size_t>(std::round(options_.end_still / tick_));
     end_ = run_.size();
     size_t slow = 0;
-    for (size_t i = peak_; i < run_.size() && end_ == run_.size(); ++i) {
+    for (size_t i = peak; i < run_.size() && end_ == run_.size(); ++i) {
         slow = speed_[i] < threshold ? slow + 1 : 0;
         if (slow > pause) end_ = i - pause;
     }
-    if (onset_ == 0) return "it moved before its states began";
-    if (end_ == run_.size()) no_end_ = "not over when its states ended";
-    return why_too_small();
 }
 
 std::string AttemptMeasures::find_run(const MeasurePhases& phases) {
@@ -132,28 +151,6 @@ std::string AttemptMeasures::find_run(const MeasurePhases& phases) {
         speed_.push_back(in_channel() ? std::abs(s.v_W.dot(along_W_)) : s.v_W.norm());
     }
     return "";
-}
-
-double AttemptMeasures::find_first_stroke() {
-    const std::span<const double> speed = speed_;
-    const auto threshold = [&] {
-        return options_.onset_speed.value_or(options_.onset_share * speed[peak_]);
-    };
-    // a stroke that had begun before the states is followed by that which they ask for
-    for (size_t from = 0;;) {
-        const Stroke stroke = first_stroke(speed.subspan(from));
-        peak_ = from + stroke.peak;
-        onset_ = peak_;
-        while (onset_ > from && speed[onset_ - 1] >= threshold()) --onset_;
-        const size_t next = from + stroke.end;
-        if (onset_ > from) break;
-        if (next + 1 >= speed.size()) {
-            onset_ = 0;
-            break;
-        }
-        from = next;
-    }
-    return threshold();
 }
 
 double AttemptMeasures::extent(bool along) const {

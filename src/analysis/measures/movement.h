@@ -57,8 +57,7 @@ class AttemptMeasures {
     /// Reason why no complete movement was found; empty if one was found.
     std::string find_movement(const MeasurePhases& phases);
     std::string find_run(const MeasurePhases& phases);
-    /// Finds the tick of onset and that of peak speed in the first stroke; the speed of onset.
-    double find_first_stroke();
+    void find_ends(size_t from, size_t peak);
     std::string why_too_small() const;
     std::string why_no_index() const;
     bool in_channel() const { return attempt_.plan.channel != 0 && attempt_.share != 0; }

@@ -184,6 +184,11 @@ TEST(Measures, PeakSpeedIsThatOfTheFirstStrokeThoughACorrectionIsFaster) {
     for (size_t i = 2000; i < 2100; ++i) reach.attempt.samples[i].v_W = {0.6, 0, 0};
     EXPECT_NEAR(reach.value("peak_speed"), 0.375, 1e-12);
     EXPECT_NEAR(reach.value("reaction_time"), 0.3 + rise(), kTick);
+    // and that of the reach though the hand twitches before it, by 2 mm
+    Reach twitching;
+    for (size_t i = 1100; i < 1120; ++i) twitching.attempt.samples[i].v_W = {0.2, 0, 0};
+    EXPECT_NEAR(twitching.value("peak_speed"), 0.375, 1e-12);
+    EXPECT_NEAR(twitching.value("reaction_time"), 0.3 + rise(), kTick);
     // and that of the reach though the hand still comes back from the last one as its state begins
     Reach coming;
     for (size_t i = 1000; i < 1100; ++i)
