@@ -38,6 +38,16 @@ rows::TrialFile trials_of(const recording::SessionFolder& folder,
     }
 }
 
+/// The recorded procedures do not have it.
+void note_skipped_reversals(std::vector<ThresholdTrack>& tracks, const task::Task& task) {
+    for (ThresholdTrack& track : tracks) {
+        for (const task::ProcedureSpec& spec : task.procedures) {
+            if (spec.name == track.procedure && spec.staircase)
+                track.skipped_reversals = spec.staircase->skipped_reversals;
+        }
+    }
+}
+
 }  // namespace
 
 SessionData SessionData::read(const std::string& path) {
@@ -86,12 +96,7 @@ SessionData SessionData::read(const std::string& path) {
     if (is_there(folder.file("procedures.csv")))
         data.tracks =
             threshold_tracks(data.trials, rows::ProcedureFile(folder.file("procedures.csv")));
-    for (ThresholdTrack& track : data.tracks) {
-        for (const task::ProcedureSpec& spec : data.task.procedures) {
-            if (spec.name == track.procedure && spec.staircase)
-                track.skipped_reversals = spec.staircase->skipped_reversals;
-        }
-    }
+    note_skipped_reversals(data.tracks, data.task);
     return data;
 }
 

@@ -98,18 +98,7 @@ struct LoadSpec {
                 v("axis", axis, direction().says("Axis of the field, right-handed."));
                 break;
             case LoadKind::general:
-                v("A", A,
-                  Field::of(Quantity::stiffness)
-                      .within(-1e5, 1e5)
-                      .says(
-                          "Matrix that multiplies the position relative to the region's centre."));
-                v("B", B,
-                  Field::of(Quantity::damping)
-                      .within(-1000, 1000)
-                      .says("Matrix that multiplies the velocity."));
-                visit_force(v);
-                v("about", about, says("Region whose centre is p0."));
-                visit_zone(v, "safe_within");
+                visit_general(v);
                 break;
             case LoadKind::spring:
                 v("stiffness", stiffness,
@@ -129,13 +118,7 @@ struct LoadSpec {
                 visit_zone(v, "break_out");
                 break;
             case LoadKind::link:
-                v("stiffness", stiffness,
-                  Field::of(Quantity::stiffness).within(0, 1e5).says("Stiffness."));
-                visit_damping(v);
-                v("length", length,
-                  Field::length().within(0, 100).says(
-                      "Distance of its ends at which a link is slack."));
-                v("acts", acts, says("Whether it pulls, pushes, or does both."));
+                visit_link(v);
                 break;
         }
         if (kind != LoadKind::constant)
@@ -173,6 +156,28 @@ struct LoadSpec {
         v("from", from, says("Region from which the line leads."));
         v("to", to, says("Region to which the line leads."));
         v("free", free, direction().says("Direction that spans a plane with the line."));
+    }
+    template <class Visitor>
+    void visit_general(Visitor& v) {
+        v("A", A,
+          Field::of(Quantity::stiffness)
+              .within(-1e5, 1e5)
+              .says("Matrix that multiplies the position relative to the region's centre."));
+        v("B", B,
+          Field::of(Quantity::damping)
+              .within(-1000, 1000)
+              .says("Matrix that multiplies the velocity."));
+        visit_force(v);
+        v("about", about, says("Region whose centre is p0."));
+        visit_zone(v, "safe_within");
+    }
+    template <class Visitor>
+    void visit_link(Visitor& v) {
+        v("stiffness", stiffness, Field::of(Quantity::stiffness).within(0, 1e5).says("Stiffness."));
+        visit_damping(v);
+        v("length", length,
+          Field::length().within(0, 100).says("Distance of its ends at which a link is slack."));
+        v("acts", acts, says("Whether it pulls, pushes, or does both."));
     }
     template <class Visitor>
     void visit_zone(Visitor& v, const char* name) {
