@@ -38,7 +38,11 @@ bool reaches(const task::TaskPlan::PlannedState& planned) {
 void warn_of_fields(const task::TaskPlan& plan, std::vector<Problem>& out) {
     if (std::any_of(plan.states.begin(), plan.states.end(), reaches)) return;
     for (const task::PerturbationSpec& perturbation : plan.task.perturbations) {
-        if (perturbation.all_loads().empty()) continue;
+        const auto& loads = perturbation.all_loads();
+        const auto links = [](const task::LoadSpec& load) {
+            return load.kind == task::LoadKind::link;
+        };
+        if (std::all_of(loads.begin(), loads.end(), links)) continue;
         out.push_back({Severity::warning, perturbation.place, perturbation.name,
                        "is a force field, which simulated people (--simulate, rehearse) learn only "
                        "in hand steps that reach a region, but there is no such step",
@@ -53,6 +57,28 @@ void warn_of_delays(const task::TaskPlan& plan, std::vector<Problem>& out) {
                        "is shown late: simulated people see it late, but learn from it as much as "
                        "without the delay, whereas real people learn less",
                        kRemedy});
+    }
+}
+
+void warn_of_shifts(const task::TaskPlan& plan, std::vector<Problem>& out) {
+    for (const task::PerturbationSpec& perturbation : plan.task.perturbations) {
+        if (!perturbation.visual || perturbation.visual->shift == FormulaVec3{}) continue;
+        out.push_back({Severity::warning, perturbation.place, perturbation.name,
+                       "shifts what is shown: simulated people take it for a rotation, do not "
+                       "correct it within the reach, and their movements are arbitrary",
+                       kRemedy});
+    }
+}
+
+void warn_of_links(const task::TaskPlan& plan, std::vector<Problem>& out) {
+    for (const task::PerturbationSpec& perturbation : plan.task.perturbations) {
+        for (const task::LoadSpec& load : perturbation.all_loads()) {
+            if (load.kind != task::LoadKind::link) continue;
+            out.push_back({Severity::warning, perturbation.place, perturbation.name,
+                           "is a link, of which there is no model: simulated people do not learn "
+                           "it, and neither leads nor follows through it",
+                           kRemedy});
+        }
     }
 }
 
@@ -130,6 +156,8 @@ std::vector<Problem> simulated_limits(const task::TaskPlan& plan) {
     std::vector<Problem> out;
     warn_of_fields(plan, out);
     warn_of_delays(plan, out);
+    warn_of_shifts(plan, out);
+    warn_of_links(plan, out);
     warn_of_thresholds(plan, out);
     warn_of_answers(plan, out);
     warn_of_ratings(plan, out);

@@ -1,5 +1,7 @@
 #include "analysis/measures/measures.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -131,7 +133,11 @@ void MeasureFinder::end_attempt(const rows::LiftRow* lift) {
     for (size_t k = 0; k < own.size(); ++k) {
         row.cells.emplace_back(own[k]);
         if (std::isnan(own[k]))
-            missing += (missing.empty() ? "" : "; ") + custom_measures_[k].name + ": not measured";
+            missing += (missing.empty() ? "" : "; ") + custom_measures_[k].name + ": " +
+                       (custom_measures_[k].window
+                            ? fmt::format("its states did not last for its window of {:g} s",
+                                          *custom_measures_[k].window)
+                            : "not measured");
     }
     row.cells.emplace_back(missing);
     attempt_.samples.clear();

@@ -421,10 +421,20 @@ class Compiler : Parts {
             out.node[0] = apply(function.operation, out.node[0], all[i].node[0]);
         return out;
     }
+    /// What a quoted text names, where only a body, a finger, a hand or a region can be meant.
+    Value named(const Value& value) {
+        if (value.type != Type::text || !value.literal) return value;
+        const std::string text = quantities_.text(static_cast<int>(constant_of(value.node[0])));
+        if (!quantities_.thing(text) && !quantities_.region(text)) return value;
+        return of_thing(text, "", value.column);
+    }
     Value call_on_vectors(const Token& name) {
         const int count = name.text == "norm" ? 1 : 2;
         std::vector<Value> all = arguments(name, count, count);
-        for (const Value& value : all) demand(value, Type::vector);
+        for (Value& value : all) {
+            value = named(value);
+            demand(value, Type::vector);
+        }
         if (name.text == "norm") return length(all[0], name.column);
         if (name.text == "distance")
             return length(joined(kSubtract, all[0], all[1], all[1].column), name.column);

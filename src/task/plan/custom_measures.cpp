@@ -77,25 +77,9 @@ CustomMeasures::CustomMeasures(TaskPlan plan)
     windows_.resize(taken_.size());
 }
 
-/// Updates the quantities. The tick that ends an attempt orders no perturbation any more: the
-/// display is still that of the tick before.
-void CustomMeasures::update(const frame::Frame& frame) {
-    handles_of(frame, handles_);
-    if (frame.task.outcome < 0) {
-        before_.task.visual = frame.task.visual;
-        before_.task.displaced = frame.task.displaced;
-        before_.task.looks = frame.task.looks;
-        numbers_.quantities().update(frame, handles_);
-        return;
-    }
-    frame::Frame last = frame;
-    last.task.visual = before_.task.visual;
-    last.task.displaced = before_.task.displaced;
-    last.task.looks = before_.task.looks;
-    numbers_.quantities().update(last, handles_);
-}
-
 void CustomMeasures::add(const frame::Frame& frame) {
+    // the tick that ends an attempt orders no perturbation any more
+    if (frame.task.outcome >= 0) return;
     const double now = seconds(frame.time);
     if (began_ < 0) began_ = now;
     if (frame.phase != phase_) entered_ = now;
@@ -104,7 +88,8 @@ void CustomMeasures::add(const frame::Frame& frame) {
     Quantities& quantities = numbers_.quantities();
     quantities.set(Quantities::kTimeInState, now - entered_);
     quantities.set(Quantities::kTimeInTrial, now - began_);
-    update(frame);
+    handles_of(frame, handles_);
+    quantities.update(frame, handles_);
     for (size_t i = 0; i < taken_.size(); ++i) {
         const TaskPlan::Measured& measure = plan_.custom_measures[i];
         if ((measure.states >> (frame.phase - 1) & 1u) == 0) {

@@ -26,14 +26,13 @@ class CustomMeasures {
     explicit CustomMeasures(TaskPlan plan);
     CustomMeasures(const CustomMeasures&) = delete;
 
-    /// `frame`: belongs to an attempt at a trial.
+    /// `frame`: belongs to an attempt at a trial. The tick that ends it does not count.
     void add(const frame::Frame& frame);
     /// Ends the attempt and returns its values in the units of the columns; NaN if no tick of the
     /// attempt was in the measure's states.
     std::vector<double> end_attempt();
 
   private:
-    void update(const frame::Frame& frame);
     void add_to_window(size_t i, double now, double value);
 
     TaskPlan plan_;
@@ -45,7 +44,6 @@ class CustomMeasures {
         double sum = 0;
     };
     std::vector<Window> windows_;
-    frame::Frame before_;  // the last frame with a visual map, for the attempt's last tick
     int phase_ = 0;
     double entered_ = 0;  // time of entry into the state [s]
     double began_ = -1;   // start of the attempt [s]; -1: no frame yet

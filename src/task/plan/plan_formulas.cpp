@@ -82,10 +82,11 @@ class Definer {
 
     /// The name of the round.
     void define_round(const Task& task) {
-        const std::vector<std::string> names = names_of(task.rounds);
+        std::vector<std::string> names = names_of(task.rounds);
+        const auto beside = [](const Block& block) { return block.once != Once::no; };
+        if (std::any_of(task.blocks.begin(), task.blocks.end(), beside)) names.emplace_back();
         const Symbol symbol = plan_.quantities.define_text("round", names, Kind::factor);
         std::vector<double> levels = codes(names);
-        levels.push_back(kUnmeasured);  // beside the rounds
         plan_.symbols.factors.push_back({symbol.slot, levels, true});
     }
 
@@ -188,7 +189,7 @@ bool names_angle(const TaskPlan& plan, std::string_view text) {
         const std::vector<Factor> factors = factors_of(task);
         // atan2() and a joint's angle are in radians, whether or not the text says so
         return name == "deg" || name == "rad" || name == "atan2" || name == "angle" ||
-               any(task.draws) || any(task.variables) ||
+               any(task.draws) || any(task.variables) || any(task.custom_measures) ||
                std::any_of(factors.begin(), factors.end(),
                            [&](const Factor& f) { return named(f.factor); }) ||
                std::any_of(task.procedures.begin(), task.procedures.end(),
