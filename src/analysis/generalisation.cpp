@@ -1,5 +1,7 @@
 #include "analysis/generalisation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,6 +26,7 @@ struct Mean {
 
 /// The reaches of one condition in a round.
 struct Direction {
+    std::string condition;
     Vec3 along_W = Vec3::Zero();
     Vec3 axis_W = Vec3::UnitZ();  // of the angles
     bool trained = false;
@@ -35,7 +38,7 @@ struct Direction {
 constexpr double kSameDirection = 1;
 
 struct Round {
-    std::map<std::string, Direction> directions;  // by condition
+    std::map<std::string, Direction> directions;  // by key_of()
     Mean baseline;                                // compensation [deg]
     bool trained = false;                         // whether a trial was perturbed so far
 };
@@ -53,21 +56,31 @@ Vec3 axis_of(const std::vector<task::ReachPlan>& reaches, int number) {
     return number < 1 || i >= reaches.size() ? Vec3::Constant(kUnmeasured) : reaches[i].axis_W;
 }
 
+/// A condition may have several directions, by a draw.
+std::string key_of(const std::string& condition, const Vec3& along_W) {
+    return fmt::format("{} {:.2f} {:.2f} {:.2f}", condition, along_W.x(), along_W.y(), along_W.z());
+}
+
 std::map<std::string, Round> rounds_of(const rows::TrialFile& trials,
                                        const std::vector<task::ReachPlan>& reaches) {
     std::map<std::string, Round> rounds;
+    std::map<int, int> last;  // attempt that counts, by trial
+    for (const rows::TrialRow& row : trials)
+        last[row.asked.trial] = std::max(last[row.asked.trial], row.measures.attempt);
     for (const rows::TrialRow& row : trials) {
         const rows::TrialKind kind = row.asked.kind;
         Round& round = rounds[row.asked.round];
         const double compensation = -row.measures.hand_angle_deg;
-        Direction& direction = round.directions[row.asked.condition];
-        direction.along_W = direction_of(reaches, row.asked.trial);
+        const Vec3 along_W = direction_of(reaches, row.asked.trial);
+        Direction& direction = round.directions[key_of(row.asked.condition, along_W)];
+        direction.condition = row.asked.condition;
+        direction.along_W = along_W;
         direction.axis_W = axis_of(reaches, row.asked.trial);
         if (kind == rows::TrialKind::perturbed) {
             direction.trained = true;
             round.trained = true;
         }
-        if (std::isnan(compensation)) continue;
+        if (std::isnan(compensation) || row.measures.attempt < last[row.asked.trial]) continue;
         const bool probe = is_clamp(kind) || kind == rows::TrialKind::catch_trial;
         if (probe && round.trained) direction.probes.add(compensation);
         if (kind == rows::TrialKind::baseline || (probe && !round.trained)) {
@@ -109,19 +122,19 @@ std::vector<Generalisation> generalisation_of(const std::string& name, const Rou
     std::vector<Generalisation> out;
     Mean at_trained;
     bool any = false;
-    for (const auto& [condition, direction] : round.directions) {
+    for (const auto& [key, direction] : round.directions) {
         if (direction.probes.count == 0) continue;
         const bool trained = std::abs(angle_from_trained(direction, round)) < kSameDirection;
         if (trained) at_trained.add(compensation_of(direction, round));
         any = any || !trained;
     }
     if (!any || !round.trained) return out;
-    for (const auto& [condition, direction] : round.directions) {
+    for (const auto& [key, direction] : round.directions) {
         if (direction.probes.count == 0) continue;
         const double compensation = compensation_of(direction, round);
-        out.push_back({name, condition, angle_from_trained(direction, round), compensation,
-                       baseline_of(direction, round), compensation / at_trained.value(),
-                       direction.probes.count});
+        out.push_back({name, direction.condition, angle_from_trained(direction, round),
+                       compensation, baseline_of(direction, round),
+                       compensation / at_trained.value(), direction.probes.count});
     }
     std::stable_sort(out.begin(), out.end(), [](const Generalisation& a, const Generalisation& b) {
         return a.angle_deg < b.angle_deg;

@@ -143,12 +143,14 @@ void list_psychophysics(const ThresholdTrack& track, const model::Psychometric& 
     const std::vector<double> reversals = track.reversals();
     const double sum = std::accumulate(reversals.begin(), reversals.end(), 0.0);
     const auto count = static_cast<double>(reversals.size());
+    const bool kind_is_staircase = track.kind == "staircase";
     row("threshold_probability", function.probability(function.threshold), "1",
         "probability of yes at the threshold, by the fitted function");
     row("weber_fraction", track.weber_fraction(function), "1",
         "what is just noticed over the standard: with a guess rate of 0.25 or more the threshold's "
         "distance from it, else half the distance of the quartiles");
-    row("reversals", reversals.size(), "1", "reversals of a staircase that count");
+    row("reversals", kind_is_staircase ? count : kUnmeasured, "1",
+        "reversals of a staircase that count; empty for other procedures");
     row("mean_of_reversals", reversals.empty() ? kUnmeasured : sum / count, "1",
         "their mean level, in the unit of threshold_share");
 }

@@ -282,6 +282,7 @@ Plan make_plan(const Request& request) {
     diagnostics.throw_if_errors();
     check_use_of_movement(plan, request, experiment, diagnostics);
     if (experiment.task) plan_trials(plan, *experiment.task, request, diagnostics);
+    check_columns(plan, diagnostics);
     diagnostics.throw_if_errors();
     plan_driver(plan, request, experiment, diagnostics);
     check_by_description(plan, diagnostics);

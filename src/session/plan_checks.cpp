@@ -371,39 +371,6 @@ void check_triggers(const Plan& plan, Diagnostics& diagnostics) {
     }
 }
 
-/// The names of factors, draws, variables and measures are columns of trials.csv, in addition to
-/// its standard columns.
-void check_columns(const Plan& plan, Diagnostics& diagnostics) {
-    if (!plan.task) return;
-    const task::Task& task = plan.task->task;
-    std::vector<std::string> own;
-    for (const Table::Column& column : task::own_columns(task)) own.push_back(column.name);
-    for (const task::Variable& variable : task.variables) {
-        own.push_back(variable.name);
-        own.push_back(task::next_column(variable.name));
-    }
-    for (const task::CustomMeasure& measure : task.custom_measures) own.push_back(measure.name);
-    for (const task::LevelName& level : task::levels_of(task)) own.push_back(level.name);
-    for (const task::AskSpec& ask : task::questions_of(task)) own.push_back(ask.name);
-    std::map<std::string, const char*> known;
-    for (const char* name : analysis::kEventColumns)
-        known[name] = "is the name of a column of events in BIDS";
-    for (const char* name : recording::kReservedColumns)
-        known[name] = "is a name that NWB gives to a part of each table";
-    for (const char* name : kCollectedColumns)
-        known[name] = "is the name of a column of 'dihaptic collect'";
-    for (const Table::Column& column : analysis::trial_columns())
-        known[column.name] = "is the name of another column of trials.csv";
-    for (const std::string& name : own) {
-        const auto [at, is_new] =
-            known.emplace(name, "is the name of another column of trials.csv");
-        if (is_new) continue;
-        diagnostics.error(
-            task.place, name, at->second,
-            "Give the factor, draw, variable, level, answer or measure another name.");
-    }
-}
-
 /// Warns of a wall in a wrong position, where it would push constantly.
 void check_wall(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.rig.wall) return;
@@ -506,6 +473,39 @@ void check_measures(const task::TaskPlan& plan, Diagnostics& diagnostics) {
 
 }  // namespace
 
+void check_columns(const Plan& plan, Diagnostics& diagnostics) {
+    if (!plan.task) return;
+    const task::Task& task = plan.task->task;
+    std::vector<std::string> own;
+    for (const Table::Column& column : task::own_columns(task)) own.push_back(column.name);
+    for (const task::Variable& variable : task.variables) {
+        own.push_back(variable.name);
+        own.push_back(task::next_column(variable.name));
+    }
+    for (const task::CustomMeasure& measure : task.custom_measures) own.push_back(measure.name);
+    for (const task::LevelName& level : task::levels_of(task)) own.push_back(level.name);
+    for (const task::AskSpec& ask : task::questions_of(task)) own.push_back(ask.name);
+    std::map<std::string, const char*> known;
+    for (const char* name : analysis::kEventColumns)
+        known[name] = "is the name of a column of events in BIDS";
+    for (const char* name : recording::kReservedColumns)
+        known[name] = "is a name that NWB gives to a part of each table";
+    for (const char* name : kCollectedColumns)
+        known[name] = "is the name of a column of 'dihaptic collect'";
+    for (const Table::Column& column : analysis::trial_columns())
+        known[column.name] = "is the name of another column of trials.csv";
+    for (const Table::Column& column : task::measure_columns())
+        known[column.name] = "is the name of a column of measures";
+    for (const std::string& name : own) {
+        const auto [at, is_new] =
+            known.emplace(name, "is the name of another column of trials.csv");
+        if (is_new) continue;
+        diagnostics.error(
+            task.place, name, at->second,
+            "Give the factor, draw, variable, level, answer or measure another name.");
+    }
+}
+
 void check_devices(Plan& plan, Diagnostics& diagnostics) {
     resolve_shares(plan, diagnostics);
     check_stiffness(plan, diagnostics);
@@ -531,7 +531,6 @@ void check_plan(Plan& plan, Diagnostics& diagnostics) {
     check_headset(plan, diagnostics);
     check_wall(plan, diagnostics);
     check_triggers(plan, diagnostics);
-    check_columns(plan, diagnostics);
     if (plan.task) check_measures(*plan.task, diagnostics);
 }
 

@@ -324,11 +324,10 @@ void list_measures(PopulationPage& out, const std::string& title, const Sessions
         for (const SessionData* session : sessions) {
             const rows::TrialFile& trials = session->trials;
             const auto measured = trials.column(column.name);
-            for (size_t i = 0; i < trials.size(); ++i) {
+            std::map<int, size_t> last;  // row of the last attempt, by trial
+            for (size_t i = 0; i < trials.size(); ++i) last[trials[i].asked.trial] = i;
+            for (const auto& [trial, i] : last) {
                 const rows::AskedRow& asked = trials[i].asked;
-                const bool again =
-                    i + 1 < trials.size() && trials[i + 1].asked.trial == asked.trial;
-                if (again) continue;  // another attempt at the trial follows
                 const Key key{asked.round, asked.condition, std::string(enum_name(asked.kind))};
                 const double value = trials.number(i, measured);
                 ++trials_of[key];

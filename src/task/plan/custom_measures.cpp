@@ -81,7 +81,8 @@ void CustomMeasures::add(const frame::Frame& frame) {
     // the tick that ends an attempt orders no perturbation any more
     if (frame.task.outcome >= 0) return;
     const double now = seconds(frame.time);
-    if (began_ < 0) began_ = now;
+    const bool begins = began_ < 0;
+    if (begins) began_ = now;
     if (frame.phase != phase_) entered_ = now;
     phase_ = frame.phase;
     numbers_.follow(frame.trial, frame.task.attempt, frame.task.variables, frame.phase - 1);
@@ -90,10 +91,14 @@ void CustomMeasures::add(const frame::Frame& frame) {
     quantities.set(Quantities::kTimeInTrial, now - began_);
     handles_of(frame, handles_);
     quantities.update(frame, handles_);
+    for (const int body : plan_.task.stays.indices) {
+        const auto i = static_cast<size_t>(body);
+        if (begins) quantities.set(quantities.start(i), frame.bodies[i].X_WB.p);
+    }
     for (size_t i = 0; i < taken_.size(); ++i) {
         const TaskPlan::Measured& measure = plan_.custom_measures[i];
         if ((measure.states >> (frame.phase - 1) & 1u) == 0) {
-            windows_[i] = {};
+            windows_[i].clear();
             continue;
         }
         const double value = measure.value.value(numbers_.values());
@@ -105,19 +110,19 @@ void CustomMeasures::add(const frame::Frame& frame) {
     }
 }
 
-/// Takes the mean of the values within a window's length, once there are so many.
+/// Takes the mean of the values within a window's length, once it is full of measured values.
 void CustomMeasures::add_to_window(size_t i, double now, double value) {
     constexpr double kTolerance = 1e-6;  // sums of ticks have rounding errors [s]
-    Window& window = windows_[i];
-    window.values.emplace_back(now, value);
-    window.sum += value;
-    const double length = plan_.custom_measures[i].window;
-    while (now - window.values.front().first >= length - kTolerance) {
-        // the oldest value is that of the tick before the window
-        window.sum -= window.values.front().second;
-        window.values.pop_front();
-        taken_[i].add(window.sum / static_cast<double>(window.values.size()));
-    }
+    std::deque<std::pair<double, double>>& window = windows_[i];
+    const double step = window.empty() ? 0 : now - window.back().first;
+    if (std::isnan(value)) return window.clear();
+    window.emplace_back(now, value);
+    const double from = now - plan_.custom_measures[i].window;  // of the tick before the window
+    while (window.front().first <= from + kTolerance) window.pop_front();
+    if (window.front().first > from + step + kTolerance) return;
+    double sum = 0;  // anew each time: a running sum would keep what was once too large
+    for (const auto& [time, one] : window) sum += one;
+    taken_[i].add(sum / static_cast<double>(window.size()));
 }
 
 std::vector<double> CustomMeasures::end_attempt() {
@@ -126,7 +131,7 @@ std::vector<double> CustomMeasures::end_attempt() {
         const double si = plan_.custom_measures[i].value.formula.to_si;
         out.push_back(taken_[i].statistic() / si);
         taken_[i].clear();
-        windows_[i] = {};
+        windows_[i].clear();
     }
     phase_ = 0;
     began_ = -1;

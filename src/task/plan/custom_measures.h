@@ -39,11 +39,7 @@ class CustomMeasures {
     TrialNumbers numbers_;
     std::vector<frame::Handle> handles_;
     std::vector<Taken> taken_;
-    struct Window {
-        std::deque<std::pair<double, double>> values;  // with their times [s]
-        double sum = 0;
-    };
-    std::vector<Window> windows_;
+    std::vector<std::deque<std::pair<double, double>>> windows_;  // times [s], values
     int phase_ = 0;
     double entered_ = 0;  // time of entry into the state [s]
     double began_ = -1;   // start of the attempt [s]; -1: no frame yet

@@ -322,13 +322,15 @@ std::vector<int> define_measures(TaskPlan& plan) {
 /// Keeps what rules look back on, and the custom measures that they name.
 void plan_what_rules_need(TaskPlan& plan, const std::vector<int>& slots, Diagnostics& diagnostics) {
     std::vector<const Expression*> rules;
-    for (const TaskPlan::Change& change : plan.changes) {
-        if (change.when) rules.push_back(&*change.when);
-        rules.push_back(&change.to.expression);
-    }
-    for (const Expression* rule : rules) {
-        const std::vector<LookBack>& own = rule->look_backs();
+    const auto add = [&](const Expression& rule) {
+        rules.push_back(&rule);
+        const std::vector<LookBack>& own = rule.look_backs();
         plan.look_backs.insert(plan.look_backs.end(), own.begin(), own.end());
+    };
+    for (TaskPlan::Change& change : plan.changes) {
+        if (change.when) add(*change.when);
+        add(change.to.expression);
+        change.look_backs = plan.look_backs.size();
     }
     for (const LookBack& look_back : plan.look_backs) rules.push_back(&look_back.of);
     for (size_t i = 0; i < slots.size(); ++i) {

@@ -16,6 +16,7 @@ double median_of(std::span<double> x) noexcept {
 }
 
 void Taken::add(double value) {
+    if (std::isnan(value)) return;
     const bool first = ticks_++ == 0;
     const auto count = static_cast<double>(ticks_);
     const double off = value - mean_;

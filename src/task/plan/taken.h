@@ -13,6 +13,7 @@ namespace dihaptic::task {
 class Taken {
   public:
     explicit Taken(Take take) : take_(take) {}
+    /// An unmeasured value does not count.
     void add(double value);
     /// NaN if there was no value.
     double statistic() const;

@@ -216,6 +216,7 @@ struct TaskPlan {
         std::optional<Expression> when;
         size_t variable = 0;
         CompiledFormula to;
+        size_t look_backs = 0;  ///< its own end there in the plan's; they begin at the last rule's
     };
     Quantities between;  ///< quantities for the end of a block: only variables
     Symbols symbols;

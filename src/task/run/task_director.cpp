@@ -187,6 +187,11 @@ void TaskDirector::begin(const frame::Frame& last, char key, double now,
              start_pose.motion.v.isZero(0) && start_pose.motion.w.isZero(0));
         if (!there) put(start_pose.body, start_pose.X_WB, start_pose.motion, commands);
     }
+    for (const int body : plan_.task.stays.indices) {
+        if (last.sequence < 0) break;
+        const auto i = static_cast<size_t>(body);
+        numbers_.quantities().set(numbers_.quantities().start(i), last.bodies[i].X_WB.p);
+    }
     if (message_ == plan_.move_away) message_ = -1;
     enter(0, now, commands);
 }
@@ -476,10 +481,10 @@ void TaskDirector::take_measures() noexcept {
     }
 }
 
-/// Sets what rules look back on. `counts`: the ended attempt is among the last trials.
-void TaskDirector::look_back(bool counts) noexcept {
+/// Sets some of what rules look back on. `counts`: the ended attempt is among the last trials.
+void TaskDirector::look_back(size_t from, size_t to, bool counts) noexcept {
     Quantities& quantities = numbers_.quantities();
-    for (size_t i = 0; i < past_.size(); ++i) {
+    for (size_t i = from; i < to; ++i) {
         const LookBack& what = plan_.look_backs[i];
         Past& past = past_[i];
         const double value = what.of(quantities.values());
@@ -507,8 +512,12 @@ void TaskDirector::follow_rules(int outcome, bool redo) noexcept {
         quantities.set(plan_.rule_measures[i].slot, taken_[i].statistic());
         taken_[i].clear();
     }
-    look_back(!redo);
+    const bool again =
+        redo && plan_.task.redo != Redo::never && last_attempt_ < plan_.task.most_attempts;
+    size_t looked = 0;
     for (const TaskPlan::Change& change : plan_.changes) {
+        // a rule sees what the rules before it have set, in this trial too
+        look_back(std::exchange(looked, change.look_backs), change.look_backs, !again);
         if (change.when && (*change.when)(quantities.values()) == 0) continue;
         const double value = change.to.value(quantities.values());
         if (!std::isfinite(value)) continue;

@@ -109,7 +109,7 @@ class TaskDirector {
     /// Applies the rules to the variables at the end of a trial.
     void follow_rules(int outcome, bool redo) noexcept;
     void take_measures() noexcept;
-    void look_back(bool counts) noexcept;
+    void look_back(size_t from, size_t to, bool counts) noexcept;
     /// Chooses the numbers of the starting trial, and resolves its formulas.
     void resolve() noexcept;
     double level() const noexcept;

@@ -87,16 +87,17 @@ void Load::check_things(const Names& names, const scene::Scene& scene,
         diagnostics.error(spec_.place, "on", "has no items",
                           "Name fingers and bodies, e.g. on: [thumb, index].");
     }
+    const char* const key = spec_.kind == LoadKind::link ? "between" : "on";
     const std::vector<int>& on = spec_.on.indices;
     for (auto i = on.begin(); i != on.end(); ++i) {
         const auto thing = static_cast<size_t>(*i);
         const std::string& name = names.all<Thing>()[thing];
         if (thing < scene.bodies.size() && !scene.bodies[thing].moves_at_all()) {
-            diagnostics.error(spec_.place, "on", "'" + name + "' cannot move",
+            diagnostics.error(spec_.place, key, "'" + name + "' cannot move",
                               "Name a movable body, or a finger.");
         }
         if (std::find(on.begin(), i, *i) != i) {
-            diagnostics.error(spec_.place, "on", "'" + name + "' is named twice",
+            diagnostics.error(spec_.place, key, "'" + name + "' is named twice",
                               "Name it once, and make the load stronger if needed.");
         }
     }

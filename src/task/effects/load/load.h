@@ -174,7 +174,8 @@ struct LoadSpec {
     template <class Visitor>
     void visit_link(Visitor& v) {
         v("stiffness", stiffness, Field::of(Quantity::stiffness).within(0, 1e5).says("Stiffness."));
-        visit_damping(v);
+        v("damping", damping,
+          Field::of(Quantity::damping).within(0, 1000).says("Damping of its length."));
         v("length", length,
           Field::length().within(0, 100).says("Distance of its ends at which a link is slack."));
         v("acts", acts, says("Whether it pulls, pushes, or does both."));
