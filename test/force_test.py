@@ -166,9 +166,9 @@ class Signals(Program):
         for backend in RIGS:
             with self.subTest(backend=backend):
                 process, felt = self.start(backend)
-                device host = subprocess.run(["pgrep", "-P", str(process.pid), "dihaptic-host"], capture_output=True, text=True)
+                host = subprocess.run(["pgrep", "-P", str(process.pid), "dihaptic-host"], capture_output=True, text=True)
                 since = time.monotonic()
-                os.kill(int(device host.stdout), signal.SIGKILL)
+                os.kill(int(host.stdout), signal.SIGKILL)
                 if backend != "openhaptics":  # what its devices do by themselves nobody knows
                     gone = felt.gone_after(since, patient(1))
                     self.assertIsNotNone(gone, felt.devices())

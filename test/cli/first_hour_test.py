@@ -256,14 +256,14 @@ class Doctor(FirstHour):
         for verdict, what, _, commands in found:
             if verdict == "lacks":
                 self.assertTrue(commands, what)
-        for what in ["room", "writing", "mesh", "decompose", "device host", "gui", "ffmpeg", "shipped files"]:
+        for what in ["room", "writing", "mesh", "decompose", "host", "gui", "ffmpeg", "shipped files"]:
             self.assertEqual(self.verdict(found, what), "ok", what)
         self.assertEqual(os.listdir(self.folder), [])
 
     def test_knows_every_program_that_is_built(self):
         programs = {name for file in pathlib.Path("app").glob("*/CMakeLists.txt")
                     for name in re.findall(r"add_executable\(dihaptic-(\w+)", file.read_text())}
-        self.assertGreaterEqual(programs, {"gui", "device host", "mesh", "decompose"})
+        self.assertGreaterEqual(programs, {"gui", "host", "mesh", "decompose"})
         _, found = self.doctor()
         for name in programs - {"bench"}:  # which labs need not have
             self.assertEqual(self.verdict(found, name), "ok", name)

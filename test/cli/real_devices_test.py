@@ -85,9 +85,9 @@ class RealDevices(unittest.TestCase):
     def test_ctrl_c_while_the_keeper_is_silent_is_an_interruption(self):
         folder = pathlib.Path(self.folder.name)
         program = shutil.copy(PROGRAM, folder)
-        device host = folder / "dihaptic-host"
-        device host.write_text(f"#!/bin/sh\ntouch {folder}/began\nexec sleep 60\n")
-        device host.chmod(0o755)
+        host = folder / "dihaptic-host"
+        host.write_text(f"#!/bin/sh\ntouch {folder}/began\nexec sleep 60\n")
+        host.chmod(0o755)
         process = subprocess.Popen([program, "run", "scenes/block-on-table.yaml", "--rig", "rigs/phantom-pair-openhaptics.yaml",
                                     "--out", str(folder / "out")], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         deadline = time.monotonic() + patient(20)
