@@ -185,8 +185,8 @@ TEST(Generalisation, IsToldByProbesInDirectionsThatWereNotTrained) {
     }
     // probes in the trained direction alone show no generalisation
     const std::string one =
-        "trial_num,kind,condition,round,hand_angle_deg\n1,perturbed,a,z,-3\n"
-        "2,visual_clamp,a,z,-3\n";
+        "trial_num,kind,condition,round,hand_angle_deg\n5,perturbed,a,z,-3\n"
+        "6,visual_clamp,a,z,-3\n";
     EXPECT_TRUE(
         find_generalisation(rows::TrialFile(folder.write("one.csv", one)), reaches).empty());
 }
