@@ -129,7 +129,7 @@ void OperatorWindow::make_view_menu() {
     add_layer(*view, *scene_, tr("Works&paces"), &SceneWidget::Layers::workspaces);
     add_layer(*view, *scene_, tr("&Lines down to the table"), &SceneWidget::Layers::drop_lines);
     view->addSeparator();
-    participant_action_ = view->addAction(tr("&Participant's window"));
+    participant_action_ = view->addAction(tr("Participant'&s window"));
     participant_action_->setCheckable(true);
     connect(participant_action_, &QAction::toggled, this, &OperatorWindow::show_participant_window);
     connect(add_fine_pictures(*view, *scene_), &QAction::triggered, this, [this](bool on) {
