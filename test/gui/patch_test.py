@@ -2,6 +2,7 @@
 import csv
 import pathlib
 import re
+import statistics
 import subprocess
 import time
 import unittest
@@ -53,8 +54,12 @@ class Patch(Participants):
         self.assertEqual([name for _, name in came], ["dark", "light"] * 4)
         changes = [time for time, _ in came[1:]]
         on_screen = [i / RATE for i in range(1, len(white)) if white[i] != white[i - 1]][:len(changes)]
-        for (before, after), (told_before, told_after) in zip(zip(on_screen, on_screen[1:]), zip(changes, changes[1:])):
-            self.assertAlmostEqual(after - before, told_after - told_before, delta=0.15)
+        apart = [abs((after - before) - (told_after - told_before)) for (before, after), (told_before, told_after)
+                 in zip(zip(on_screen, on_screen[1:]), zip(changes, changes[1:]))]
+        # on a busy machine, pictures and grabs of them come late one by one: a single change by as much as a picture lasts
+        longest = max(after - before for (_, before), (_, after) in zip(pictures, pictures[1:]))
+        self.assertLess(statistics.median(apart), 0.15, apart)
+        self.assertLess(max(apart), 0.15 + longest, apart)
 
 
 if __name__ == "__main__":
