@@ -26,6 +26,7 @@ void add_gui(CLI::App& app);
 void add_workspace(CLI::App& app);
 void add_calibrate(CLI::App& app);
 void add_register(CLI::App& app);
+void add_participant(CLI::App& app);
 void add_new(CLI::App& app);
 void add_schema(CLI::App& app);
 void add_doctor(CLI::App& app);

@@ -86,6 +86,7 @@ int main(int argc, char** argv) {
     cli::add_workspace(app);
     cli::add_calibrate(app);
     cli::add_register(app);
+    cli::add_participant(app);
     cli::add_new(app);
     cli::add_schema(app);
     cli::add_doctor(app);

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "command.h"
+#include "resume_command.h"
 #include "session/resume.h"
 #include "summary.h"
 
@@ -15,22 +16,23 @@ struct ResumeOptions {
     double sync = 0;  // [s]
 };
 
-void resume(const ResumeOptions& options) {
-    const session::Rest rest = session::rest_of(options.session, session::Seat::terminal, {});
+}  // namespace
+
+void resume_session(const std::string& folder, const std::string& out, double sync) {
+    const session::Rest rest = session::rest_of(folder, session::Seat::terminal, {});
     const recording::SessionInfo& info = rest.before;
     print(rest.warnings);
     fmt::print("{}", rest.describe());
     session::RunOptions run;
     run.clock = info.clock == "real" ? session::Clock::real : session::Clock::virtual_clock;
     run.command = command_line();
-    run.sync = options.sync;
+    run.sync = sync;
     run.participant = info.participant;
+    run.in_study = info.in_study;
     const std::string parent = std::filesystem::path(rest.plan.resumes).parent_path().string();
-    run.out = !options.out.empty() ? options.out : parent.empty() ? "." : parent;
+    run.out = !out.empty() ? out : parent.empty() ? "." : parent;
     run_plan(rest.plan, run);
 }
-
-}  // namespace
 
 void add_resume(CLI::App& app) {
     auto* command = app.add_subcommand(
@@ -45,7 +47,7 @@ void add_resume(CLI::App& app) {
         "has all of them. The hand has the same mover again: a person at devices, the "
         "file's\nscript, a simulated person. Trials done by mouse continue in the window (dihaptic "
         "gui).\n\nExample:\n  dihaptic resume sessions/2026-01-31_093000_visuomotor-rotation_S07");
-    command->callback([options] { resume(*options); });
+    command->callback([options] { resume_session(options->session, options->out, options->sync); });
 }
 
 }  // namespace dihaptic::cli

@@ -16,8 +16,10 @@
 #include "common/stop_signals.h"
 #include "escape_key.h"
 #include "person/population.h"
+#include "resume_command.h"
 #include "rig/calibration_guide.h"
 #include "session/listeners/trial_controller.h"
+#include "study_turn.h"
 #include "summary.h"
 
 namespace dihaptic::cli {
@@ -37,6 +39,8 @@ struct SessionOptions {
     std::string population_file;
     bool real_objects = false;
     std::string between;
+    std::string despite;      ///< reason to begin a study's session against its rules
+    bool seed_given = false;  ///< on the command line
 };
 
 /// Progress in words, e.g. "trial 12 of 96"; empty without trials. `share`: share of completed
@@ -145,7 +149,8 @@ void run_one(SessionOptions& options) {
     const person::Population people = person::population_of(
         options.population_file,
         options.real_objects ? person::Objects::real : person::Objects::device);
-    if (!people.groups.empty()) options.request.order_number = people.number_in_group(id);
+    if (!people.groups.empty() && !options.run.in_study)
+        options.request.order_number = people.number_in_group(id);
     session::Plan plan = session::make_plan(options.request);
     if (options.simulate && plan.task)
         session::sit_down(plan, person::draw_person(people, plan.seed, id));
@@ -357,8 +362,38 @@ void add_settings(SessionOptions& options) {
     if (options.rate > 0) options.request.set.push_back(fmt::format("rate_Hz={}", options.rate));
 }
 
+/// Takes the next session of the participant in a study, unless the file is no study. Returns the
+/// folder of a session to be resumed; empty if there is none.
+std::string take_turn(SessionOptions& options) {
+    if (task::kind_of(options.request.file) != task::FileKind::study) {
+        if (options.despite.empty()) return "";
+        throw Error({"--despite", 0}, "", "is about the rules of a study",
+                    "Leave it out, or name a study's file.");
+    }
+    const auto who = options.simulate ? session::Who::simulated : session::Who::people;
+    const StudyTurn turn =
+        study_turn(options.request.file, options.run.participant.id, options.despite, who);
+    options.request.file = turn.experiment;
+    options.request.order_number = turn.in_study.number;
+    if (!options.seed_given) options.request.seed = turn.seed;
+    options.run.participant = turn.participant;
+    options.run.in_study = turn.in_study;
+    options.run.out = turn.out;
+    if (!options.simulate && !session::on_real_devices(options.request)) {
+        throw Error({options.request.file, 0}, "rig", "is simulated: no person can take part",
+                    "Name a rig with devices (--rig), or rehearse the session: --simulate.");
+    }
+    turn.log_begin(who);
+    return turn.resume;
+}
+
 void run(SessionOptions& options) {
     add_settings(options);
+    const std::string resume = take_turn(options);
+    if (!resume.empty()) {
+        resume_session(resume, "", options.run.sync);
+        return;
+    }
     if (options.simulate && options.clock == "real")
         throw Error({"--simulate", 0}, "", "is on the virtual clock", "Leave out --clock real.");
     options.request.simulate = options.simulate;
@@ -399,7 +434,7 @@ void add_simulated_person(CLI::App* command, const std::shared_ptr<SessionOption
         ->excludes(population);
 }
 
-void add_participant(CLI::App* command, const std::shared_ptr<SessionOptions>& options) {
+void add_participant_facts(CLI::App* command, const std::shared_ptr<SessionOptions>& options) {
     command->add_option("--participant", options->run.participant.id,
                         "participant's identifier; for a simulated person it starts with sim-");
     command->add_option("--age", options->run.participant.age, "participant's age in years");
@@ -426,7 +461,7 @@ void add_physics(CLI::App* command, const std::shared_ptr<SessionOptions>& optio
 void add_run(CLI::App& app) {
     auto* command = app.add_subcommand("run", "Run a scene or an experiment, and record it");
     auto options = std::make_shared<SessionOptions>();
-    command->add_option("FILE", options->request.file, "scene or experiment")
+    command->add_option("FILE", options->request.file, "scene, experiment or study")
         ->transform(given_or_kept())
         ->required();
     command
@@ -437,7 +472,9 @@ void add_run(CLI::App& app) {
     command->add_option("--rig", options->request.rig, "rig file, in place of the experiment's")
         ->transform(given_or_kept());
     add_simulated_person(command, options);
-    add_participant(command, options);
+    add_participant_facts(command, options);
+    command->add_option("--despite", options->despite,
+                        "reason to begin a session of a study against the study's rules");
     add_physics(command, options);
     command->add_option("--rate", options->rate, "ticks per second [Hz]")->check(rate_range());
     command
@@ -464,12 +501,16 @@ void add_run(CLI::App& app) {
         "  dihaptic run experiments/lift-block.yaml\n"
         "  dihaptic run experiments/visuomotor-rotation.yaml --simulate --participant sim-007 "
         "--seed 7\n"
+        "  dihaptic run my-study.yaml --participant S07\n"
         "  dihaptic run scenes/frictionless-plane.yaml --clock real\n"
         "  dihaptic run scenes/block-on-table.yaml --rig rigs/omega-pair.yaml\n"
         "  dihaptic run experiments/reach-to-grasp.yaml --movement trial01.csv --participant S07\n"
         "  dihaptic run experiments/lift-block.yaml --set coupling.stiffness_N_m=600 --set "
         "dynamics.every=10");
-    command->callback([options] { run(*options); });
+    command->callback([options, command] {
+        options->seed_given = command->count("--seed") > 0;
+        run(*options);
+    });
 }
 
 }  // namespace dihaptic::cli

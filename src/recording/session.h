@@ -11,6 +11,7 @@
 #pragma once
 
 #include <climits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +42,26 @@ struct Participant {
     }
 };
 
+/// The place of a session in a study.
+struct InStudy {
+    std::string study;      ///< title
+    int version = 0;        ///< of the study's files
+    std::string group;      ///< or the code that conceals it
+    int number = 0;         ///< of the participant in the group
+    std::string session;    ///< name
+    std::string condition;  ///< empty: the session has none
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("study", study);
+        v("version", version);
+        v("group", group);
+        v("number", number);
+        v("session", session);
+        v("condition", condition);
+    }
+};
+
 /// The state of a table when the session ended.
 struct TableSeal {
     std::string file;      ///< name in the session's folder
@@ -63,10 +84,11 @@ struct SessionInfo : Setup {
     std::string started;       ///< ISO 8601 with offset
     std::string command;       ///< as typed
     Participant participant;
-    std::string resumes;             ///< folder of the session that this one resumes
-    std::vector<std::string> notes;  ///< warnings given at the start, and findings of the recovery
-    std::string finished;            ///< how the session ended, in words
-    std::vector<TableSeal> tables;   ///< once the session has ended (recording/seal.h)
+    std::optional<InStudy> in_study;  ///< none: the session does not belong to a study
+    std::string resumes;              ///< folder of the session that this one resumes
+    std::vector<std::string> notes;   ///< warnings given at the start, and findings of the recovery
+    std::string finished;             ///< how the session ended, in words
+    std::vector<TableSeal> tables;    ///< once the session has ended (recording/seal.h)
     std::string seal;  ///< checksum of this file's own data, once the session has ended
 
     template <class Visitor>
@@ -78,6 +100,7 @@ struct SessionInfo : Setup {
         v("started", started);
         v("command", command);
         v("participant", participant);
+        v("in_study", in_study);
         v("resumes", resumes);
         Setup::visit(v);
         v("notes", notes);

@@ -8,6 +8,7 @@
 #include "person/simulated_limits.h"
 #include "session/plan.h"
 #include "session/safety_limits.h"
+#include "session/study_session.h"
 
 namespace dihaptic::session {
 namespace {
@@ -104,11 +105,15 @@ Checked check_file(const std::string& file, Diagnostics& diagnostics, const std:
             case task::FileKind::population:
                 person::read_population(file);
                 return {"population", {}};
+            case task::FileKind::study:
+                checked_study(file, diagnostics);
+                return {"study", {}};
             case task::FileKind::unknown:
                 diagnostics.error(
                     {file, 0}, "", "is not a file that Dihaptic knows",
                     "A scene has 'bodies:', a rig 'devices:', an experiment "
-                    "'scene:', a population 'traits:'; a movement ends in .csv or .tsv.");
+                    "'scene:', a population 'traits:', a study 'sessions:'; a movement ends in "
+                    ".csv or .tsv.");
                 return {"unknown", {}};
         }
     } catch (const Error& e) {

@@ -12,6 +12,7 @@
 #include "person/population.h"
 #include "rig/kinds.h"
 #include "scene/kinds.h"
+#include "study/study_file.h"
 #include "task/file/experiment.h"
 #include "task/file/kinds.h"
 
@@ -42,6 +43,7 @@ constexpr std::array kSchemas{
     FileSchema{"scene", [] { return schema_of<scene::Scene>("Scene"); }},
     FileSchema{"rig", [] { return schema_of<rig::Rig>("Rig"); }},
     FileSchema{"experiment", [] { return schema_of<task::Experiment>("Experiment"); }},
+    FileSchema{"study", [] { return schema_of<study::StudyFile>("Study"); }},
     FileSchema{"population", [] { return schema_of<person::Population>("Population"); }},
     FileSchema{"calibration", [] { return schema_of<rig::Calibration>("Calibration"); }},
     FileSchema{"registration", [] { return schema_of<display::Registration>("Registration"); }},

@@ -105,10 +105,12 @@ std::string difference(const Rehearsal& there, const Rehearsal& here) {
     Rehearsal a = there;
     Rehearsal b = here;
     a.asked = b.asked;
+    return difference(write_fields(a), write_fields(b));
+}
+
+std::string difference(const Node& there, const Node& here) {
     // through text, so that numbers from a file and from memory compare equal
-    const Node left = parse_yaml(to_yaml(write_fields(a)), "there");
-    const Node right = parse_yaml(to_yaml(write_fields(b)), "here");
-    return difference(left, right, "");
+    return difference(parse_yaml(to_yaml(there), "there"), parse_yaml(to_yaml(here), "here"), "");
 }
 
 void claim(const std::string& folder, const Rehearsal& rehearsal) {

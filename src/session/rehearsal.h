@@ -64,6 +64,8 @@ Rehearsal read_rehearsal(const std::string& folder);
 /// The first difference between two rehearsals, in words; "" if there is none. `there`: the
 /// folder's rehearsal.
 std::string difference(const Rehearsal& there, const Rehearsal& here);
+/// The first value in which two documents differ, in words; "" if there is none.
+std::string difference(const Node& there, const Node& here);
 
 /// Makes the folder, or checks that it holds the same rehearsal, and notes the request. Throws an
 /// Error that names the difference when it holds another one.

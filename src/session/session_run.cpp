@@ -247,6 +247,7 @@ void Run::describe() {
     info_.clock = real_ ? "real" : "virtual";
     info_.seed = number_text(plan_.seed);
     info_.participant = options_.participant;
+    info_.in_study = options_.in_study;
     info_.moved_by = plan_.moved_by;
     info_.study = plan_.study;
     if (const int object = plan_.scene.object_index(); object >= 0)

@@ -22,6 +22,7 @@ struct RunOptions {
     std::string command;           ///< command line as typed, for the record
     double sync = 0;  ///< interval at which raw.log is synchronised to the disk [s]; 0: at its end
     recording::Participant participant;
+    std::optional<recording::InStudy> in_study;
     std::atomic<char>* keys = nullptr;  ///< the operator's newest key, until a tick takes it
     /// Called from another thread when a call to the devices never returns, so that run_session()
     /// cannot return either. It must show the message and end the program.

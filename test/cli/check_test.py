@@ -14,7 +14,7 @@ from program import SHORT, dihaptic
 class Commands(unittest.TestCase):
     def test_check(self):
         files = glob.glob("scenes/*.yaml") + glob.glob("rigs/*.yaml") + glob.glob("experiments/*.yaml")
-        files += glob.glob("populations/*.yaml")
+        files += glob.glob("populations/*.yaml") + glob.glob("studies/*.yaml")
         result = dihaptic("check", *files)
         self.assertEqual(result.returncode, 0, result.stderr)
         with tempfile.TemporaryDirectory() as folder:

@@ -90,7 +90,7 @@ class Damage(unittest.TestCase):
         inputs = ["scene.yaml", "rig.yaml", "settings.yaml", "mesh-1-block.obj"]
         for name in names:
             size = len(whole[name])
-            lengths = {0, 1, size - 1, *range(100, min(size, 151), 10), *(random.randrange(size) for _ in range(4))}
+            lengths = {0, 1, size - 1, *range(100, min(size, 151), 25), *(random.randrange(size) for _ in range(3))}
             for length in [None, *sorted(lengths)]:
                 for other, data in whole.items():
                     pathlib.Path(self.folder + other).write_bytes(data)

@@ -27,7 +27,7 @@ from program import dihaptic
 sys.path.append("docs/manual/make")
 from pages import MANUAL, blocks
 
-FOLDERS = {"scene": "scenes", "rig": "rigs", "experiment": "experiments", "population": "populations"}
+FOLDERS = {"scene": "scenes", "rig": "rigs", "experiment": "experiments", "population": "populations", "study": "studies"}
 
 
 class Yaml12(yaml.SafeLoader):

@@ -24,7 +24,7 @@ int count_plain(const Written& part, const std::string& text) {
 
 TEST(Written, PartsOfShippedFilesAreWhereTheyAre) {
     int count = 0;
-    for (const char* folder : {"scenes", "rigs", "experiments", "populations"}) {
+    for (const char* folder : {"scenes", "rigs", "experiments", "populations", "studies"}) {
         for (const auto& entry : std::filesystem::directory_iterator(folder)) {
             if (entry.path().extension() != ".yaml") continue;
             SCOPED_TRACE(entry.path().string());

@@ -25,7 +25,7 @@ std::vector<std::string> shipped(const std::string& folder, const std::string& e
 }
 
 TEST(ShippedFiles, AreInOrder) {
-    for (const char* folder : {"scenes", "rigs", "experiments", "populations"}) {
+    for (const char* folder : {"scenes", "rigs", "experiments", "populations", "studies"}) {
         for (const std::string& file : shipped(folder, ".yaml")) {
             Diagnostics diagnostics;
             EXPECT_NE(check_file(file, diagnostics).what, "unknown");

@@ -38,6 +38,7 @@ FileKind kind_of(const std::string& file) {
     const Node root = read_yaml(file);
     if (root.find("scene") != nullptr) return FileKind::experiment;
     if (root.find("bodies") != nullptr) return FileKind::scene;
+    if (root.find("sessions") != nullptr) return FileKind::study;
     if (root.find("devices") != nullptr) return FileKind::rig;
     if (root.find("traits") != nullptr || root.find("based_on") != nullptr)
         return FileKind::population;

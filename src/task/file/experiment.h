@@ -87,7 +87,7 @@ struct Experiment {
 /// Problems go to `diagnostics`.
 Experiment read_experiment(const std::string& file, Diagnostics& diagnostics);
 
-enum class FileKind { scene, rig, experiment, movement, population, unknown };
+enum class FileKind { scene, rig, experiment, movement, population, study, unknown };
 /// Identifies the kind of a file by its name and its keys. Throws Error if the file cannot be read.
 FileKind kind_of(const std::string& file);
 /// Whether a file is a movement, judged by its ending: .csv or .tsv, as motion capture systems use.

@@ -17,6 +17,7 @@
 #include "person/population.h"
 #include "rig/kinds.h"
 #include "scene/kinds.h"
+#include "study/study_file.h"
 #include "task/file/experiment.h"
 #include "task/file/kinds.h"
 #include "testing/files.h"
@@ -295,6 +296,7 @@ std::string tables() {
                                "What `settings` of scene, rig and experiment have, and `--set`.");
     page.part<hand::HandSpec>("Hand", "What `hand` of scene and experiment have.");
     page.part<person::Population>("Population", "A file of people for rehearsals.");
+    page.part<study::StudyFile>("Study", "A file of groups and sessions.");
     page.text.pop_back();
     return page.text;
 }

@@ -1,0 +1,283 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <filesystem>
+
+#include "base/plural.h"
+#include "base/regular_file.h"
+#include "command.h"
+#include "session/study_session.h"
+#include "study/allocation.h"
+
+namespace dihaptic::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ParticipantOptions {
+    std::string file;
+    study::Member person;
+    std::vector<std::string> facts;
+    std::string reason;
+    bool keep_data = false, delete_data = false;
+};
+
+std::string group_text(const study::StudyFile& study, const study::Member& member) {
+    return study.allocation.concealed ? "concealed" : member.group;
+}
+
+/// Freezes the study's files with its first participant; later, throws Error if they have changed.
+void freeze_or_check(const study::StudyFile& study, const std::string& id) {
+    Diagnostics diagnostics;
+    session::StudyVersion now = session::present_version(study);
+    if (!session::versions_of(study).empty()) {
+        session::check_unchanged(study, now);
+        return;
+    }
+    session::freeze(study, std::move(now), "first participant");
+    study::log(study, "version", id, "1: first participant");
+    fmt::print("the study's files are frozen as version 1: later changes have to be accepted\n");
+}
+
+void read_facts(ParticipantOptions& options) {
+    for (const std::string& text : options.facts) {
+        const size_t equals = text.find('=');
+        if (equals == std::string::npos)
+            throw Error({"--fact", 0}, text, "has no value", "Write --fact NAME=VALUE.");
+        options.person.facts.push_back({text.substr(0, equals), text.substr(equals + 1)});
+    }
+}
+
+void add(ParticipantOptions& options) {
+    Diagnostics diagnostics;
+    const study::StudyFile study = session::checked_study(options.file, diagnostics);
+    diagnostics.throw_if_errors();
+    read_facts(options);
+    study::Member& person = options.person;
+    const study::StudyLock lock(study);
+    study::Roster roster = study::read_roster(study);
+    if (roster.find(person.id) != nullptr) {
+        throw Error({"participant", 0}, person.id, "has been added already",
+                    "Each participant has an identifier of their own.");
+    }
+    const std::vector<std::string> against = study::reasons_against(study, person);
+    if (!against.empty()) {
+        fmt::print("{} cannot take part: {}\n", person.id, fmt::join(against, "; "));
+        study::log(study, "not included", person.id, fmt::format("{}", fmt::join(against, "; ")));
+        exit_code = kFailed;
+        return;
+    }
+    freeze_or_check(study, person.id);
+    const study::Allocated allocated = study::allocate(study, roster, person);
+    person.group = allocated.group;
+    person.number = allocated.number;
+    person.added = recording::iso_now();
+    person.version = static_cast<int>(session::versions_of(study).size());
+    roster.participants.push_back(person);
+    study::write_roster(study, roster);
+    study::log(study, "add", person.id, study.shown_group(person.group));
+    int active = 0;
+    for (const study::Group& group : study.groups) active += roster.active(group.name);
+    fmt::print("{} added{}: {} of {} participants\n", person.id,
+               study.allocation.concealed
+                   ? " (group concealed)"
+                   : fmt::format(", group {}, number {}", person.group, person.number),
+               active, study.people());
+}
+
+/// A participant's state in a few words.
+std::string state_of(const study::StudyFile& study, const study::Member& member) {
+    if (!member.takes_part())
+        return fmt::format("withdrew {}{}", member.withdrawn.substr(0, 10),
+                           member.data_deleted ? ", data deleted" : "");
+    const auto visits = session::visits_of(study, member, session::Who::people);
+    const study::Next next = study::next_for(study, visits, recording::iso_now());
+    if (next.act == study::Act::none) return "all sessions complete";
+    const std::string& name = study.sessions[next.session].name;
+    if (next.act == study::Act::resume) return fmt::format("{} is to be resumed", name);
+    return fmt::format("next: {}{}", name, next.against.empty() ? "" : ", not now");
+}
+
+void list(const ParticipantOptions& options) {
+    const study::StudyFile study = study::read_study(options.file);
+    const study::Roster roster = study::read_roster(study);
+    fmt::print("{}\n", study.title);
+    size_t width = 4;
+    for (const study::Group& group : study.groups) width = std::max(width, group.name.size());
+    for (const study::Member& member : roster.participants) {
+        fmt::print("  {:12s} {:{}s}  {}\n", member.id, group_text(study, member),
+                   std::max<size_t>(width, study.allocation.concealed ? 9 : 0),
+                   state_of(study, member));
+    }
+    int active = 0;
+    for (const study::Group& group : study.groups) {
+        active += roster.active(group.name);
+        if (!study.allocation.concealed)
+            fmt::print("group {:{}s}  {} of {}\n", group.name, width, roster.active(group.name),
+                       group.people);
+    }
+    fmt::print("{} of {} participants\n", active, study.people());
+}
+
+const study::Member& known(const study::Roster& roster, const std::string& id) {
+    const study::Member* member = roster.find(id);
+    if (member == nullptr) {
+        throw Error({"participant", 0}, id, "has not been added to this study",
+                    "dihaptic participant list shows who has been.");
+    }
+    return *member;
+}
+
+void show(const ParticipantOptions& options) {
+    const study::StudyFile study = study::read_study(options.file);
+    const study::Roster roster = study::read_roster(study);
+    const study::Member& member = known(roster, options.person.id);
+    const auto line = [](const std::string& name, const std::string& value) {
+        if (!value.empty()) fmt::print("  {:14s} {}\n", name, value);
+    };
+    fmt::print("{}\n", member.id);
+    line("group", group_text(study, member));
+    if (!study.allocation.concealed) {
+        line("number", fmt::format("{}", member.number));
+        line("conditions",
+             fmt::format("{}", fmt::join(study.conditions_of(member.group, member.number), ", ")));
+    }
+    line("age", member.age);
+    line("sex", member.sex);
+    line("handedness", member.handedness);
+    for (const study::Fact& fact : member.facts) line(fact.name, fact.value);
+    line("added", fmt::format("{}, version {} of the files", member.added, member.version));
+    line("withdrawn", member.withdrawn);
+    line("reason", member.reason);
+    for (const study::Visit& visit : session::visits_of(study, member, session::Who::people)) {
+        line(study.sessions[visit.session].name,
+             fmt::format("{} {} {}", visit.started,
+                         visit.complete ? "complete"
+                                        : fmt::format("{} of {} trials", visit.done, visit.trials),
+                         visit.folder));
+    }
+    const auto visits = session::visits_of(study, member, session::Who::people);
+    line("state", state_of(study, member));
+    for (const std::string& why : study::next_for(study, visits, recording::iso_now()).against)
+        line("", why);
+}
+
+void withdraw(const ParticipantOptions& options) {
+    const study::StudyFile study = study::read_study(options.file);
+    const study::StudyLock lock(study);
+    study::Roster roster = study::read_roster(study);
+    known(roster, options.person.id);
+    study::Member& member =
+        *std::ranges::find(roster.participants, options.person.id, &study::Member::id);
+    if (!member.takes_part() && (member.data_deleted || !options.delete_data)) {
+        throw Error({"participant", 0}, member.id, fmt::format("withdrew on {}", member.withdrawn),
+                    "Nothing is left to do.");
+    }
+    if (options.delete_data) {
+        // the folder of all sessions of this participant
+        const fs::path folder =
+            fs::path(session::session_folder(study, member, 0, session::Who::people)).parent_path();
+        std::error_code failed;
+        const auto deleted = fs::remove_all(folder, failed);
+        if (failed) {
+            throw Error({folder.string(), 0}, "", "cannot be deleted: " + failed.message(),
+                        "Nothing is noted yet: repeat the command once it can be.");
+        }
+        member.data_deleted = true;
+        fmt::print("{}: {} deleted\n", folder.string(),
+                   counted(static_cast<int64_t>(deleted), "file"));
+    }
+    if (member.takes_part()) member.withdrawn = recording::iso_now();
+    if (!options.reason.empty()) member.reason = options.reason;
+    study::write_roster(study, roster);
+    study::log(study, "withdraw", member.id,
+               fmt::format("data {}{}{}", options.delete_data ? "deleted" : "kept",
+                           options.reason.empty() ? "" : "; ", options.reason));
+    fmt::print("{} withdrew; the place in the group is free for another participant\n", member.id);
+}
+
+void accept(const ParticipantOptions& options) {
+    Diagnostics diagnostics;
+    const study::StudyFile study = session::checked_study(options.file, diagnostics);
+    diagnostics.throw_if_errors();
+    const study::StudyLock lock(study);
+    const study::Roster roster = study::read_roster(study);  // the groups of all participants exist
+    session::StudyVersion now = session::present_version(study);
+    const auto versions = session::versions_of(study);
+    const std::string what = versions.empty() ? "" : session::changed(versions.back(), now);
+    if (what.empty()) {
+        throw Error({options.file, 0}, "",
+                    versions.empty() ? "has no version yet: nobody has been added"
+                                     : "has not changed since its last version",
+                    "Nothing is left to do.");
+    }
+    const int number = session::freeze(study, std::move(now), options.reason);
+    study::log(study, "version", "", fmt::format("{}: {}; {}", number, options.reason, what));
+    fmt::print("version {} of the study's files, for the sessions from now on\nfirst change: {}\n",
+               number, what);
+}
+
+using Shared = std::shared_ptr<ParticipantOptions>;
+
+CLI::App* add_action(CLI::App& parent, const Shared& options, const char* name, const char* what,
+                     const char* example, bool one_person) {
+    auto* command = parent.add_subcommand(name, what);
+    command->add_option("STUDY", options->file, "study file")->required()->check(CLI::ExistingFile);
+    if (one_person)
+        command->add_option("ID", options->person.id, "the participant's identifier, e.g. S07")
+            ->required();
+    command->footer(fmt::format("\nExample:\n  dihaptic participant {} {}", name, example));
+    return command;
+}
+
+void add_adding(CLI::App& parent, const Shared& options) {
+    auto* command = add_action(parent, options, "add", "Add a participant, and allocate a group",
+                               "my-study.yaml S07 --age 24 --sex F --handedness right", true);
+    command->add_option("--age", options->person.age, "age in years");
+    command->add_option("--sex", options->person.sex, "F, M, O, or U: not stated")
+        ->check(CLI::IsMember({"F", "M", "O", "U"}));
+    command->add_option("--handedness", options->person.handedness, "right, left or both")
+        ->check(CLI::IsMember({"right", "left", "both"}));
+    command->add_option("--fact", options->facts,
+                        "a fact that the study asks for, NAME=VALUE; may be repeated");
+    command->callback([options] { add(*options); });
+}
+
+void add_withdrawing(CLI::App& parent, const Shared& options) {
+    auto* command =
+        add_action(parent, options, "withdraw", "Note that a participant withdrew",
+                   "my-study.yaml S07 --keep-data --reason \"did not come back\"", true);
+    auto* data = command->add_option_group("data", "what happens to the participant's recordings");
+    data->add_flag("--keep-data", options->keep_data, "recordings stay");
+    data->add_flag("--delete-data", options->delete_data, "recordings are deleted for ever");
+    data->require_option(1);
+    command->add_option("--reason", options->reason, "reason, for the log");
+    command->callback([options] { withdraw(*options); });
+}
+
+}  // namespace
+
+void add_participant(CLI::App& app) {
+    auto* command =
+        app.add_subcommand("participant", "Add, list and withdraw a study's participants");
+    command->require_subcommand(1);
+    command->footer(
+        "\nExamples:\n  dihaptic participant add my-study.yaml S07 --age 24\n  dihaptic "
+        "participant "
+        "list my-study.yaml\n\nThen: dihaptic run my-study.yaml --participant S07");
+    const auto options = std::make_shared<ParticipantOptions>();
+    add_adding(*command, options);
+    add_action(*command, options, "list", "List participants, groups, and what comes next",
+               "my-study.yaml", false)
+        ->callback([options] { list(*options); });
+    add_action(*command, options, "show", "Show one participant", "my-study.yaml S07", true)
+        ->callback([options] { show(*options); });
+    add_withdrawing(*command, options);
+    auto* accepting =
+        add_action(*command, options, "accept", "Accept changed files of a study as a new version",
+                   "my-study.yaml --why \"shorter washout\"", false);
+    accepting->add_option("--why", options->reason, "reason, for the log")->required();
+    accepting->callback([options] { accept(*options); });
+}
+
+}  // namespace dihaptic::cli

@@ -1,0 +1,119 @@
+#include "study_turn.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "base/checksum.h"
+#include "base/number.h"
+#include "base/regular_file.h"
+#include "common/console.h"
+
+namespace dihaptic::cli {
+namespace {
+
+const study::Member& member_of(const study::StudyFile& study, const study::Roster& roster,
+                               const std::string& file, const std::string& id) {
+    if (id.empty()) {
+        throw Error({"--participant", 0}, "",
+                    "is missing: a study runs a participant's next session",
+                    "Add e.g. --participant S07.");
+    }
+    const study::Member* member = roster.find(id);
+    if (member == nullptr) {
+        throw Error({"--participant", 0}, id, fmt::format("has not been added to {}", study.title),
+                    fmt::format("First: dihaptic participant add {} {}.", file, id));
+    }
+    if (!member->takes_part()) {
+        throw Error({"--participant", 0}, id, fmt::format("withdrew on {}", member->withdrawn),
+                    "Add another participant in this one's place.");
+    }
+    return *member;
+}
+
+/// Adds the conditions on the session before that are not met.
+void check_needs(const study::StudyFile& study, study::Next& next) {
+    if (next.act != study::Act::begin || next.after.empty()) return;
+    const std::string trials = next.after + "/trials.csv";
+    for (const study::Condition& need : study.sessions[next.session].needs) {
+        const std::string why = is_there(trials)
+                                    ? study::unmet(need, trials)
+                                    : fmt::format("{} is missing, on which it depends", trials);
+        if (!why.empty()) next.against.push_back(why);
+    }
+}
+
+/// A seed from words, so that each participant's sessions have their own and keep it.
+uint64_t seed_of(const std::string& words) {
+    return 1 + whole_number<uint64_t>(checksum_of(words), 16).value_or(0);
+}
+
+/// What comes next, allowed or not.
+study::Next next_of(const study::StudyFile& study, const study::Member& member, session::Who who) {
+    const auto visits = session::visits_of(study, member, who);
+    study::Next next = study::next_for(study, visits, recording::iso_now());
+    // simulated sessions follow each other at once
+    if (who == session::Who::simulated) next.against.clear();
+    check_needs(study, next);
+    return next;
+}
+
+void check_allowed(const study::StudyFile& study, const study::Member& member,
+                   const study::Next& next, const std::string& despite) {
+    if (next.act == study::Act::none) {
+        throw Error({"--participant", 0}, member.id,
+                    fmt::format("has completed all {} sessions", study.sessions.size()),
+                    "dihaptic participant show lists them.");
+    }
+    const std::string& name = study.sessions[next.session].name;
+    if (next.against.empty()) return;
+    const std::string why = fmt::format("{}", fmt::join(next.against, "; "));
+    if (!despite.empty()) {
+        study::log(study, "despite", member.id, fmt::format("{}: {}; {}", name, why, despite));
+        fmt::print(stderr, "WARNING: {} begins despite the study's rules: {}\n", name, why);
+        return;
+    }
+    throw Error({"--participant", 0}, member.id, fmt::format("may not begin {}: {}", name, why),
+                "To begin nevertheless, which is logged: --despite REASON.");
+}
+
+}  // namespace
+
+void StudyTurn::log_begin(session::Who who) const {
+    const char* action = who == session::Who::simulated ? "simulate"
+                         : resume.empty()               ? "begin"
+                                                        : "resume";
+    study::log(study, action, participant.id, in_study.session);
+}
+
+StudyTurn study_turn(const std::string& file, const std::string& participant,
+                     const std::string& despite, session::Who who) {
+    const study::StudyFile study = study::read_study(file);
+    const study::StudyLock lock(study);
+    const study::Roster roster = study::read_roster(study);
+    const study::Member& member = member_of(study, roster, file, participant);
+    const study::Next next = next_of(study, member, who);
+    check_allowed(study, member, next, despite);
+    StudyTurn out;
+    out.experiment = study.experiment_of(next.session, member.group, member.number);
+    session::check_unchanged(study, session::present_version(study), out.experiment);
+    out.out = session::session_folder(study, member, next.session, who);
+    out.resume = next.folder;
+    out.participant = {member.id, member.age, member.sex, member.handedness};
+    const std::string& name = study.sessions[next.session].name;
+    out.in_study = {study.title,
+                    static_cast<int>(session::versions_of(study).size()),
+                    study.shown_group(member.group),
+                    member.number,
+                    name,
+                    study.condition_of(next.session, member.group, member.number)};
+    out.seed = seed_of(fmt::format("{}/{}/{}", study.allocation.seed, member.id, name));
+    if (!next.note.empty()) fmt::print("note: {}\n", next.note);
+    fmt::print("{}: {} of {}, session {} of {}{}\n", study.title, member.id,
+               study.allocation.concealed ? "a concealed group" : "group " + member.group,
+               next.session + 1, study.sessions.size(),
+               out.resume.empty() ? ": " + name : fmt::format(": {} is resumed", name));
+    out.study = study;
+    return out;
+}
+
+}  // namespace dihaptic::cli

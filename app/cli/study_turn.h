@@ -1,0 +1,32 @@
+// The next session of a participant in a study.
+#pragma once
+
+#include <string>
+
+#include "recording/session.h"
+#include "session/study_session.h"
+
+namespace dihaptic::cli {
+
+/// What a study says about a participant's next session.
+struct StudyTurn {
+    std::string experiment;  ///< file
+    std::string out;         ///< folder for the recording
+    std::string resume;      ///< folder of the interrupted session to be resumed; empty: none
+    recording::Participant participant;
+    recording::InStudy in_study;
+    uint64_t seed = 1;  ///< its own for each participant and session
+
+    /// Notes in the study's log that the session begins.
+    void log_begin(session::Who who) const;
+
+    study::StudyFile study;
+};
+
+/// What comes next for a participant. `despite`: reason to begin a session against the study's
+/// rules, which is logged; empty: such a session is refused. Throws Error when nothing may begin
+/// now, with a figure, or when the study's files have changed.
+StudyTurn study_turn(const std::string& file, const std::string& participant,
+                     const std::string& despite, session::Who who);
+
+}  // namespace dihaptic::cli

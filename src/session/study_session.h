@@ -1,0 +1,66 @@
+// A study's sessions on the disk: what was recorded, what comes next, and the versions of the files
+// that affect a result.
+//
+// The study's folder has the study's file, participants.yaml, log.csv, versions.yaml, and the
+// recordings in sessions/PARTICIPANT/SESSION, or those of simulated people in rehearsal/.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "recording/session.h"
+#include "study/schedule.h"
+
+namespace dihaptic::session {
+
+/// Whose sessions: simulated ones never count as a participant's.
+enum class Who { people, simulated };
+
+/// The folder with a participant's recordings of a session.
+std::string session_folder(const study::StudyFile& study, const study::Member& member,
+                           size_t session, Who who);
+/// What was recorded of a participant, in the order of its start.
+std::vector<study::Visit> visits_of(const study::StudyFile& study, const study::Member& member,
+                                    Who who);
+
+/// Reads a study, and plans each session of each group and condition once. Throws Error with every
+/// problem found.
+study::StudyFile checked_study(const std::string& file, Diagnostics& diagnostics);
+
+/// A state of the files that affect a result. Rigs do not belong to it: they are calibrated anew,
+/// and each session records its own.
+struct StudyVersion {
+    int number = 0;     ///< from 1
+    std::string since;  ///< ISO 8601
+    std::string why;    ///< of its change
+    std::string program;
+    Node study;        ///< the study's file, without comments
+    Node experiments;  ///< by file, the frozen inputs of each experiment
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("number", number);
+        v("since", since);
+        v("why", why);
+        v("program", program);
+        v("study", study);
+        v("experiments", experiments);
+    }
+};
+
+/// The present state of a study's files, with number 0.
+StudyVersion present_version(const study::StudyFile& study);
+/// The study's versions in their order; none before its first participant.
+std::vector<StudyVersion> versions_of(const study::StudyFile& study);
+/// Adds a version to versions.yaml. Returns its number.
+int freeze(const study::StudyFile& study, StudyVersion version, const std::string& why);
+/// Where two versions differ first, in words; empty if they are the same. `file`: only the study's
+/// file and this experiment.
+std::string changed(const StudyVersion& frozen, const StudyVersion& now,
+                    const std::string& file = "");
+/// Throws Error when the files are not those of the study's last version.
+void check_unchanged(const study::StudyFile& study, const StudyVersion& now,
+                     const std::string& file = "");
+
+}  // namespace dihaptic::session

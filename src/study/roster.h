@@ -1,0 +1,94 @@
+// The participants of a study, in participants.yaml beside the study's file, and the log of
+// everything that was done to them. Identifiers only: a list of names belongs elsewhere.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/descriptor.h"
+#include "study/study_file.h"
+
+namespace dihaptic::study {
+
+struct Fact {
+    std::string name;
+    std::string value;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required());
+        v("value", value, Field::text().required());
+    }
+};
+
+/// A participant.
+struct Member {
+    std::string id;
+    std::string group;
+    int number = 0;  ///< in the group, from 1; free again after a withdrawal
+    std::string age, sex, handedness;
+    std::vector<Fact> facts;
+    std::string added;      ///< ISO 8601
+    int version = 0;        ///< of the study's files when added
+    std::string withdrawn;  ///< ISO 8601; empty: takes part
+    std::string reason;     ///< of the withdrawal
+    bool data_deleted = false;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("id", id, Field::text().required());
+        v("group", group, Field::text().required());
+        v("number", number, Field::number().required().within(1, 9999));
+        v("age", age);
+        v("sex", sex);
+        v("handedness", handedness);
+        v("facts", facts);
+        v("added", added);
+        v("version", version);
+        v("withdrawn", withdrawn);
+        v("reason", reason);
+        v("data_deleted", data_deleted);
+    }
+
+    bool takes_part() const { return withdrawn.empty(); }
+    /// The value of age, sex, handedness or a fact of the study's own; empty if it is not known.
+    std::string fact(const std::string& name) const;
+};
+
+struct Roster {
+    std::vector<Member> participants;  ///< in the order in which they were added
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("participants", participants);
+    }
+
+    const Member* find(const std::string& id) const;
+    /// Number of people who take part in a group.
+    int active(const std::string& group) const;
+};
+
+/// The study's participants; none if there is no file. Throws Error when the file is damaged, or
+/// names a group that the study lacks.
+Roster read_roster(const StudyFile& study);
+void write_roster(const StudyFile& study, Roster roster);
+
+/// Checks an identifier and the facts of a person. Returns why the person cannot take part, which
+/// is empty if nothing speaks against it. Throws Error for an identifier or a value that cannot be
+/// used, and for a fact that is missing.
+std::vector<std::string> reasons_against(const StudyFile& study, const Member& person);
+
+/// Adds a line to log.csv in the study's folder, with the time.
+void log(const StudyFile& study, const std::string& action, const std::string& participant,
+         const std::string& detail);
+
+/// Keeps other programs from changing the study's participants. Throws Error when one does now.
+class StudyLock {
+  public:
+    explicit StudyLock(const StudyFile& study);
+
+  private:
+    Descriptor descriptor_;
+};
+
+}  // namespace dihaptic::study

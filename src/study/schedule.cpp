@@ -1,0 +1,150 @@
+#include "study/schedule.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "base/number.h"
+#include "rows/trial_row.h"
+
+namespace dihaptic::study {
+namespace {
+
+/// Seconds since 1970 of "2026-01-31T09:30:00+01:00"; NaN if it cannot be read.
+double seconds_of(const std::string& iso) {
+    constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+    constexpr std::string_view kForm = "dddd-dd-ddTdd:dd:dd?dd:dd";
+    if (iso.size() != kForm.size()) return kNone;
+    std::vector<int> numbers;
+    for (size_t i = 0; i < iso.size();) {
+        size_t digits = 0;
+        while (kForm.substr(i + digits, 1) == "d") ++digits;
+        if (digits == 0) {
+            if (kForm[i] != '?' && iso[i] != kForm[i]) return kNone;
+            ++i;
+            continue;
+        }
+        const auto number = whole_number<int>(std::string_view(iso).substr(i, digits));
+        if (!number) return kNone;
+        numbers.push_back(*number);
+        i += digits;
+    }
+    const std::chrono::year_month_day date{std::chrono::year(numbers[0]),
+                                           std::chrono::month(static_cast<unsigned>(numbers[1])),
+                                           std::chrono::day(static_cast<unsigned>(numbers[2]))};
+    const auto days = std::chrono::sys_days(date).time_since_epoch().count();
+    const double offset = (iso[19] == '-' ? -1 : 1) * (numbers[6] * 3600.0 + numbers[7] * 60.0);
+    return static_cast<double>(days) * 86400 + numbers[3] * 3600.0 + numbers[4] * 60.0 +
+           numbers[5] - offset;
+}
+
+/// The latest recording of a session that counts: a complete one, or the last incomplete one.
+const Visit* latest(const std::vector<Visit>& visits, size_t session) {
+    const Visit* out = nullptr;
+    for (const Visit& visit : visits) {
+        if (visit.session == session && (out == nullptr || !out->complete)) out = &visit;
+    }
+    return out;
+}
+
+double share_of(const Visit& visit) {
+    return visit.trials == 0 ? 0
+                             : static_cast<double>(visit.done) / static_cast<double>(visit.trials);
+}
+
+/// Reasons of time against beginning a session now.
+void check_gap(const SessionSpec& session, const Visit& before, const std::string& now,
+               Next& next) {
+    const double gap = hours_between(before.started, now);
+    if (std::isnan(gap)) return;
+    if (session.least_gap && gap < *session.least_gap)
+        next.against.push_back(
+            fmt::format("{:.1f} h after the start of the session before; at least {:g} h are asked "
+                        "for: {:.1f} h too early",
+                        gap, *session.least_gap, *session.least_gap - gap));
+    if (session.most_gap && gap > *session.most_gap)
+        next.against.push_back(
+            fmt::format("{:.1f} h after the start of the session before; at most {:g} h are asked "
+                        "for: {:.1f} h too late",
+                        gap, *session.most_gap, gap - *session.most_gap));
+}
+
+}  // namespace
+
+double hours_between(const std::string& from, const std::string& to) {
+    return (seconds_of(to) - seconds_of(from)) / 3600;
+}
+
+Next next_for(const StudyFile& study, const std::vector<Visit>& visits, const std::string& now) {
+    Next next;
+    const Visit* before = nullptr;
+    for (size_t i = 0; i < study.sessions.size(); ++i) {
+        const Visit* visit = latest(visits, i);
+        next.session = i;
+        if (visit == nullptr) {
+            next.act = Act::begin;
+            break;
+        }
+        if (!visit->complete) {
+            const double age = hours_between(visit->started, now);
+            if (!(age > study.resuming.within) && visit->trials > 0) {
+                next.act = Act::resume;
+                next.folder = visit->folder;
+                return next;
+            }
+            if (share_of(*visit) < study.resuming.complete) {
+                next.act = Act::begin;
+                next.note = fmt::format(
+                    "{} was interrupted {:.1f} h ago with {} of {} trials: it begins anew, and "
+                    "both "
+                    "recordings stay",
+                    visit->folder, age, visit->done, visit->trials);
+                break;
+            }
+        }
+        before = visit;
+    }
+    if (next.act == Act::begin && before != nullptr) {
+        next.after = before->folder;
+        check_gap(study.sessions[next.session], *before, now, next);
+    }
+    return next;
+}
+
+std::string unmet(const Condition& condition, const std::string& trials) {
+    const rows::TrialFile table(trials);
+    const auto column = table.column(condition.column);
+    if (!column) {
+        return fmt::format("{} has no column '{}', on which the session depends", trials,
+                           condition.column);
+    }
+    std::map<int, size_t> last;  // row of each trial's last attempt
+    for (size_t i = 0; i < table.size(); ++i) last[table[i].asked.trial] = i;
+    double sum = 0;
+    int count = 0;
+    for (const auto& [trial, row] : last) {
+        const double value = condition.is.empty()                      ? table.number(row, column)
+                             : table.text(row, column) == condition.is ? 1
+                                                                       : 0;
+        if (std::isnan(value)) continue;
+        sum += value;
+        ++count;
+    }
+    const std::string what =
+        condition.is.empty() ? fmt::format("the mean of {}", condition.column)
+                             : fmt::format("the share of {} = {}", condition.column, condition.is);
+    if (count == 0) return fmt::format("{} is not known: no trial of {} has it", what, trials);
+    const double value = sum / count;
+    if (condition.at_least && value < *condition.at_least)
+        return fmt::format("{} is {:.4g} in {} trials; at least {:g} is asked for", what, value,
+                           count, *condition.at_least);
+    if (condition.at_most && value > *condition.at_most)
+        return fmt::format("{} is {:.4g} in {} trials; at most {:g} is asked for", what, value,
+                           count, *condition.at_most);
+    return "";
+}
+
+}  // namespace dihaptic::study

@@ -1,0 +1,276 @@
+#include "study/study_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <numeric>
+#include <set>
+
+#include "base/choices.h"
+#include "base/installed.h"
+#include "study/facts.h"
+#include "task/plan/trials.h"
+
+namespace dihaptic::study {
+namespace {
+
+constexpr std::string_view kGroup = "{group}", kCondition = "{condition}";
+
+std::string replaced(std::string text, std::string_view what, const std::string& with) {
+    for (size_t at = text.find(what); at != std::string::npos; at = text.find(what, at))
+        text.replace(at, what.size(), with), at += with.size();
+    return text;
+}
+
+bool uses(const SessionSpec& session, std::string_view placeholder) {
+    return session.experiment.find(placeholder) != std::string::npos;
+}
+
+/// Whether a word can be a part of a file's name, and of BIDS names if `label`.
+bool is_word(const std::string& word, const char* others) {
+    return !word.empty() && std::all_of(word.begin(), word.end(), [&](unsigned char c) {
+        return std::isalnum(c) != 0 ||
+               std::string_view(others).find(static_cast<char>(c)) != std::string_view::npos;
+    });
+}
+
+/// Checks a study's own rules, which visit() cannot express.
+class Checker {
+  public:
+    Checker(const StudyFile& study, Diagnostics& diagnostics)
+        : study_(study), diagnostics_(diagnostics) {}
+
+    void run() {
+        check_groups();
+        check_allocation();
+        check_facts();
+        check_include();
+        check_conditions();
+        check_sessions();
+    }
+
+  private:
+    void error(const Place& place, const char* key, const std::string& what,
+               const std::string& remedy) {
+        diagnostics_.error(place, key, what, remedy);
+    }
+
+    /// Reports a name that is empty, has other characters than letters, digits and `others`, or is
+    /// there twice.
+    void check_name(const Place& place, const char* key, const std::string& name,
+                    const char* others, std::set<std::string>& names) {
+        if (!is_word(name, others)) {
+            error(place, key, fmt::format("'{}' is not a name", name),
+                  fmt::format(
+                      "Use letters and digits{}{}, because the name becomes part of files' names.",
+                      *others == 0 ? "" : ", and any of ", others));
+        } else if (!names.insert(name).second) {
+            error(place, key, fmt::format("'{}' is there twice", name), "Give each its own name.");
+        }
+    }
+
+    void check_groups() {
+        std::set<std::string> names;
+        for (const Group& group : study_.groups)
+            check_name(group.place, "name", group.name, "-_", names);
+        if (study_.groups.empty())
+            error(study_.place, "groups", "are missing",
+                  "Write one group at least: groups: [{ name: all, people: 12 }].");
+        if (study_.groups.size() > 26)
+            error(study_.place, "groups", "are more than 26", "Use fewer groups.");
+    }
+
+    void check_allocation() {
+        const Allocation& a = study_.allocation;
+        const int smallest = smallest_block(study_);
+        if (a.block != 0 && a.method != Method::blocks)
+            error(a.place, "block", "is only used by method: blocks", "Leave it out.");
+        if (a.block != 0 && smallest > 0 && a.block % smallest != 0)
+            error(a.place, "block",
+                  fmt::format("is {}, which does not hold the groups in proportion", a.block),
+                  fmt::format("Use a multiple of {}.", smallest));
+        const bool minimises = a.method == Method::minimisation;
+        if (minimises == a.over.empty())
+            error(
+                a.place, "over", minimises ? "is missing" : "is only used by method: minimisation",
+                minimises ? "Name the facts that it balances, e.g. over: [sex]." : "Leave it out.");
+        for (const std::string& fact : a.over) {
+            if (!is_known(study_, fact)) {
+                unknown_fact(a.place, "over", fact);
+            } else if (is_number(study_, fact)) {
+                error(a.place, "over",
+                      fmt::format("'{}' is a number, of which few people have the same", fact),
+                      "Add a fact with a few values, e.g. facts: [{ name: age_band, values: "
+                      "[young, old] }].");
+            }
+        }
+    }
+
+    void unknown_fact(const Place& place, const char* key, const std::string& fact) {
+        std::vector<std::string> known{kStandardFacts.begin(), kStandardFacts.end()};
+        for (const FactSpec& spec : study_.facts) known.push_back(spec.name);
+        error(place, key, fmt::format("'{}' is not a fact of this study", fact),
+              fmt::format("Known: {}. Others are listed under 'facts'.", listed(known)));
+    }
+
+    void check_facts() {
+        std::set<std::string> names(kStandardFacts.begin(), kStandardFacts.end());
+        for (const FactSpec& fact : study_.facts)
+            check_name(fact.place, "name", fact.name, "_", names);
+    }
+
+    void check_include() {
+        for (const Criterion& c : study_.include) {
+            const bool bounds = c.at_least || c.at_most;
+            if (!is_known(study_, c.fact)) {
+                unknown_fact(c.place, "fact", c.fact);
+            } else if (c.is.empty() && !bounds) {
+                error(c.place, "fact", "has no condition", "Add is, at_least or at_most.");
+            } else if (bounds && !is_number(study_, c.fact)) {
+                error(c.place, "fact", fmt::format("'{}' is not a number", c.fact),
+                      "Use is: [value].");
+            } else if (const FactSpec* spec = spec_of(study_, c.fact);
+                       spec && !spec->values.empty()) {
+                for (const std::string& value : c.is) {
+                    if (std::ranges::find(spec->values, value) == spec->values.end())
+                        error(c.place, "is",
+                              fmt::format("'{}' is not a value of {}", value, c.fact),
+                              fmt::format("Known: {}.", listed(spec->values)));
+                }
+            }
+        }
+    }
+
+    void check_conditions() {
+        std::set<std::string> names;
+        for (const std::string& name : study_.conditions)
+            check_name(study_.place, "conditions", name, "-_", names);
+        const auto with = std::ranges::count_if(
+            study_.sessions, [](const SessionSpec& s) { return uses(s, kCondition); });
+        if (static_cast<size_t>(with) != study_.conditions.size())
+            error(study_.place, "conditions",
+                  fmt::format("are {}, but {} sessions name {{condition}} in their experiment",
+                              study_.conditions.size(), with),
+                  "Write as many conditions as there are such sessions.");
+        constexpr size_t kMost = 8;  // 40,320 orders
+        if (study_.order == task::Order::counterbalanced && study_.conditions.size() > kMost)
+            error(study_.place, "order", "has more than 40,320 orders", "Use latin_square.");
+    }
+
+    void check_sessions() {
+        std::set<std::string> names;
+        if (study_.sessions.empty())
+            error(study_.place, "sessions", "are missing",
+                  "Write e.g. sessions: [{ name: day1, experiment: baseline.yaml }].");
+        for (size_t i = 0; i < study_.sessions.size(); ++i) {
+            const SessionSpec& session = study_.sessions[i];
+            check_name(session.place, "name", session.name, "", names);
+            check_placeholders(session);
+            if (i == 0 && (session.least_gap || session.most_gap || !session.needs.empty()))
+                error(session.place, "name", "has conditions on a session before, but is the first",
+                      "Leave out least_gap_h, most_gap_h and needs.");
+            if (session.least_gap && session.most_gap && *session.least_gap > *session.most_gap)
+                error(session.place, "least_gap_h", "is greater than most_gap_h",
+                      "Exchange the two.");
+            for (const Condition& need : session.needs) {
+                if (!need.at_least && !need.at_most)
+                    error(need.place, "column", "has no condition", "Add at_least or at_most.");
+            }
+        }
+    }
+
+    void check_placeholders(const SessionSpec& session) {
+        const std::string rest = replaced(replaced(session.experiment, kGroup, ""), kCondition, "");
+        if (rest.find_first_of("{}") != std::string::npos)
+            error(session.place, "experiment", "has a placeholder that is not known",
+                  "Known: {group}, {condition}.");
+    }
+
+    const StudyFile& study_;
+    Diagnostics& diagnostics_;
+};
+
+}  // namespace
+
+int StudyFile::people() const {
+    int out = 0;
+    for (const Group& group : groups) out += group.people;
+    return out;
+}
+
+const Group& StudyFile::group(const std::string& name) const {
+    return *std::ranges::find(groups, name, &Group::name);
+}
+
+std::vector<std::string> StudyFile::conditions_of(const std::string& group, int number) const {
+    Random random(static_cast<uint64_t>(allocation.seed),
+                  fmt::format("conditions/{}/{}", group, number));
+    std::vector<std::string> out;
+    for (const int i :
+         task::ordered(static_cast<int>(conditions.size()), order, number - 1, random))
+        out.push_back(conditions[static_cast<size_t>(i)]);
+    return out;
+}
+
+std::string StudyFile::condition_of(size_t index, const std::string& group, int number) const {
+    if (!uses(sessions[index], kCondition)) return "";
+    const auto before =
+        std::count_if(sessions.begin(), sessions.begin() + static_cast<std::ptrdiff_t>(index),
+                      [](const SessionSpec& s) { return uses(s, kCondition); });
+    return conditions_of(group, number)[static_cast<size_t>(before)];
+}
+
+std::string StudyFile::experiment_of(size_t index, const std::string& group, int number) const {
+    const std::string name = replaced(sessions[index].experiment, kGroup, group);
+    return named_in(folder, replaced(name, kCondition, condition_of(index, group, number)));
+}
+
+std::vector<std::string> StudyFile::experiments_of(size_t index) const {
+    std::set<std::string> out;
+    const std::vector<std::string> one{""};
+    for (const Group& group : groups) {
+        for (const std::string& condition : uses(sessions[index], kCondition) ? conditions : one) {
+            const std::string name = replaced(sessions[index].experiment, kGroup, group.name);
+            out.insert(named_in(folder, replaced(name, kCondition, condition)));
+        }
+    }
+    return {out.begin(), out.end()};
+}
+
+namespace {
+
+/// The index of a group's code.
+std::vector<int> codes_of(const StudyFile& study) {
+    Random random(static_cast<uint64_t>(study.allocation.seed), "arms");
+    return task::ordered(static_cast<int>(study.groups.size()), task::Order::shuffled, 0, random);
+}
+
+}  // namespace
+
+std::string StudyFile::shown_group(const std::string& name) const {
+    if (!allocation.concealed) return name;
+    const auto index = static_cast<size_t>(&group(name) - groups.data());
+    return fmt::format("arm {}", static_cast<char>('A' + codes_of(*this)[index]));
+}
+
+std::string StudyFile::group_shown(const std::string& shown) const {
+    for (const Group& group : groups) {
+        if (shown_group(group.name) == shown) return group.name;
+    }
+    return "";
+}
+
+StudyFile read_study(const std::string& file) {
+    StudyFile out;
+    Diagnostics diagnostics;
+    read_fields(out, read_yaml(file), diagnostics);
+    Checker(out, diagnostics).run();
+    diagnostics.throw_if_errors();
+    out.folder = std::filesystem::path(file).parent_path().string();
+    if (out.folder.empty()) out.folder = ".";
+    return out;
+}
+
+}  // namespace dihaptic::study

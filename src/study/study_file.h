@@ -1,0 +1,215 @@
+// The file of a study: its groups and how people are allocated to them, who may take part, and
+// which experiment each session runs.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/field_reader.h"
+#include "task/file/task.h"
+
+namespace dihaptic::study {
+
+/// A group of participants.
+struct Group {
+    std::string name;
+    int people = 0;  ///< target number
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name,
+          Field::text().required().says("Name of the group: letters, digits, - and _."));
+        v("people", people,
+          Field::number().required().within(1, 9999).says("Target number of participants."));
+    }
+};
+
+enum class Method { in_turn, blocks, minimisation };
+constexpr auto enum_names(Method) {
+    return std::array{"in_turn", "blocks", "minimisation"};
+}
+
+/// How the next participant's group is chosen (allocation.h).
+struct Allocation {
+    Method method = Method::in_turn;
+    int block = 0;                  ///< people per block; 0: twice the smallest
+    std::vector<std::string> over;  ///< facts that minimisation balances
+    double chance = 0.8;            ///< that minimisation follows the balance
+    int seed = 1;
+    bool concealed = false;  ///< the operator does not see groups
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("method", method,
+          says("in_turn: the groups in turn; blocks: permuted blocks, from the seed; minimisation: "
+               "the group in which the facts under `over` are balanced best."));
+        v("block", block,
+          Field::number().within(0, 1000).says(
+              "Number of people in a permuted block; 0: twice the smallest block that holds the "
+              "groups in proportion."));
+        v("over", over, says("Facts that minimisation balances between groups."));
+        v("chance", chance,
+          Field::number().within(0.5, 1).says(
+              "Probability that minimisation chooses the best balanced group."));
+        v("seed", seed, Field::number().at_least(0).says("Seed of the allocation."));
+        v("concealed", concealed,
+          says("Whether groups are concealed from the operator: neither commands nor "
+               "participants.yaml name them."));
+    }
+};
+
+/// A fact that is asked of every participant, besides age, sex and handedness.
+struct FactSpec {
+    std::string name;
+    std::vector<std::string> values;  ///< those allowed; empty: a number
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required().says("Name of the fact: letters, digits and _."));
+        v("values", values, says("Allowed values; without them, the fact is a number."));
+    }
+};
+
+/// A condition on a fact of a participant.
+struct Criterion {
+    std::string fact;
+    std::vector<std::string> is;  ///< allowed values; empty: any
+    std::optional<double> at_least, at_most;
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("fact", fact,
+          Field::text().required().says("A fact: age, sex, handedness, or one of `facts`."));
+        v("is", is, says("Values with which a person may take part."));
+        v("at_least", at_least, says("Smallest number with which a person may take part."));
+        v("at_most", at_most, says("Largest number with which a person may take part."));
+    }
+};
+
+/// A condition on the session before. A text's share or a number's mean is taken over the last
+/// attempts at its trials.
+struct Condition {
+    std::string column;  ///< of trials.csv
+    std::string is;      ///< the text whose share is taken; empty: the mean is taken
+    std::optional<double> at_least, at_most;
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("column", column,
+          Field::text().required().says("Column of the earlier session's trials.csv."));
+        v("is", is,
+          says("Text of which the share of trials is taken, e.g. an outcome; without it, the "
+               "column's mean is taken."));
+        v("at_least", at_least, says("Smallest share or mean with which the session may begin."));
+        v("at_most", at_most, says("Largest share or mean with which the session may begin."));
+    }
+};
+
+/// A session of every participant.
+struct SessionSpec {
+    std::string name;
+    std::string
+        experiment;  ///< file, relative to the study's; {group} and {condition} are replaced
+    std::optional<double> least_gap, most_gap;  ///< [h], from start to start
+    std::vector<Condition> needs;
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required().says("Name of the session: letters and digits."));
+        v("experiment", experiment,
+          Field::text().required().says(
+              "Experiment file, relative to this file. {group} and {condition} stand for the "
+              "participant's group and the session's condition."));
+        v("least_gap_h", least_gap,
+          Field::number().within(0, 1e5).says(
+              "Least time from the start of the session before to the start of this one [h]."));
+        v("most_gap_h", most_gap,
+          Field::number().within(0, 1e5).says(
+              "Most time from the start of the session before to the start of this one [h]."));
+        v("needs", needs,
+          says("Conditions on the session before, without which this one does not "
+               "begin."));
+    }
+};
+
+/// What happens to a session that was interrupted.
+struct Resuming {
+    double within = 2;    ///< [h]
+    double complete = 1;  ///< share of trials
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("within_h", within,
+          Field::number().within(0, 1e5).says(
+              "An interrupted session is resumed within this time after its start [h]; later it "
+              "begins anew."));
+        v("complete", complete,
+          Field::number().within(0.01, 1).says(
+              "Share of trials with which an interrupted session counts as complete once it is too "
+              "old to be resumed."));
+    }
+};
+
+struct StudyFile {
+    std::string title;
+    std::string about;
+    std::vector<Group> groups;
+    Allocation allocation;
+    std::vector<FactSpec> facts;
+    std::vector<Criterion> include;
+    std::vector<std::string> conditions;
+    task::Order order = task::Order::latin_square;
+    std::vector<SessionSpec> sessions;
+    Resuming resuming;
+    std::string folder;  ///< of the file; not in the file
+    Place place;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("title", title, Field::text().required().says("Title of the study."));
+        v("about", about, says("Description for a reader."));
+        v("groups", groups, says("Groups of participants."));
+        v("allocation", allocation, says("How participants are allocated to groups."));
+        v("facts", facts, says("Facts asked of every participant besides age, sex, handedness."));
+        v("include", include, says("Conditions that a person has to meet to take part."));
+        v("conditions", conditions,
+          says("Conditions, one for each session, in an order that differs between participants."));
+        v("order", order,
+          says("Order of the conditions, by the participant's number in the group, as for blocks "
+               "of trials; shuffled: from the allocation's seed."));
+        v("sessions", sessions, says("Sessions of every participant, in their order."));
+        v("resuming", resuming, says("What happens to a session that was interrupted."));
+    }
+
+    int people() const;  ///< target number of participants
+    const Group& group(const std::string& name) const;
+    /// The conditions in the order of a participant, by the number in the group, from 1.
+    std::vector<std::string> conditions_of(const std::string& group, int number) const;
+    /// Path of the experiment of session `index`.
+    std::string experiment_of(size_t index, const std::string& group, int number) const;
+    /// Paths of all experiments that some participant may meet in session `index`, without
+    /// repetition.
+    std::vector<std::string> experiments_of(size_t index) const;
+    /// Name of the session's condition; empty without conditions.
+    std::string condition_of(size_t index, const std::string& group, int number) const;
+    /// The group's name, or the code that stands for it in participants.yaml while groups are
+    /// concealed: "arm B". Codes are given to groups at random, from the seed.
+    std::string shown_group(const std::string& name) const;
+    /// The group that is written so; empty if there is none.
+    std::string group_shown(const std::string& shown) const;
+};
+
+/// Reads study.yaml. Throws Error with all faults of the file; experiments are checked elsewhere
+/// (session/study_session.h).
+StudyFile read_study(const std::string& file);
+
+}  // namespace dihaptic::study

@@ -1,0 +1,102 @@
+#include "study/schedule.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "testing/files.h"
+
+namespace dihaptic::study {
+namespace {
+
+constexpr const char* kNow = "2026-03-29T12:00:00+02:00";
+
+StudyFile two_days() {
+    StudyFile out;
+    out.sessions.resize(2);
+    out.sessions[0].name = "day1";
+    out.sessions[1].name = "day2";
+    out.sessions[1].least_gap = 20;
+    out.sessions[1].most_gap = 28;
+    return out;
+}
+
+Visit complete(size_t session, const char* started) {
+    return {session, "there", started, true, 0, 0};
+}
+
+TEST(Hours, AreThoseBetweenTwoTimesInAnyZone) {
+    EXPECT_DOUBLE_EQ(hours_between("2026-03-28T12:00:00+01:00", kNow), 23);  // summer time began
+    EXPECT_DOUBLE_EQ(hours_between("2026-12-31T23:30:00-05:00", "2027-01-01T04:30:00+00:00"), 0);
+    EXPECT_TRUE(std::isnan(hours_between("yesterday", kNow)));
+}
+
+TEST(Next, BeginsWithTheFirstSession) {
+    const Next next = next_for(two_days(), {}, kNow);
+    EXPECT_EQ(next.act, Act::begin);
+    EXPECT_EQ(next.session, 0U);
+    EXPECT_TRUE(next.against.empty());
+}
+
+TEST(Next, SaysByHowMuchASessionIsTooEarlyOrTooLate) {
+    const auto early = next_for(two_days(), {complete(0, "2026-03-29T09:00:00+02:00")}, kNow);
+    ASSERT_EQ(early.against.size(), 1U);
+    EXPECT_NE(early.against[0].find("17.0 h too early"), std::string::npos) << early.against[0];
+    const auto good = next_for(two_days(), {complete(0, "2026-03-28T12:00:00+01:00")}, kNow);
+    EXPECT_EQ(good.session, 1U);
+    EXPECT_TRUE(good.against.empty());
+    const auto late = next_for(two_days(), {complete(0, "2026-03-27T12:00:00+01:00")}, kNow);
+    ASSERT_EQ(late.against.size(), 1U);
+    EXPECT_NE(late.against[0].find("19.0 h too late"), std::string::npos) << late.against[0];
+}
+
+TEST(Next, ResumesASessionThatWasInterruptedAShortTimeAgo) {
+    const Visit visit{0, "broken", "2026-03-29T11:00:00+02:00", false, 10, 40};
+    const Next next = next_for(two_days(), {visit}, kNow);
+    EXPECT_EQ(next.act, Act::resume);
+    EXPECT_EQ(next.folder, "broken");
+}
+
+TEST(Next, BeginsAnOldInterruptedSessionAnewUnlessEnoughOfItIsDone) {
+    const Visit visit{0, "broken", "2026-03-28T12:00:00+01:00", false, 36, 40};
+    StudyFile study = two_days();
+    const Next again = next_for(study, {visit}, kNow);
+    EXPECT_EQ(again.act, Act::begin);
+    EXPECT_EQ(again.session, 0U);
+    EXPECT_NE(again.note.find("36 of 40"), std::string::npos) << again.note;
+    study.resuming.complete = 0.9;
+    EXPECT_EQ(next_for(study, {visit}, kNow).session, 1U);
+}
+
+TEST(Next, EndsWithTheLastSession) {
+    const std::vector<Visit> visits{complete(0, "2026-03-27T12:00:00+01:00"),
+                                    complete(1, "2026-03-28T12:00:00+01:00")};
+    EXPECT_EQ(next_for(two_days(), visits, kNow).act, Act::none);
+}
+
+class Needs : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        std::ofstream(file_)
+            << "trial_num,attempt,outcome,time_s\n1,1,miss,9\n1,2,hit,1\n2,1,hit,2\n3,1,"
+               "miss,\n";
+    }
+    testing::TemporaryFolder folder_;
+    std::string file_ = folder_.file("trials.csv");
+};
+
+TEST_F(Needs, AreSharesAndMeansOfLastAttempts) {
+    EXPECT_EQ(unmet({"outcome", "hit", 0.66, {}, {}}, file_), "");
+    EXPECT_NE(unmet({"outcome", "hit", 0.7, {}, {}}, file_).find("0.6667 in 3 trials"),
+              std::string::npos);
+    EXPECT_EQ(unmet({"time_s", "", {}, 1.5, {}}, file_), "");
+    EXPECT_NE(unmet({"time_s", "", {}, 1.4, {}}, file_).find("1.5 in 2 trials"), std::string::npos);
+}
+
+TEST_F(Needs, OfAColumnThatIsNotThereAreNotMet) {
+    EXPECT_NE(unmet({"speed", "", 1, {}, {}}, file_).find("no column 'speed'"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace dihaptic::study

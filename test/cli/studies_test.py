@@ -1,0 +1,202 @@
+"""Studies: participants are added, allocated, run through their sessions, and withdrawn.
+
+Usage: studies_test.py PROGRAM, from the project's folder.
+"""
+import csv
+import glob
+import os
+import pathlib
+import re
+import tempfile
+import unittest
+
+from program import dihaptic
+
+STUDY = """title: Two days
+groups: [{ name: gradual, people: 2 }, { name: abrupt, people: 2 }]
+facts: [{ name: vision, values: [normal, corrected] }]
+include: [{ fact: age, at_least: 18 }, { fact: handedness, is: [right] }]
+conditions: [light, heavy]
+sessions:
+  - { name: familiar, experiment: "short.yaml" }
+  - { name: day1, experiment: "{condition}.yaml", least_gap_h: 20, most_gap_h: 28 }
+  - { name: day2, experiment: "{condition}.yaml", needs: [{ column: outcome, is: held, at_least: 0.5 }] }
+"""
+FACTS = ["--age", "24", "--handedness", "right", "--fact", "vision=normal"]
+
+
+class Studies(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        text = pathlib.Path("experiments/first-trials.yaml").read_text().replace("../", os.getcwd() + "/")
+        text = re.sub(r"repeats: \d+", "repeats: 1", text)
+        for name in ["short", "light", "heavy"]:
+            pathlib.Path(self.folder, name + ".yaml").write_text(re.sub("^title: .*", f"title: {name}", text, flags=re.M))
+        self.study = self.write(STUDY)
+
+    def write(self, text):
+        file = pathlib.Path(self.folder, "study.yaml")
+        file.write_text(text)
+        return str(file)
+
+    def participant(self, action, *arguments):
+        return dihaptic("participant", action, self.study, *arguments)
+
+    def add(self, id, *facts):
+        result = self.participant("add", id, *(facts or FACTS))
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return result.stdout
+
+    def simulate(self, id, *arguments):
+        return dihaptic("run", self.study, "--participant", id, "--simulate", *arguments)
+
+    def refused(self, result, *words):
+        self.assertEqual(result.returncode, 2, result.stdout)
+        for word in words:
+            self.assertIn(word, result.stderr + result.stdout)
+
+    def log(self):
+        with open(self.folder + "/log.csv") as file:
+            return [(row["action"], row["participant"]) for row in csv.DictReader(file)]
+
+    def test_participants_are_allocated_in_turn_and_the_first_one_freezes_the_files(self):
+        said = self.add("S01")
+        self.assertIn("frozen as version 1", said)
+        self.assertIn("S01 added, group gradual, number 1: 1 of 4 participants", said)
+        self.assertIn("S02 added, group abrupt, number 1", self.add("S02"))
+        listed = self.participant("list").stdout
+        self.assertRegex(listed, r"S02 +abrupt +next: familiar\n")
+        self.assertRegex(listed, r"group gradual +1 of 2\n")
+        self.assertEqual(self.log(), [("version", "S01"), ("add", "S01"), ("add", "S02")])
+        self.add("S03"), self.add("S04")
+        self.refused(self.participant("add", "S05", *FACTS), "all of their 4 participants", "raise 'people'")
+
+    def test_who_does_not_meet_the_criteria_is_not_added(self):
+        result = self.participant("add", "S01", "--age", "17", "--handedness", "left", "--fact", "vision=normal")
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("age is 17, at least 18 is asked for; handedness is left, not right", result.stdout)
+        self.assertEqual(self.log(), [("not included", "S01")])
+        self.assertNotIn("S01", self.participant("list").stdout)
+
+    def test_a_name_a_missing_fact_and_an_unknown_one_are_refused(self):
+        self.refused(self.participant("add", "Anna", *FACTS), "may be a person's name")
+        self.refused(self.participant("add", "S01", "--age", "24"), "lacks 'vision'", "--fact vision=VALUE")
+        self.refused(self.participant("add", "S01", *FACTS, "--fact", "shoe=43"), "not a fact that the study asks for")
+        self.refused(self.participant("add", "S01", *FACTS[:-1], "vision=poor"), "Known: normal, corrected")
+        self.add("S01")
+        self.refused(self.participant("add", "S01", *FACTS), "added already")
+
+    def test_sessions_follow_each_other_in_the_participants_own_order(self):
+        for id, order in {"S01": ["light", "heavy"], "S02": ["light", "heavy"], "S03": ["heavy", "light"]}.items():
+            self.add(id)
+            for session, title in zip(["familiar", "day1", "day2"], ["short", *order]):
+                result = self.simulate(id)
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertIn(f": {session}\n{title}\n", result.stdout)
+            self.refused(self.simulate(id), "has completed all 3 sessions")
+        (folder,) = glob.glob(self.folder + "/rehearsal/S03/day1/*/")
+        text = pathlib.Path(folder, "session.yaml").read_text()
+        for line in ["study: Two days", "version: 1", "group: gradual", "number: 2", "session: day1", "condition: heavy"]:
+            self.assertIn(line, text)
+        self.assertRegex(self.participant("list").stdout, r"S03 +gradual +next: familiar\n")  # simulated ones do not count
+
+    def test_every_participant_and_session_has_a_seed_of_its_own(self):
+        seeds = set()
+        for id in ["S01", "S02"]:
+            self.add(id)
+            for _ in range(2):
+                self.assertEqual(self.simulate(id).returncode, 0)
+        for file in glob.glob(self.folder + "/rehearsal/*/*/*/session.yaml"):
+            seeds.add(re.search(r"^seed: (\d+)", pathlib.Path(file).read_text(), flags=re.M)[1])
+        self.assertEqual(len(seeds), 4)
+
+    def test_a_changed_file_is_refused_until_it_is_accepted(self):
+        self.add("S01")
+        file = pathlib.Path(self.folder, "short.yaml")
+        file.write_text("# a comment changes nothing\n" + file.read_text())
+        self.assertEqual(self.simulate("S01").returncode, 0)
+        light = pathlib.Path(self.folder, "light.yaml")
+        light.write_text(light.read_text().replace("repeats: 1", "repeats: 2"))
+        self.refused(self.simulate("S01"), "has changed since version 1", "light.yaml", "repeats: 1 there, 2 now",
+                     "participant accept")
+        self.refused(self.participant("add", "S02", *FACTS), "has changed since version 1")
+        accepted = self.participant("accept", "--why", "more trials")
+        self.assertEqual(accepted.returncode, 0, accepted.stderr)
+        self.assertIn("version 2", accepted.stdout)
+        self.assertEqual(self.simulate("S01").returncode, 0)
+        self.refused(self.participant("accept", "--why", "again"), "has not changed")
+        self.write(STUDY.replace("at_least: 18", "at_least: 21"))
+        self.refused(self.participant("add", "S02", *FACTS), "the study's file", "18 there, 21 now")
+
+    def test_a_session_whose_needs_are_not_met_begins_only_despite_them(self):
+        self.write(STUDY.replace("is: held, at_least: 0.5", "is: flown, at_least: 0.5"))
+        self.add("S01")
+        for _ in range(2):
+            self.assertEqual(self.simulate("S01").returncode, 0)
+        self.refused(self.simulate("S01"), "may not begin day2", "share of outcome = flown is 0 in", "--despite REASON")
+        result = self.simulate("S01", "--despite", "pilot")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("WARNING: day2 begins despite", result.stderr)
+        self.assertIn(("despite", "S01"), self.log())
+
+    def test_without_devices_nobody_takes_part(self):
+        self.add("S01")
+        self.refused(dihaptic("run", self.study, "--participant", "S01"), "no person can take part", "--simulate")
+        self.refused(dihaptic("run", self.study, "--simulate"), "Add e.g. --participant S07")
+        self.refused(self.simulate("S09"), "has not been added", "participant add")
+
+    def test_who_withdraws_leaves_the_place_to_the_next(self):
+        self.add("S01"), self.add("S02"), self.add("S03")
+        recording = pathlib.Path(self.folder, "sessions", "S01", "familiar", "one")
+        recording.mkdir(parents=True)
+        missing = self.participant("withdraw", "S01")
+        self.assertNotEqual(missing.returncode, 0)
+        self.assertIn("--keep-data", missing.stderr)
+        result = self.participant("withdraw", "S01", "--delete-data", "--reason", "moved away")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertFalse(recording.exists())
+        self.assertIn("S04 added, group gradual, number 1", self.add("S04"))
+        self.assertRegex(self.participant("list").stdout, r"S01 +gradual +withdrew \d{4}-\d\d-\d\d, data deleted\n")
+        self.assertIn("moved away", self.participant("show", "S01").stdout)
+        self.refused(self.simulate("S01"), "withdrew on")
+        self.refused(self.participant("withdraw", "S01", "--keep-data"), "withdrew on")
+
+    def test_concealed_groups_are_in_no_answer_and_no_file(self):
+        self.write(STUDY + "allocation: { method: blocks, seed: 3, concealed: yes }\n")
+        said = "".join(self.add(id) for id in ["S01", "S02", "S03", "S04"])
+        said += self.participant("list").stdout + self.participant("show", "S02").stdout + self.simulate("S01").stdout
+        for name in ["participants.yaml", "log.csv"]:
+            said += pathlib.Path(self.folder, name).read_text()
+        (folder,) = glob.glob(self.folder + "/rehearsal/S01/familiar/*/")
+        said += pathlib.Path(folder, "session.yaml").read_text()
+        self.assertNotRegex(said, "gradual|abrupt")
+        self.assertEqual(len(re.findall("group: arm A", said)) + len(re.findall("group: arm B", said)), 5)
+
+    def test_a_broken_study_names_each_fault(self):
+        for old, new, words in [
+            ("name: gradual", "name: abrupt", "'abrupt' is there twice"),
+            ("people: 2 }, ", "people: 0 }, ", "people"),
+            ("name: day1", "name: day 1", "'day 1' is not a name"),
+            ("least_gap_h: 20", "least_gap_h: 30", "is greater than most_gap_h"),
+            ("conditions: [light, heavy]", "conditions: [light]", "but 2 sessions name {condition}"),
+            ("short.yaml", "long.yaml", "long.yaml does not exist"),
+            ("short.yaml", "{day}.yaml", "a placeholder that is not known"),
+            ("fact: age", "fact: shoe", "'shoe' is not a fact of this study. Known: age, sex, handedness, vision"),
+            ("handedness, is: [right]", "handedness, at_least: 3", "'handedness' is not a number"),
+            ("facts:", "allocation: { method: minimisation }\nfacts:", "over: is missing"),
+            ("facts:", "allocation: { method: minimisation, over: [age] }\nfacts:", "'age' is a number"),
+            ("facts:", "allocation: { method: blocks, block: 3 }\nfacts:", "Use a multiple of 2"),
+        ]:
+            with self.subTest(new):
+                self.assertIn(old, STUDY)
+                self.write(STUDY.replace(old, new, 1))
+                self.refused(dihaptic("check", self.study), "study.yaml:", words)
+        self.write(STUDY)
+        result = dihaptic("check", self.study)
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
