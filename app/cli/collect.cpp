@@ -6,18 +6,20 @@
 #include <map>
 #include <optional>
 
-#include "analysis/report/session_page.h"
 #include "base/plural.h"
 #include "base/regular_file.h"
 #include "base/text.h"
 #include "base/text_file.h"
 #include "command.h"
 #include "recording/moved_by.h"
+#include "recording/session.h"
 #include "rehearse_command.h"
 #include "session/rehearsal.h"
 #include "session/rehearsed.h"
 #include "session/unfinished_folder.h"
+#include "session_tables.h"
 #include "shards.h"
+#include "study_collection.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -27,7 +29,6 @@ using session::Asked;
 using session::kUnfinished;
 using session::person_id;
 using session::Rehearsal;
-using Rows = std::vector<std::vector<std::string>>;
 
 struct CollectOptions {
     std::vector<std::string> folders;
@@ -256,30 +257,18 @@ class Collection {
         const Node person = read_yaml(session + "/person.yaml");
         const Node* group = person.find("group");
         front_ = {key.seed, group == nullptr ? "" : group->scalar, key.id};
-        append("trials.csv", read_csv(session + "/trials.csv"));
-        if (is_there(session + "/lifts.csv")) append("lifts.csv", read_csv(session + "/lifts.csv"));
-        const auto data = analysis::SessionData::read(session);
-        const auto page = analysis::session_page(data, "", [](double) {});
-        const auto add_table = [&](const std::string& name, const Table& table) {
-            append(name, text_of(recording::marked(table, data.info.moved_by)));
-        };
-        add_table("people.csv", person_table(person));
-        add_table("adaptation.csv", page.adaptation);
-        add_table("fits.csv", page.fits);
-        add_table("thresholds.csv", page.thresholds);
+        for (const auto& [name, rows] : tables_of(session)) append(name, rows);
+        append("people.csv",
+               text_of(recording::marked(
+                   person_table(person),
+                   recording::SessionFolder::open_tables(session).read_info().moved_by)));
     }
 
     /// Returns the names of the written files.
     std::vector<std::string> write(const std::string& folder) const {
         std::vector<std::string> out;
         for (const auto& [name, rows] : tables_) {
-            std::string text;
-            for (const auto& row : rows) {
-                for (size_t i = 0; i < row.size(); ++i)
-                    text += (i == 0 ? "" : ",") + to_csv(Table::Cell(row[i]));
-                text += "\n";
-            }
-            write_file(text, folder + "/" + name);
+            write_rows(rows, folder + "/" + name);
             out.push_back(name);
         }
         return out;
@@ -303,20 +292,6 @@ class Collection {
             const Node* const value = person.find(trait);
             out.columns.push_back({trait, ""});
             out.rows[0].push_back(value == nullptr ? "" : value->scalar);
-        }
-        return out;
-    }
-
-    static Rows text_of(const Table& table) {
-        if (table.rows.empty()) return {};
-        Rows out(1);
-        for (const Table::Column& column : table.columns) out[0].push_back(column.name);
-        for (const auto& row : table.rows) {
-            out.emplace_back();
-            for (const Table::Cell& cell : row) {
-                const auto* text = std::get_if<std::string>(&cell);
-                out.back().push_back(text != nullptr ? *text : to_csv(cell));
-            }
         }
         return out;
     }
@@ -381,15 +356,31 @@ void add_collect(CLI::App& app) {
     auto* command = app.add_subcommand(
         "collect", "Join the tables of rehearsed people: trials, lifts, fits, traits");
     auto options = std::make_shared<CollectOptions>();
-    command->add_option("FOLDER", options->folders, "folders of dihaptic rehearse")->required();
+    auto study = std::make_shared<StudyCollection>();
+    command
+        ->add_option("FOLDER", options->folders, "folders of dihaptic rehearse, or a study's file")
+        ->required();
     command->add_option("--out", options->out, "folder for the tables; default: the first one");
     command->add_flag("--join-seeds", options->join_seeds,
                       "folders may have several seeds: the column seed distinguishes their people");
+    command->add_option("--rehearsed", study->rehearsed,
+                        "with a study: the folder of its rehearsal, in place of its participants");
+    command->add_flag("--reveal-groups", study->reveal_groups,
+                      "with a study: name groups that are concealed; the log notes it");
     command->footer(
+        "\nA study's tables go to tables/ beside its participants, each row with the person's "
+        "group,\n"
+        "session and condition; participants.csv has the people.\n"
         "\nExamples:\n"
+        "  dihaptic collect my-study.yaml\n"
         "  dihaptic collect rehearsals/visuomotor-rotation_1\n"
         "  dihaptic collect rehearsals/visuomotor-rotation_* --join-seeds --out both");
-    command->callback([options] { collect(*options); });
+    command->callback([options, study] {
+        study->file = options->folders.front();
+        if (!is_study(study->file)) return collect(*options);
+        study->out = options->out;
+        collect_study(*study);
+    });
 }
 
 }  // namespace dihaptic::cli

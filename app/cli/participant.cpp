@@ -90,7 +90,7 @@ std::string state_of(const study::StudyFile& study, const study::Member& member)
     if (!member.takes_part())
         return fmt::format("withdrew {}{}", member.withdrawn.substr(0, 10),
                            member.data_deleted ? ", data deleted" : "");
-    const auto visits = session::visits_of(study, member, session::Who::people);
+    const auto visits = session::visits_of(study, member);
     const study::Next next = study::next_for(study, visits, recording::iso_now());
     if (next.act == study::Act::none) return "all sessions complete";
     const std::string& name = study.sessions[next.session].name;
@@ -149,14 +149,14 @@ void show(const ParticipantOptions& options) {
     line("added", fmt::format("{}, version {} of the files", member.added, member.version));
     line("withdrawn", member.withdrawn);
     line("reason", member.reason);
-    for (const study::Visit& visit : session::visits_of(study, member, session::Who::people)) {
+    for (const study::Visit& visit : session::visits_of(study, member)) {
         line(study.sessions[visit.session].name,
              fmt::format("{} {} {}", visit.started,
                          visit.complete ? "complete"
                                         : fmt::format("{} of {} trials", visit.done, visit.trials),
                          visit.folder));
     }
-    const auto visits = session::visits_of(study, member, session::Who::people);
+    const auto visits = session::visits_of(study, member);
     line("state", state_of(study, member));
     for (const std::string& why : study::next_for(study, visits, recording::iso_now()).against)
         line("", why);
@@ -175,8 +175,7 @@ void withdraw(const ParticipantOptions& options) {
     }
     if (options.delete_data) {
         // the folder of all sessions of this participant
-        const fs::path folder =
-            fs::path(session::session_folder(study, member, 0, session::Who::people)).parent_path();
+        const fs::path folder = fs::path(session::session_folder(study, member, 0)).parent_path();
         std::error_code failed;
         const auto deleted = fs::remove_all(folder, failed);
         if (failed) {

@@ -1,11 +1,7 @@
 #include <fmt/format.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
-#include <map>
 
 #include "base/field_writer.h"
 #include "base/number.h"
@@ -14,12 +10,14 @@
 #include "base/shell_word.h"
 #include "base/text_file.h"
 #include "command.h"
+#include "crowd.h"
 #include "person/population.h"
 #include "person/simulated_limits.h"
 #include "rehearse_command.h"
 #include "session/rehearsal.h"
 #include "session/unfinished_folder.h"
 #include "shards.h"
+#include "study_rehearsal.h"
 #include "summary.h"
 
 namespace dihaptic::cli {
@@ -100,38 +98,6 @@ int run_person(const RehearseOptions& options, const std::string& id,
     }
 }
 
-/// Starts a person's process, so that the others continue if it fails. It is a copy of this one,
-/// with all that has been read.
-pid_t start(const RehearseOptions& options, const std::string& id,
-            const session::UnfinishedFolder& place) {
-    std::fflush(nullptr);
-    const pid_t child = fork();
-    if (child == 0) {
-        const int code = run_person(options, id, place);
-        std::fflush(nullptr);
-        _exit(code);
-    }
-    if (child < 0) {
-        throw Error(fmt::format("cannot start another process: {}", std::strerror(errno)),
-                    "Use fewer --jobs.");
-    }
-    return child;
-}
-
-std::string what_became(int status) {
-    if (WIFSIGNALED(status)) return fmt::format("killed by signal {}", WTERMSIG(status));
-    return stop_requested ? "interrupted" : "failed";
-}
-
-/// The message about a person's process that failed. If the disk is full, the process left no
-/// message.
-std::string why_failed(const RehearseOptions& options, const std::string& id) {
-    const std::string messages = session::messages_of(options.out, id);
-    if (!messages.empty() || stop_requested) return messages;
-    return fmt::format("It left no message: check whether the disk is full (df -h {}).",
-                       shell_file(options.out));
-}
-
 std::string usual_folder(const session::Request& request) {
     return fmt::format("rehearsals/{}_{}", fs::path(request.file).stem().string(), request.seed);
 }
@@ -154,90 +120,24 @@ Roster roster_of(const RehearseOptions& options, const Shard& shard) {
     return roster;
 }
 
-/// Rehearses people, as many at a time as requested.
-class Crowd {
-  public:
-    Crowd(const RehearseOptions& options, const std::vector<std::string>& people)
-        : options_(options), people_(people), line_("rehearsing") {}
-
-    /// Returns the text about people whose sessions failed.
-    std::vector<std::string> run() {
-        while (!running_.empty() || (next_ < people_.size() && !stop_requested)) {
-            while (static_cast<int>(running_.size()) < options_.jobs && next_ < people_.size() &&
-                   !stop_requested) {
-                begin(people_[next_++]);
-            }
-            if (!running_.empty()) wait();
-        }
-        for (const std::string& id : busy_) look_again(id);
-        if (done_ < people_.size()) exit_code = kFailed;
-        return std::move(failed_);
-    }
-
-  private:
-    void begin(const std::string& id) {
-        try {
-            if (const auto place = session::UnfinishedFolder::take(options_.out, id)) {
-                running_[start(options_, id, *place)] = id;
-                return;
-            }
-            busy_.push_back(id);
-        } catch (const Error& e) {
-            fail(id, "failed", e.what());
-        }
-    }
-    /// Another program may have done this person in the meantime.
-    void look_again(const std::string& id) {
-        try {
-            if (session::has_session(options_.out + "/" + id)) {
-                ++done_;
-                return show();
-            }
-            fail(id, "failed",
-                 "Another dihaptic is doing this session now: wait until it has ended.");
-        } catch (const Error& e) {
-            fail(id, "failed", e.what());
-        }
-    }
-    void wait() {
-        int status = 0;
-        const pid_t child = waitpid(-1, &status, 0);
-        if (child < 0 && errno == EINTR) return;
-        if (child < 0) {
-            throw Error({options_.out, 0}, "",
-                        "is not supervised: " + std::string(std::strerror(errno)),
-                        "Start it again: it continues with the missing people.");
-        }
-        const auto ended = running_.find(child);
-        if (ended == running_.end()) return;
-        const std::string id = ended->second;
-        running_.erase(ended);
-        if (status == 0) {
-            ++done_;
-            show();
-        } else {
-            fail(id, what_became(status), why_failed(options_, id));
-        }
-    }
-    void fail(const std::string& id, const std::string& what, const std::string& why) {
-        failed_.push_back(fmt::format("{}: {}. {}", id, what, why));
-        show();
-    }
-    void show() {
-        line_.show(
-            static_cast<double>(done_ + failed_.size()) / static_cast<double>(people_.size()),
-            fmt::format("{} of {}", done_, people_.size()));
-    }
-
-    const RehearseOptions& options_;
-    const std::vector<std::string>& people_;
-    ProgressLine line_;
-    std::map<pid_t, std::string> running_;
-    std::vector<std::string> busy_;  ///< people that another program was doing at their turn
-    std::vector<std::string> failed_;
-    size_t next_ = 0;
-    size_t done_ = 0;
-};
+/// What is to be done for each person of a rehearsal.
+CrowdWork work_of(const RehearseOptions& options) {
+    CrowdWork work;
+    work.jobs = options.jobs;
+    work.out = options.out;
+    work.start = [&options](const std::string& id) -> std::optional<pid_t> {
+        const auto place = session::UnfinishedFolder::take(options.out, id);
+        if (!place) return std::nullopt;
+        return start_process([&] { return run_person(options, id, *place); });
+    };
+    work.is_done = [&options](const std::string& id) {
+        return session::has_session(options.out + "/" + id);
+    };
+    work.messages = [&options](const std::string& id) {
+        return session::messages_of(options.out, id);
+    };
+    return work;
+}
 
 /// The command that does all these people, from any folder.
 std::string command_again(const RehearseOptions& options) {
@@ -335,12 +235,33 @@ void rehearse_by_slurm(RehearseOptions& options) {
         *job, options.out, shell_file(options.out));
 }
 
+/// Rehearses a study, unless the file is none.
+bool rehearse_as_study(const RehearseOptions& options, const CLI::App& command) {
+    if (task::kind_of(options.request.file) != task::FileKind::study) return false;
+    for (const char* option : {"--shard", "--slurm", "--container"}) {
+        if (command.count(option) > 0)
+            throw Error({option, 0}, "", "is not possible for a study", "Use --jobs.");
+    }
+    StudyRehearsal study;
+    study.file = options.request.file;
+    study.out = options.out;
+    if (command.count("--people") > 0) study.people = options.people;
+    study.jobs = options.jobs;
+    study.seed = options.request.seed;
+    study.keep_recordings = options.keep_recordings;
+    study.population = person::population_of(
+        options.population_file,
+        options.real_objects ? person::Objects::real : person::Objects::device);
+    rehearse_study(study);
+    return true;
+}
+
 void rehearse(RehearseOptions& options) {
     const Shard shard = parse_shard(options.shard);
     const std::string title = prepare(options, shard).first;
     const Roster roster = roster_of(options, shard);
     fmt::print("{}\n{}\n", title, to_do(roster));
-    for (const std::string& text : Crowd(options, roster.waiting).run())
+    for (const std::string& text : run_crowd(work_of(options), roster.waiting))
         fmt::print(stderr, "{}\n", text);
     print_next(options, shard);
 }
@@ -355,7 +276,8 @@ constexpr const char* kFooter =
     "--jobs 2\n  dihaptic rehearse experiments/rotation-reversal.yaml --population patients.yaml "
     "--people 40 --out patients\n  parallel dihaptic rehearse experiments/visuomotor-rotation.yaml "
     "--people 40 --shard {}/4 ::: 1 2 3 4\n  dihaptic rehearse "
-    "experiments/visuomotor-rotation.yaml --people 40 --slurm 8\n  dihaptic collect "
+    "experiments/visuomotor-rotation.yaml --people 40 --slurm 8\n  dihaptic rehearse my-study.yaml "
+    "--jobs 2\n  dihaptic collect "
     "rehearsals/visuomotor-rotation_1";
 
 }  // namespace
@@ -364,7 +286,7 @@ void add_rehearse(CLI::App& app) {
     auto* command =
         app.add_subcommand("rehearse", "Let a population of simulated people do an experiment");
     auto options = std::make_shared<RehearseOptions>();
-    command->add_option("FILE", options->request.file, "experiment with trials")
+    command->add_option("FILE", options->request.file, "experiment with trials, or study")
         ->transform(given_or_kept())
         ->required();
     command
@@ -372,7 +294,10 @@ void add_rehearse(CLI::App& app) {
                      "population file from which people are drawn; default: the program's own, as "
                      "in populations/adults.yaml")
         ->transform(given_or_kept());
-    command->add_option("--people", options->people, "number of people: sim-001 and so on")
+    command
+        ->add_option(
+            "--people", options->people,
+            "number of people: sim-001 and so on; default for a study: those of its groups")
         ->check(CLI::Range(1, session::kMostPeople))
         ->capture_default_str();
     command->add_option("--jobs", options->jobs, "number of sessions at a time")
@@ -398,6 +323,7 @@ void add_rehearse(CLI::App& app) {
                       "keep raw.log and session.nwb of each: hundreds of MB");
     command->footer(kFooter);
     command->callback([options, command] {
+        if (rehearse_as_study(*options, *command)) return;
         if (command->count("--container") > 0) check_container(*options);
         if (options->slurm == 0) return rehearse(*options);
         if (command->count("--shard") + command->count("--jobs") > 0) {

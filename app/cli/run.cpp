@@ -370,9 +370,8 @@ std::string take_turn(SessionOptions& options) {
         throw Error({"--despite", 0}, "", "is about the rules of a study",
                     "Leave it out, or name a study's file.");
     }
-    const auto who = options.simulate ? session::Who::simulated : session::Who::people;
-    const StudyTurn turn =
-        study_turn(options.request.file, options.run.participant.id, options.despite, who);
+    const StudyTurn turn = study_turn(options.request.file, options.run.participant.id,
+                                      options.despite, options.simulate);
     options.request.file = turn.experiment;
     options.request.order_number = turn.in_study.number;
     if (!options.seed_given) options.request.seed = turn.seed;
@@ -383,7 +382,7 @@ std::string take_turn(SessionOptions& options) {
         throw Error({options.request.file, 0}, "rig", "is simulated: no person can take part",
                     "Name a rig with devices (--rig), or rehearse the session: --simulate.");
     }
-    turn.log_begin(who);
+    turn.log_begin();
     return turn.resume;
 }
 

@@ -48,11 +48,11 @@ uint64_t seed_of(const std::string& words) {
 }
 
 /// What comes next, allowed or not.
-study::Next next_of(const study::StudyFile& study, const study::Member& member, session::Who who) {
-    const auto visits = session::visits_of(study, member, who);
+study::Next next_of(const study::StudyFile& study, const study::Member& member, bool simulated) {
+    const auto visits = session::visits_of(simulated ? session::rehearsed(study) : study, member);
     study::Next next = study::next_for(study, visits, recording::iso_now());
     // simulated sessions follow each other at once
-    if (who == session::Who::simulated) next.against.clear();
+    if (simulated) next.against.clear();
     check_needs(study, next);
     return next;
 }
@@ -78,34 +78,28 @@ void check_allowed(const study::StudyFile& study, const study::Member& member,
 
 }  // namespace
 
-void StudyTurn::log_begin(session::Who who) const {
-    const char* action = who == session::Who::simulated ? "simulate"
-                         : resume.empty()               ? "begin"
-                                                        : "resume";
+void StudyTurn::log_begin() const {
+    const char* action = simulated ? "simulate" : resume.empty() ? "begin" : "resume";
     study::log(study, action, participant.id, in_study.session);
 }
 
 StudyTurn study_turn(const std::string& file, const std::string& participant,
-                     const std::string& despite, session::Who who) {
+                     const std::string& despite, bool simulated) {
     const study::StudyFile study = study::read_study(file);
     const study::StudyLock lock(study);
     const study::Roster roster = study::read_roster(study);
     const study::Member& member = member_of(study, roster, file, participant);
-    const study::Next next = next_of(study, member, who);
+    const study::Next next = next_of(study, member, simulated);
     check_allowed(study, member, next, despite);
     StudyTurn out;
     out.experiment = study.experiment_of(next.session, member.group, member.number);
     session::check_unchanged(study, session::present_version(study), out.experiment);
-    out.out = session::session_folder(study, member, next.session, who);
+    out.out = session::session_folder(simulated ? session::rehearsed(study) : study, member,
+                                      next.session);
     out.resume = next.folder;
     out.participant = {member.id, member.age, member.sex, member.handedness};
-    const std::string& name = study.sessions[next.session].name;
-    out.in_study = {study.title,
-                    static_cast<int>(session::versions_of(study).size()),
-                    study.shown_group(member.group),
-                    member.number,
-                    name,
-                    study.condition_of(next.session, member.group, member.number)};
+    out.in_study = session::place_in(study, member, next.session);
+    const std::string& name = out.in_study.session;
     out.seed = seed_of(fmt::format("{}/{}/{}", study.allocation.seed, member.id, name));
     if (!next.note.empty()) fmt::print("note: {}\n", next.note);
     fmt::print("{}: {} of {}, session {} of {}{}\n", study.title, member.id,
@@ -113,6 +107,7 @@ StudyTurn study_turn(const std::string& file, const std::string& participant,
                next.session + 1, study.sessions.size(),
                out.resume.empty() ? ": " + name : fmt::format(": {} is resumed", name));
     out.study = study;
+    out.simulated = simulated;
     return out;
 }
 

@@ -18,15 +18,17 @@ struct StudyTurn {
     uint64_t seed = 1;  ///< its own for each participant and session
 
     /// Notes in the study's log that the session begins.
-    void log_begin(session::Who who) const;
+    void log_begin() const;
 
     study::StudyFile study;
+    bool simulated = false;
 };
 
-/// What comes next for a participant. `despite`: reason to begin a session against the study's
-/// rules, which is logged; empty: such a session is refused. Throws Error when nothing may begin
-/// now, with a figure, or when the study's files have changed.
+/// What comes next for a participant, or for the simulated person in this one's place. `despite`:
+/// reason to begin a session against the study's rules, which is logged; empty: such a session is
+/// refused. Throws Error when nothing may begin now, with a figure, or when the study's files have
+/// changed.
 StudyTurn study_turn(const std::string& file, const std::string& participant,
-                     const std::string& despite, session::Who who);
+                     const std::string& despite, bool simulated);
 
 }  // namespace dihaptic::cli

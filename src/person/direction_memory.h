@@ -24,6 +24,7 @@ class DirectionMemory {
     Vec3 added_to(Vec3 sum, const Vec3& d) const noexcept;
     void learn(const Vec3& d, const Vec3& error) noexcept;
     bool empty() const noexcept { return count_ == 0; }
+    void forget() noexcept { count_ = 0; }
 
   private:
     struct Taught {

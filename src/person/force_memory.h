@@ -30,8 +30,10 @@ class ForceMemory {
         fast_.learn(d, error);
         slow_.learn(d, error);
     }
-    /// Whether nothing was ever learned.
-    bool empty() const noexcept { return fast_.empty(); }
+    /// A night passes (learned.h).
+    void sleep() noexcept { fast_.forget(); }
+    /// Whether nothing is known.
+    bool empty() const noexcept { return fast_.empty() && slow_.empty(); }
 
   private:
     DirectionMemory fast_;

@@ -51,6 +51,12 @@ class Grip {
     double squeeze() const { return squeeze_; }
     /// Force on the object that the plan expects to need, beyond the aim's load [N].
     const Vec3& inertial() const { return inertial_; }
+    /// What the appearance of a body suggests.
+    const GripMemory& look(int body) const { return looks_[static_cast<size_t>(body)]; }
+    /// Recalls what is known of a body, in place of what its appearance suggests.
+    void recall(int body, const GripMemory& known) noexcept {
+        memory_[static_cast<size_t>(body)] = known;
+    }
     const GripMemory& memory(int body) const { return memory_[static_cast<size_t>(body)]; }
     /// The sensation in this tick: touch one reflex latency ago.
     const Feeling& felt() const { return past_.before(latency_); }

@@ -129,6 +129,7 @@ Person::Person(const Traits& traits, const Situation& situation)
       gains_(plan_->states.size(), GainMemory(traits.gain())),
       forces_(plan_->states.size(), ForceMemory(traits.force(), traits.force_generalisation)),
       grip_(traits, looks_of(situation.scene, traits, situation.seed), situation.tick) {
+    for (const scene::Body& body : situation.scene.bodies) bodies_.push_back(body.name);
     for (const std::string& name : plan_->phases()) phases_.push_back({name, 0, 0});
     for (const TaskPlan::PlannedState& planned : plan_->states) {
         std::vector<TaskPlan::Step>& own = steps_.emplace_back(planned.hand);
@@ -153,6 +154,7 @@ void Person::restart() {
     std::fill(gains_.begin(), gains_.end(), GainMemory(traits_.gain()));
     std::fill(forces_.begin(), forces_.end(),
               ForceMemory(traits_.force(), traits_.force_generalisation));
+    recall_known();
     felt_ = 0;
     seen_ = 0;
     doing_ = Doing::nothing;
@@ -167,6 +169,45 @@ void Person::restart() {
     answer_at_ = -1;
     key_ = 0;
     typed_at_ = typed_length_ = 0;
+}
+
+Learned Person::learned() const {
+    Learned out;
+    for (size_t i = 0; i < rotations_.size(); ++i) {
+        out.states.push_back({plan_->task.states[i].name, rotations_[i], gains_[i], forces_[i]});
+        out.states.back().rotation.sleep();
+        out.states.back().force.sleep();
+    }
+    for (size_t i = 0; i < bodies_.size(); ++i) {
+        const int body = static_cast<int>(i);
+        out.bodies.push_back({bodies_[i], grip_.look(body).weight, grip_.memory(body)});
+    }
+    return out;
+}
+
+void Person::recall(Learned before) {
+    before_ = std::move(before);
+    restart();
+}
+
+void Person::recall_known() noexcept {
+    for (const Learned::InState& known : before_.states) {
+        for (size_t i = 0; i < rotations_.size(); ++i) {
+            if (plan_->task.states[i].name != known.state) continue;
+            rotations_[i] = known.rotation;
+            gains_[i] = known.gain;
+            forces_[i] = known.force;
+        }
+    }
+    constexpr double kAlike = 1e-9;  // [N]
+    for (const Learned::OfBody& known : before_.bodies) {
+        for (size_t i = 0; i < bodies_.size(); ++i) {
+            const int body = static_cast<int>(i);
+            if (bodies_[i] == known.body &&
+                std::abs(grip_.look(body).weight - known.looks) < kAlike)
+                grip_.recall(body, known.memory);
+        }
+    }
 }
 
 const std::vector<TaskPlan::Step>& Person::steps() const noexcept {

@@ -11,6 +11,7 @@
 #include "person/force_memory.h"
 #include "person/gain_memory.h"
 #include "person/grip.h"
+#include "person/learned.h"
 #include "person/rotation_memory.h"
 #include "person/strain.h"
 #include "person/traits.h"
@@ -39,6 +40,11 @@ class Person final : public task::SeeingDriver {
     const std::vector<Phase>& phases() const override { return phases_; }
     void restart() override;
 
+    /// What the person has learned, the morning after.
+    Learned learned() const;
+    /// Lets the person recall this from the session's beginning on.
+    void recall(Learned before);
+
     const Grip& grip() const { return grip_; }
     /// The knowledge learned in a state of the task, given by its index.
     const RotationMemory& rotations(size_t state) const { return rotations_[state]; }
@@ -49,6 +55,7 @@ class Person final : public task::SeeingDriver {
     void do_see(const frame::Frame& frame) noexcept override;
     char do_take_key() noexcept override;
 
+    void recall_known() noexcept;
     void measure(const frame::Frame& frame) noexcept;
     void follow_cues(const Sight& sight) noexcept;
     void await_trial() noexcept;
@@ -103,6 +110,8 @@ class Person final : public task::SeeingDriver {
     uint32_t seen_ = 0;        // regions that have been seen, one bit each
 
     // memory
+    Learned before_;  // in earlier sessions
+    std::vector<std::string> bodies_;
     std::vector<RotationMemory> rotations_;  // by state: learning in one state stays in it
     std::vector<GainMemory> gains_;          // by state
     std::vector<ForceMemory> forces_;        // by state

@@ -325,7 +325,11 @@ Traits median_person(const Population& population, const std::string& group) {
 }
 
 Traits draw_person(const Population& population, uint64_t seed, const std::string& id) {
-    const std::string group = population.group_of(id);
+    return draw_person(population, seed, id, population.group_of(id));
+}
+
+Traits draw_person(const Population& population, uint64_t seed, const std::string& id,
+                   const std::string& group) {
     const auto rows = traits_of(population, group);
     Eigen::VectorXd u(static_cast<Eigen::Index>(rows.size()));
     for (Eigen::Index i = 0; i < u.size(); ++i) {

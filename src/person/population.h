@@ -120,6 +120,9 @@ Population population_of(const std::string& file, Objects objects);
 Traits median_person(const Population& population, const std::string& group = "");
 /// Draws person `id` of the population with this seed: always the same, whichever others are drawn.
 Traits draw_person(const Population& population, uint64_t seed, const std::string& id);
+/// The same of one of its groups.
+Traits draw_person(const Population& population, uint64_t seed, const std::string& id,
+                   const std::string& group);
 
 /// A person of a shipped population.
 Traits median_person(Objects objects);

@@ -26,6 +26,8 @@ class RotationMemory {
         fast_ = rate_.retention * fast_ + rate_.learning * error;
         slow_.learn(d, error);
     }
+    /// A night passes (learned.h).
+    void sleep() noexcept { fast_.setZero(); }
 
   private:
     model::SingleRate rate_;

@@ -289,18 +289,20 @@ Plan make_plan(const Request& request) {
     return plan;
 }
 
-void sit_down(Plan& plan, const person::Traits& traits) {
+std::shared_ptr<person::Person> sit_down(Plan& plan, const person::Traits& traits) {
     for (const Problem& limit : person::simulated_limits(*plan.task))
         plan.warnings.push_back(limit);
     plan.person = to_yaml(write_fields(traits));
-    plan.seeing = std::make_shared<person::Person>(
+    auto person = std::make_shared<person::Person>(
         traits,
         person::Situation{plan.task, plan.scene, plan.hand, plan.settings.tick(), plan.seed});
-    plan.driver = plan.seeing;
+    plan.seeing = person;
+    plan.driver = person;
     plan.moved_by = {
         recording::Mover::simulated_person, recording::program_version(),
         traits.group.empty() ? traits.population : traits.population + ", group " + traits.group,
         number_text(plan.seed)};
+    return person;
 }
 
 namespace {

@@ -17,6 +17,10 @@
 #include "task/plan/task_plan.h"
 #include "task/run/seeing_driver.h"
 
+namespace dihaptic::person {
+class Person;
+}
+
 namespace dihaptic::session {
 
 /// The user's request.
@@ -76,8 +80,9 @@ bool on_real_devices(const Request& request);
 /// Error with every problem found.
 Plan make_plan(const Request& request);
 
-/// Puts a simulated person in place of the plan's hand. The plan must have trials.
-void sit_down(Plan& plan, const person::Traits& traits);
+/// Puts a simulated person in place of the plan's hand, and returns the person, who belongs to the
+/// plan. The plan must have trials.
+std::shared_ptr<person::Person> sit_down(Plan& plan, const person::Traits& traits);
 
 /// The program that resumes a session: only a window has a mouse.
 enum class Seat { terminal, window };

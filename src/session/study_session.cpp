@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string file_of(const study::StudyFile& study) {
-    return study.folder + "/versions.yaml";
+    return study.data + "/versions.yaml";
 }
 
 /// All versions of a study.
@@ -75,17 +75,25 @@ std::optional<study::Visit> visit_in(const std::string& path, size_t session) {
 }  // namespace
 
 std::string session_folder(const study::StudyFile& study, const study::Member& member,
-                           size_t session, Who who) {
-    return fmt::format("{}/{}/{}/{}", study.folder, who == Who::people ? "sessions" : "rehearsal",
-                       member.id, study.sessions[session].name);
+                           size_t session) {
+    return fmt::format("{}/sessions/{}/{}", study.data, member.id, study.sessions[session].name);
 }
 
-std::vector<study::Visit> visits_of(const study::StudyFile& study, const study::Member& member,
-                                    Who who) {
+recording::InStudy place_in(const study::StudyFile& study, const study::Member& member,
+                            size_t session) {
+    return {study.title,
+            static_cast<int>(versions_of(study).size()),
+            study.shown_group(member.group),
+            member.number,
+            study.sessions[session].name,
+            study.condition_of(session, member.group, member.number)};
+}
+
+std::vector<study::Visit> visits_of(const study::StudyFile& study, const study::Member& member) {
     std::vector<study::Visit> out;
     for (size_t i = 0; i < study.sessions.size(); ++i) {
         std::error_code none;  // without a folder nothing was recorded
-        for (fs::directory_iterator at(session_folder(study, member, i, who), none), end;
+        for (fs::directory_iterator at(session_folder(study, member, i), none), end;
              !none && at != end; at.increment(none)) {
             if (auto visit = visit_in(at->path().string(), i)) out.push_back(*std::move(visit));
         }
@@ -93,6 +101,11 @@ std::vector<study::Visit> visits_of(const study::StudyFile& study, const study::
     std::ranges::sort(out, {},
                       [](const study::Visit& v) { return std::pair(v.started, v.folder); });
     return out;
+}
+
+study::StudyFile rehearsed(study::StudyFile study) {
+    study.data = study.folder + "/rehearsal";
+    return study;
 }
 
 study::StudyFile checked_study(const std::string& file, Diagnostics& diagnostics) {

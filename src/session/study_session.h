@@ -2,7 +2,8 @@
 // that affect a result.
 //
 // The study's folder has the study's file, participants.yaml, log.csv, versions.yaml, and the
-// recordings in sessions/PARTICIPANT/SESSION, or those of simulated people in rehearsal/.
+// recordings in sessions/PARTICIPANT/SESSION; its folder rehearsal/ has the same of simulated
+// people.
 #pragma once
 
 #include <optional>
@@ -14,15 +15,18 @@
 
 namespace dihaptic::session {
 
-/// Whose sessions: simulated ones never count as a participant's.
-enum class Who { people, simulated };
-
 /// The folder with a participant's recordings of a session.
 std::string session_folder(const study::StudyFile& study, const study::Member& member,
-                           size_t session, Who who);
+                           size_t session);
+/// What a session's record says of its place in the study.
+recording::InStudy place_in(const study::StudyFile& study, const study::Member& member,
+                            size_t session);
 /// What was recorded of a participant, in the order of its start.
-std::vector<study::Visit> visits_of(const study::StudyFile& study, const study::Member& member,
-                                    Who who);
+std::vector<study::Visit> visits_of(const study::StudyFile& study, const study::Member& member);
+
+/// The study with the folder for its rehearsal, where simulated sessions never count as a
+/// participant's.
+study::StudyFile rehearsed(study::StudyFile study);
 
 /// Reads a study, and plans each session of each group and condition once. Throws Error with every
 /// problem found.

@@ -98,6 +98,31 @@ std::string minimising(const StudyFile& study, const Roster& roster, const Membe
     return from[static_cast<size_t>(random.uniform(0, static_cast<double>(from.size())))];
 }
 
+/// The group that is the person's by a fact.
+std::string by_fact(const StudyFile& study, const Member& person,
+                    const std::vector<std::string>& open) {
+    const std::string group = person.fact(study.allocation.fact);
+    if (std::ranges::find(open, group) != open.end()) return group;
+    throw Error(study.place, "groups",
+                fmt::format("have no place for {}: the group {} has all of its {} participants",
+                            person.id, group, study.group(group).people),
+                "For more, raise 'people' of the group, and accept the changed file.");
+}
+
+std::string chosen(const StudyFile& study, const Roster& roster, const Member& person,
+                   const std::vector<std::string>& open) {
+    switch (study.allocation.method) {
+        case Method::minimisation:
+            return minimising(study, roster, person, open);
+        case Method::fact:
+            return by_fact(study, person, open);
+        case Method::in_turn:
+        case Method::blocks:
+            break;
+    }
+    return next_in_sequence(study, roster);
+}
+
 /// The smallest number in the group that nobody holds.
 int free_number(const Roster& roster, const std::string& group) {
     std::set<int> held;
@@ -138,9 +163,7 @@ Allocated allocate(const StudyFile& study, const Roster& roster, const Member& p
                     "For more, raise 'people' of the groups, and accept the changed file: dihaptic "
                     "participant accept STUDY --why TEXT.");
     }
-    const std::string group = study.allocation.method == Method::minimisation
-                                  ? minimising(study, roster, person, open)
-                                  : next_in_sequence(study, roster);
+    const std::string group = chosen(study, roster, person, open);
     return {group, free_number(roster, group)};
 }
 

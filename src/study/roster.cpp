@@ -22,7 +22,7 @@ namespace dihaptic::study {
 namespace {
 
 std::string file_of(const StudyFile& study) {
-    return study.folder + "/participants.yaml";
+    return study.data + "/participants.yaml";
 }
 
 void check_identifier(const std::string& id) {
@@ -72,6 +72,7 @@ std::vector<std::string> needed_facts(const StudyFile& study) {
     for (const FactSpec& fact : study.facts) add(fact.name);
     for (const Criterion& criterion : study.include) add(criterion.fact);
     for (const std::string& fact : study.allocation.over) add(fact);
+    if (!study.allocation.fact.empty()) add(study.allocation.fact);
     return out;
 }
 
@@ -148,7 +149,7 @@ std::vector<std::string> reasons_against(const StudyFile& study, const Member& p
 
 void log(const StudyFile& study, const std::string& action, const std::string& participant,
          const std::string& detail) {
-    const std::string file = study.folder + "/log.csv";
+    const std::string file = study.data + "/log.csv";
     std::string text = is_there(file) ? read_text_file(file) : "time,action,participant,detail\n";
     for (const std::string& cell : {recording::iso_now(), action, participant})
         text += to_csv(Table::Cell(cell)) + ",";
@@ -156,11 +157,11 @@ void log(const StudyFile& study, const std::string& action, const std::string& p
 }
 
 StudyLock::StudyLock(const StudyFile& study)
-    : descriptor_(::open(study.folder.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY)) {
+    : descriptor_(::open(study.data.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY)) {
     // a file system without locks offers nothing to wait for
     if (!descriptor_ || ::flock(descriptor_.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
         return;
-    throw Error({study.folder, 0}, "", "is in use: another dihaptic changes its participants",
+    throw Error({study.data, 0}, "", "is in use: another dihaptic changes its participants",
                 "Repeat the command once that one has ended.");
 }
 

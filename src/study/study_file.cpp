@@ -1,6 +1,7 @@
 #include "study/study_file.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -96,6 +97,7 @@ class Checker {
             error(
                 a.place, "over", minimises ? "is missing" : "is only used by method: minimisation",
                 minimises ? "Name the facts that it balances, e.g. over: [sex]." : "Leave it out.");
+        check_group_fact();
         for (const std::string& fact : a.over) {
             if (!is_known(study_, fact)) {
                 unknown_fact(a.place, "over", fact);
@@ -106,6 +108,26 @@ class Checker {
                       "[young, old] }].");
             }
         }
+    }
+
+    /// With groups by a fact, its values are the names of the groups.
+    void check_group_fact() {
+        const Allocation& a = study_.allocation;
+        const bool by_fact = a.method == Method::fact;
+        if (by_fact == a.fact.empty()) {
+            error(a.place, "fact", by_fact ? "is missing" : "is only used by method: fact",
+                  by_fact ? "Name the fact, e.g. fact: diagnosis." : "Leave it out.");
+            return;
+        }
+        if (!by_fact) return;
+        const FactSpec* spec = spec_of(study_, a.fact);
+        std::vector<std::string> names;
+        for (const Group& group : study_.groups) names.push_back(group.name);
+        if (spec == nullptr || spec->values != names)
+            error(a.place, "fact",
+                  fmt::format("'{}' does not have the groups as its values", a.fact),
+                  fmt::format("Write facts: [{{ name: {}, values: [{}] }}].", a.fact,
+                              fmt::join(names, ", ")));
     }
 
     void unknown_fact(const Place& place, const char* key, const std::string& fact) {
@@ -270,6 +292,7 @@ StudyFile read_study(const std::string& file) {
     diagnostics.throw_if_errors();
     out.folder = std::filesystem::path(file).parent_path().string();
     if (out.folder.empty()) out.folder = ".";
+    out.data = out.folder;
     return out;
 }
 

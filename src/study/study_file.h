@@ -27,9 +27,9 @@ struct Group {
     }
 };
 
-enum class Method { in_turn, blocks, minimisation };
+enum class Method { in_turn, blocks, minimisation, fact };
 constexpr auto enum_names(Method) {
-    return std::array{"in_turn", "blocks", "minimisation"};
+    return std::array{"in_turn", "blocks", "minimisation", "fact"};
 }
 
 /// How the next participant's group is chosen (allocation.h).
@@ -37,6 +37,7 @@ struct Allocation {
     Method method = Method::in_turn;
     int block = 0;                  ///< people per block; 0: twice the smallest
     std::vector<std::string> over;  ///< facts that minimisation balances
+    std::string fact;               ///< whose value is the name of the group
     double chance = 0.8;            ///< that minimisation follows the balance
     int seed = 1;
     bool concealed = false;  ///< the operator does not see groups
@@ -45,13 +46,14 @@ struct Allocation {
     template <class Visitor>
     void visit(Visitor& v) {
         v("method", method,
-          says("in_turn: the groups in turn; blocks: permuted blocks, from the seed; minimisation: "
-               "the group in which the facts under `over` are balanced best."));
+          says("How the next participant's group is chosen: in turn, from permuted blocks, by "
+               "minimisation, or by a fact of the person, such as a diagnosis."));
         v("block", block,
           Field::number().within(0, 1000).says(
               "Number of people in a permuted block; 0: twice the smallest block that holds the "
               "groups in proportion."));
         v("over", over, says("Facts that minimisation balances between groups."));
+        v("fact", fact, says("Fact whose value is the name of the person's group."));
         v("chance", chance,
           Field::number().within(0.5, 1).says(
               "Probability that minimisation chooses the best balanced group."));
@@ -171,6 +173,7 @@ struct StudyFile {
     std::vector<SessionSpec> sessions;
     Resuming resuming;
     std::string folder;  ///< of the file; not in the file
+    std::string data;  ///< folder of participants and recordings: that of the file, or another one
     Place place;
 
     template <class Visitor>

@@ -7,6 +7,7 @@ import glob
 import os
 import pathlib
 import re
+import shutil
 import tempfile
 import unittest
 
@@ -96,7 +97,7 @@ class Studies(unittest.TestCase):
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertIn(f": {session}\n{title}\n", result.stdout)
             self.refused(self.simulate(id), "has completed all 3 sessions")
-        (folder,) = glob.glob(self.folder + "/rehearsal/S03/day1/*/")
+        (folder,) = glob.glob(self.folder + "/rehearsal/sessions/S03/day1/*/")
         text = pathlib.Path(folder, "session.yaml").read_text()
         for line in ["study: Two days", "version: 1", "group: gradual", "number: 2", "session: day1", "condition: heavy"]:
             self.assertIn(line, text)
@@ -108,7 +109,7 @@ class Studies(unittest.TestCase):
             self.add(id)
             for _ in range(2):
                 self.assertEqual(self.simulate(id).returncode, 0)
-        for file in glob.glob(self.folder + "/rehearsal/*/*/*/session.yaml"):
+        for file in glob.glob(self.folder + "/rehearsal/sessions/*/*/*/session.yaml"):
             seeds.add(re.search(r"^seed: (\d+)", pathlib.Path(file).read_text(), flags=re.M)[1])
         self.assertEqual(len(seeds), 4)
 
@@ -169,10 +170,76 @@ class Studies(unittest.TestCase):
         said += self.participant("list").stdout + self.participant("show", "S02").stdout + self.simulate("S01").stdout
         for name in ["participants.yaml", "log.csv"]:
             said += pathlib.Path(self.folder, name).read_text()
-        (folder,) = glob.glob(self.folder + "/rehearsal/S01/familiar/*/")
+        (folder,) = glob.glob(self.folder + "/rehearsal/sessions/S01/familiar/*/")
         said += pathlib.Path(folder, "session.yaml").read_text()
         self.assertNotRegex(said, "gradual|abrupt")
         self.assertEqual(len(re.findall("group: arm A", said)) + len(re.findall("group: arm B", said)), 5)
+
+    def rows(self, name, folder="rehearsal/tables"):
+        with open(f"{self.folder}/{folder}/{name}") as file:
+            return list(csv.DictReader(file))
+
+    def test_a_rehearsal_fills_the_groups_and_its_tables_have_every_session(self):
+        result = dihaptic("rehearse", self.study, "--jobs", "2")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("4 people in 2 groups, 4 to do", result.stdout)
+        collected = dihaptic("collect", self.study, "--rehearsed", self.folder + "/rehearsal")
+        self.assertEqual(collected.returncode, 0, collected.stderr)
+        self.assertIn("12 sessions of 4 people", collected.stdout)
+        people = self.rows("participants.csv")
+        self.assertEqual(sorted(row["group"] for row in people), ["abrupt", "abrupt", "gradual", "gradual"])
+        self.assertTrue(all(int(row["age"]) >= 18 and row["handedness"] == "right" for row in people), people)
+        trials = self.rows("trials.csv")
+        sessions = {(row["id"], row["study_session"], row["study_condition"]) for row in trials}
+        orders = {"1": ["light", "heavy"], "2": ["heavy", "light"]}
+        for row in people:
+            for session, condition in zip(["familiar", "day1", "day2"], ["", *orders[row["number"]]]):
+                self.assertIn((row["id"], session, condition), sessions)
+        self.assertEqual(len(sessions), 12)
+        # an interrupted rehearsal goes on: the session that is missing is made again, equal to the byte
+        lost = self.folder + "/rehearsal/sessions/sim-002/day2/rehearsed"
+        was = pathlib.Path(lost, "trials.csv").read_bytes()
+        shutil.rmtree(lost)
+        short = dihaptic("collect", self.study, "--rehearsed", self.folder + "/rehearsal")
+        self.assertIn("missing: day2 of sim-002", short.stdout)
+        self.assertIn("4 people in 2 groups, 1 to do", dihaptic("rehearse", self.study).stdout)
+        self.assertEqual(pathlib.Path(lost, "trials.csv").read_bytes(), was)
+        self.refused(dihaptic("rehearse", self.study, "--seed", "2"), "has another rehearsal", "1 there, 2 now")
+        self.refused(dihaptic("rehearse", self.study, "--people", "5", "--out", self.folder + "/more"),
+                     "all of their 4 participants")
+        self.refused(dihaptic("rehearse", self.study, "--slurm", "2"), "not possible for a study")
+
+    def test_what_was_learned_slowly_is_there_on_the_next_day(self):
+        text = pathlib.Path("experiments/rotation-reversal.yaml").read_text().replace("../", os.getcwd() + "/")
+        for name, repeats in {"long": ["4", "60", "1", "2"], "brief": ["2", "6", "1", "2"]}.items():
+            for old, new in zip(["64", "160", "16", "48"], repeats):
+                self.assertIn(f"repeats: {old} ", text)
+            numbers = dict(zip(["64", "160", "16", "48"], repeats))
+            pathlib.Path(self.folder, name + ".yaml").write_text(
+                re.sub(r"repeats: (\d+)", lambda found: "repeats: " + numbers[found[1]], text))
+        self.write("title: Retention\ngroups: [{ name: all, people: 4 }]\nsessions:\n"
+                   "  - { name: day1, experiment: long.yaml }\n  - { name: day2, experiment: brief.yaml }\n")
+        self.assertEqual(dihaptic("rehearse", self.study).returncode, 0)
+        self.assertEqual(dihaptic("collect", self.study, "--rehearsed", self.folder + "/rehearsal").returncode, 0)
+        first = {"day1": [], "day2": []}
+        for row in self.rows("adaptation.csv"):
+            if row["trial_num"] == "1":
+                first[row["study_session"]].append(float(row["compensation"]))
+        self.assertEqual([len(values) for values in first.values()], [4, 4])
+        # without a memory both begin at 0, within the noise of a movement (about 4 degrees)
+        self.assertLess(abs(sum(first["day1"]) / 4), 6)
+        self.assertGreater(sum(first["day2"]) / 4, 10)
+
+    def test_groups_may_be_a_fact_of_the_person(self):
+        self.write(STUDY.replace("values: [normal, corrected]", "values: [gradual, abrupt]") +
+                   "allocation: { method: fact, fact: vision }\n")
+        facts = FACTS[:-1]
+        self.assertIn("group abrupt, number 1", self.add("S01", *facts, "vision=abrupt"))
+        self.assertIn("group abrupt, number 2", self.add("S02", *facts, "vision=abrupt"))
+        self.refused(self.participant("add", "S03", *facts, "vision=abrupt"), "the group abrupt has all of its 2")
+        self.write(STUDY + "allocation: { method: fact, fact: vision }\n")
+        self.refused(dihaptic("check", self.study), "does not have the groups as its values",
+                     "values: [gradual, abrupt]")
 
     def test_a_broken_study_names_each_fault(self):
         for old, new, words in [

@@ -1,0 +1,37 @@
+// What a person takes from one session to the next.
+//
+// Over night the fast process of adaptation is forgotten, and the slow one keeps its state: after
+// 24 hours people retained as much of a force field as the slow process of the model had reached in
+// training (Joiner and Smith 2008). That rotations follow the same rule, and that gains and known
+// weights stay as they were, is an assumption.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "person/force_memory.h"
+#include "person/gain_memory.h"
+#include "person/grip_memory.h"
+#include "person/rotation_memory.h"
+
+namespace dihaptic::person {
+
+struct Learned {
+    /// Of movements in a state of the task. It is recalled in the state of the same name.
+    struct InState {
+        std::string state;
+        RotationMemory rotation;
+        GainMemory gain;
+        ForceMemory force;
+    };
+    /// Of an object. It is recalled for a body of the same name that looks as heavy.
+    struct OfBody {
+        std::string body;
+        double looks = 0;  ///< weight that its appearance suggests [N]
+        GripMemory memory;
+    };
+    std::vector<InState> states;
+    std::vector<OfBody> bodies;
+};
+
+}  // namespace dihaptic::person
