@@ -28,14 +28,11 @@ std::string group_text(const study::StudyFile& study, const study::Member& membe
 
 /// Freezes the study's files with its first participant; later, throws Error if they have changed.
 void freeze_or_check(const study::StudyFile& study, const std::string& id) {
-    Diagnostics diagnostics;
     session::StudyVersion now = session::present_version(study);
-    if (!session::versions_of(study).empty()) {
-        session::check_unchanged(study, now);
-        return;
-    }
-    session::freeze(study, std::move(now), "first participant");
+    session::check_unchanged(study, now);
+    if (!session::versions_of(study).empty()) return;
     study::log(study, "version", id, "1: first participant");
+    session::freeze(study, std::move(now), "first participant");
     fmt::print("the study's files are frozen as version 1: later changes have to be accepted\n");
 }
 
@@ -74,8 +71,8 @@ void add(ParticipantOptions& options) {
     person.added = recording::iso_now();
     person.version = static_cast<int>(session::versions_of(study).size());
     roster.participants.push_back(person);
-    study::write_roster(study, roster);
     study::log(study, "add", person.id, study.shown_group(person.group));
+    study::write_roster(study, roster);
     int active = 0;
     for (const study::Group& group : study.groups) active += roster.active(group.name);
     fmt::print("{} added{}: {} of {} participants\n", person.id,
@@ -85,17 +82,33 @@ void add(ParticipantOptions& options) {
                active, study.people());
 }
 
+study::Next next_of(const study::StudyFile& study, const study::Member& member) {
+    return study::next_for(study, session::visits_of(study, member),
+                           study::seconds_of(recording::iso_now()));
+}
+
 /// A participant's state in a few words.
 std::string state_of(const study::StudyFile& study, const study::Member& member) {
     if (!member.takes_part())
         return fmt::format("withdrew {}{}", member.withdrawn.substr(0, 10),
                            member.data_deleted ? ", data deleted" : "");
-    const auto visits = session::visits_of(study, member);
-    const study::Next next = study::next_for(study, visits, recording::iso_now());
+    const study::Next next = next_of(study, member);
     if (next.act == study::Act::none) return "all sessions complete";
     const std::string& name = study.sessions[next.session].name;
+    if (next.act == study::Act::resume && !next.against.empty())
+        return fmt::format("{} is running", name);
     if (next.act == study::Act::resume) return fmt::format("{} is to be resumed", name);
     return fmt::format("next: {}{}", name, next.against.empty() ? "" : ", not now");
+}
+
+/// The state, or why it cannot be known: a damaged recording does not hide the other participants.
+std::string state_or_fault(const study::StudyFile& study, const study::Member& member) {
+    try {
+        return state_of(study, member);
+    } catch (const Error& e) {
+        exit_code = kFailed;
+        return e.what();
+    }
 }
 
 void list(const ParticipantOptions& options) {
@@ -107,7 +120,7 @@ void list(const ParticipantOptions& options) {
     for (const study::Member& member : roster.participants) {
         fmt::print("  {:12s} {:{}s}  {}\n", member.id, group_text(study, member),
                    std::max<size_t>(width, study.allocation.concealed ? 9 : 0),
-                   state_of(study, member));
+                   state_or_fault(study, member));
     }
     int active = 0;
     for (const study::Group& group : study.groups) {
@@ -151,15 +164,14 @@ void show(const ParticipantOptions& options) {
     line("reason", member.reason);
     for (const study::Visit& visit : session::visits_of(study, member)) {
         line(study.sessions[visit.session].name,
-             fmt::format("{} {} {}", visit.started,
+             fmt::format("{} {}",
                          visit.complete ? "complete"
                                         : fmt::format("{} of {} trials", visit.done, visit.trials),
                          visit.folder));
     }
-    const auto visits = session::visits_of(study, member);
     line("state", state_of(study, member));
-    for (const std::string& why : study::next_for(study, visits, recording::iso_now()).against)
-        line("", why);
+    if (!member.takes_part()) return;
+    for (const std::string& why : next_of(study, member).against) line("", why);
 }
 
 void withdraw(const ParticipantOptions& options) {
@@ -173,25 +185,23 @@ void withdraw(const ParticipantOptions& options) {
         throw Error({"participant", 0}, member.id, fmt::format("withdrew on {}", member.withdrawn),
                     "Nothing is left to do.");
     }
-    if (options.delete_data) {
-        // the folder of all sessions of this participant
-        const fs::path folder = fs::path(session::session_folder(study, member, 0)).parent_path();
-        std::error_code failed;
-        const auto deleted = fs::remove_all(folder, failed);
-        if (failed) {
-            throw Error({folder.string(), 0}, "", "cannot be deleted: " + failed.message(),
-                        "Nothing is noted yet: repeat the command once it can be.");
-        }
-        member.data_deleted = true;
-        fmt::print("{}: {} deleted\n", folder.string(),
-                   counted(static_cast<int64_t>(deleted), "file"));
-    }
-    if (member.takes_part()) member.withdrawn = recording::iso_now();
-    if (!options.reason.empty()) member.reason = options.reason;
-    study::write_roster(study, roster);
+    const auto recordings = options.delete_data ? session::deletable(study, member) : "";
     study::log(study, "withdraw", member.id,
                fmt::format("data {}{}{}", options.delete_data ? "deleted" : "kept",
                            options.reason.empty() ? "" : "; ", options.reason));
+    if (member.takes_part()) member.withdrawn = recording::iso_now();
+    if (!options.reason.empty()) member.reason = options.reason;
+    member.data_deleted = options.delete_data;
+    study::write_roster(study, roster);
+    if (!recordings.empty()) {
+        std::error_code failed;
+        const auto deleted = fs::remove_all(recordings, failed);
+        if (failed) {
+            throw Error({recordings, 0}, "", "cannot be deleted: " + failed.message(),
+                        "The withdrawal is noted. Delete this folder yourself.");
+        }
+        fmt::print("{}: {} deleted\n", recordings, counted(static_cast<int64_t>(deleted), "file"));
+    }
     fmt::print("{} withdrew; the place in the group is free for another participant\n", member.id);
 }
 
@@ -210,10 +220,17 @@ void accept(const ParticipantOptions& options) {
                                      : "has not changed since its last version",
                     "Nothing is left to do.");
     }
+    study::log(study, "version", "",
+               fmt::format("{}: {}; {}", versions.size() + 1, options.reason, what));
     const int number = session::freeze(study, std::move(now), options.reason);
-    study::log(study, "version", "", fmt::format("{}: {}; {}", number, options.reason, what));
     fmt::print("version {} of the study's files, for the sessions from now on\nfirst change: {}\n",
                number, what);
+    for (const study::Member& member : roster.participants) {
+        for (const std::string& folder : session::uncounted(study, member))
+            fmt::print(stderr,
+                       "WARNING: {} counts no longer: the study has no session of this name\n",
+                       folder);
+    }
 }
 
 using Shared = std::shared_ptr<ParticipantOptions>;

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "base/figure.h"
+#include "base/number.h"
 #include "base/plural.h"
 #include "base/text.h"
 #include "command.h"
@@ -39,8 +40,9 @@ struct SessionOptions {
     std::string population_file;
     bool real_objects = false;
     std::string between;
-    std::string despite;      ///< reason to begin a study's session against its rules
-    bool seed_given = false;  ///< on the command line
+    std::string despite;    ///< reason to begin a study's session against its rules
+    std::string unstudied;  ///< an option that was given, and is not possible for a study
+    std::optional<uint64_t> person_seed;  ///< of a study's simulated person; none: the session's
 };
 
 /// Progress in words, e.g. "trial 12 of 96"; empty without trials. `share`: share of completed
@@ -152,8 +154,11 @@ void run_one(SessionOptions& options) {
     if (!people.groups.empty() && !options.run.in_study)
         options.request.order_number = people.number_in_group(id);
     session::Plan plan = session::make_plan(options.request);
-    if (options.simulate && plan.task)
-        session::sit_down(plan, person::draw_person(people, plan.seed, id));
+    if (options.simulate && plan.task) {
+        const uint64_t seed = options.person_seed.value_or(plan.seed);
+        session::sit_down(plan, person::draw_person(people, seed, id));
+        plan.moved_by.seed = number_text(seed);
+    }
     std::optional<session::TrialController> controller;
     if (!options.between.empty()) {
         controller.emplace(options.between);
@@ -370,11 +375,16 @@ std::string take_turn(SessionOptions& options) {
         throw Error({"--despite", 0}, "", "is about the rules of a study",
                     "Leave it out, or name a study's file.");
     }
+    if (!options.unstudied.empty()) {
+        throw Error({options.unstudied, 0}, "", "is not possible for a study, whose files say it",
+                    "Leave it out, or run the experiment itself.");
+    }
     const StudyTurn turn = study_turn(options.request.file, options.run.participant.id,
                                       options.despite, options.simulate);
     options.request.file = turn.experiment;
     options.request.order_number = turn.in_study.number;
-    if (!options.seed_given) options.request.seed = turn.seed;
+    options.request.seed = turn.seed;
+    options.person_seed = turn.person_seed;
     options.run.participant = turn.participant;
     options.run.in_study = turn.in_study;
     options.run.out = turn.out;
@@ -507,7 +517,10 @@ void add_run(CLI::App& app) {
         "  dihaptic run experiments/lift-block.yaml --set coupling.stiffness_N_m=600 --set "
         "dynamics.every=10");
     command->callback([options, command] {
-        options->seed_given = command->count("--seed") > 0;
+        for (const char* option : {"--set", "--seed", "--rate", "--solver", "--coupling", "--proxy",
+                                   "--age", "--sex", "--handedness", "--out", "--movement"}) {
+            if (command->count(option) > 0) options->unstudied = option;
+        }
         run(*options);
     });
 }

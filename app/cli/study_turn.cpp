@@ -49,10 +49,16 @@ uint64_t seed_of(const std::string& words) {
 
 /// What comes next, allowed or not.
 study::Next next_of(const study::StudyFile& study, const study::Member& member, bool simulated) {
-    const auto visits = session::visits_of(simulated ? session::rehearsed(study) : study, member);
-    study::Next next = study::next_for(study, visits, recording::iso_now());
+    const study::StudyFile where = simulated ? session::rehearsed(study) : study;
+    auto visits = session::visits_of(where, member);
+    const auto tell = [](const std::string& folder) {
+        fmt::print("{} was killed: it is recovered\n", folder);
+        std::fflush(stdout);
+    };
+    if (session::recover_killed(visits, tell)) visits = session::visits_of(where, member);
+    study::Next next = study::next_for(study, visits, study::seconds_of(recording::iso_now()));
     // simulated sessions follow each other at once
-    if (simulated) next.against.clear();
+    if (simulated && next.act == study::Act::begin) next.against.clear();
     check_needs(study, next);
     return next;
 }
@@ -93,13 +99,15 @@ StudyTurn study_turn(const std::string& file, const std::string& participant,
     check_allowed(study, member, next, despite);
     StudyTurn out;
     out.experiment = study.experiment_of(next.session, member.group, member.number);
-    session::check_unchanged(study, session::present_version(study), out.experiment);
+    session::check_unchanged(study, session::present_version(study),
+                             study.experiment_name(next.session, member.group, member.number));
     out.out = session::session_folder(simulated ? session::rehearsed(study) : study, member,
                                       next.session);
     out.resume = next.folder;
     out.participant = {member.id, member.age, member.sex, member.handedness};
     out.in_study = session::place_in(study, member, next.session);
     const std::string& name = out.in_study.session;
+    out.person_seed = seed_of(fmt::format("{}/{}", study.allocation.seed, member.id));
     out.seed = seed_of(fmt::format("{}/{}/{}", study.allocation.seed, member.id, name));
     if (!next.note.empty()) fmt::print("note: {}\n", next.note);
     fmt::print("{}: {} of {}, session {} of {}{}\n", study.title, member.id,

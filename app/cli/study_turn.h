@@ -15,7 +15,8 @@ struct StudyTurn {
     std::string resume;      ///< folder of the interrupted session to be resumed; empty: none
     recording::Participant participant;
     recording::InStudy in_study;
-    uint64_t seed = 1;  ///< its own for each participant and session
+    uint64_t seed = 1;         ///< its own for each participant and session
+    uint64_t person_seed = 1;  ///< with which the simulated person is drawn, for all sessions
 
     /// Notes in the study's log that the session begins.
     void log_begin() const;

@@ -31,7 +31,7 @@ class Exporter {
           folder_of_set_(data_set),
           data_set_(data_set, session_, info_),
           task_(fs::path(info_.experiment).stem().string()),
-          folder_((fs::path(data_set) / data_set_.subject() / "motion").string()) {
+          folder_((fs::path(data_set) / data_set_.place() / "motion").string()) {
         check_ended(session, info_);
     }
 
@@ -45,7 +45,7 @@ class Exporter {
         }
         systems_ = bids::tracking_systems(session_, info_, log.head());
         data_set_.check();  // before the lengthy work
-        make_folders(folder_of_set_, data_set_.subject() + "/motion");
+        make_folders(folder_of_set_, data_set_.place() + "/motion");
         remove_dead_parts(folder_ + "/.export");
         const Output staging(folder_ + "/.export");
         fs::create_directory(staging.path());
@@ -76,7 +76,7 @@ class Exporter {
   private:
     /// Prefix of the paths of the run's files, in the subject's folder.
     std::string stem() const {
-        return fmt::format("{}/{}_task-{}", folder_, data_set_.subject(), label(task_));
+        return fmt::format("{}/{}_task-{}", folder_, data_set_.stem(), label(task_));
     }
     std::string file(const TrackingSystem& system, const std::string& what) const {
         return fmt::format("{}_tracksys-{}_run-{:02}_{}", stem(), label(system.name), run_, what);

@@ -150,6 +150,19 @@ void check_not_resumed(const std::string& session, const std::string& out) {
 
 }  // namespace
 
+Standing standing_of(const recording::SessionFolder& folder, const recording::SessionInfo& info) {
+    Standing out;
+    out.complete = info.state == SessionState::complete;
+    if (out.complete) return out;
+    out.running = !at_rest(folder);
+    out.killed = !out.running && info.state == SessionState::running;
+    if (!is_there(folder.file("task.yaml"))) return out;
+    out.complete = !out.running && !out.killed && !may_go_on(folder);
+    out.done = trials_done(folder);
+    out.trials = rows_in<rows::AskedRow>(folder.file("trial-list.csv")).size();
+    return out;
+}
+
 void note_successor(const std::string& session, const std::string& next) {
     write_file(fs::absolute(next).lexically_normal().string() + "\n", session + "/" + kResumedAs);
 }

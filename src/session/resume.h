@@ -33,6 +33,16 @@ recording::SessionLock claim(const std::string& session, const std::string& out)
 /// Notes in a session's folder the session that resumes it. Throws Error when this fails.
 void note_successor(const std::string& session, const std::string& next);
 
+/// How far a session has come.
+struct Standing {
+    bool running = false;   ///< a program records or recovers it at this moment
+    bool killed = false;    ///< its program ended before the session did: to be recovered
+    bool complete = false;  ///< nothing is left to do
+    size_t done = 0;        ///< trials with an attempt that ended
+    size_t trials = 0;
+};
+Standing standing_of(const recording::SessionFolder& folder, const recording::SessionInfo& info);
+
 /// A session with unfinished trials.
 struct Unfinished {
     std::string folder;

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
+#include "analysis/recovery.h"
 #include "base/field_writer.h"
 #include "base/regular_file.h"
 #include "base/text_file.h"
 #include "session/rehearsal.h"
 #include "session/resume.h"
+#include "session/unfinished_folder.h"
 
 namespace dihaptic::session {
 namespace {
@@ -30,12 +33,6 @@ struct Versions {
     }
 };
 
-/// An experiment's path as versions.yaml has it: relative to the study, so that the study's folder
-/// can be moved.
-std::string key_of(const study::StudyFile& study, const std::string& experiment) {
-    return fs::path(experiment).lexically_proximate(study.folder).string();
-}
-
 Plan plan_of(const std::string& experiment) {
     Request request;
     request.file = experiment;
@@ -53,23 +50,80 @@ Node inputs_of(const std::string& experiment) {
     return out;
 }
 
-std::optional<study::Visit> visit_in(const std::string& path, size_t session) {
-    study::Visit out;
-    try {
-        const auto folder = recording::SessionFolder::open_tables(path);
-        const recording::SessionInfo info = folder.read_info();
-        out = {session, path, info.started, info.state == recording::SessionState::complete, 0, 0};
-        if (out.complete) return out;
-        for (const Unfinished& one : find_unfinished(fs::path(path).parent_path().string(),
-                                                     info.title, info.participant.id)) {
-            if (fs::path(one.folder).filename() != fs::path(path).filename()) continue;
-            out.done = one.done;
-            out.trials = one.trials;
-        }
-    } catch (const Error&) {
-        return std::nullopt;  // not a session, or damaged: dihaptic recover reports how
+/// What was recorded in a folder. Throws Error when it is not a session of this participant, since
+/// one that is passed over would be done again.
+study::Visit visit_in(const std::string& path, size_t session, const study::Member& member,
+                      std::string& resumes) {
+    const auto folder = recording::SessionFolder::open_tables(path);
+    const recording::SessionInfo info = folder.read_info();
+    const std::string& id = info.participant.id;
+    if (id != member.id && id != recording::simulated_id(member.id)) {
+        throw Error({path, 0}, "participant", fmt::format("is '{}', not {}", id, member.id),
+                    "Move the folder to where it belongs.");
     }
+    const double started = study::seconds_of(info.started);
+    if (std::isnan(started)) {
+        throw Error({path + "/session.yaml", 0}, "started",
+                    fmt::format("'{}' is not a time", shortened(info.started)),
+                    "Restore the file, or move the folder away.");
+    }
+    resumes = fs::path(info.resumes).filename().string();
+    const Standing standing = standing_of(folder, info);
+    return {session,         path,          started,        standing.complete, standing.running,
+            standing.killed, standing.done, standing.trials};
+}
+
+/// A recording that resumes another one began when that one did.
+void begin_with_first(std::vector<std::pair<study::Visit, std::string>>& found) {
+    for (auto& [visit, resumes] : found) {
+        for (const auto& [earlier, _] : found) {  // in the order of time
+            if (!resumes.empty() && fs::path(earlier.folder).filename() == resumes)
+                visit.started = earlier.started;
+        }
+    }
+}
+
+/// Recordings of one session, in the order of their start.
+std::vector<study::Visit> visits_in(const std::string& folder, size_t session,
+                                    const study::Member& member) {
+    std::vector<study::Visit> out;
+    std::vector<std::pair<study::Visit, std::string>> found;  // with the session that each resumes
+    std::vector<std::string> paths;
+    if (!is_there(folder)) return out;
+    std::error_code failed;
+    for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed))
+        paths.push_back(at->path().string());
+    if (failed) {
+        throw Error({folder, 0}, "", "cannot be read: " + failed.message(),
+                    "Recordings in it would not count: mend its permissions.");
+    }
+    for (const std::string& path : paths) {
+        if (fs::path(path).filename().string().starts_with(kUnfinished)) continue;
+        auto& [visit, resumes] = found.emplace_back();
+        visit = visit_in(path, session, member, resumes);
+    }
+    // by time, not by name: names have local time
+    std::ranges::sort(found, {},
+                      [](const auto& f) { return std::pair(f.first.started, f.first.folder); });
+    begin_with_first(found);
+    for (const auto& [visit, resumes] : found) out.push_back(visit);
     return out;
+}
+
+}  // namespace
+
+namespace {
+
+/// Warns of experiments whose names tell a concealed group to whoever sees a recording.
+void check_concealed(const study::StudyFile& study, Diagnostics& diagnostics) {
+    for (const study::SessionSpec& session : study.sessions) {
+        if (!study.allocation.concealed || session.experiment.find("{group}") == std::string::npos)
+            continue;
+        diagnostics.warning(session.place, "experiment",
+                            "names the concealed group in the recordings: their folders are called "
+                            "after the experiment's file",
+                            "Give the groups names that say nothing, such as a and b.");
+    }
 }
 
 }  // namespace
@@ -92,14 +146,51 @@ recording::InStudy place_in(const study::StudyFile& study, const study::Member& 
 std::vector<study::Visit> visits_of(const study::StudyFile& study, const study::Member& member) {
     std::vector<study::Visit> out;
     for (size_t i = 0; i < study.sessions.size(); ++i) {
-        std::error_code none;  // without a folder nothing was recorded
-        for (fs::directory_iterator at(session_folder(study, member, i), none), end;
-             !none && at != end; at.increment(none)) {
-            if (auto visit = visit_in(at->path().string(), i)) out.push_back(*std::move(visit));
-        }
+        const auto some = visits_in(session_folder(study, member, i), i, member);
+        out.insert(out.end(), some.begin(), some.end());
     }
-    std::ranges::sort(out, {},
-                      [](const study::Visit& v) { return std::pair(v.started, v.folder); });
+    return out;
+}
+
+bool recover_killed(const std::vector<study::Visit>& visits,
+                    const std::function<void(const std::string& folder)>& tell) {
+    bool any = false;
+    for (const study::Visit& visit : visits) {
+        if (!visit.killed) continue;
+        any = true;
+        tell(visit.folder);
+        analysis::recover_session(recording::SessionFolder::open(visit.folder), [](double) {});
+    }
+    return any;
+}
+
+std::string deletable(const study::StudyFile& study, const study::Member& member) {
+    const fs::path folder = fs::path(session_folder(study, member, 0)).parent_path();
+    for (const fs::path& part : {folder.parent_path(), folder}) {
+        if (!fs::is_symlink(part)) continue;
+        throw Error({part.string(), 0}, "", "is a link, through which nothing is deleted",
+                    "Delete the recordings where they are, then withdraw with --keep-data.");
+    }
+    if (!is_there(folder.string())) return "";
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (entry.path().filename() != "session.yaml") continue;
+        const std::string session = entry.path().parent_path().string();
+        if (!is_there(session + "/raw.log")) continue;
+        const recording::SessionLock lock(recording::SessionFolder::open(session));
+    }
+    return folder.string();
+}
+
+std::vector<std::string> uncounted(const study::StudyFile& study, const study::Member& member) {
+    std::vector<std::string> out;
+    std::error_code none;
+    const fs::path folder = fs::path(session_folder(study, member, 0)).parent_path();
+    for (fs::directory_iterator at(folder, none), end; !none && at != end; at.increment(none)) {
+        const std::string name = at->path().filename().string();
+        if (std::ranges::find(study.sessions, name, &study::SessionSpec::name) ==
+            study.sessions.end())
+            out.push_back(at->path().string());
+    }
     return out;
 }
 
@@ -110,8 +201,9 @@ study::StudyFile rehearsed(study::StudyFile study) {
 
 study::StudyFile checked_study(const std::string& file, Diagnostics& diagnostics) {
     study::StudyFile out = study::read_study(file);
+    check_concealed(out, diagnostics);
     for (size_t i = 0; i < out.sessions.size(); ++i) {
-        for (const std::string& experiment : out.experiments_of(i)) {
+        for (const auto& [name, experiment] : out.experiments_of(i)) {
             if (!is_there(experiment)) {
                 diagnostics.error(out.sessions[i].place, "experiment",
                                   fmt::format("{} does not exist", experiment),
@@ -134,8 +226,8 @@ StudyVersion present_version(const study::StudyFile& study) {
     out.study = write_fields(study);
     out.experiments = Node::mapping();
     for (size_t i = 0; i < study.sessions.size(); ++i) {
-        for (const std::string& experiment : study.experiments_of(i))
-            out.experiments.set(key_of(study, experiment), inputs_of(experiment));
+        for (const auto& [name, file] : study.experiments_of(i))
+            out.experiments.set(name, inputs_of(file));
     }
     return out;
 }
@@ -176,9 +268,13 @@ std::string changed(const StudyVersion& frozen, const StudyVersion& now, const s
 void check_unchanged(const study::StudyFile& study, const StudyVersion& now,
                      const std::string& file) {
     const std::vector<StudyVersion> versions = versions_of(study);
-    if (versions.empty()) return;
+    if (versions.empty()) {
+        if (study::read_roster(study).participants.empty()) return;
+        throw Error({file_of(study), 0}, "", "has no version, though there are participants",
+                    "Restore it: it says whether the study's files have changed.");
+    }
     const StudyVersion& frozen = versions.back();
-    const std::string what = changed(frozen, now, file.empty() ? "" : key_of(study, file));
+    const std::string what = changed(frozen, now, file);
     if (what.empty()) return;
     throw Error(
         study.place, "",

@@ -6,6 +6,7 @@
 // people.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -21,8 +22,19 @@ std::string session_folder(const study::StudyFile& study, const study::Member& m
 /// What a session's record says of its place in the study.
 recording::InStudy place_in(const study::StudyFile& study, const study::Member& member,
                             size_t session);
-/// What was recorded of a participant, in the order of its start.
+/// What was recorded of a participant, by session, each in the order of its start. Throws Error
+/// when a recording cannot be read or is another participant's.
 std::vector<study::Visit> visits_of(const study::StudyFile& study, const study::Member& member);
+/// Recovers the recordings whose programs were killed, so that it is known how far they came;
+/// `tell` is called before each. Returns whether there were any. Throws Error when one cannot be.
+bool recover_killed(const std::vector<study::Visit>& visits,
+                    const std::function<void(const std::string& folder)>& tell);
+
+/// The folder with all recordings of a participant, which may be deleted; empty if there is none.
+/// Throws Error when it is a link or leads through one, or when a session in it is running.
+std::string deletable(const study::StudyFile& study, const study::Member& member);
+/// Folders of the participant's recordings that belong to no session of the study.
+std::vector<std::string> uncounted(const study::StudyFile& study, const study::Member& member);
 
 /// The study with the folder for its rehearsal, where simulated sessions never count as a
 /// participant's.
@@ -40,7 +52,7 @@ struct StudyVersion {
     std::string why;    ///< of its change
     std::string program;
     Node study;        ///< the study's file, without comments
-    Node experiments;  ///< by file, the frozen inputs of each experiment
+    Node experiments;  ///< the frozen inputs of each experiment, by its name in the study's file
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -60,10 +72,10 @@ std::vector<StudyVersion> versions_of(const study::StudyFile& study);
 /// Adds a version to versions.yaml. Returns its number.
 int freeze(const study::StudyFile& study, StudyVersion version, const std::string& why);
 /// Where two versions differ first, in words; empty if they are the same. `file`: only the study's
-/// file and this experiment.
+/// file and the experiment of this name.
 std::string changed(const StudyVersion& frozen, const StudyVersion& now,
                     const std::string& file = "");
-/// Throws Error when the files are not those of the study's last version.
+/// Throws Error when the files are not those of the study's last version, or when that is lost.
 void check_unchanged(const study::StudyFile& study, const StudyVersion& now,
                      const std::string& file = "");
 

@@ -15,9 +15,15 @@ bool is_known(const StudyFile& study, const std::string& fact) {
            std::ranges::find(kStandardFacts, fact) != kStandardFacts.end();
 }
 
-bool is_number(const StudyFile& study, const std::string& fact) {
+std::vector<std::string> values_of(const StudyFile& study, const std::string& fact) {
+    if (fact == "sex") return {"F", "M", "O", "U"};
+    if (fact == "handedness") return {"right", "left", "both"};
     const FactSpec* spec = spec_of(study, fact);
-    return spec == nullptr ? fact == "age" : spec->values.empty();
+    return spec == nullptr ? std::vector<std::string>{} : spec->values;
+}
+
+bool is_number(const StudyFile& study, const std::string& fact) {
+    return values_of(study, fact).empty();
 }
 
 int smallest_block(const StudyFile& study) {

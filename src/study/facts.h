@@ -3,6 +3,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 #include "study/study_file.h"
 
@@ -14,6 +15,8 @@ inline constexpr std::array<std::string_view, 3> kStandardFacts{"age", "sex", "h
 const FactSpec* spec_of(const StudyFile& study, const std::string& fact);
 /// Whether the study asks for the fact.
 bool is_known(const StudyFile& study, const std::string& fact);
+/// The values that the fact may have; empty for a number.
+std::vector<std::string> values_of(const StudyFile& study, const std::string& fact);
 /// Whether the fact is a number.
 bool is_number(const StudyFile& study, const std::string& fact);
 

@@ -8,10 +8,15 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <set>
+#include <thread>
 
 #include "base/choices.h"
 #include "base/field_writer.h"
 #include "base/number.h"
+#include "base/output.h"
 #include "base/regular_file.h"
 #include "base/table.h"
 #include "base/text_file.h"
@@ -63,6 +68,30 @@ void check_fact(const StudyFile& study, const Member& person, const std::string&
     }
 }
 
+std::string in_small(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+/// Throws Error when an identifier cannot be one, or when an identifier or a place is there twice.
+void check_places(const Roster& roster, const std::string& file) {
+    std::set<std::string> ids;
+    std::set<std::pair<std::string, int>> places;
+    const auto fault = [&](const std::string& id, const std::string& what) {
+        return Error({file, 0}, id, what, "Restore the file: log.csv says who was added.");
+    };
+    for (const Member& member : roster.participants) {
+        const bool word = std::all_of(member.id.begin(), member.id.end(), [](unsigned char c) {
+            return std::isalnum(c) != 0 || c == '-';  // sim-001
+        });
+        if (!word) throw fault(member.id, "is not an identifier");
+        if (!ids.insert(in_small(member.id)).second) throw fault(member.id, "is there twice");
+        if (member.takes_part() && !places.emplace(member.group, member.number).second)
+            throw fault(member.id, fmt::format("has number {} in its group, and so has another one",
+                                               member.number));
+    }
+}
+
 /// The facts that the study uses: its own ones, and those on which a person's part depends.
 std::vector<std::string> needed_facts(const StudyFile& study) {
     std::vector<std::string> out;
@@ -103,6 +132,10 @@ Roster read_roster(const StudyFile& study) {
     Diagnostics diagnostics;
     read_fields(out, read_yaml(file), diagnostics);
     diagnostics.throw_if_errors();
+    if (!out.study.empty() && out.study != study.title) {
+        throw Error({file, 0}, "study", fmt::format("is '{}', not '{}'", out.study, study.title),
+                    "Give each study a folder of its own.");
+    }
     for (Member& member : out.participants) {
         const std::string group = study.group_shown(member.group);
         if (group.empty()) {
@@ -113,10 +146,12 @@ Roster read_roster(const StudyFile& study) {
         }
         member.group = group;
     }
+    check_places(out, file);
     return out;
 }
 
 void write_roster(const StudyFile& study, Roster roster) {
+    roster.study = study.title;
     for (Member& member : roster.participants) member.group = study.shown_group(member.group);
     write_file("# Written by dihaptic participant: see --help there before you change it.\n" +
                    to_yaml(write_fields(roster)),
@@ -125,12 +160,17 @@ void write_roster(const StudyFile& study, Roster roster) {
 
 std::vector<std::string> reasons_against(const StudyFile& study, const Member& person) {
     check_identifier(person.id);
+    std::set<std::string> names;
     for (const Fact& fact : person.facts) {
+        if (!names.insert(fact.name).second)
+            throw Error({"participant", 0}, fact.name, "is given twice", "Give each fact once.");
         if (spec_of(study, fact.name) == nullptr)
             throw Error({"participant", 0}, fact.name, "is not a fact that the study asks for",
                         "List it under 'facts' in the study's file, or leave it out.");
     }
-    for (const std::string& fact : needed_facts(study)) check_fact(study, person, fact);
+    std::vector<std::string> needed = needed_facts(study);
+    if (!person.age.empty()) needed.emplace_back("age");
+    for (const std::string& fact : needed) check_fact(study, person, fact);
     std::vector<std::string> out;
     for (const Criterion& c : study.include) {
         const std::string value = person.fact(c.fact);
@@ -150,18 +190,36 @@ std::vector<std::string> reasons_against(const StudyFile& study, const Member& p
 void log(const StudyFile& study, const std::string& action, const std::string& participant,
          const std::string& detail) {
     const std::string file = study.data + "/log.csv";
-    std::string text = is_there(file) ? read_text_file(file) : "time,action,participant,detail\n";
+    check_replaceable(file);
+    const Descriptor out(
+        ::open(file.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC | O_NOFOLLOW, 0666));
+    std::string text;
+    char last = '\n';
+    const off_t size = out ? ::lseek(out.get(), 0, SEEK_END) : 0;
+    if (size == 0) text = "time,action,participant,detail\n";
+    if (size > 0 && ::pread(out.get(), &last, 1, size - 1) == 1 && last != '\n') text = "\n";
     for (const std::string& cell : {recording::iso_now(), action, participant})
         text += to_csv(Table::Cell(cell)) + ",";
-    write_file(text + to_csv(Table::Cell(detail)) + "\n", file, Keep::at_once);
+    text += to_csv(Table::Cell(detail)) + "\n";
+    // one write: lines of several programs do not mix
+    if (!out || ::write(out.get(), text.data(), text.size()) != static_cast<ssize_t>(text.size()) ||
+        ::fsync(out.get()) != 0) {
+        throw Error({file, 0}, "", fmt::format("cannot be written: {}", std::strerror(errno)),
+                    "Nothing was changed: repeat the command once it can be.");
+    }
 }
 
 StudyLock::StudyLock(const StudyFile& study)
     : descriptor_(::open(study.data.c_str(), O_RDONLY | O_CLOEXEC | O_DIRECTORY)) {
-    // a file system without locks offers nothing to wait for
-    if (!descriptor_ || ::flock(descriptor_.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK)
-        return;
-    throw Error({study.data, 0}, "", "is in use: another dihaptic changes its participants",
+    constexpr int kPatience = 100;  // tenths of a second
+    for (int i = 0; i < kPatience; ++i) {
+        // a file system without locks offers nothing to wait for
+        if (!descriptor_ || ::flock(descriptor_.get(), LOCK_EX | LOCK_NB) == 0 ||
+            errno != EWOULDBLOCK)
+            return;
+        std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    throw Error({study.data, 0}, "", "has been in use by another dihaptic for 10 s",
                 "Repeat the command once that one has ended.");
 }
 

@@ -56,10 +56,12 @@ struct Member {
 };
 
 struct Roster {
+    std::string study;                 ///< title of the study to which they belong
     std::vector<Member> participants;  ///< in the order in which they were added
 
     template <class Visitor>
     void visit(Visitor& v) {
+        v("study", study);
         v("participants", participants);
     }
 
@@ -68,8 +70,8 @@ struct Roster {
     int active(const std::string& group) const;
 };
 
-/// The study's participants; none if there is no file. Throws Error when the file is damaged, or
-/// names a group that the study lacks.
+/// The study's participants; none if there is no file. Throws Error when the file is damaged, is
+/// another study's, names a group that the study lacks, or has a participant or a place twice.
 Roster read_roster(const StudyFile& study);
 void write_roster(const StudyFile& study, Roster roster);
 
@@ -78,11 +80,13 @@ void write_roster(const StudyFile& study, Roster roster);
 /// used, and for a fact that is missing.
 std::vector<std::string> reasons_against(const StudyFile& study, const Member& person);
 
-/// Adds a line to log.csv in the study's folder, with the time.
+/// Adds a line to log.csv in the study's folder, with the time. It comes before what it tells of,
+/// so that nothing happens that the log cannot tell. Throws Error when it cannot be written.
 void log(const StudyFile& study, const std::string& action, const std::string& participant,
          const std::string& detail);
 
-/// Keeps other programs from changing the study's participants. Throws Error when one does now.
+/// Keeps other programs from changing the study's participants. Waits for one that does, and throws
+/// Error after ten seconds.
 class StudyLock {
   public:
     explicit StudyLock(const StudyFile& study);

@@ -13,7 +13,37 @@
 namespace dihaptic::study {
 namespace {
 
-/// Seconds since 1970 of "2026-01-31T09:30:00+01:00"; NaN if it cannot be read.
+/// The latest recording of a session that counts: a complete one, or the last incomplete one.
+const Visit* latest(const std::vector<Visit>& visits, size_t session) {
+    const Visit* out = nullptr;
+    for (const Visit& visit : visits) {
+        if (visit.session == session && (out == nullptr || !out->complete)) out = &visit;
+    }
+    return out;
+}
+
+double share_of(const Visit& visit) {
+    return visit.trials == 0 ? 0
+                             : static_cast<double>(visit.done) / static_cast<double>(visit.trials);
+}
+
+/// Reasons of time against beginning a session now.
+void check_gap(const SessionSpec& session, const Visit& before, double now, Next& next) {
+    const double gap = (now - before.started) / 3600;
+    if (session.least_gap && gap < *session.least_gap)
+        next.against.push_back(
+            fmt::format("{:.1f} h after the start of the session before; at least {:g} h are asked "
+                        "for: {:.1f} h too early",
+                        gap, *session.least_gap, *session.least_gap - gap));
+    if (session.most_gap && gap > *session.most_gap)
+        next.against.push_back(
+            fmt::format("{:.1f} h after the start of the session before; at most {:g} h are asked "
+                        "for: {:.1f} h too late",
+                        gap, *session.most_gap, gap - *session.most_gap));
+}
+
+}  // namespace
+
 double seconds_of(const std::string& iso) {
     constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     constexpr std::string_view kForm = "dddd-dd-ddTdd:dd:dd?dd:dd";
@@ -41,44 +71,7 @@ double seconds_of(const std::string& iso) {
            numbers[5] - offset;
 }
 
-/// The latest recording of a session that counts: a complete one, or the last incomplete one.
-const Visit* latest(const std::vector<Visit>& visits, size_t session) {
-    const Visit* out = nullptr;
-    for (const Visit& visit : visits) {
-        if (visit.session == session && (out == nullptr || !out->complete)) out = &visit;
-    }
-    return out;
-}
-
-double share_of(const Visit& visit) {
-    return visit.trials == 0 ? 0
-                             : static_cast<double>(visit.done) / static_cast<double>(visit.trials);
-}
-
-/// Reasons of time against beginning a session now.
-void check_gap(const SessionSpec& session, const Visit& before, const std::string& now,
-               Next& next) {
-    const double gap = hours_between(before.started, now);
-    if (std::isnan(gap)) return;
-    if (session.least_gap && gap < *session.least_gap)
-        next.against.push_back(
-            fmt::format("{:.1f} h after the start of the session before; at least {:g} h are asked "
-                        "for: {:.1f} h too early",
-                        gap, *session.least_gap, *session.least_gap - gap));
-    if (session.most_gap && gap > *session.most_gap)
-        next.against.push_back(
-            fmt::format("{:.1f} h after the start of the session before; at most {:g} h are asked "
-                        "for: {:.1f} h too late",
-                        gap, *session.most_gap, gap - *session.most_gap));
-}
-
-}  // namespace
-
-double hours_between(const std::string& from, const std::string& to) {
-    return (seconds_of(to) - seconds_of(from)) / 3600;
-}
-
-Next next_for(const StudyFile& study, const std::vector<Visit>& visits, const std::string& now) {
+Next next_for(const StudyFile& study, const std::vector<Visit>& visits, double now) {
     Next next;
     const Visit* before = nullptr;
     for (size_t i = 0; i < study.sessions.size(); ++i) {
@@ -88,9 +81,15 @@ Next next_for(const StudyFile& study, const std::vector<Visit>& visits, const st
             next.act = Act::begin;
             break;
         }
+        if (visit->running) {
+            next.act = Act::resume;
+            next.folder = visit->folder;
+            next.against.push_back(fmt::format("{} is running now", visit->folder));
+            return next;
+        }
         if (!visit->complete) {
-            const double age = hours_between(visit->started, now);
-            if (!(age > study.resuming.within) && visit->trials > 0) {
+            const double age = (now - visit->started) / 3600;
+            if (age <= study.resuming.within && visit->trials > 0) {
                 next.act = Act::resume;
                 next.folder = visit->folder;
                 return next;
@@ -99,8 +98,7 @@ Next next_for(const StudyFile& study, const std::vector<Visit>& visits, const st
                 next.act = Act::begin;
                 next.note = fmt::format(
                     "{} was interrupted {:.1f} h ago with {} of {} trials: it begins anew, and "
-                    "both "
-                    "recordings stay",
+                    "both recordings stay",
                     visit->folder, age, visit->done, visit->trials);
                 break;
             }

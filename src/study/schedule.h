@@ -12,8 +12,10 @@ namespace dihaptic::study {
 struct Visit {
     size_t session = 0;  ///< index in the study
     std::string folder;
-    std::string started;  ///< ISO 8601
+    double started = 0;  ///< [s], of the first recording if it was resumed: seconds_of()
     bool complete = false;
+    bool running = false;         ///< at this moment
+    bool killed = false;          ///< its program ended before the session did
     size_t done = 0, trials = 0;  ///< of an incomplete one
 };
 
@@ -28,11 +30,12 @@ struct Next {
     std::vector<std::string> against;  ///< why it may not begin now; each with a figure
 };
 
-/// Hours from one ISO 8601 time with offset to another. NaN if one cannot be read.
-double hours_between(const std::string& from, const std::string& to);
+/// Seconds since 1970 of an ISO 8601 time with offset, "2026-01-31T09:30:00+01:00". NaN if it
+/// cannot be read.
+double seconds_of(const std::string& iso);
 
-/// What comes next, by the study's rules; `visits` in the order of their start.
-Next next_for(const StudyFile& study, const std::vector<Visit>& visits, const std::string& now);
+/// What comes next, by the study's rules; `visits` in the order of their start. `now`: [s].
+Next next_for(const StudyFile& study, const std::vector<Visit>& visits, double now);
 
 /// Why the last attempts at a session's trials do not meet a condition, with the figure; empty if
 /// they do. `trials`: its trials.csv.

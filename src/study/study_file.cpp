@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include "base/checksum.h"
 #include "base/choices.h"
 #include "base/installed.h"
 #include "study/facts.h"
@@ -79,8 +80,11 @@ class Checker {
         if (study_.groups.empty())
             error(study_.place, "groups", "are missing",
                   "Write one group at least: groups: [{ name: all, people: 12 }].");
-        if (study_.groups.size() > 26)
-            error(study_.place, "groups", "are more than 26", "Use fewer groups.");
+        std::set<std::string> codes;
+        for (const Group& group : study_.groups) codes.insert(study_.code_of(group.name));
+        if (codes.size() < names.size())
+            error(study_.allocation.place, "seed", "gives two groups the same code",
+                  "Choose another seed.");
     }
 
     void check_allocation() {
@@ -148,18 +152,19 @@ class Checker {
             const bool bounds = c.at_least || c.at_most;
             if (!is_known(study_, c.fact)) {
                 unknown_fact(c.place, "fact", c.fact);
+            } else if (c.at_least && c.at_most && *c.at_least > *c.at_most) {
+                error(c.place, "at_least", "is greater than at_most", "Exchange the two.");
             } else if (c.is.empty() && !bounds) {
                 error(c.place, "fact", "has no condition", "Add is, at_least or at_most.");
             } else if (bounds && !is_number(study_, c.fact)) {
                 error(c.place, "fact", fmt::format("'{}' is not a number", c.fact),
                       "Use is: [value].");
-            } else if (const FactSpec* spec = spec_of(study_, c.fact);
-                       spec && !spec->values.empty()) {
+            } else if (const auto values = values_of(study_, c.fact); !values.empty()) {
                 for (const std::string& value : c.is) {
-                    if (std::ranges::find(spec->values, value) == spec->values.end())
+                    if (std::ranges::find(values, value) == values.end())
                         error(c.place, "is",
                               fmt::format("'{}' is not a value of {}", value, c.fact),
-                              fmt::format("Known: {}.", listed(spec->values)));
+                              fmt::format("Known: {}.", listed(values)));
                 }
             }
         }
@@ -199,6 +204,10 @@ class Checker {
             for (const Condition& need : session.needs) {
                 if (!need.at_least && !need.at_most)
                     error(need.place, "column", "has no condition", "Add at_least or at_most.");
+                if (!need.is.empty() &&
+                    std::max(need.at_least.value_or(0), need.at_most.value_or(0)) > 1)
+                    error(need.place, "at_least", "is a share of trials, which is 1 at most",
+                          "Write e.g. 0.8 for 80 %.");
             }
         }
     }
@@ -244,42 +253,39 @@ std::string StudyFile::condition_of(size_t index, const std::string& group, int 
     return conditions_of(group, number)[static_cast<size_t>(before)];
 }
 
-std::string StudyFile::experiment_of(size_t index, const std::string& group, int number) const {
+std::string StudyFile::experiment_name(size_t index, const std::string& group, int number) const {
     const std::string name = replaced(sessions[index].experiment, kGroup, group);
-    return named_in(folder, replaced(name, kCondition, condition_of(index, group, number)));
+    return replaced(name, kCondition, condition_of(index, group, number));
 }
 
-std::vector<std::string> StudyFile::experiments_of(size_t index) const {
-    std::set<std::string> out;
+std::string StudyFile::experiment_of(size_t index, const std::string& group, int number) const {
+    return named_in(folder, experiment_name(index, group, number));
+}
+
+std::map<std::string, std::string> StudyFile::experiments_of(size_t index) const {
+    std::map<std::string, std::string> out;
     const std::vector<std::string> one{""};
     for (const Group& group : groups) {
         for (const std::string& condition : uses(sessions[index], kCondition) ? conditions : one) {
-            const std::string name = replaced(sessions[index].experiment, kGroup, group.name);
-            out.insert(named_in(folder, replaced(name, kCondition, condition)));
+            const std::string name = replaced(
+                replaced(sessions[index].experiment, kGroup, group.name), kCondition, condition);
+            out[name] = named_in(folder, name);
         }
     }
-    return {out.begin(), out.end()};
+    return out;
 }
 
-namespace {
-
-/// The index of a group's code.
-std::vector<int> codes_of(const StudyFile& study) {
-    Random random(static_cast<uint64_t>(study.allocation.seed), "arms");
-    return task::ordered(static_cast<int>(study.groups.size()), task::Order::shuffled, 0, random);
+std::string StudyFile::code_of(const std::string& name) const {
+    return "arm " + checksum_of(fmt::format("{}/{}", allocation.seed, name)).substr(0, 4);
 }
-
-}  // namespace
 
 std::string StudyFile::shown_group(const std::string& name) const {
-    if (!allocation.concealed) return name;
-    const auto index = static_cast<size_t>(&group(name) - groups.data());
-    return fmt::format("arm {}", static_cast<char>('A' + codes_of(*this)[index]));
+    return allocation.concealed ? code_of(name) : name;
 }
 
 std::string StudyFile::group_shown(const std::string& shown) const {
     for (const Group& group : groups) {
-        if (shown_group(group.name) == shown) return group.name;
+        if (group.name == shown || code_of(group.name) == shown) return group.name;
     }
     return "";
 }

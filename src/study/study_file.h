@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -199,15 +200,19 @@ struct StudyFile {
     std::vector<std::string> conditions_of(const std::string& group, int number) const;
     /// Path of the experiment of session `index`.
     std::string experiment_of(size_t index, const std::string& group, int number) const;
-    /// Paths of all experiments that some participant may meet in session `index`, without
-    /// repetition.
-    std::vector<std::string> experiments_of(size_t index) const;
+    /// All experiments that some participant may meet in session `index`: the path of each, by its
+    /// name in the study's file with placeholders replaced.
+    std::map<std::string, std::string> experiments_of(size_t index) const;
+    /// The name of the experiment of session `index` there.
+    std::string experiment_name(size_t index, const std::string& group, int number) const;
     /// Name of the session's condition; empty without conditions.
     std::string condition_of(size_t index, const std::string& group, int number) const;
-    /// The group's name, or the code that stands for it in participants.yaml while groups are
-    /// concealed: "arm B". Codes are given to groups at random, from the seed.
+    /// The code that stands for a group while groups are concealed: "arm 3f2a". It depends on the
+    /// seed and the group's name alone, whichever other groups there are.
+    std::string code_of(const std::string& name) const;
+    /// The group's name, or its code while groups are concealed.
     std::string shown_group(const std::string& name) const;
-    /// The group that is written so; empty if there is none.
+    /// The group with this name or code; empty if there is none.
     std::string group_shown(const std::string& shown) const;
 };
 

@@ -8,10 +8,11 @@ import os
 import pathlib
 import re
 import shutil
+import subprocess
 import tempfile
 import unittest
 
-from program import dihaptic
+from program import PROGRAM, dihaptic, wait_for_log
 
 STUDY = """title: Two days
 groups: [{ name: gradual, people: 2 }, { name: abrupt, people: 2 }]
@@ -173,7 +174,7 @@ class Studies(unittest.TestCase):
         (folder,) = glob.glob(self.folder + "/rehearsal/sessions/S01/familiar/*/")
         said += pathlib.Path(folder, "session.yaml").read_text()
         self.assertNotRegex(said, "gradual|abrupt")
-        self.assertEqual(len(re.findall("group: arm A", said)) + len(re.findall("group: arm B", said)), 5)
+        self.assertEqual(len(re.findall(r"group: arm [0-9a-f]{4}\n", said)), 5)
 
     def rows(self, name, folder="rehearsal/tables"):
         with open(f"{self.folder}/{folder}/{name}") as file:
@@ -241,6 +242,83 @@ class Studies(unittest.TestCase):
         self.refused(dihaptic("check", self.study), "does not have the groups as its values",
                      "values: [gradual, abrupt]")
 
+    def test_a_recording_that_cannot_be_read_is_not_passed_over(self):
+        self.add("S01"), self.add("S02")
+        self.assertEqual(self.simulate("S01").returncode, 0)
+        (folder,) = glob.glob(self.folder + "/rehearsal/sessions/S01/familiar/*/")
+        info = pathlib.Path(folder, "session.yaml")
+        whole = info.read_text()
+        for old, new, said in [("state: complete", "state: [", "session.yaml"), ("id: sim-S01", "id: S02", "is 'S02', not S01"),
+                               ("started: ", "started: long ago #", "is not a time")]:
+            self.assertIn(old, whole)
+            info.write_text(whole.replace(old, new, 1))
+            self.refused(self.simulate("S01"), said)
+        info.unlink()
+        self.refused(self.simulate("S01"), folder.rstrip("/"))
+        info.write_text(whole)
+        self.assertIn(": day1\n", self.simulate("S01").stdout)
+
+    def test_a_session_that_was_killed_is_resumed_and_one_that_runs_is_left_alone(self):
+        self.write(STUDY.replace("short.yaml", "slow.yaml"))
+        text = pathlib.Path(self.folder, "short.yaml").read_text()
+        pathlib.Path(self.folder, "slow.yaml").write_text(text.replace("repeats: 1", "repeats: 25"))
+        self.add("S01")
+        command = [PROGRAM, "run", self.study, "--participant", "S01", "--simulate"]
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        wait_for_log(self.folder + "/rehearsal/sessions/S01/familiar", 1_000_000)
+        self.refused(self.simulate("S01"), "may not begin familiar", "is running now")
+        process.kill()
+        process.wait()
+        result = self.simulate("S01")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("was killed: it is recovered", result.stdout)
+        self.assertIn("familiar is resumed", result.stdout)
+        self.assertIn(": day1\n", self.simulate("S01").stdout)
+
+    def test_nothing_is_deleted_through_a_link_or_by_a_changed_roster(self):
+        self.add("S01")
+        roster = pathlib.Path(self.folder, "participants.yaml")
+        whole = roster.read_text()
+        for old, new, said in [("id: S01", "id: ..", "is not an identifier"), ("study: Two days", "study: Other", "is 'Other'"),
+                               ("participants:\n", "participants:\n" + whole[whole.index("  - id"):], "is there twice")]:
+            roster.write_text(whole.replace(old, new, 1))
+            self.refused(self.participant("withdraw", new.split()[-1] if "id:" in new[:4] else "S01", "--delete-data"), said)
+        roster.write_text(whole)
+        os.makedirs(self.folder + "/elsewhere/familiar")
+        os.mkdir(self.folder + "/sessions")
+        os.symlink(self.folder + "/elsewhere", self.folder + "/sessions/S01")
+        self.refused(self.participant("withdraw", "S01", "--delete-data"), "is a link")
+        self.assertTrue(os.path.isdir(self.folder + "/elsewhere/familiar"))
+        self.assertEqual(roster.read_text(), whole)
+
+    def test_nothing_is_done_that_the_log_cannot_tell(self):
+        self.add("S01")
+        log = pathlib.Path(self.folder, "log.csv")
+        log.write_bytes(log.read_bytes().rstrip(b"\n"))  # an editor may leave the last line so
+        self.add("S02")
+        self.assertEqual(self.log(), [("version", "S01"), ("add", "S01"), ("add", "S02")])
+        log.unlink()
+        log.mkdir()
+        self.refused(self.participant("add", "S03", *FACTS), "log.csv")
+        self.assertNotIn("S03", self.participant("list").stdout)
+
+    def test_lost_versions_and_options_that_change_a_session_are_told(self):
+        self.add("S01")
+        for option in [["--set", "coupling.stiffness_N_m=100"], ["--seed", "5"], ["--age", "99"], ["--out", "x"]]:
+            self.refused(self.simulate("S01", *option), option[0], "not possible for a study")
+        os.remove(self.folder + "/versions.yaml")
+        self.refused(self.simulate("S01"), "has no version, though there are participants")
+        self.refused(self.participant("add", "S02", *FACTS), "has no version, though there are participants")
+
+    def test_twenty_people_who_are_added_at_once_have_twenty_places(self):
+        self.write(STUDY.replace("people: 2", "people: 10"))
+        self.add("S00")
+        added = [subprocess.Popen([PROGRAM, "participant", "add", self.study, f"S{n:02}", *FACTS], stdout=subprocess.DEVNULL)
+                 for n in range(1, 20)]
+        self.assertEqual([process.wait() for process in added], [0] * 19)
+        self.assertIn("20 of 20 participants", self.participant("list").stdout)
+        self.assertEqual(len(self.log()), 21)
+
     def test_a_broken_study_names_each_fault(self):
         for old, new, words in [
             ("name: gradual", "name: abrupt", "'abrupt' is there twice"),
@@ -254,6 +332,9 @@ class Studies(unittest.TestCase):
             ("handedness, is: [right]", "handedness, at_least: 3", "'handedness' is not a number"),
             ("facts:", "allocation: { method: minimisation }\nfacts:", "over: is missing"),
             ("facts:", "allocation: { method: minimisation, over: [age] }\nfacts:", "'age' is a number"),
+            ("at_least: 18", "at_least: 18, at_most: 17", "is greater than at_most"),
+            ("is: [right]", "is: [straight]", "'straight' is not a value of handedness. Known: right, left, both"),
+            ("at_least: 0.5", "at_least: 50", "is a share of trials"),
             ("facts:", "allocation: { method: blocks, block: 3 }\nfacts:", "Use a multiple of 2"),
         ]:
             with self.subTest(new):

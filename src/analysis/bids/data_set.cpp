@@ -9,6 +9,7 @@
 
 #include "analysis/bids/motion.h"
 #include "analysis/bids/tsv.h"
+#include "base/number.h"
 #include "base/output.h"
 #include "base/regular_file.h"
 #include "base/text_file.h"
@@ -69,6 +70,7 @@ const Json kParticipantColumns{
     {"handedness",
      {{"Description", "as told"},
       {"Levels", {{"right", "right-handed"}, {"left", "left-handed"}, {"both", "ambidextrous"}}}}},
+    {"group", {{"Description", "group of the study, or the code that conceals it"}}},
     {"simulated",
      {{"Description", "whether no person took part"},
       {"Levels", {{"yes", "no person took part"}, {"no", "a person took part"}}}}},
@@ -104,10 +106,11 @@ DataSet::DataSet(std::string folder, const recording::SessionFolder& session,
     : folder_(std::move(folder)),
       session_(session),
       info_(info),
-      subject_("sub-" + label(info.participant.id.empty() ? "unknown" : info.participant.id)) {}
+      subject_("sub-" + label(info.participant.id.empty() ? "unknown" : info.participant.id)),
+      visit_(info.in_study ? "ses-" + label(info.in_study->session) : "") {}
 
 std::string DataSet::scans() const {
-    return file(subject_ + "/" + subject_ + "_scans.tsv");
+    return file(place() + "/" + stem() + "_scans.tsv");
 }
 
 void DataSet::check() const {
@@ -151,7 +154,7 @@ void DataSet::check_recordings() const {
     const std::string own = fs::path(session_.path()).filename().string();
     for (size_t i = 0; i < scans_table.rows(); ++i) {
         const std::string recording = scans_table.text(i, "filename");
-        if (scans_table.text(i, "session") != own || !is_there(file(subject_ + "/" + recording)))
+        if (scans_table.text(i, "session") != own || !is_there(file(place() + "/" + recording)))
             continue;
         throw Error({scans(), 0}, own, "is in the data set: " + recording,
                     "Export another session, or remove this one from the data set first.");
@@ -198,6 +201,10 @@ void DataSet::add_participant() const {
         columns.insert(columns.end(), {"program", "population", "seed"});
         row.insert(row.end(), {by.program, by.population, by.seed});
     }
+    if (info_.in_study) {
+        columns.emplace_back("group");
+        row.push_back(info_.in_study->group);
+    }
     if (people.has(subject_)) {
         // existing facts on a participant are kept, and only added to
         for (size_t i = 1; i < columns.size(); ++i) {
@@ -209,9 +216,23 @@ void DataSet::add_participant() const {
     people.write();
 }
 
+void DataSet::add_visit() const {
+    Tsv visits(file(subject_ + "/" + subject_ + "_sessions.tsv"), "session_id");
+    visits.put({"session_id", "acq_time", "condition", "study_version"},
+               {visit_, info_.started.substr(0, 19), info_.in_study->condition,
+                number_text(info_.in_study->version)});
+    visits.write();
+    const Json columns{
+        {"condition", {{"Description", "condition of the session in the study"}}},
+        {"study_version", {{"Description", "version of the study's files, from 1"}}}};
+    const std::string json = file(subject_ + "/" + subject_ + "_sessions.json");
+    if (!is_there(json)) write_anew(columns.dump(2) + "\n", json);
+}
+
 void DataSet::add(const std::vector<std::string>& recordings) const {
     describe();
     add_participant();
+    if (info_.in_study) add_visit();
     Tsv table(scans(), "filename");
     for (const std::string& name : recordings) {
         table.put({"filename", "acq_time", "session", "simulated", "moved_by"},
@@ -222,7 +243,7 @@ void DataSet::add(const std::vector<std::string>& recordings) const {
     const Json columns{{"session", {{"Description", "folder of the recorded session"}}},
                        {"simulated", {{"Description", recording::kMovedByColumns[0].description}}},
                        {"moved_by", {{"Description", recording::kMovedByColumns[1].description}}}};
-    const std::string json = file(subject_ + "/" + subject_ + "_scans.json");
+    const std::string json = file(place() + "/" + stem() + "_scans.json");
     if (!is_there(json)) write_anew(columns.dump(2) + "\n", json);
 }
 

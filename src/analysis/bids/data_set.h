@@ -25,13 +25,16 @@ class DataSet {
     DataSet(std::string folder, const recording::SessionFolder& session,
             const recording::SessionInfo& info);
 
-    /// E.g. "sub-S07".
-    const std::string& subject() const { return subject_; }
+    /// Folder of the session's recordings, within the data set: "sub-S07", or "sub-S07/ses-day1" of
+    /// a study's session.
+    std::string place() const { return visit_.empty() ? subject_ : subject_ + "/" + visit_; }
+    /// The beginning of their names: "sub-S07", or "sub-S07_ses-day1".
+    std::string stem() const { return visit_.empty() ? subject_ : subject_ + "_" + visit_; }
     /// Throws Error when the session cannot be added: a simulation to people's data or a person to
     /// simulated data; a participant whose label belongs to another; a recording that the data set
     /// already contains.
     void check() const;
-    /// Adds the participant, and the recordings, whose paths begin at the subject's folder.
+    /// Adds the participant, and the recordings, whose paths begin at place().
     void add(const std::vector<std::string>& recordings) const;
 
   private:
@@ -42,11 +45,13 @@ class DataSet {
     void check_recordings() const;
     void describe() const;
     void add_participant() const;
+    void add_visit() const;
 
     std::string folder_;
     const recording::SessionFolder& session_;
     const recording::SessionInfo& info_;
     std::string subject_;
+    std::string visit_;  ///< "ses-day1"; empty: the session does not belong to a study
 };
 
 }  // namespace dihaptic::analysis::bids

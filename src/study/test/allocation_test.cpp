@@ -102,7 +102,7 @@ TEST(Allocation, SaysThatTheStudyIsFull) {
     const auto study = study_of(Method::in_turn, {{"a", 1}});
     Member one;
     one.group = "a";
-    const Roster roster{{one}};
+    const Roster roster{"", {one}};
     try {
         allocate(study, roster, {});
         FAIL();

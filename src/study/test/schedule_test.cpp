@@ -10,7 +10,7 @@
 namespace dihaptic::study {
 namespace {
 
-constexpr const char* kNow = "2026-03-29T12:00:00+02:00";
+const double kNow = seconds_of("2026-03-29T12:00:00+02:00");
 
 StudyFile two_days() {
     StudyFile out;
@@ -23,13 +23,17 @@ StudyFile two_days() {
 }
 
 Visit complete(size_t session, const char* started) {
-    return {session, "there", started, true, 0, 0};
+    return {session, "there", seconds_of(started), true};
 }
 
-TEST(Hours, AreThoseBetweenTwoTimesInAnyZone) {
-    EXPECT_DOUBLE_EQ(hours_between("2026-03-28T12:00:00+01:00", kNow), 23);  // summer time began
-    EXPECT_DOUBLE_EQ(hours_between("2026-12-31T23:30:00-05:00", "2027-01-01T04:30:00+00:00"), 0);
-    EXPECT_TRUE(std::isnan(hours_between("yesterday", kNow)));
+TEST(Seconds, AreThoseOfATimeInAnyZone) {
+    EXPECT_EQ(seconds_of("1970-01-02T00:00:00+00:00"), 86400);
+    // summer time began between the two
+    EXPECT_EQ(seconds_of("2026-03-29T12:00:00+02:00") - seconds_of("2026-03-28T12:00:00+01:00"),
+              23 * 3600);
+    EXPECT_EQ(seconds_of("2026-12-31T23:30:00-05:00"), seconds_of("2027-01-01T04:30:00+00:00"));
+    for (const char* text : {"yesterday", "", "2026-03-28T12:00:00Z", "2026-03-28 12:00:00+01:00"})
+        EXPECT_TRUE(std::isnan(seconds_of(text))) << text;
 }
 
 TEST(Next, BeginsWithTheFirstSession) {
@@ -52,14 +56,16 @@ TEST(Next, SaysByHowMuchASessionIsTooEarlyOrTooLate) {
 }
 
 TEST(Next, ResumesASessionThatWasInterruptedAShortTimeAgo) {
-    const Visit visit{0, "broken", "2026-03-29T11:00:00+02:00", false, 10, 40};
+    const Visit visit{0,  "broken", seconds_of("2026-03-29T11:00:00+02:00"), false, false, false,
+                      10, 40};
     const Next next = next_for(two_days(), {visit}, kNow);
     EXPECT_EQ(next.act, Act::resume);
     EXPECT_EQ(next.folder, "broken");
 }
 
 TEST(Next, BeginsAnOldInterruptedSessionAnewUnlessEnoughOfItIsDone) {
-    const Visit visit{0, "broken", "2026-03-28T12:00:00+01:00", false, 36, 40};
+    const Visit visit{0,  "broken", seconds_of("2026-03-28T12:00:00+01:00"), false, false, false,
+                      36, 40};
     StudyFile study = two_days();
     const Next again = next_for(study, {visit}, kNow);
     EXPECT_EQ(again.act, Act::begin);
@@ -67,6 +73,13 @@ TEST(Next, BeginsAnOldInterruptedSessionAnewUnlessEnoughOfItIsDone) {
     EXPECT_NE(again.note.find("36 of 40"), std::string::npos) << again.note;
     study.resuming.complete = 0.9;
     EXPECT_EQ(next_for(study, {visit}, kNow).session, 1U);
+}
+
+TEST(Next, IsNotASessionThatIsRunning) {
+    const Visit visit{0, "busy", kNow - 60, false, true, false, 10, 40};
+    const Next next = next_for(two_days(), {visit}, kNow);
+    ASSERT_EQ(next.against.size(), 1U);
+    EXPECT_EQ(next.against[0], "busy is running now");
 }
 
 TEST(Next, EndsWithTheLastSession) {
