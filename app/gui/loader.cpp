@@ -34,6 +34,7 @@ void make_plan(Opened& out, const Wanted& wanted) {
     out.told = QString::fromStdString(rest.describe()).split('\n', Qt::SkipEmptyParts);
     for (const Problem& warning : rest.warnings) out.told += QString::fromStdString(warning.text());
     out.participant = rest.before.participant;
+    out.in_study = rest.before.in_study;
     out.plan = std::move(rest.plan);
 }
 

@@ -20,8 +20,10 @@ struct Opened {
     std::vector<DevicePanel::Device> devices;
     std::vector<view::Workspace> workspaces;
     servo::WorkspaceTurn turn;
-    /// For a session that continues another one: its participant, and lines for the log.
+    /// For a session that continues another one: its participant, its place in a study,
+    /// and lines for the log.
     std::optional<recording::Participant> participant;
+    std::optional<recording::InStudy> in_study;
     QStringList told;
 };
 

@@ -158,6 +158,7 @@ void SessionControl::take(const Opened& opened) {
     if (starts_) {
         Start start = *std::exchange(starts_, std::nullopt);
         start.participant = opened.participant.value_or(start.participant);
+        start.in_study = opened.in_study;
         return run(start, std::move(devices));
     }
     if (!edited_) log(tr("opened %1: %2").arg(file_, QString::fromStdString(plan_->title)));
@@ -210,6 +211,7 @@ void SessionControl::run(const Start& start, std::unique_ptr<devices::DeviceGrou
     options.sync = sync_;
     options.command = "dihaptic gui " + file_.toStdString();
     options.participant = start.participant;
+    options.in_study = start.in_study;
     options.clock = clock_of(*plan_, start.pace);
     // the display is the session's, not the file's
     changed_ = changed_ || !plan_->resumes.empty();

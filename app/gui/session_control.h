@@ -35,6 +35,7 @@ class SessionControl : public QObject {
         recording::Participant participant;
         bool by_person = false;  ///< a simulated person moves the hand
         double pace = 1;         ///< SessionRunner's
+        std::optional<recording::InStudy> in_study = std::nullopt;  ///< of a resumed session
     };
 
     /// `out`, `sync` and `stop`: OperatorWindow's.

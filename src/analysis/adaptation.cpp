@@ -137,16 +137,6 @@ Window rebound(const std::vector<Stretch>& stretches) {
     return {};
 }
 
-/// The last attempt at each trial, which alone counts: earlier attempts had to be repeated.
-std::map<int, int> last_attempts(const TrialFile& trials) {
-    std::map<int, int> out;
-    for (const TrialRow& row : trials) {
-        int& last = out[row.asked.trial];
-        last = std::max(last, row.measures.attempt);
-    }
-    return out;
-}
-
 /// Reads an adaptation index from an attempt's row. A channel shows no error, and for a trial
 /// without a channel only the field is known.
 void take_index(Trial& trial, double index, double field_share) {
@@ -190,6 +180,15 @@ bool take_reach(Trial& trial, const rows::TrialMeasures& reach) {
 }
 
 }  // namespace
+
+std::map<int, int> last_attempts(const TrialFile& trials) {
+    std::map<int, int> out;
+    for (const TrialRow& row : trials) {
+        int& last = out[row.asked.trial];
+        last = std::max(last, row.measures.attempt);
+    }
+    return out;
+}
 
 bool has_adaptation_index(const TrialFile& trials) {
     const auto index = trials.column(kAdaptationIndex);

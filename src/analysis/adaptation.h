@@ -12,6 +12,7 @@
 // there: a channel holds it at zero, whatever was learned.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -23,6 +24,10 @@
 #include "rows/trial_row.h"
 
 namespace dihaptic::analysis {
+
+/// The last attempt at each trial, by its number, which alone counts: earlier ones had to be
+/// repeated.
+std::map<int, int> last_attempts(const rows::TrialFile& trials);
 
 /// The trials of one round of the task, or all trials of a task without rounds.
 struct AdaptationCurve {

@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 
+#include "analysis/adaptation.h"
 #include "base/geometry.h"
 #include "base/unmeasured.h"
 
@@ -64,9 +65,7 @@ std::string key_of(const std::string& condition, const Vec3& along_W) {
 std::map<std::string, Round> rounds_of(const rows::TrialFile& trials,
                                        const std::vector<task::ReachPlan>& reaches) {
     std::map<std::string, Round> rounds;
-    std::map<int, int> last;  // attempt that counts, by trial
-    for (const rows::TrialRow& row : trials)
-        last[row.asked.trial] = std::max(last[row.asked.trial], row.measures.attempt);
+    const std::map<int, int> last = last_attempts(trials);
     for (const rows::TrialRow& row : trials) {
         const rows::TrialKind kind = row.asked.kind;
         Round& round = rounds[row.asked.round];
@@ -80,7 +79,7 @@ std::map<std::string, Round> rounds_of(const rows::TrialFile& trials,
             direction.trained = true;
             round.trained = true;
         }
-        if (std::isnan(compensation) || row.measures.attempt < last[row.asked.trial]) continue;
+        if (std::isnan(compensation) || row.measures.attempt < last.at(row.asked.trial)) continue;
         const bool probe = is_clamp(kind) || kind == rows::TrialKind::catch_trial;
         if (probe && round.trained) direction.probes.add(compensation);
         if (kind == rows::TrialKind::baseline || (probe && !round.trained)) {

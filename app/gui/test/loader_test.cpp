@@ -4,9 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <QCoreApplication>
-#include <QElapsedTimer>
-#include <QThread>
 
+#include "answer_until.h"
 #include "testing/files.h"
 
 namespace dihaptic::gui {
@@ -30,12 +29,7 @@ class LoaderTest : public ::testing::Test {
         wanted.request.rig = rig;
         wanted.to_run = to_run;
         loader_.load(wanted);
-        QElapsedTimer timer;
-        timer.start();
-        while (!opened_ && problems_.isEmpty() && timer.elapsed() < 20000) {
-            QCoreApplication::processEvents(QEventLoop::AllEvents, 10);
-            QThread::msleep(5);
-        }
+        answer_until([this] { return opened_ || !problems_.isEmpty(); });
     }
     /// A rig of real devices whose maker's library is not there.
     std::string missing() {

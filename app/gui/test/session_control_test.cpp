@@ -5,11 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <QCoreApplication>
-#include <QElapsedTimer>
-#include <QThread>
 #include <algorithm>
 #include <map>
 
+#include "answer_until.h"
 #include "testing/files.h"
 
 namespace dihaptic::gui {
@@ -35,18 +34,10 @@ class SessionControlTest : public ::testing::Test {
                          [this](const QStringList& problems) { problems_ = problems; });
     }
 
-    /// Lets the control work until `condition` holds; false when that takes over twenty seconds.
+    /// Lets the control work until `condition` holds; false when that takes too long.
     template <class Condition>
     bool answer_until(const Condition& condition) {
-        QElapsedTimer timer;
-        timer.start();
-        while (!condition()) {
-            if (timer.elapsed() > 20000) return false;
-            QCoreApplication::processEvents(QEventLoop::AllEvents, 10);
-            control_.refresh();
-            QThread::msleep(5);
-        }
-        return true;
+        return gui::answer_until(condition, [this] { control_.refresh(); });
     }
     bool comes_to(State state) {
         return answer_until([&] { return control_.state() == state; });

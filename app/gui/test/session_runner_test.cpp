@@ -7,6 +7,7 @@
 #include <QElapsedTimer>
 #include <QThread>
 
+#include "answer_until.h"
 #include "recording/raw_log.h"
 #include "testing/files.h"
 
@@ -28,18 +29,6 @@ class SessionRunnerTest : public ::testing::Test {
         runner_.start(session::make_plan(request), options, 1);
     }
 
-    /// Lets the window answer until `condition` holds; false when that takes over ten seconds.
-    template <class Condition>
-    bool answer_until(const Condition& condition) {
-        QElapsedTimer timer;
-        timer.start();
-        while (!condition()) {
-            if (timer.elapsed() > 10000) return false;
-            QCoreApplication::processEvents(QEventLoop::AllEvents, 10);
-            QThread::msleep(5);
-        }
-        return true;
-    }
     void answer_for(int ms) {
         QElapsedTimer timer;
         timer.start();

@@ -216,7 +216,8 @@ struct TaskPlan {
         std::optional<Expression> when;
         size_t variable = 0;
         CompiledFormula to;
-        size_t look_backs = 0;  ///< its own end there in the plan's; they begin at the last rule's
+        size_t look_backs = 0;  ///< where its look-backs end in the plan's list; they begin where
+                                ///< those of the rule before end
     };
     Quantities between;  ///< quantities for the end of a block: only variables
     Symbols symbols;
