@@ -189,7 +189,8 @@ void withdraw(const ParticipantOptions& options) {
     study::log(study, "withdraw", member.id,
                fmt::format("data {}{}{}", options.delete_data ? "deleted" : "kept",
                            options.reason.empty() ? "" : "; ", options.reason));
-    if (member.takes_part()) member.withdrawn = recording::iso_now();
+    const bool took_part = member.takes_part();
+    if (took_part) member.withdrawn = recording::iso_now();
     if (!options.reason.empty()) member.reason = options.reason;
     member.data_deleted = options.delete_data;
     study::write_roster(study, roster);
@@ -202,7 +203,8 @@ void withdraw(const ParticipantOptions& options) {
         }
         fmt::print("{}: {} deleted\n", recordings, counted(static_cast<int64_t>(deleted), "file"));
     }
-    fmt::print("{} withdrew; the place in the group is free for another participant\n", member.id);
+    fmt::print("{} withdrew{}\n", member.id,
+               took_part ? "; the place in the group is free for another participant" : "");
 }
 
 void accept(const ParticipantOptions& options) {
@@ -274,8 +276,8 @@ void add_withdrawing(CLI::App& parent, const Shared& options) {
 }  // namespace
 
 void add_participant(CLI::App& app) {
-    auto* command =
-        app.add_subcommand("participant", "Add, list and withdraw a study's participants");
+    auto* command = app.add_subcommand(
+        "participant", "Add, list, show and withdraw a study's participants; accept changed files");
     command->require_subcommand(1);
     command->footer(
         "\nExamples:\n  dihaptic participant add my-study.yaml S07 --age 24\n  dihaptic "

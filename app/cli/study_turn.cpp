@@ -64,7 +64,7 @@ study::Next next_of(const study::StudyFile& study, const study::Member& member, 
 }
 
 void check_allowed(const study::StudyFile& study, const study::Member& member,
-                   const study::Next& next, const std::string& despite) {
+                   const study::Next& next, const std::string& despite, bool simulated) {
     if (next.act == study::Act::none) {
         throw Error({"--participant", 0}, member.id,
                     fmt::format("has completed all {} sessions", study.sessions.size()),
@@ -74,7 +74,8 @@ void check_allowed(const study::StudyFile& study, const study::Member& member,
     if (next.against.empty()) return;
     const std::string why = fmt::format("{}", fmt::join(next.against, "; "));
     if (!despite.empty()) {
-        study::log(study, "despite", member.id, fmt::format("{}: {}; {}", name, why, despite));
+        study::log(study, simulated ? "simulate despite" : "despite", member.id,
+                   fmt::format("{}: {}; {}", name, why, despite));
         fmt::print(stderr, "WARNING: {} begins despite the study's rules: {}\n", name, why);
         return;
     }
@@ -96,11 +97,10 @@ StudyTurn study_turn(const std::string& file, const std::string& participant,
     const study::Roster roster = study::read_roster(study);
     const study::Member& member = member_of(study, roster, file, participant);
     const study::Next next = next_of(study, member, simulated);
-    check_allowed(study, member, next, despite);
+    check_allowed(study, member, next, despite, simulated);
     StudyTurn out;
     out.experiment = study.experiment_of(next.session, member.group, member.number);
-    session::check_unchanged(study, session::present_version(study),
-                             study.experiment_name(next.session, member.group, member.number));
+    session::check_unchanged(study, session::present_version(study));
     out.out = session::session_folder(simulated ? session::rehearsed(study) : study, member,
                                       next.session);
     out.resume = next.folder;

@@ -126,6 +126,20 @@ void check_concealed(const study::StudyFile& study, Diagnostics& diagnostics) {
     }
 }
 
+/// Warns of groups whose people do not meet every order of the conditions equally often.
+void check_balance(const study::StudyFile& study, Diagnostics& diagnostics) {
+    const int orders = study.orders();
+    for (const study::Group& group : study.groups) {
+        if (orders == 0 || group.people % orders == 0) continue;
+        diagnostics.warning(
+            group.place, "people",
+            fmt::format("is {}: the conditions have {} orders, which do not come up "
+                        "equally often",
+                        group.people, orders),
+            fmt::format("Use a multiple of {}, or accept the imbalance.", orders));
+    }
+}
+
 }  // namespace
 
 std::string session_folder(const study::StudyFile& study, const study::Member& member,
@@ -202,6 +216,7 @@ study::StudyFile rehearsed(study::StudyFile study) {
 study::StudyFile checked_study(const std::string& file, Diagnostics& diagnostics) {
     study::StudyFile out = study::read_study(file);
     check_concealed(out, diagnostics);
+    check_balance(out, diagnostics);
     for (size_t i = 0; i < out.sessions.size(); ++i) {
         for (const auto& [name, experiment] : out.experiments_of(i)) {
             if (!is_there(experiment)) {
@@ -253,11 +268,10 @@ int freeze(const study::StudyFile& study, StudyVersion version, const std::strin
     return all.versions.back().number;
 }
 
-std::string changed(const StudyVersion& frozen, const StudyVersion& now, const std::string& file) {
+std::string changed(const StudyVersion& frozen, const StudyVersion& now) {
     std::string found = difference(frozen.study, now.study);
     if (!found.empty()) return "the study's file: " + found;
     for (const Node::Entry& entry : now.experiments.entries) {
-        if (!file.empty() && entry.key != file) continue;
         const Node* old = frozen.experiments.find(entry.key);
         found = difference(old == nullptr ? Node{} : *old, entry.value);
         if (!found.empty()) return entry.key + ": " + found;
@@ -265,8 +279,7 @@ std::string changed(const StudyVersion& frozen, const StudyVersion& now, const s
     return "";
 }
 
-void check_unchanged(const study::StudyFile& study, const StudyVersion& now,
-                     const std::string& file) {
+void check_unchanged(const study::StudyFile& study, const StudyVersion& now) {
     const std::vector<StudyVersion> versions = versions_of(study);
     if (versions.empty()) {
         if (study::read_roster(study).participants.empty()) return;
@@ -274,7 +287,7 @@ void check_unchanged(const study::StudyFile& study, const StudyVersion& now,
                     "Restore it: it says whether the study's files have changed.");
     }
     const StudyVersion& frozen = versions.back();
-    const std::string what = changed(frozen, now, file);
+    const std::string what = changed(frozen, now);
     if (what.empty()) return;
     throw Error(
         study.place, "",

@@ -71,12 +71,9 @@ StudyVersion present_version(const study::StudyFile& study);
 std::vector<StudyVersion> versions_of(const study::StudyFile& study);
 /// Adds a version to versions.yaml. Returns its number.
 int freeze(const study::StudyFile& study, StudyVersion version, const std::string& why);
-/// Where two versions differ first, in words; empty if they are the same. `file`: only the study's
-/// file and the experiment of this name.
-std::string changed(const StudyVersion& frozen, const StudyVersion& now,
-                    const std::string& file = "");
+/// Where two versions differ first, in words; empty if they are the same.
+std::string changed(const StudyVersion& frozen, const StudyVersion& now);
 /// Throws Error when the files are not those of the study's last version, or when that is lost.
-void check_unchanged(const study::StudyFile& study, const StudyVersion& now,
-                     const std::string& file = "");
+void check_unchanged(const study::StudyFile& study, const StudyVersion& now);
 
 }  // namespace dihaptic::session

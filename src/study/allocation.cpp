@@ -159,7 +159,7 @@ Allocated allocate(const StudyFile& study, const Roster& roster, const Member& p
     }
     if (open.empty()) {
         throw Error(study.place, "groups",
-                    fmt::format("have all of their {} participants", study.people()),
+                    fmt::format("are full: all {} places are taken", study.people()),
                     "For more, raise 'people' of the groups, and accept the changed file: dihaptic "
                     "participant accept STUDY --why TEXT.");
     }

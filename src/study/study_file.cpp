@@ -201,15 +201,19 @@ class Checker {
             if (session.least_gap && session.most_gap && *session.least_gap > *session.most_gap)
                 error(session.place, "least_gap_h", "is greater than most_gap_h",
                       "Exchange the two.");
-            for (const Condition& need : session.needs) {
-                if (!need.at_least && !need.at_most)
-                    error(need.place, "column", "has no condition", "Add at_least or at_most.");
-                if (!need.is.empty() &&
-                    std::max(need.at_least.value_or(0), need.at_most.value_or(0)) > 1)
-                    error(need.place, "at_least", "is a share of trials, which is 1 at most",
-                          "Write e.g. 0.8 for 80 %.");
-            }
+            for (const Condition& need : session.needs) check_need(need);
         }
+    }
+
+    void check_need(const Condition& need) {
+        if (!need.at_least && !need.at_most)
+            error(need.place, "column", "has no condition", "Add at_least or at_most.");
+        if (need.column == "outcome" && need.is.empty())
+            error(need.place, "is", "is missing: an outcome is a text, and has no mean",
+                  "Write the outcome whose share of trials counts, e.g. is: reached.");
+        if (!need.is.empty() && std::max(need.at_least.value_or(0), need.at_most.value_or(0)) > 1)
+            error(need.place, "at_least", "is a share of trials, which is 1 at most",
+                  "Write e.g. 0.8 for 80 %.");
     }
 
     void check_placeholders(const SessionSpec& session) {
@@ -228,6 +232,16 @@ class Checker {
 int StudyFile::people() const {
     int out = 0;
     for (const Group& group : groups) out += group.people;
+    return out;
+}
+
+int StudyFile::orders() const {
+    const int n = static_cast<int>(conditions.size());
+    if (n < 2) return 0;
+    if (order == task::Order::latin_square) return n % 2 == 0 ? n : 2 * n;
+    if (order != task::Order::counterbalanced) return 0;
+    int out = 1;
+    for (int i = 2; i <= n; ++i) out *= i;
     return out;
 }
 

@@ -186,7 +186,8 @@ struct StudyFile {
         v("facts", facts, says("Facts asked of every participant besides age, sex, handedness."));
         v("include", include, says("Conditions that a person has to meet to take part."));
         v("conditions", conditions,
-          says("Conditions, one for each session, in an order that differs between participants."));
+          says("Conditions, one for each session whose experiment names {condition}, in an order "
+               "that differs between participants."));
         v("order", order,
           says("Order of the conditions, by the participant's number in the group, as for blocks "
                "of trials; shuffled: from the allocation's seed."));
@@ -196,6 +197,9 @@ struct StudyFile {
 
     int people() const;  ///< target number of participants
     const Group& group(const std::string& name) const;
+    /// Number of orders of the conditions that are to come up equally often; 0: the order does not
+    /// depend on the participant's number.
+    int orders() const;
     /// The conditions in the order of a participant, by the number in the group, from 1.
     std::vector<std::string> conditions_of(const std::string& group, int number) const;
     /// Path of the experiment of session `index`.

@@ -73,7 +73,7 @@ class Studies(unittest.TestCase):
         self.assertRegex(listed, r"group gradual +1 of 2\n")
         self.assertEqual(self.log(), [("version", "S01"), ("add", "S01"), ("add", "S02")])
         self.add("S03"), self.add("S04")
-        self.refused(self.participant("add", "S05", *FACTS), "all of their 4 participants", "raise 'people'")
+        self.refused(self.participant("add", "S05", *FACTS), "all 4 places are taken", "raise 'people'")
 
     def test_who_does_not_meet_the_criteria_is_not_added(self):
         result = self.participant("add", "S01", "--age", "17", "--handedness", "left", "--fact", "vision=normal")
@@ -141,7 +141,7 @@ class Studies(unittest.TestCase):
         result = self.simulate("S01", "--despite", "pilot")
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertIn("WARNING: day2 begins despite", result.stderr)
-        self.assertIn(("despite", "S01"), self.log())
+        self.assertIn(("simulate despite", "S01"), self.log())
 
     def test_without_devices_nobody_takes_part(self):
         self.add("S01")
@@ -207,7 +207,7 @@ class Studies(unittest.TestCase):
         self.assertEqual(pathlib.Path(lost, "trials.csv").read_bytes(), was)
         self.refused(dihaptic("rehearse", self.study, "--seed", "2"), "has another rehearsal", "1 there, 2 now")
         self.refused(dihaptic("rehearse", self.study, "--people", "5", "--out", self.folder + "/more"),
-                     "all of their 4 participants")
+                     "all 4 places are taken")
         self.refused(dihaptic("rehearse", self.study, "--slurm", "2"), "not possible for a study")
 
     def test_what_was_learned_slowly_is_there_on_the_next_day(self):
@@ -334,6 +334,7 @@ class Studies(unittest.TestCase):
             ("facts:", "allocation: { method: minimisation, over: [age] }\nfacts:", "'age' is a number"),
             ("at_least: 18", "at_least: 18, at_most: 17", "is greater than at_most"),
             ("is: [right]", "is: [straight]", "'straight' is not a value of handedness. Known: right, left, both"),
+            ("is: held, at_least", "at_least", "an outcome is a text"),
             ("at_least: 0.5", "at_least: 50", "is a share of trials"),
             ("facts:", "allocation: { method: blocks, block: 3 }\nfacts:", "Use a multiple of 2"),
         ]:

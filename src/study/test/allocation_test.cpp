@@ -107,7 +107,7 @@ TEST(Allocation, SaysThatTheStudyIsFull) {
         allocate(study, roster, {});
         FAIL();
     } catch (const Error& e) {
-        EXPECT_NE(std::string(e.what()).find("all of their 1 participants"), std::string::npos);
+        EXPECT_NE(std::string(e.what()).find("all 1 places are taken"), std::string::npos);
     }
 }
 
