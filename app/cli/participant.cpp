@@ -215,6 +215,7 @@ void accept(const ParticipantOptions& options) {
     const study::Roster roster = study::read_roster(study);  // the groups of all participants exist
     session::StudyVersion now = session::present_version(study);
     const auto versions = session::versions_of(study);
+    if (versions.empty()) session::check_unchanged(study, now);  // lost, or not made yet
     const std::string what = versions.empty() ? "" : session::changed(versions.back(), now);
     if (what.empty()) {
         throw Error({options.file, 0}, "",

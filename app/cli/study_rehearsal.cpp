@@ -185,7 +185,8 @@ class Rehearsing {
         if (plan.task) {
             person =
                 session::sit_down(plan, traits_of(rehearsal_.population, rehearsal_.seed, member));
-            person->recall(std::move(learned));
+            plan.moved_by.seed = number_text(rehearsal_.seed);
+            person->recall(learned);
         }
         session::RunOptions run;
         run.out = out;
@@ -199,7 +200,7 @@ class Rehearsing {
                        session.fault.empty() ? "the session did not end well" : session.fault);
             return "";
         }
-        learned = person ? person->learned() : person::Learned{};
+        if (person) learned = person->learned();
         return session.folder;
     }
 

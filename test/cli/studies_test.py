@@ -220,7 +220,10 @@ class Studies(unittest.TestCase):
                 re.sub(r"repeats: (\d+)", lambda found: "repeats: " + numbers[found[1]], text))
         self.write("title: Retention\ngroups: [{ name: all, people: 4 }]\nsessions:\n"
                    "  - { name: day1, experiment: long.yaml }\n  - { name: day2, experiment: brief.yaml }\n")
-        self.assertEqual(dihaptic("rehearse", self.study).returncode, 0)
+        self.assertEqual(dihaptic("rehearse", self.study, "--keep-recordings").returncode, 0)
+        for session in sorted(glob.glob(self.folder + "/rehearsal/sessions/sim-001/*/rehearsed")):
+            exported = dihaptic("export", session, "--bids", self.folder + "/set")  # the same person on both days
+            self.assertEqual(exported.returncode, 0, exported.stderr)
         self.assertEqual(dihaptic("collect", self.study, "--rehearsed", self.folder + "/rehearsal").returncode, 0)
         first = {"day1": [], "day2": []}
         for row in self.rows("adaptation.csv"):
@@ -309,6 +312,7 @@ class Studies(unittest.TestCase):
         os.remove(self.folder + "/versions.yaml")
         self.refused(self.simulate("S01"), "has no version, though there are participants")
         self.refused(self.participant("add", "S02", *FACTS), "has no version, though there are participants")
+        self.refused(self.participant("accept", "--why", "lost"), "has no version, though there are participants")
 
     def test_twenty_people_who_are_added_at_once_have_twenty_places(self):
         self.write(STUDY.replace("people: 2", "people: 10"))
