@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "base/plural.h"
-#include "base/regular_file.h"
 #include "command.h"
 #include "session/study_session.h"
 #include "study/allocation.h"
@@ -282,8 +281,7 @@ void add_participant(CLI::App& app) {
     command->require_subcommand(1);
     command->footer(
         "\nExamples:\n  dihaptic participant add my-study.yaml S07 --age 24\n  dihaptic "
-        "participant "
-        "list my-study.yaml\n\nThen: dihaptic run my-study.yaml --participant S07");
+        "participant list my-study.yaml\n\nThen: dihaptic run my-study.yaml --participant S07");
     const auto options = std::make_shared<ParticipantOptions>();
     add_adding(*command, options);
     add_action(*command, options, "list", "List participants, groups, and what comes next",

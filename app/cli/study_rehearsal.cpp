@@ -60,7 +60,8 @@ class FactDraw {
         for (const study::Criterion& c : study_.include) {
             if (c.fact == fact && !c.is.empty()) values = c.is;
         }
-        return values[static_cast<size_t>(random_.uniform(0, static_cast<double>(values.size())))];
+        const auto i = static_cast<size_t>(random_.uniform(0, static_cast<double>(values.size())));
+        return values[std::min(i, values.size() - 1)];  // uniform() may round up to its bound
     }
 
     const study::StudyFile& study_;

@@ -1,6 +1,6 @@
 // What a person takes from one session to the next.
 //
-// Over night the fast process of adaptation is forgotten, and the slow one keeps its state: after
+// Overnight, the fast process of adaptation is forgotten, and the slow one keeps its state: after
 // 24 hours people retained as much of a force field as the slow process of the model had reached in
 // training (Joiner and Smith 2008). That rotations follow the same rule, and that gains and known
 // weights stay as they were, is an assumption.

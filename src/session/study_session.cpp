@@ -110,10 +110,6 @@ std::vector<study::Visit> visits_in(const std::string& folder, size_t session,
     return out;
 }
 
-}  // namespace
-
-namespace {
-
 /// Warns of experiments whose names tell a concealed group to whoever sees a recording.
 void check_concealed(const study::StudyFile& study, Diagnostics& diagnostics) {
     for (const study::SessionSpec& session : study.sessions) {

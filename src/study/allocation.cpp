@@ -9,6 +9,7 @@
 
 #include "base/random.h"
 #include "study/facts.h"
+#include "task/plan/trials.h"
 
 namespace dihaptic::study {
 namespace {
@@ -39,12 +40,6 @@ std::vector<std::string> block_of(const StudyFile& study) {
         out.push_back(study.groups[next].name);
     }
     return out;
-}
-
-void shuffle(std::vector<std::string>& list, Random& random) {
-    for (size_t i = list.size(); i > 1; --i)
-        std::swap(list[i - 1],
-                  list[static_cast<size_t>(random.uniform(0, static_cast<double>(i)))]);
 }
 
 /// The group at the first place of the sequence that nobody holds.
@@ -95,7 +90,8 @@ std::string minimising(const StudyFile& study, const Roster& roster, const Membe
     Random random(seed_of(study), fmt::format("minimisation/{}", roster.participants.size()));
     const bool follows = random.uniform(0, 1) < study.allocation.chance;
     const auto& from = follows || others.empty() ? best : others;
-    return from[static_cast<size_t>(random.uniform(0, static_cast<double>(from.size())))];
+    const auto i = static_cast<size_t>(random.uniform(0, static_cast<double>(from.size())));
+    return from[std::min(i, from.size() - 1)];  // uniform() may round up to its bound
 }
 
 /// The group that is the person's by a fact.
@@ -137,16 +133,14 @@ int free_number(const Roster& roster, const std::string& group) {
 }  // namespace
 
 std::vector<std::string> sequence_of(const StudyFile& study, size_t count) {
-    const bool random_blocks = study.allocation.method == Method::blocks;
+    const auto order =
+        study.allocation.method == Method::blocks ? task::Order::shuffled : task::Order::sequential;
     const std::vector<std::string> block = block_of(study);
     std::vector<std::string> out;
     for (int n = 0; out.size() < count; ++n) {
-        std::vector<std::string> one = block;
-        if (random_blocks) {
-            Random random(seed_of(study), fmt::format("block/{}", n));
-            shuffle(one, random);
-        }
-        out.insert(out.end(), one.begin(), one.end());
+        Random random(seed_of(study), fmt::format("block/{}", n));
+        for (const int i : task::ordered(static_cast<int>(block.size()), order, 0, random))
+            out.push_back(block[static_cast<size_t>(i)]);
     }
     out.resize(count);
     return out;

@@ -65,6 +65,7 @@ double seconds_of(const std::string& iso) {
     const std::chrono::year_month_day date{std::chrono::year(numbers[0]),
                                            std::chrono::month(static_cast<unsigned>(numbers[1])),
                                            std::chrono::day(static_cast<unsigned>(numbers[2]))};
+    if (!date.ok()) return kNone;
     const auto days = std::chrono::sys_days(date).time_since_epoch().count();
     const double offset = (iso[19] == '-' ? -1 : 1) * (numbers[6] * 3600.0 + numbers[7] * 60.0);
     return static_cast<double>(days) * 86400 + numbers[3] * 3600.0 + numbers[4] * 60.0 +

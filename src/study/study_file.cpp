@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <numeric>
 #include <set>
 
 #include "base/checksum.h"
@@ -30,7 +29,7 @@ bool uses(const SessionSpec& session, std::string_view placeholder) {
     return session.experiment.find(placeholder) != std::string::npos;
 }
 
-/// Whether a word can be a part of a file's name, and of BIDS names if `label`.
+/// Whether a word has only letters, digits and `others`, and can be a part of a file's name.
 bool is_word(const std::string& word, const char* others) {
     return !word.empty() && std::all_of(word.begin(), word.end(), [&](unsigned char c) {
         return std::isalnum(c) != 0 ||

@@ -32,7 +32,8 @@ TEST(Seconds, AreThoseOfATimeInAnyZone) {
     EXPECT_EQ(seconds_of("2026-03-29T12:00:00+02:00") - seconds_of("2026-03-28T12:00:00+01:00"),
               23 * 3600);
     EXPECT_EQ(seconds_of("2026-12-31T23:30:00-05:00"), seconds_of("2027-01-01T04:30:00+00:00"));
-    for (const char* text : {"yesterday", "", "2026-03-28T12:00:00Z", "2026-03-28 12:00:00+01:00"})
+    for (const char* text : {"yesterday", "", "2026-03-28T12:00:00Z", "2026-03-28 12:00:00+01:00",
+                             "2026-13-28T12:00:00+01:00"})
         EXPECT_TRUE(std::isnan(seconds_of(text))) << text;
 }
 
