@@ -10,7 +10,7 @@ foreach(companion dihaptic-decompose dihaptic-gui dihaptic-mesh)
 endforeach()
 install(TARGETS dihaptic)
 install(TARGETS ${companions} RUNTIME DESTINATION ${CMAKE_INSTALL_LIBEXECDIR}/dihaptic)
-install(DIRECTORY experiments meshes movements octave populations rigs scenes studies textures
+install(DIRECTORY experiments forms meshes movements octave populations rigs scenes studies textures
     ${PROJECT_BINARY_DIR}/schema
     DESTINATION ${CMAKE_INSTALL_DATADIR}/dihaptic)
 

@@ -2,11 +2,13 @@
 #include <fmt/ranges.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "base/plural.h"
 #include "command.h"
 #include "session/study_session.h"
 #include "study/allocation.h"
+#include "study/key_file.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -18,6 +20,7 @@ struct ParticipantOptions {
     study::Member person;
     std::vector<std::string> facts;
     std::string reason;
+    std::string key_file, name, contact;
     bool keep_data = false, delete_data = false;
 };
 
@@ -44,6 +47,13 @@ void read_facts(ParticipantOptions& options) {
     }
 }
 
+/// The file of names, if there is one.
+std::optional<study::KeyFile> names_of(const ParticipantOptions& options,
+                                       const study::StudyFile& study) {
+    if (options.key_file.empty()) return {};
+    return study::KeyFile(study, options.key_file);
+}
+
 void add(ParticipantOptions& options) {
     Diagnostics diagnostics;
     const study::StudyFile study = session::checked_study(options.file, diagnostics);
@@ -63,6 +73,11 @@ void add(ParticipantOptions& options) {
         exit_code = kFailed;
         return;
     }
+    std::optional<study::KeyFile> names = names_of(options, study);
+    if (names && names->find(person.id) != nullptr) {
+        throw Error({options.key_file, 0}, person.id, "belongs to a name already",
+                    "Choose another identifier, or correct the file.");
+    }
     freeze_or_check(study, person.id);
     const study::Allocated allocated = study::allocate(study, roster, person);
     person.group = allocated.group;
@@ -72,6 +87,8 @@ void add(ParticipantOptions& options) {
     roster.participants.push_back(person);
     study::log(study, "add", person.id, study.shown_group(person.group));
     study::write_roster(study, roster);
+    // last: a name without a participant would be of somebody who takes no part
+    if (names) names->add({person.id, options.name, options.contact});
     int active = 0;
     for (const study::Group& group : study.groups) active += roster.active(group.name);
     fmt::print("{} added{}: {} of {} participants\n", person.id,
@@ -148,6 +165,11 @@ void show(const ParticipantOptions& options) {
         if (!value.empty()) fmt::print("  {:14s} {}\n", name, value);
     };
     fmt::print("{}\n", member.id);
+    if (const auto names = names_of(options, study)) {
+        const study::Key* const key = names->find(member.id);
+        line("name", key == nullptr ? "not in the key file" : key->name);
+        line("contact", key == nullptr ? "" : key->contact);
+    }
     line("group", group_text(study, member));
     if (!study.allocation.concealed) {
         line("number", fmt::format("{}", member.number));
@@ -184,6 +206,7 @@ void withdraw(const ParticipantOptions& options) {
         throw Error({"participant", 0}, member.id, fmt::format("withdrew on {}", member.withdrawn),
                     "Nothing is left to do.");
     }
+    std::optional<study::KeyFile> names = names_of(options, study);
     const auto recordings = options.delete_data ? session::deletable(study, member) : "";
     study::log(study, "withdraw", member.id,
                fmt::format("data {}{}{}", options.delete_data ? "deleted" : "kept",
@@ -193,6 +216,7 @@ void withdraw(const ParticipantOptions& options) {
     if (!options.reason.empty()) member.reason = options.reason;
     member.data_deleted = options.delete_data;
     study::write_roster(study, roster);
+    if (names && names->remove(member.id)) fmt::print("{}: the name is deleted\n", member.id);
     if (!recordings.empty()) {
         std::error_code failed;
         const auto deleted = fs::remove_all(recordings, failed);
@@ -237,6 +261,12 @@ void accept(const ParticipantOptions& options) {
 
 using Shared = std::shared_ptr<ParticipantOptions>;
 
+/// The option --key; `what` happens to the names.
+CLI::Option* add_key(CLI::App& command, const Shared& options, const char* what) {
+    return command.add_option("--key", options->key_file,
+                              std::string("file of names, outside the study's folder: ") + what);
+}
+
 CLI::App* add_action(CLI::App& parent, const Shared& options, const char* name, const char* what,
                      const char* example, bool one_person) {
     auto* command = parent.add_subcommand(name, what);
@@ -258,6 +288,12 @@ void add_adding(CLI::App& parent, const Shared& options) {
         ->check(CLI::IsMember({"right", "left", "both"}));
     command->add_option("--fact", options->facts,
                         "a fact that the study asks for, NAME=VALUE; may be repeated");
+    auto* key = add_key(*command, options, "the name is added to it");
+    auto* name = command->add_option("--name", options->name, "name, for the key file alone");
+    command->add_option("--contact", options->contact, "contact, for the key file alone")
+        ->needs(name);
+    name->needs(key);
+    key->needs(name);
     command->callback([options] { add(*options); });
 }
 
@@ -270,6 +306,7 @@ void add_withdrawing(CLI::App& parent, const Shared& options) {
     data->add_flag("--delete-data", options->delete_data, "recordings are deleted for ever");
     data->require_option(1);
     command->add_option("--reason", options->reason, "reason, for the log");
+    add_key(*command, options, "the name is deleted from it");
     command->callback([options] { withdraw(*options); });
 }
 
@@ -287,8 +324,10 @@ void add_participant(CLI::App& app) {
     add_action(*command, options, "list", "List participants, groups, and what comes next",
                "my-study.yaml", false)
         ->callback([options] { list(*options); });
-    add_action(*command, options, "show", "Show one participant", "my-study.yaml S07", true)
-        ->callback([options] { show(*options); });
+    auto* showing = add_action(*command, options, "show", "Show one participant",
+                               "my-study.yaml S07 --key ~/names/my-study.csv", true);
+    add_key(*showing, options, "the name is shown too");
+    showing->callback([options] { show(*options); });
     add_withdrawing(*command, options);
     auto* accepting =
         add_action(*command, options, "accept", "Accept changed files of a study as a new version",

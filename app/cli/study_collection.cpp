@@ -162,7 +162,12 @@ bool is_study(const std::string& file) {
 
 void collect_study(const StudyCollection& collection) {
     study::StudyFile study = study::read_study(collection.file);
-    if (!collection.rehearsed.empty()) study.data = collection.rehearsed;
+    if (!collection.rehearsed.empty()) {
+        if (!fs::is_directory(collection.rehearsed))
+            throw Error({"--rehearsed", 0}, collection.rehearsed, "is not a folder",
+                        "Name the folder in which the study was rehearsed, or rehearse it first.");
+        study.data = collection.rehearsed;
+    }
     Collector collector(study, collection.reveal_groups);
     collector.run();
     if (collection.reveal_groups && study.allocation.concealed)

@@ -138,7 +138,7 @@ void OperatorWindow::make_docks() {
 }
 
 void OperatorWindow::connect_scene() {
-    connect(&scene_->rating(), &RatingView::clicked, &control_, &SessionControl::click);
+    connect(&scene_->questions(), &QuestionsView::clicked, &control_, &SessionControl::click);
     connect(scene_, &SceneWidget::failed, this, [this](const QString& why) { log(why, true); });
     connect(scene_, &SceneWidget::draws_in_software, this,
             [this](const QString& what) { log(what); });
@@ -270,9 +270,9 @@ void OperatorWindow::show_frame(const frame::Frame& frame) {
 }
 
 void OperatorWindow::show_question() {
-    const task::AskSpec* question = control_.asked_by_mouse();
-    scene_->rating().set_question(question);
-    participants_.each([&](SceneWidget& scene) { scene.rating().set_question(question); });
+    const std::optional<Asked> asked = control_.asked();
+    scene_->ask(asked);
+    participants_.each([&](SceneWidget& scene) { scene.ask(asked); });
 }
 
 void OperatorWindow::move_hand(double h) {

@@ -89,7 +89,8 @@ void ParticipantWindows::add(const std::optional<display::Display>& display) {
     ParticipantWindow& window = *windows_.emplace_back(std::make_unique<ParticipantWindow>());
     window.scene().set_display(display);
     connect(&window, &ParticipantWindow::key_pressed, this, &ParticipantWindows::key_pressed);
-    connect(&window.scene().rating(), &RatingView::clicked, this, &ParticipantWindows::clicked);
+    connect(&window.scene().questions(), &QuestionsView::clicked, this,
+            &ParticipantWindows::clicked);
     // queued: the receiver deletes the window
     connect(&window, &ParticipantWindow::closed, this, &ParticipantWindows::closed,
             Qt::QueuedConnection);

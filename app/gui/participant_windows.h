@@ -40,8 +40,8 @@ class ParticipantWindows : public QObject {
     void changed();
     void closed();
     void key_pressed(char key);
-    /// A question's line was clicked at a share of its length.
-    void clicked(double share);
+    /// A question's line was clicked.
+    void clicked(const dihaptic::task::Click& click);
     /// The picture of a tick was handed to the participant's main screen.
     void presented(qint64 tick);
     /// A picture was handed to a headset, or to a screen that is drawn for a tracked head.

@@ -38,7 +38,6 @@ std::vector<std::pair<double, QString>> labels_of(const task::AskSpec& question)
 RatingView::RatingView(QWidget* parent) : QWidget(parent) {
     setAccessibleName(tr("Scale"));
     setMouseTracking(true);
-    setCursor(Qt::PointingHandCursor);
     hide();
 }
 
@@ -46,7 +45,19 @@ void RatingView::set_question(const task::AskSpec* question) {
     if (question == question_) return;
     question_ = question;
     share_ = -1;
+    answer_ = kUnmeasured;
     setVisible(question_ != nullptr);
+    const bool by_mouse = question_ != nullptr && question_->by == task::AnswerBy::mouse;
+    setAttribute(Qt::WA_TransparentForMouseEvents, !by_mouse);
+    setCursor(Qt::PointingHandCursor);
+    update();
+}
+
+void RatingView::set_answer(double answer, bool awaited) {
+    const bool same = answer == answer_ || (std::isnan(answer) && std::isnan(answer_));
+    if (same && awaited == awaited_) return;
+    answer_ = answer;
+    awaited_ = awaited;
     update();
 }
 
@@ -67,7 +78,7 @@ void RatingView::paintEvent(QPaintEvent*) {
     painter.drawRoundedRect(rect(), kCorner, kCorner);
     const QRectF on = line();
     const double tick = height() / 10.0;
-    painter.setPen(QPen(kInk, 2));
+    painter.setPen(QPen(awaited_ ? kPointer : kInk, 2));
     painter.drawLine(on.topLeft(), on.topRight());
     const double steps = question_->most() - question_->least();
     const bool each = question_->whole() && steps < kMostTicks;
@@ -89,6 +100,12 @@ void RatingView::paintEvent(QPaintEvent*) {
         const double inset = labels.size() > 2 ? 0 : on.left() / 2;
         painter.drawText(QRectF(left + inset, on.top() + 1.5 * tick, room - 2 * inset, height()),
                          side | Qt::AlignTop, text);
+    }
+    if (!std::isnan(answer_)) {
+        const double x = on.left() + on.width() * (answer_ - question_->least()) / steps;
+        painter.setPen(QPen(kInk, 2));
+        painter.setBrush(kPointer);
+        painter.drawEllipse(QPointF(x, on.top()), 1.5 * tick, 1.5 * tick);
     }
     if (share_ < 0) return;
     painter.setPen(QPen(kPointer, 4));

@@ -1,9 +1,9 @@
-// The line of a question that is answered by mouse. It lies over the scene, and a click on it is
-// the answer.
+// The line of a question. If it is answered by mouse, a click on the line is the answer.
 #pragma once
 
 #include <QWidget>
 
+#include "base/unmeasured.h"
 #include "task/file/rating.h"
 
 namespace dihaptic::gui {
@@ -16,6 +16,8 @@ class RatingView : public QWidget {
 
     /// Sets the question; null: none. An unchanged pointer means an unchanged question.
     void set_question(const task::AskSpec* question);
+    /// Marks the answer, in the unit of its name; NaN: none. `awaited`: the line is highlighted.
+    void set_answer(double answer, bool awaited);
 
   Q_SIGNALS:
     /// `share`: of the line, from 0 to 1.
@@ -33,6 +35,8 @@ class RatingView : public QWidget {
 
     const task::AskSpec* question_ = nullptr;
     double share_ = -1;  // position of the pointer; negative: elsewhere
+    double answer_ = kUnmeasured;
+    bool awaited_ = false;
 };
 
 }  // namespace dihaptic::gui

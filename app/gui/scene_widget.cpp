@@ -26,7 +26,7 @@ constexpr size_t kPath = 300;        // length of the path [pictures]: five seco
 SceneWidget::SceneWidget(QWidget* parent)
     : QOpenGLWidget(parent),
       page_(new PageView(this)),
-      rating_(new RatingView(this)),
+      questions_(new QuestionsView(this)),
       banner_(new QLabel(this)),
       help_(new QLabel(this)) {
     setAccessibleName(tr("Scene"));
@@ -153,8 +153,18 @@ void SceneWidget::reset_camera() {
 void SceneWidget::set_banner(const QString& text) {
     if (banner_->text() == text) return;
     banner_->setText(text);
-    banner_->setVisible(!text.isEmpty());
+    show_banner();
     place_labels();
+}
+
+void SceneWidget::ask(const std::optional<Asked>& asked) {
+    questions_->ask(asked);
+    show_banner();
+}
+
+/// A form has all texts of its own.
+void SceneWidget::show_banner() {
+    banner_->setVisible(!banner_->text().isEmpty() && !questions_->shows_form());
 }
 
 void SceneWidget::set_help(const QString& text) {
@@ -178,7 +188,7 @@ void SceneWidget::set_display(const std::optional<display::Display>& display) {
         words->setAttribute(Qt::WA_TranslucentBackground);
     }
     QWidget* const parent = words ? words.get() : this;
-    for (QWidget* child : std::array<QWidget*, 4>{page_, rating_, banner_, help_}) {
+    for (QWidget* child : std::array<QWidget*, 4>{page_, questions_, banner_, help_}) {
         const bool hidden = child->isHidden();
         child->setParent(parent);
         child->setVisible(!hidden);
@@ -204,7 +214,7 @@ void SceneWidget::place_labels() {
     }
     const int width = room.width(), height = room.height();
     page_->setGeometry({{0, 0}, room});
-    rating_->setGeometry(width / 10, height * 7 / 10, width * 8 / 10, height * 2 / 10);
+    questions_->place(room);
     // legible from a chair, on a screen of any size
     banner_->setStyleSheet(
         QString("background: rgba(20, 24, 30, 200); color: white; padding: 12px 20px; "

@@ -13,7 +13,7 @@
 #include "mouse_hand.h"
 #include "outlets/head_tracker.h"
 #include "page_view.h"
-#include "rating_view.h"
+#include "questions_view.h"
 #include "servo/workspace_turn.h"
 #include "view/scene_view.h"
 
@@ -80,8 +80,9 @@ class SceneWidget : public QOpenGLWidget {
     void set_help(const QString& text);
     /// Sets the page in place of the scene (page_view.h); empty: none.
     void set_page(const QString& text, const QString& picture);
-    /// The line of a question that is answered by mouse.
-    RatingView& rating() { return *rating_; }
+    /// Shows the questions that a task asks now; nullopt: none.
+    void ask(const std::optional<Asked>& asked);
+    const QuestionsView& questions() const { return *questions_; }
 
     QSize sizeHint() const override { return {900, 640}; }
 
@@ -126,6 +127,7 @@ class SceneWidget : public QOpenGLWidget {
     /// The camera follows a mouse movement of this many pixels.
     void look(const QPointF& way, bool pan);
     void zoom(double notches);
+    void show_banner();
     void place_labels();
     void make_view();
     void draw_scene();
@@ -165,7 +167,7 @@ class SceneWidget : public QOpenGLWidget {
     QPointF pointer_;
     QPointF pressed_;  // position where a button was pressed
     PageView* page_;
-    RatingView* rating_;
+    QuestionsView* questions_;
     QLabel* banner_;
     QLabel* help_;
 };

@@ -108,12 +108,33 @@ SessionControl::Words SessionControl::words() const {
     return {"", said_, QString::fromStdString(page.spec.picture)};
 }
 
-const task::AskSpec* SessionControl::asked_by_mouse() const {
-    if (!may(Act::skip)) return nullptr;
+std::optional<Asked> SessionControl::asked() const {
+    if (!may(Act::skip)) return {};
     const frame::Frame& frame = runner_.frame();
-    if (frame.trial < 1 || frame.phase < 1 || frame.task.outcome >= 0) return nullptr;
-    const auto& ask = runner_.plan().task->task.states[static_cast<size_t>(frame.phase) - 1].ask;
-    return ask && ask->by == task::AnswerBy::mouse ? &*ask : nullptr;
+    if (frame.trial < 1 || frame.phase < 1 || frame.task.outcome >= 0) return {};
+    const task::TaskPlan& plan = *runner_.plan().task;
+    const auto phase = static_cast<size_t>(frame.phase) - 1;
+    const task::State& state = plan.task.states[phase];
+    Asked out;
+    out.items = state.questions();
+    out.is_form = state.form.has_value();
+    if (out.items.empty()) return {};
+    if (!out.is_form && out.items.front().by != task::AnswerBy::mouse) return {};
+    if (out.is_form)
+        out.title =
+            QString::fromStdString(state.message.empty() ? state.form->title : state.message);
+    // the lines below the message say which question is asked now
+    const auto& items = plan.states[phase].questions.items;
+    const auto is_shown = [&](const task::TaskPlan::Questions::Item& item) {
+        return std::ranges::any_of(frame.task.lines, [&](const frame::LineFrame& line) {
+            return line.message == item.lines.front();
+        });
+    };
+    out.now = static_cast<size_t>(std::ranges::find_if(items, is_shown) - items.begin());
+    for (const auto& item : items)
+        out.answers.push_back(frame.task.variables[item.question.variable].value /
+                              item.question.si);
+    return out;
 }
 
 void SessionControl::open(const QString& file) {
@@ -272,8 +293,8 @@ void SessionControl::press(char key) {
     if (key != 0 && runner_.running() && runner_.plan().task) runner_.press(key);
 }
 
-void SessionControl::click(double share) {
-    if (runner_.running() && runner_.plan().task) runner_.click(share);
+void SessionControl::click(const task::Click& click) {
+    if (runner_.running() && runner_.plan().task) runner_.click(click);
 }
 
 void SessionControl::refresh() {

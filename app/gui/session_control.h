@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "loader.h"
+#include "questions_view.h"
 #include "session_progress.h"
 #include "session_runner.h"
 #include "trial_figures.h"
@@ -70,8 +71,8 @@ class SessionControl : public QObject {
         QString picture;  ///< of that page
     };
     Words words() const;
-    /// The question that a click can answer now; null: none.
-    const task::AskSpec* asked_by_mouse() const;
+    /// The form that is filled in now, or the rating that a click can answer; nullopt: none.
+    std::optional<Asked> asked() const;
 
     /// Another file is open from now on. It is watched; read() reads it.
     void open(const QString& file);
@@ -102,7 +103,7 @@ class SessionControl : public QObject {
     void turn_knobs(const frame::Knobs& knobs, const QString& what);
     /// Passes on a key that a task may wait for.
     void press(char key);
-    void click(double share);
+    void click(const task::Click& click);
     /// Passes on what the session has produced since the last call; to be called for each picture.
     void refresh();
 

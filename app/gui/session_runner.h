@@ -99,8 +99,8 @@ class SessionRunner : public QObject {
     }
     /// Passes on a key, for a task that waits for one.
     void press(char key) { session_->key = key; }
-    /// Passes on the clicked position on a question's line, from 0 to 1.
-    void click(double share) { session_->live.clicked = share; }
+    /// Passes on a click on a question's line.
+    void click(const task::Click& click) { session_->live.clicked = click; }
     /// Ends the session properly, even while the hand holds something.
     void end() { session_->live.ended = true; }
     /// Whether force was switched off for good, as by a signal; also after the session's end.

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/number.h"
+#include "base/unit.h"
 #include "frame/shown_texts.h"
 
 namespace dihaptic::analysis {
@@ -32,6 +34,7 @@ std::string EventFinder::name(int body) const {
 void EventFinder::add(const frame::Frame& frame) {
     add_trial(frame);
     add_task(frame);
+    add_answers(frame);
     add_phase(frame);
     add_touches(frame);
     add_support(frame);
@@ -89,6 +92,23 @@ void EventFinder::add_texts(const frame::Frame& frame) {
         lines_[i] = task.lines[i].message;
         if (std::find(before.begin(), before.end(), lines_[i]) == before.end())
             say(frame, "line", texts[first + i]);
+    }
+}
+
+/// Answers count when their state ends: until then, they may change.
+void EventFinder::add_answers(const frame::Frame& frame) {
+    const bool ended = frame.phase != phase_ || frame.task.outcome >= 0;
+    const size_t first = head_.variables.size() + head_.levels.size();
+    answers_.resize(head_.answers.size(), kUnmeasured);
+    for (size_t i = 0; i < answers_.size() && first + i < frame.task.variables.size(); ++i) {
+        const double answer = frame.task.variables[first + i].value;
+        if (std::isnan(answer)) answers_[i] = answer;  // it is asked for again
+        if (!ended || std::isnan(answer) || answer == answers_[i]) continue;
+        answers_[i] = answer;
+        const std::string& name = head_.answers[i];
+        std::string what = fmt::format("{} {:g}", name, answer / split_unit(name).si);
+        if (i < head_.forms.size() && !head_.forms[i].empty()) what += "; " + head_.forms[i];
+        say(frame, "answer", std::move(what));
     }
 }
 

@@ -31,6 +31,7 @@ class EventFinder {
     void add_task(const frame::Frame& frame);
     void add_texts(const frame::Frame& frame);
     void add_sounds(const frame::Frame& frame);
+    void add_answers(const frame::Frame& frame);
     void add_phase(const frame::Frame& frame);
     void add_touches(const frame::Frame& frame);
     void add_support(const frame::Frame& frame);
@@ -50,7 +51,8 @@ class EventFinder {
     int attempt_ = 0;
     int message_ = -1;
     int page_ = -1;
-    std::vector<int32_t> lines_;  // lines below the message, in the last frame
+    std::vector<int32_t> lines_;   // lines below the message, in the last frame
+    std::vector<double> answers_;  // at the end of the last state [SI]
     bool perturbed_ = false;
     size_t placed_ = 0;  // number of bodies
     int phase_ = -1;

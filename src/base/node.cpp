@@ -326,6 +326,20 @@ void emit(const Node& node, YAML::Emitter& out) {
 
 }  // namespace
 
+namespace {
+
+/// Whether a text without quotes ends with a question mark in brackets, where yaml-cpp takes the
+/// mark for the beginning of a key. `line`: from 0.
+bool ends_with_question(const std::string& text, int line) {
+    std::istringstream in(text);
+    std::string one;
+    for (int i = 0; i <= line; ++i) std::getline(in, one);
+    return one.find("?,") != std::string::npos || one.find("?}") != std::string::npos ||
+           one.find("? }") != std::string::npos || one.find("?]") != std::string::npos;
+}
+
+}  // namespace
+
 Node parse_yaml(const std::string& text, const std::string& file, Words words) {
     try {
         std::istringstream in(text);
@@ -337,7 +351,10 @@ Node parse_yaml(const std::string& text, const std::string& file, Words words) {
         return builder.take();
     } catch (const YAML::Exception& e) {
         throw Error({file, e.mark.line + 1}, "", "is not YAML: " + e.msg,
-                    "Check the indentation (spaces, no tabs) and the brackets near this line.");
+                    ends_with_question(text, e.mark.line)
+                        ? "Put a text that ends with a question mark in quotes."
+                        : "Check the indentation (spaces, no tabs) and the brackets near this "
+                          "line.");
     }
 }
 

@@ -96,6 +96,11 @@ Output::~Output() {
 
 void Output::keep() {
     check_replaceable(file_);
+    struct stat there {};  // who may read the file stays as it was
+    constexpr mode_t kPermissions = 07777;
+    if (::lstat(file_.c_str(), &there) == 0 &&
+        ::chmod(path_.c_str(), there.st_mode & kPermissions) != 0)
+        throw not_written(file_, std::strerror(errno));
     if (::rename(path_.c_str(), file_.c_str()) != 0) throw not_written(file_, std::strerror(errno));
 }
 

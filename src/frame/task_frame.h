@@ -318,7 +318,7 @@ struct TaskFrame {
     static constexpr size_t kMostProperties = 8;
     static constexpr size_t kMostLoads = 16;
     static constexpr size_t kMostMotors = 8;
-    static constexpr size_t kMostVariables = 32;
+    static constexpr size_t kMostVariables = 64;
     static constexpr size_t kMostSounds = 32;
     static constexpr size_t kMostLines = 6;
     static constexpr size_t kMostNumbers = 28;

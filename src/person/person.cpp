@@ -321,6 +321,7 @@ void Person::follow_cues(const Sight& sight) noexcept {
     delay_ = 0;
     const TaskPlan::PlannedState& planned = plan_->states[static_cast<size_t>(phase_ - 1)];
     answer_at_ = asks(planned) ? begins + kDecision : -1;
+    rated_ = 0;
     if (!new_attempt && steps_[static_cast<size_t>(phase_ - 1)].empty()) return;
     end_reach();
     acting_ = phase_;
@@ -645,8 +646,9 @@ bool Person::correct(const Sight& sight) noexcept {
 void Person::answer(const Sight& sight) noexcept {
     answer_at_ = -1;
     const TaskPlan::PlannedState& planned = plan_->states[static_cast<size_t>(phase_ - 1)];
-    if (planned.question && planned.question->by != task::AnswerBy::cursor)
-        return rate(*planned.question);
+    const TaskPlan::Questions& questions = planned.questions;
+    if (!questions.items.empty() && questions.items.front().question.by != task::AnswerBy::cursor)
+        return rate(questions);
     const double felt = (centre_ - felt_from_).norm();
     const double shown = (sight.hand - shown_from_).norm();
     const double evidence = felt > 0 && shown > 0 ? std::log(shown / felt) : 0;
@@ -664,12 +666,20 @@ void Person::answer(const Sight& sight) noexcept {
     key_ = yes || second == 0 ? first : second;
 }
 
-/// Types a random whole number on the scale, up to a hundred, because there is no model of ratings.
-void Person::rate(const task::Question& question) noexcept {
+/// Types a random whole number on the scale of the next question, up to a hundred, because there is
+/// no model of ratings; after the last question of a form, Enter.
+void Person::rate(const TaskPlan::Questions& questions) noexcept {
+    if (rated_ == questions.items.size()) {
+        key_ = task::Rating::kEnter;
+        return;
+    }
+    const task::Question& question = questions.items[rated_++].question;
+    if (questions.is_form) answer_at_ = now_ + kDecision;
     const double most = std::min(question.most, question.least + 100);
-    const double number = std::ceil(random_.uniform(question.least - 1, std::floor(most)));
-    const auto whole = static_cast<long>(std::clamp(number, question.least, most));
-    const auto end = std::to_chars(typed_.data(), typed_.data() + typed_.size() - 1, whole).ptr;
+    const double number = question.simulated.value_or(
+        std::ceil(random_.uniform(question.least - 1, std::floor(most))));
+    const double answer = std::clamp(number, question.least, most);
+    const auto end = std::to_chars(typed_.data(), typed_.data() + typed_.size() - 1, answer).ptr;
     *end = task::Rating::kEnter;
     typed_length_ = static_cast<size_t>(end - typed_.data()) + 1;
     typed_at_ = 0;

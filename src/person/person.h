@@ -80,7 +80,7 @@ class Person final : public task::SeeingDriver {
     void judge_extent(const Sight& sight) noexcept;
     Vec3 target(const Sight& sight, const task::TaskPlan::Step& step) const noexcept;
     void answer(const Sight& sight) noexcept;
-    void rate(const task::Question& question) noexcept;
+    void rate(const task::TaskPlan::Questions& questions) noexcept;
     double stiffness() const noexcept;
     double noisy(double value, double share) noexcept;
     const std::vector<task::TaskPlan::Step>& steps() const noexcept;
@@ -162,6 +162,7 @@ class Person final : public task::SeeingDriver {
         Vec3::Zero();  // start of the last movement of sufficient length, as shown [m]
     Vec3 felt_from_ = Vec3::Zero();  // ... and as felt [m]
     double answer_at_ = -1;          // time of the answer [s]; negative: no question
+    size_t rated_ = 0;               // questions of the state that are answered
     char key_ = 0;
     std::array<char, 12> typed_{};  // digits of a rating
     size_t typed_length_ = 0;

@@ -30,6 +30,25 @@ size_t keys_of(const task::TaskPlan::PlannedState& planned) {
     return keys.size();
 }
 
+/// The task's perturbations, and those that conditions and rounds put in their place, each name
+/// once for which `has` holds.
+template <class F>
+std::vector<const task::PerturbationSpec*> perturbations_with(const task::TaskPlan& plan,
+                                                              const F& has) {
+    std::vector<const task::PerturbationSpec*> out;
+    const auto add = [&](const std::vector<task::PerturbationSpec>& specs) {
+        for (const task::PerturbationSpec& spec : specs) {
+            const auto same = [&](const auto* other) { return other->name == spec.name; };
+            if (has(spec) && std::ranges::none_of(out, same)) out.push_back(&spec);
+        }
+    };
+    add(plan.task.perturbations);
+    for (const auto* list : {&plan.task.rounds, &plan.task.conditions}) {
+        for (const task::Condition& condition : *list) add(condition.perturbations);
+    }
+    return out;
+}
+
 bool reaches(const task::TaskPlan::PlannedState& planned) {
     return std::any_of(planned.hand.begin(), planned.hand.end(),
                        [](const task::TaskPlan::Step& step) { return step.step.reach.index >= 0; });
@@ -51,9 +70,11 @@ void warn_of_fields(const task::TaskPlan& plan, std::vector<Problem>& out) {
 }
 
 void warn_of_delays(const task::TaskPlan& plan, std::vector<Problem>& out) {
-    for (const task::PerturbationSpec& perturbation : plan.task.perturbations) {
-        if (!perturbation.visual || perturbation.visual->delay == Formula{0}) continue;
-        out.push_back({Severity::warning, perturbation.place, perturbation.name,
+    const auto is_late = [](const task::PerturbationSpec& perturbation) {
+        return perturbation.visual && !(perturbation.visual->delay == Formula{0});
+    };
+    for (const task::PerturbationSpec* perturbation : perturbations_with(plan, is_late)) {
+        out.push_back({Severity::warning, perturbation->place, perturbation->name,
                        "is shown late: simulated people see it late, but learn from it as much as "
                        "without the delay, whereas real people learn less",
                        kRemedy});
@@ -61,9 +82,11 @@ void warn_of_delays(const task::TaskPlan& plan, std::vector<Problem>& out) {
 }
 
 void warn_of_shifts(const task::TaskPlan& plan, std::vector<Problem>& out) {
-    for (const task::PerturbationSpec& perturbation : plan.task.perturbations) {
-        if (!perturbation.visual || perturbation.visual->shift == FormulaVec3{}) continue;
-        out.push_back({Severity::warning, perturbation.place, perturbation.name,
+    const auto shifts = [](const task::PerturbationSpec& perturbation) {
+        return perturbation.visual && !(perturbation.visual->shift == FormulaVec3{});
+    };
+    for (const task::PerturbationSpec* perturbation : perturbations_with(plan, shifts)) {
+        out.push_back({Severity::warning, perturbation->place, perturbation->name,
                        "shifts what is shown: simulated people take it for a rotation, do not "
                        "correct it within the reach, and their movements are arbitrary",
                        kRemedy});
@@ -71,14 +94,16 @@ void warn_of_shifts(const task::TaskPlan& plan, std::vector<Problem>& out) {
 }
 
 void warn_of_links(const task::TaskPlan& plan, std::vector<Problem>& out) {
-    for (const task::PerturbationSpec& perturbation : plan.task.perturbations) {
-        for (const task::LoadSpec& load : perturbation.all_loads()) {
-            if (load.kind != task::LoadKind::link) continue;
-            out.push_back({Severity::warning, perturbation.place, perturbation.name,
-                           "is a link, of which there is no model: simulated people do not learn "
-                           "it, and neither leads nor follows through it",
-                           kRemedy});
-        }
+    const auto links = [](const task::PerturbationSpec& perturbation) {
+        return std::ranges::any_of(perturbation.all_loads(), [](const task::LoadSpec& load) {
+            return load.kind == task::LoadKind::link;
+        });
+    };
+    for (const task::PerturbationSpec* perturbation : perturbations_with(plan, links)) {
+        out.push_back({Severity::warning, perturbation->place, perturbation->name,
+                       "is a link, of which there is no model: simulated people do not learn it, "
+                       "and neither leads nor follows through it",
+                       kRemedy});
     }
 }
 
@@ -131,8 +156,10 @@ void warn_of_answers(const task::TaskPlan& plan, std::vector<Problem>& out) {
 
 void warn_of_ratings(const task::TaskPlan& plan, std::vector<Problem>& out) {
     for (const task::State& state : plan.task.states) {
-        if (!state.ask) continue;
-        out.push_back({Severity::warning, state.ask->place, state.ask->name,
+        const auto random = [](const task::AskSpec& ask) { return !ask.simulated; };
+        const auto ask = std::ranges::find_if(state.questions(), random);
+        if (ask == state.questions().end()) continue;
+        out.push_back({Severity::warning, ask->place, ask->name,
                        "is a rating, of which there is no model: the answers of simulated people "
                        "are arbitrary",
                        kRemedy});

@@ -16,7 +16,7 @@ struct EventRow {
     int trial = 0;
     std::string name;  ///< "touch", "release", "lift-off", "replaced", "phase", "limit", "setting",
                        ///< "went on"; with a task "trial", "perturbation", "marker", "message",
-                       ///< "line", "page", "sound", "put back", "outcome"
+                       ///< "line", "page", "sound", "put back", "answer", "outcome"
     std::string detail;          ///< fingers, bodies or values concerned
     double shown = kUnmeasured;  ///< [s]
     double heard = kUnmeasured;  ///< [s]

@@ -108,12 +108,15 @@ Checked check_file(const std::string& file, Diagnostics& diagnostics, const std:
             case task::FileKind::study:
                 checked_study(file, diagnostics);
                 return {"study", {}};
+            case task::FileKind::form:
+                task::check(task::read_form(file, diagnostics), diagnostics);
+                return {"form", {}};
             case task::FileKind::unknown:
                 diagnostics.error(
                     {file, 0}, "", "is not a file that Dihaptic knows",
                     "A scene has 'bodies:', a rig 'devices:', an experiment "
-                    "'scene:', a population 'traits:', a study 'sessions:'; a movement ends in "
-                    ".csv or .tsv.");
+                    "'scene:', a population 'traits:', a study 'sessions:', a form 'items:'; a "
+                    "movement ends in .csv or .tsv.");
                 return {"unknown", {}};
         }
     } catch (const Error& e) {

@@ -44,6 +44,7 @@ constexpr std::array kSchemas{
     FileSchema{"rig", [] { return schema_of<rig::Rig>("Rig"); }},
     FileSchema{"experiment", [] { return schema_of<task::Experiment>("Experiment"); }},
     FileSchema{"study", [] { return schema_of<study::StudyFile>("Study"); }},
+    FileSchema{"form", [] { return schema_of<task::Form>("Form"); }},
     FileSchema{"population", [] { return schema_of<person::Population>("Population"); }},
     FileSchema{"calibration", [] { return schema_of<rig::Calibration>("Calibration"); }},
     FileSchema{"registration", [] { return schema_of<display::Registration>("Registration"); }},

@@ -212,8 +212,10 @@ void check_patch(const Plan& plan, Diagnostics& diagnostics) {
 void check_headset(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.task || !plan.rig.headset) return;
     for (const task::State& state : plan.task->task.states) {
-        if (!state.ask || state.ask->by != task::AnswerBy::mouse) continue;
-        diagnostics.warning(state.place, "ask", "is not shown in a headset, which has no mouse",
+        const auto by_mouse = [](const task::AskSpec& a) { return a.by == task::AnswerBy::mouse; };
+        if (!std::ranges::any_of(state.questions(), by_mouse)) continue;
+        diagnostics.warning(state.place, state.form ? "form" : "ask",
+                            "is not shown in a headset, which has no mouse",
                             "Use by: key, or by: cursor.");
         return;
     }

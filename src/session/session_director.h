@@ -36,6 +36,8 @@ class SessionDirector {
     /// States that formulas of trials were kept within their bounds; "" if none was.
     std::string bounded() const;
     bool trials_left() const noexcept { return share().value_or(1) < 1; }
+    /// Number of trials that an exit left out because it ended the session.
+    size_t left_out() const noexcept { return task_ ? task_->left_out() : 0; }
     /// Describes the wait that was so long that it ended the session; "" if there was none.
     std::string endless_wait(const std::vector<recording::PhaseInfo>& phases) const;
 

@@ -286,6 +286,7 @@ void Run::describe_task() {
         info_.levels.push_back(level.name);
     for (const task::AskSpec& ask : task::questions_of(plan_.task->task))
         info_.answers.push_back(ask.name);
+    info_.forms = task::forms_of(plan_.task->task);
     for (const task::TaskPlan::Page& page : plan_.task->pages)
         info_.pages.push_back(page.spec.picture.empty()
                                   ? page.spec.text
@@ -497,6 +498,11 @@ void Run::conclude() {
     if (result_.timing.refusals.any()) {
         info_.notes.push_back(
             servo::describe(result_.timing.refusals, plan_.settings.real_time_priority));
+    }
+    if (const size_t left_out = director_->left_out(); left_out > 0) {
+        info_.notes.push_back(fmt::format("an exit ended the session: {} {} left out",
+                                          counted(static_cast<int64_t>(left_out), "trial"),
+                                          left_out == 1 ? "was" : "were"));
     }
     folder_.write_info(info_);
     // a fault ends a session too: dihaptic resume does the remaining trials

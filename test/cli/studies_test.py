@@ -82,6 +82,39 @@ class Studies(unittest.TestCase):
         self.assertEqual(self.log(), [("not included", "S01")])
         self.assertNotIn("S01", self.participant("list").stdout)
 
+    def test_names_are_kept_in_a_file_of_their_own_that_only_its_owner_reads(self):
+        with tempfile.TemporaryDirectory() as elsewhere:
+            key = elsewhere + "/names.csv"
+            named = ["--name", "Ada, Countess", "--contact", "ada@example.org", "--key", key]
+            self.add("S01", *FACTS, *named)
+            self.assertEqual(os.stat(key).st_mode & 0o777, 0o600)
+            self.add("S02", *FACTS, "--name", "Mary", "--key", key)
+            self.assertEqual(os.stat(key).st_mode & 0o777, 0o600)
+            shown = self.participant("show", "S01", "--key", key).stdout
+            self.assertRegex(shown, r"name +Ada, Countess\n +contact +ada@example.org\n")
+            self.assertNotIn("Ada", self.participant("show", "S01").stdout)
+            for file in pathlib.Path(self.folder).rglob("*"):
+                self.assertNotIn("Ada", file.read_text() if file.is_file() else "")
+            with open(key, "a") as table:
+                table.write("S03,Eve,\n")
+            self.refused(self.participant("add", "S03", *FACTS, *named), "belongs to a name already")
+            pathlib.Path(key).write_text(pathlib.Path(key).read_text().replace("S03,Eve,\n", ""))
+            os.chmod(key, 0o644)
+            self.refused(self.participant("show", "S01", "--key", key), "others may read it", "chmod 600")
+            os.chmod(key, 0o600)
+            said = self.participant("withdraw", "S01", "--keep-data", "--key", key)
+            self.assertEqual(said.returncode, 0, said.stderr)
+            self.assertIn("the name is deleted", said.stdout)
+            self.assertEqual(pathlib.Path(key).read_text(), "participant,name,contact\nS02,Mary,\n")
+            other = pathlib.Path(elsewhere, "other.csv")
+            other.write_text("a,b\n1,2\n")
+            other.chmod(0o600)
+            self.refused(self.participant("show", "S01", "--key", str(other)), "not a key file")
+        within = self.folder + "/names.csv"
+        self.refused(self.participant("add", "S03", *FACTS, "--name", "Eve", "--key", within), "in the study's folder")
+        self.assertNotIn("S03", self.participant("list").stdout)
+        self.assertNotEqual(self.participant("add", "S03", *FACTS, "--name", "Eve").returncode, 0)
+
     def test_a_name_a_missing_fact_and_an_unknown_one_are_refused(self):
         self.refused(self.participant("add", "Anna", *FACTS), "may be a person's name")
         self.refused(self.participant("add", "S01", "--age", "24"), "lacks 'vision'", "--fact vision=VALUE")

@@ -67,6 +67,40 @@ class Trials(Participants):
         self.assertEqual((answers[0], answers[2]), (0, 100))
         self.assertTrue(20 < answers[1] < 80, answers)
 
+    def test_fill_in_a_form_by_mouse_and_keys(self):
+        def asked(text):
+            return text[:text.index("task:")] + """task:
+  states:
+    - name: rate
+      form: { file: ../forms/nasa-tlx.yaml }
+      exits: [{ when: answered, outcome: filled }]
+  blocks: [{ name: all, repeats: 1 }]
+"""
+        self.open(self.experiment("visuomotor-rotation", asked))
+        self.start()
+        time.sleep(1)
+        self.screenshot("form-empty")
+        self.xdotool("mousemove", "520", "300")
+        time.sleep(0.5)
+        self.xdotool("click", "1")  # some item in the middle
+        for answer in ("10", "20", "30", "40", "50"):
+            time.sleep(0.2)
+            self.key(*answer, "Return")
+        time.sleep(0.5)
+        self.screenshot("form-filled")
+        self.key("Return")
+        with self.ended("complete"):
+            pass
+        with open(self.recording() + "trials.csv") as file:
+            row = next(csv.DictReader(file))
+        given = [float(row["tlx_" + item])
+                 for item in ("mental", "physical", "temporal", "performance", "effort", "frustration")]
+        clicked = [answer for answer in given if answer not in (10, 20, 30, 40, 50)]
+        self.assertEqual(len(clicked), 1, given)  # by mouse, and not asked for again
+        self.assertTrue(20 < clicked[0] < 80, given)
+        self.assertEqual([a for a in given if a != clicked[0]], [10, 20, 30, 40, 50])
+        self.assertAlmostEqual(float(row["tlx"]), sum(given) / 6, places=6)
+
     def test_that_were_not_finished_are_offered_before_new_ones(self):
         """Three reaches by mouse, of which one is skipped; the rest is done in a second session."""
         def short(text):

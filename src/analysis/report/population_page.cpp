@@ -12,6 +12,8 @@
 #include "analysis/report/measure_section.h"
 #include "analysis/report/statistics.h"
 #include "base/plural.h"
+#include "base/unit.h"
+#include "task/plan/levels.h"
 
 namespace dihaptic::analysis {
 namespace {
@@ -315,20 +317,37 @@ void add_lifts(PopulationPage& out, const std::string& title, const Sessions& se
     out.page.table(table, "Over people, of each person's median. " + origin);
 }
 
-/// Lists the measures of the last attempts at trials, by round, condition and kind of trials.
+/// The measures of a session, and the answers that it asked for.
+std::vector<Table::Column> measures_and_answers(const SessionData& session) {
+    std::vector<Table::Column> out = measured_columns(session);
+    for (const task::AskSpec& ask : task::questions_of(session.task)) {
+        const NameInUnit name = split_unit(ask.name);
+        std::string unit;
+        if (name.quantity != Quantity::none) unit = ask.name.substr(name.name.size() + 1);
+        std::replace(unit.begin(), unit.end(), '_', '/');
+        if (session.trials.column(ask.name)) out.push_back({ask.name, ask.question, unit});
+    }
+    return out;
+}
+
+/// Lists the measures and answers of the last attempts at trials, by the study's group and session,
+/// and by round, block, condition and kind of trials.
 void list_measures(PopulationPage& out, const std::string& title, const Sessions& sessions) {
-    using Key = std::array<std::string, 3>;  // round, condition, kind
-    for (const Table::Column& column : measured_columns(*sessions.front())) {
+    using Key = std::array<std::string, 6>;  // group, session, round, block, condition, kind
+    for (const Table::Column& column : measures_and_answers(*sessions.front())) {
         std::map<Key, ByPerson> values;
         std::map<Key, int> trials_of, empty;
         for (const SessionData* session : sessions) {
             const rows::TrialFile& trials = session->trials;
             const auto measured = trials.column(column.name);
+            const recording::InStudy in_study =
+                session->info.in_study.value_or(recording::InStudy{});
             std::map<int, size_t> last;  // row of the last attempt, by trial
             for (size_t i = 0; i < trials.size(); ++i) last[trials[i].asked.trial] = i;
             for (const auto& [trial, i] : last) {
                 const rows::AskedRow& asked = trials[i].asked;
-                const Key key{asked.round, asked.condition, std::string(enum_name(asked.kind))};
+                const Key key{in_study.group, in_study.session, asked.round,
+                              asked.block,    asked.condition,  std::string(enum_name(asked.kind))};
                 const double value = trials.number(i, measured);
                 ++trials_of[key];
                 empty[key] += std::isnan(value) ? 1 : 0;
@@ -336,14 +355,21 @@ void list_measures(PopulationPage& out, const std::string& title, const Sessions
                 if (!std::isnan(value)) of_people.add(person_of(*session), value);
             }
         }
+        const auto answers = task::questions_of(sessions.front()->task);
+        const bool is_answer = std::ranges::any_of(
+            answers, [&](const task::AskSpec& ask) { return ask.name == column.name; });
         for (const auto& [key, of_people] : values) {
+            if (is_answer && empty[key] == trials_of[key]) continue;  // not asked for there
             FigureLister row;
             row("experiment", title, "", "title");
+            row("group", key[0], "", "group of the study; empty: none");
+            row("study_session", key[1], "", "session of the study; empty: none");
             row("measure", column.name, "", "column of trials.csv; each person's mean counts");
             row("unit", column.unit, "", "its unit");
-            row("round", key[0], "", "name");
-            row("condition", key[1], "", "name");
-            row("kind", key[2], "", "kind of the trials");
+            row("round", key[2], "", "name");
+            row("block", key[3], "", "name");
+            row("condition", key[4], "", "name");
+            row("kind", key[5], "", "kind of the trials");
             row("trials", trials_of[key], "1", "number over all people, the last attempt at each");
             row("left_out", empty[key], "1", "trials without the measure: not_measured says why");
             list(row, of_people.over_people());

@@ -5,10 +5,12 @@
 #include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "base/regular_file.h"
 #include "base/shell_word.h"
 #include "recording/seal.h"
+#include "rows/phase_row.h"
 #include "task/plan/trials.h"
 
 namespace dihaptic::analysis {
@@ -48,6 +50,71 @@ void note_skipped_reversals(std::vector<ThresholdTrack>& tracks, const task::Tas
     }
 }
 
+/// Whether the cursor is hidden in the state, in trials of this round and condition.
+bool hides_cursor(const task::Task& task, const std::string& state, const rows::AskedRow& asked) {
+    for (const task::State& one : task.states) {
+        if (one.name == state && one.show.cursor == task::Cursor::no) return true;
+    }
+    const auto hides = [&](const task::LookSpec& look) {
+        const bool now = look.during.empty() || std::ranges::find(look.during, state) !=
+                                                    static_cast<const Texts&>(look.during).end();
+        const std::string& reaches = task.reach->finger;
+        return look.hidden && now && !look.finger.empty() &&
+               (reaches.empty() || look.finger == reaches);
+    };
+    const auto of = [&](const std::vector<task::Condition>& list, const std::string& name) {
+        return std::ranges::any_of(list, [&](const task::Condition& c) {
+            return c.name == name && std::ranges::any_of(c.look, hides);
+        });
+    };
+    return of(task.conditions, asked.condition) || of(task.rounds, asked.round);
+}
+
+/// A reach whose cursor was hidden showed no error.
+void note_hidden_cursor(SessionData& data) {
+    if (!data.task.reach || !is_there(data.folder.file("phases.csv"))) return;
+    const auto& during = data.task.reach->during;
+    std::map<int, std::string> state;  // in which a trial's last reach was made
+    for (const rows::PhaseRow& phase : rows::PhaseFile(data.folder.file("phases.csv"))) {
+        const auto& names = static_cast<const Texts&>(during);
+        if (std::ranges::find(names, phase.name) != names.end()) state[phase.trial] = phase.name;
+    }
+    std::set<int> hidden;
+    for (const rows::TrialRow& row : data.trials) {
+        const auto reached = state.find(row.asked.trial);
+        if (reached != state.end() && hides_cursor(data.task, reached->second, row.asked))
+            hidden.insert(row.asked.trial);
+    }
+    for (AdaptationCurve& curve : data.curves) {
+        for (AdaptationCurve::Trial& trial : curve.trials) {
+            if (!hidden.contains(trial.number)) continue;
+            trial.clamp = true;
+            trial.perturbation = 0;
+        }
+    }
+}
+
+/// Finds the curves of adaptation, and of its generalisation.
+void find_curves(SessionData& data) {
+    const bool in_channels = has_adaptation_index(data.trials);
+    if (in_channels)
+        std::erase_if(data.unmeasured,
+                      [](const auto& of) { return of.second.starts_with("a force"); });
+    data.curves = adaptation_curves(data.trials, data.unmeasured);
+    const std::string errors = column_of_errors(data.task);
+    const bool in_errors = !errors.empty() && data.trials.column(errors);
+    if (in_errors) {
+        data.curves = error_curves(data.trials, errors);
+        data.unmeasured.clear();  // the curves state what is not visible
+    }
+    if (!in_channels && !in_errors) note_hidden_cursor(data);
+    // the effect of a channel or a field on the hand does not show the learning
+    if (!data.curves.empty() && !in_channels && !in_errors && data.unmeasured.empty() &&
+        is_there(data.folder.file("trial-list.csv")))
+        data.generalisation = find_generalisation(
+            data.trials, task::read_reaches(data.folder.file("trial-list.csv")));
+}
+
 }  // namespace
 
 SessionData SessionData::read(const std::string& path) {
@@ -77,22 +144,7 @@ SessionData SessionData::read(const std::string& path) {
     }
     if (is_there(folder.file("lifts.csv")))
         data.lifts.emplace(rows::read_lifts(folder.file("lifts.csv")));
-    const bool in_channels = has_adaptation_index(data.trials);
-    if (in_channels)
-        std::erase_if(data.unmeasured,
-                      [](const auto& of) { return of.second.starts_with("a force"); });
-    data.curves = adaptation_curves(data.trials, data.unmeasured);
-    const std::string errors = column_of_errors(data.task);
-    const bool in_errors = !errors.empty() && data.trials.column(errors);
-    if (in_errors) {
-        data.curves = error_curves(data.trials, errors);
-        data.unmeasured.clear();  // the curves state what is not visible
-    }
-    // the effect of a channel or a field on the hand does not show the learning
-    if (!data.curves.empty() && !in_channels && !in_errors && data.unmeasured.empty() &&
-        is_there(folder.file("trial-list.csv")))
-        data.generalisation =
-            find_generalisation(data.trials, task::read_reaches(folder.file("trial-list.csv")));
+    find_curves(data);
     if (is_there(folder.file("procedures.csv")))
         data.tracks =
             threshold_tracks(data.trials, rows::ProcedureFile(folder.file("procedures.csv")));

@@ -152,7 +152,8 @@ void add_curve(SessionPage& out, const SessionData& session, const AdaptationCur
         row("unit", curve.unit, "", "unit of the values below");
         row("perturbation", trial.perturbation, "1", "0 if no error was seen");
         row("error_seen", std::string(trial.clamp ? "no" : "yes"), "",
-            "no in clamps, in reaches that fell short, and if unknown");
+            "no in clamps, in reaches that fell short or whose cursor was hidden, "
+            "and if unknown");
         row("compensation", trial.compensation, "1", "compensation of the hand");
         row("two_rate", fitted, "1", "fitted");
         row("single_rate", single, "1", "fitted");

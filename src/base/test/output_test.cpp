@@ -31,6 +31,17 @@ struct OutputTest : ::testing::Test {
     void expect_untouched() const { EXPECT_EQ(read_text_file(foreign), "theirs"); }
 };
 
+TEST_F(OutputTest, LeavesPermissionsAsTheyWere) {
+    for (const mode_t mode : {mode_t{0600}, mode_t{0640}, mode_t{0664}}) {
+        write_file("one", file);
+        ASSERT_EQ(::chmod(file.c_str(), mode), 0);
+        write_file("two", file);
+        struct stat there {};
+        ASSERT_EQ(::stat(file.c_str(), &there), 0);
+        EXPECT_EQ(there.st_mode & 07777, mode);
+    }
+}
+
 TEST_F(OutputTest, ReplacesAFileWholeAndLeavesNothingElse) {
     write_file("one", file);
     write_file("two", file, Keep::at_once);

@@ -70,9 +70,8 @@ void Live::steer(const Steering& steering) noexcept {
     knobs.turn(steering.last, seconds(steering.period), commands.knobs);
     if (steering.task == nullptr) return;
     if (skip.exchange(false, std::memory_order_relaxed)) steering.task->skip();
-    const double nowhere = task::Rating::kNowhere;
-    if (const double at = clicked.exchange(nowhere, std::memory_order_relaxed); at != nowhere)
-        steering.task->click(at);
+    const task::Click click = clicked.exchange(task::Click{}, std::memory_order_relaxed);
+    if (click.item >= 0) steering.task->click(click);
     done.store(steering.task->share(), std::memory_order_relaxed);
 }
 

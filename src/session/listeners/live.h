@@ -14,7 +14,7 @@
 #include "recording/showings.h"
 #include "session/knob_turner.h"
 #include "session/listeners/listener.h"
-#include "task/file/rating.h"
+#include "task/run/answering.h"
 
 namespace dihaptic::session {
 
@@ -64,8 +64,8 @@ class Live : public Listener {
     std::atomic<int> steps{0};       ///< virtual clock: ticks to perform despite a pause
     std::atomic<bool> ended{false};  ///< requests an orderly end of the session
     std::atomic<bool> skip{false};   ///< requests the end of the running trial in the next tick
-    /// Clicked position as a share of a question's line, until a tick takes it.
-    std::atomic<double> clicked{task::Rating::kNowhere};
+    /// A click on a question's line, until a tick takes it.
+    std::atomic<task::Click> clicked{task::Click{}};
     std::atomic<double> done{0};  ///< share of completed trials
     KnobTurner knobs;
 

@@ -355,7 +355,7 @@ class Compiler : Parts {
         const std::vector<std::string> names = quantities_.names();
         const std::string guess = nearest(name.text, names);
         return {name.column, fmt::format("'{}' is not a quantity", name.text),
-                guess.empty() ? "docs/files.md (conditions) lists the quantities."
+                guess.empty() ? "docs/quantities.md lists the quantities."
                               : fmt::format("Did you mean {}?", guess),
                 names};
     }
@@ -450,7 +450,7 @@ class Compiler : Parts {
         std::string_view name;
         Value (Compiler::*read)(const Token&);
     };
-    static constexpr size_t kShortFormCount = 12;
+    static constexpr size_t kShortFormCount = 13;
     static const std::array<ShortForm, kShortFormCount> kShortForms;
 
     bool ends_arguments() const { return token().is(")"); }
@@ -582,6 +582,18 @@ class Compiler : Parts {
                       name.column);
     }
 
+    Value rate(const Token& name) {
+        const Value of = choice();
+        demand(of, Type::number);
+        const int slot_of = of.type == Type::number ? slot_in(of.node[0]) : -1;
+        const std::optional<int> rate = quantities_.rate(slot_of);
+        if (!rate)
+            throw Fault{name.column, "'rate' needs a single number that is measured in each tick",
+                        "Write e.g. rate(grip_force) or rate(block.z)."};
+        note(Kind::tick);
+        return number(slot(*rate), of.dimension / dimension(Quantity::time), name.column);
+    }
+
     Value mean(const Token& name) { return look_back(name, LookBack::Statistic::mean); }
     Value median(const Token& name) { return look_back(name, LookBack::Statistic::median); }
     Value sd(const Token& name) { return look_back(name, LookBack::Statistic::sd); }
@@ -639,6 +651,7 @@ constexpr std::array<Compiler::ShortForm, Compiler::kShortFormCount> Compiler::k
     {"lifted", &Compiler::lifted},
     {"still", &Compiler::still},
     {"contact_force", &Compiler::contact_force},
+    {"rate", &Compiler::rate},
     {"mean", &Compiler::mean},
     {"median", &Compiler::median},
     {"sd", &Compiler::sd},

@@ -15,6 +15,7 @@
 //     touched(body, thing) released(body, thing) gripped(body, hand)       thing: hand if omitted
 //     lifted(body, height) still(thing, speed)                             20 mm, 20 mm/s
 //     contact_force(thing, thing)                                          normal force [N]
+//     rate(quantity)                                                       over 10 ticks [1/s]
 //
 // A name that contains characters other than letters, digits and _ is quoted: "left plate".x.
 #pragma once

@@ -47,6 +47,11 @@ class Parts {
         const Node& n = nodes_[static_cast<size_t>(node)];
         return n.operation.function == nullptr && n.slot < 0;
     }
+    /// The slot that is the whole of the node; -1 if it is computed, or a constant.
+    int slot_in(int node) const {
+        const Node& n = nodes_[static_cast<size_t>(node)];
+        return n.operation.function == nullptr ? n.slot : -1;
+    }
     double constant_of(int node) const { return nodes_[static_cast<size_t>(node)].value; }
     int apply(const Operation& operation, std::array<int, 3> arguments) {
         std::array<double, 3> values{};

@@ -521,6 +521,35 @@ double Quantities::number_at(const char* at, Source::Format format) noexcept {
 
 void Quantities::update(const frame::Frame& last, std::span<const frame::Handle> handles) noexcept {
     for (const Source& source : sources_) set(source.slot, read(source, last, handles));
+    if (!rates_.empty()) update_rates(last);
+}
+
+std::optional<int> Quantities::rate(int slot) {
+    const auto known = std::find_if(rates_.begin(), rates_.end(),
+                                    [&](const Rate& rate) { return rate.of == slot; });
+    if (known != rates_.end()) return known->slot;
+    const bool measured = std::any_of(sources_.begin(), sources_.end(),
+                                      [&](const Source& source) { return source.slot == slot; });
+    if (!measured) return {};
+    const int out = define_unnamed({}).slot;
+    rates_.push_back({slot, out});
+    return out;
+}
+
+void Quantities::update_rates(const frame::Frame& last) noexcept {
+    if (last.sequence < 0) return;
+    if (last.sequence != sequence_ + 1) ticks_ = 0;
+    sequence_ = last.sequence;
+    const size_t at = ticks_ % kRateTicks;
+    const double now = seconds(last.time);
+    for (Rate& rate : rates_) {
+        const double value = values_[static_cast<size_t>(rate.of)];
+        const bool full = ticks_ >= kRateTicks;
+        set(rate.slot, full ? (value - rate.past[at]) / (now - times_[at]) : kUnmeasured);
+        rate.past[at] = value;
+    }
+    times_[at] = now;
+    ++ticks_;
 }
 
 }  // namespace dihaptic::task

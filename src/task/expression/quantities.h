@@ -18,6 +18,7 @@
 // everything else from the last Frame; all in SI units. Unmeasured values are NaN.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -111,6 +112,12 @@ class Quantities {
     /// Slot of the normal force between two things, summed over their fingers [N].
     int contact_force(const Thing& a, const Thing& b);
 
+    /// Slot of the rate at which the number in a slot changes: its difference over the last
+    /// kRateTicks ticks, divided by their duration [1/s]. NaN until so many ticks followed one
+    /// another. nullopt if the number is not measured in the tick.
+    std::optional<int> rate(int slot);
+    static constexpr size_t kRateTicks = 10;
+
     static constexpr int kTimeInState = 0;
     static constexpr int kTimeInTrial = 1;
     static constexpr int kTrial = 2;
@@ -150,6 +157,11 @@ class Quantities {
         Thing b{};
         bool shown = false;  ///< for middle
     };
+    struct Rate {
+        int of = -1;  ///< slot
+        int slot = -1;
+        std::array<double, kRateTicks> past{};  ///< a ring of values
+    };
     struct Member;
     struct Lister;
     template <class Item>
@@ -168,6 +180,7 @@ class Quantities {
     int slot_of(Source source);
     static double read(const Source& source, const frame::Frame& last,
                        std::span<const frame::Handle> handles) noexcept;
+    void update_rates(const frame::Frame& last) noexcept;
     static double number_at(const char* at, Source::Format format) noexcept;
     static double middle(const Source& source, const frame::Frame& last,
                          std::span<const frame::Handle> handles) noexcept;
@@ -180,6 +193,10 @@ class Quantities {
     std::vector<std::string> texts_;
     std::vector<Source> sources_;
     std::vector<double> values_;
+    std::vector<Rate> rates_;
+    std::array<double, kRateTicks> times_{};  // of the past values of rates [s]
+    size_t ticks_ = 0;                        // that followed one another
+    int64_t sequence_ = -1;                   // of the last one
     bool looks_back_ = false;
 };
 

@@ -1,16 +1,41 @@
 #include "task/file/experiment.h"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace dihaptic::task {
 
 namespace {
 
-void read_paths(Task& task, const std::string& folder, Diagnostics& diagnostics) {
+/// Turns the scores of a state's form into custom measures of the task.
+void take_scores(State& state, std::vector<CustomMeasure>& measures) {
+    for (const Score& score : state.form->scores) {
+        const auto same = [&](const CustomMeasure& m) {
+            return m.name == score.name && m.of == score.of;
+        };
+        auto found = std::find_if(measures.begin(), measures.end(), same);
+        if (found == measures.end()) {
+            CustomMeasure measure;
+            measure.name = score.name;
+            measure.of = score.of;
+            measure.take = Take::last;
+            measure.place = score.place;
+            found = measures.insert(measures.end(), measure);
+        }
+        found->during.push_back(state.name);
+    }
+    state.form->scores.clear();
+}
+
+/// Reads the files that states name, and puts their contents in their places.
+void read_files(Task& task, const std::string& folder, Diagnostics& diagnostics) {
     for (State& state : task.states) {
         for (DriveSpec& drive : state.drives) {
             if (drive.path) drive.path->read_file(folder, diagnostics);
         }
+        if (!state.form) continue;
+        state.form->read_file(folder, diagnostics);
+        take_scores(state, task.custom_measures);
     }
 }
 
@@ -21,7 +46,7 @@ Experiment read_experiment(const std::string& file, Diagnostics& diagnostics) {
     try {
         read_fields(experiment, read_yaml(file), diagnostics);
         if (experiment.task)
-            read_paths(*experiment.task, std::filesystem::path(file).parent_path().string(),
+            read_files(*experiment.task, std::filesystem::path(file).parent_path().string(),
                        diagnostics);
     } catch (const Error& e) {
         diagnostics.add(e.problems());
@@ -39,6 +64,7 @@ FileKind kind_of(const std::string& file) {
     if (root.find("scene") != nullptr) return FileKind::experiment;
     if (root.find("bodies") != nullptr) return FileKind::scene;
     if (root.find("sessions") != nullptr) return FileKind::study;
+    if (root.find("items") != nullptr) return FileKind::form;
     if (root.find("devices") != nullptr) return FileKind::rig;
     if (root.find("traits") != nullptr || root.find("based_on") != nullptr)
         return FileKind::population;

@@ -83,11 +83,11 @@ struct Experiment {
     }
 };
 
-/// Reads an experiment file and the paths of its drives, but not the other files that it refers to.
-/// Problems go to `diagnostics`.
+/// Reads an experiment file, the paths of its drives and its forms, but not the other files that it
+/// refers to. Problems go to `diagnostics`.
 Experiment read_experiment(const std::string& file, Diagnostics& diagnostics);
 
-enum class FileKind { scene, rig, experiment, movement, population, study, unknown };
+enum class FileKind { scene, rig, experiment, movement, population, study, form, unknown };
 /// Identifies the kind of a file by its name and its keys. Throws Error if the file cannot be read.
 FileKind kind_of(const std::string& file);
 /// Whether a file is a movement, judged by its ending: .csv or .tsv, as motion capture systems use.

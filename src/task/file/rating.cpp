@@ -17,10 +17,13 @@ constexpr double kTypedBase = 10;
 constexpr size_t kMostLabels = 9;
 
 void check_likert(const AskSpec& spec, Diagnostics& diagnostics) {
-    if (spec.from || spec.to)
-        diagnostics.error(spec.place, spec.from ? "from" : "to",
-                          "cannot be set: a likert scale is numbered from 1",
+    if (spec.to)
+        diagnostics.error(spec.place, "to",
+                          "cannot be set: a likert scale has as many numbers as labels",
                           "Leave it out: each label gets a number.");
+    if (spec.least() != std::round(spec.least()))
+        diagnostics.error(spec.place, "from", "is not a whole number",
+                          "Write the number of the first label, e.g. from: 0.");
     if (spec.labels.size() < 2 || spec.labels.size() > kMostLabels)
         diagnostics.error(spec.place, "labels",
                           fmt::format("there are {}, but a likert scale has 2 to {}",
@@ -70,11 +73,11 @@ bool is_of_number(char key, bool first, const Question& question) noexcept {
 }  // namespace
 
 double AskSpec::least() const {
-    return scale == Scale::likert ? 1 : from.value_or(0);
+    return from.value_or(scale == Scale::likert ? 1 : 0);
 }
 
 double AskSpec::most() const {
-    if (scale == Scale::likert) return static_cast<double>(labels.size());
+    if (scale == Scale::likert) return least() + static_cast<double>(labels.size()) - 1;
     return to.value_or(scale == Scale::vas ? kEndOfVas : kMostMagnitude);
 }
 
@@ -85,6 +88,12 @@ void check(const AskSpec& spec, Diagnostics& diagnostics) {
         check_ends(spec, diagnostics);
     }
     check_by(spec, diagnostics);
+    const double simulated = spec.simulated.value_or(spec.least());
+    if (simulated < spec.least() || simulated > spec.most() ||
+        (spec.whole() && simulated != std::round(simulated)))
+        diagnostics.error(spec.place, "simulated_answer",
+                          fmt::format("{:g} is no answer on the scale", simulated),
+                          fmt::format("Write one from {:g} to {:g}.", spec.least(), spec.most()));
 }
 
 std::string line_of(const AskSpec& spec) {
@@ -97,7 +106,8 @@ std::string line_of(const AskSpec& spec) {
     };
     if (spec.scale == Scale::likert) {
         for (size_t i = 0; i < spec.labels.size(); ++i)
-            parts.push_back(fmt::format("{} {}", i + 1, plain(spec.labels[i])));
+            parts.push_back(fmt::format("{:g} {}", spec.least() + static_cast<double>(i),
+                                        plain(spec.labels[i])));
     } else if (spec.labels.size() == 2) {
         parts.push_back(fmt::format("{:g} {}", spec.least(), plain(spec.labels[0])));
         parts.push_back(fmt::format("{:g} {}", spec.most(), plain(spec.labels[1])));

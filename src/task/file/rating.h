@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -30,12 +31,15 @@ constexpr auto enum_names(AnswerBy) {
 /// A question as described in an experiment file.
 struct AskSpec {
     std::string name;  ///< of the answer, with its unit
+    std::string question;
     Scale scale = Scale::numbers;
     std::optional<double> from;
     std::optional<double> to;
     std::vector<std::string> labels;  ///< of the ends or, on a likert scale, of all numbers
     AnswerBy by = AnswerBy::key;
-    RefList<Region> between;  ///< for `cursor`: at the ends of the line
+    RefList<Region> between;          ///< for `cursor`: at the ends of the line
+    bool optional = false;            ///< Enter alone leaves it unanswered
+    std::optional<double> simulated;  ///< answer of simulated people; unset: random
     Place place;
 
     template <class Visitor>
@@ -43,9 +47,12 @@ struct AskSpec {
         const Field end = Field::number().within(-1e6, 1e6);
         v("name", name,
           Field::text().required().says("Name of the answer, which may end in its unit."));
+        v("question", question, says("Text above the scale."));
         v("scale", scale,
           Field::text().required().says("Kind of scale, which determines the possible answers."));
-        v("from", from, end.says("Smallest answer."));
+        v("from", from,
+          end.says("Smallest answer; on a likert scale the number of the first label, 1 if "
+                   "omitted."));
         v("to", to, end.says("Largest answer."));
         v("labels", labels,
           says("Texts at the ends of the scale or, on a likert scale, at all its numbers."));
@@ -55,6 +62,10 @@ struct AskSpec {
         v("between", between,
           says(
               "Regions at the ends of the line on which the cursor points; only with by: cursor."));
+        v("simulated_answer", simulated,
+          end.says("Answer that simulated people give; a random one if omitted."));
+        v("optional", optional,
+          says("Whether an item of a form may be left out, by pressing Enter alone."));
     }
 
     double least() const;
@@ -72,6 +83,8 @@ struct Question {
     double least = 0;  ///< in the unit of the answer's name, like `most`
     double most = 1;
     bool whole = true;
+    bool optional = false;
+    std::optional<double> simulated;
     AnswerBy by = AnswerBy::key;
     int from = -1;  ///< regions at the ends of the line
     int to = -1;
@@ -84,7 +97,6 @@ class Rating {
   public:
     static constexpr char kEnter = '\r';
     static constexpr char kBack = '\b';
-    static constexpr double kNowhere = -1;  ///< no click
 
     void begin() noexcept;
     /// Processes a key: a digit, point, minus, back or enter. A number ends with enter, or when no
@@ -100,6 +112,8 @@ class Rating {
     double answer() const noexcept { return answer_; }
     /// The number typed so far, or the answer.
     double shown() const noexcept;
+    /// Whether nothing is typed.
+    bool empty() const noexcept { return length_ == 0 && std::isnan(answer_); }
 
   private:
     static constexpr size_t kLongest = 8;

@@ -13,6 +13,8 @@
 
 namespace dihaptic::task {
 
+struct State;
+
 /// Display of the fingers' proxies. `held`: they are shown at their positions when the state began.
 enum class Cursor { yes, no, held };
 constexpr auto enum_names(Cursor) {
@@ -61,6 +63,8 @@ struct LookSpec {
     Ref<Region> target;
     std::string colour;  ///< "#rrggbb"; empty: unchanged
     double scale = 1;    ///< factor on the displayed size
+    bool hidden = false;
+    Refs<State> during;  ///< of a condition's look; empty: all states
     Place place;
 
     template <class Visitor>
@@ -70,6 +74,8 @@ struct LookSpec {
         v("target", target, says("Region that gets this look."));
         v("colour", colour, says("Colour, as \"#rrggbb\"."));
         v("scale", scale, Field::number().within(0.05, 20).says("Factor on the displayed size."));
+        v("hidden", hidden, says("Whether it is not shown."));
+        v("during", during, says("States in which a condition's look applies; all if omitted."));
     }
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <span>
 #include <string>
 
 #include "hand/spec.h"
@@ -12,9 +13,9 @@
 #include "task/effects/perturbation.h"
 #include "task/file/draws.h"
 #include "task/file/drive.h"
+#include "task/file/form.h"
 #include "task/file/motor.h"
 #include "task/file/procedure_spec.h"
-#include "task/file/rating.h"
 #include "task/file/show.h"
 #include "task/file/sound.h"
 #include "task/plan/measures.h"
@@ -110,11 +111,12 @@ struct Exit {
     int button = 0;         ///< counted from 0
     int code = 0;           ///< trigger; 0: any
     Ref<State> to;
-    std::string outcome;   ///< ends the trial with this outcome
-    int chooses = 0;       ///< ends the trial with the answer that chooses this interval
-    bool redo = false;     ///< the trial is to be repeated
-    std::string feedback;  ///< shown for Task::feedback at least, then until the next message
-    Ref<SoundSpec> sound;  ///< starts when the exit is taken
+    std::string outcome;        ///< ends the trial with this outcome
+    int chooses = 0;            ///< ends the trial with the answer that chooses this interval
+    bool redo = false;          ///< the trial is to be repeated
+    bool ends_session = false;  ///< the remaining trials are left out
+    std::string feedback;       ///< shown for Task::feedback at least, then until the next message
+    Ref<SoundSpec> sound;       ///< starts when the exit is taken
     Place place;
 
     /// Whether its condition has any of these fields (WhenRow::Has).
@@ -184,6 +186,8 @@ struct Exit {
           Field::number().within(0, 2).says(
               "Interval, of two, that the participant chooses by this exit."));
         v("redo", redo, says("Whether the trial is to be repeated."));
+        v("ends_session", ends_session,
+          says("Whether the session ends with this trial, and its other trials are left out."));
         v("feedback", feedback,
           says("Text that is shown on this exit, for at least feedback_s; names in braces are "
                "replaced with numbers."));
@@ -258,6 +262,7 @@ struct State {
     std::vector<std::string> lines;  ///< texts below the message while the state lasts
     bool countdown = false;          ///< a line shows the seconds left until the exit by time
     std::optional<AskSpec> ask;      ///< rating that is asked for
+    std::optional<FormSpec> form;    ///< several questions, in place of `ask`
     int marker = 0;                  ///< event code on entry; 0: none
     bool patch = false;              ///< the rig's patch is white while the state lasts
     Refs<SoundSpec> sounds;          ///< sounds that start with it, or continue while it lasts
@@ -284,6 +289,8 @@ struct State {
         v("countdown", countdown,
           says("Whether a line shows the seconds left until the state's exit by time."));
         v("ask", ask, says("Rating that the participant is asked for while the state lasts."));
+        v("form", form,
+          says("Form that the participant fills in while the state lasts, in place of 'ask'."));
         v("marker", marker,
           Field::number().within(0, 255).says(
               "Event code that is sent when the state begins; 0: none."));
@@ -299,6 +306,12 @@ struct State {
         v("simulated_hand", hand,
           Field{}.formerly("hand").says(
               "Steps that a simulated hand or person performs in the state."));
+    }
+
+    /// What the state asks for: the rating, or the items of its form.
+    std::span<const AskSpec> questions() const {
+        if (form) return form->items;
+        return ask ? std::span(&*ask, 1) : std::span<const AskSpec>();
     }
 };
 
@@ -402,11 +415,14 @@ struct Insert {
     int count = 1;
     int gap = 1;  ///< smallest number of other trials between two of them
     Refs<PerturbationSpec> perturb;
+    RefList<Condition> conditions;  ///< empty: that of the trial before
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("kind", kind, says("Kind of the inserted trials, for the analysis."));
+        v("conditions", conditions,
+          says("Conditions of these trials, in turn; that of the trial before if omitted."));
         v("count", count,
           Field::number().within(1, 10000).required().says("Number of inserted trials."));
         v("gap", gap,
@@ -436,6 +452,7 @@ struct Block {
     std::string until;            ///< condition on variables that ends the block; empty: none
     double rest = 0;              ///< break before the block, unless it is the first [s]
     std::vector<PageSpec> pages;  ///< shown before the block begins
+    Ref<State> begins;            ///< state in which its trials begin; empty: the first
     Place place;
 
     template <class Visitor>
@@ -446,6 +463,8 @@ struct Block {
         v("once", once,
           says("Whether the block is done once beside the rounds, before the first or after the "
                "last, and belongs to none."));
+        v("begins", begins,
+          Field::text().says("State in which its trials begin; the first one if omitted."));
         v("repeats", repeats,
           Field::number().within(1, 10000).says("Number of times that each condition is run."));
         v("order", order, says("Order of the conditions, generated for each repeat."));

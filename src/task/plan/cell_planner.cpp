@@ -45,8 +45,12 @@ class CellPlanner : Planning {
         note_formulas(out.regions, out.formulas);
         note_formulas(out.start_poses, out.formulas);
         note_formulas(out.perturbations, out.formulas);
-        for (const Condition* of : {&round, &condition})
-            seen_.add_looks(of->look, out.looks, found);
+        out.looks.resize(task.states.size());
+        for (const Condition* of : {&round, &condition}) {
+            SeenPlanner::check_looks(of->look, found);
+            for (size_t i = 0; i < out.looks.size(); ++i)
+                seen_.add_looks(of->look, static_cast<int>(i), out.looks[i]);
+        }
         return out;
     }
 

@@ -42,6 +42,9 @@ void plan_custom_measures(TaskPlan& plan, Diagnostics& diagnostics) {
         out.window = measure.window.value_or(0);
         out.states = states_of(measure);
         const Formula of = formula_of(measure.of, measure.name, "of", measure.place);
+        if (auto when =
+                compile_condition(measure.when, plan.measured, measure.place, "when", diagnostics))
+            out.when = std::move(*when);
         if (auto compiled = compile_formula(of, plan, plan.measured, diagnostics)) {
             out.value = std::move(*compiled);
             plan.custom_measures.push_back(std::move(out));
@@ -59,7 +62,8 @@ std::vector<Table::Column> columns_of(const std::vector<CustomMeasure>& measures
         out.push_back(
             {measure.name,
              fmt::format(
-                 "{} of {}{}", enum_name(measure.take), measure.of,
+                 "{} of {}{}{}", enum_name(measure.take), measure.of,
+                 measure.when.empty() ? "" : fmt::format(" when {}", measure.when),
                  measure.window ? fmt::format(", moving mean over {:g} s", *measure.window) : ""),
              unit});
     }
@@ -86,6 +90,7 @@ void CustomMeasures::add(const frame::Frame& frame) {
     if (frame.phase != phase_) entered_ = now;
     phase_ = frame.phase;
     numbers_.follow(frame.trial, frame.task.attempt, frame.task.variables, frame.phase - 1);
+    numbers_.set_answers(frame.task.variables);
     Quantities& quantities = numbers_.quantities();
     quantities.set(Quantities::kTimeInState, now - entered_);
     quantities.set(Quantities::kTimeInTrial, now - began_);
@@ -101,7 +106,7 @@ void CustomMeasures::add(const frame::Frame& frame) {
             windows_[i].clear();
             continue;
         }
-        const double value = measure.value.value(numbers_.values());
+        const double value = measure.in_tick(numbers_.values());
         if (measure.window > 0) {
             add_to_window(i, now, value);
         } else {

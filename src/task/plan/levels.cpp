@@ -121,9 +121,32 @@ std::vector<LevelName> levels_of(const Task& task) {
 std::vector<AskSpec> questions_of(const Task& task) {
     std::vector<AskSpec> out;
     for (const State& state : task.states) {
-        const auto same = [&](const AskSpec& ask) { return ask.name == state.ask->name; };
-        if (state.ask && std::none_of(out.begin(), out.end(), same)) out.push_back(*state.ask);
+        for (const AskSpec& ask : state.questions()) {
+            const auto same = [&](const AskSpec& other) { return other.name == ask.name; };
+            if (std::none_of(out.begin(), out.end(), same)) out.push_back(ask);
+        }
     }
+    return out;
+}
+
+std::vector<std::string> forms_of(const Task& task) {
+    const std::vector<AskSpec> asked = questions_of(task);
+    std::vector<std::string> out(asked.size());
+    for (const State& state : task.states) {
+        if (!state.form) continue;
+        const std::string name =
+            state.form->version.empty()
+                ? state.form->title
+                : fmt::format("{}, version {}", state.form->title, state.form->version);
+        for (const AskSpec& item : state.form->items) {
+            const auto same = [&](const AskSpec& other) { return other.name == item.name; };
+            const auto i = std::find_if(asked.begin(), asked.end(), same) - asked.begin();
+            std::string& form = out[static_cast<size_t>(i)];
+            if (form.empty()) form = name;
+        }
+    }
+    const auto none = std::all_of(out.begin(), out.end(), [](auto& name) { return name.empty(); });
+    if (none) out.clear();
     return out;
 }
 

@@ -189,6 +189,7 @@ struct State;
 struct CustomMeasure {
     std::string name;  ///< its column in trials.csv, with the unit
     std::string of;    ///< an expression, evaluated in each tick
+    std::string when;  ///< a condition: other ticks do not count; empty: all count
     Take take = Take::max;
     std::optional<double> window;  ///< the statistic is of moving means over this time [s]
     RefList<State> during;         ///< empty: all
@@ -200,6 +201,8 @@ struct CustomMeasure {
           Field::text().required().says(
               "Name of its column in trials.csv, with the unit, e.g. squeeze_N."));
         v("of", of, Field::text().required().says("Expression that is evaluated in each tick."));
+        v("when", when,
+          says("Condition for the ticks that count, e.g. time_in_state > 2 s; all if omitted."));
         v("take", take, Field::text().required().says("Statistic of its values that is reported."));
         v("window", window,
           Field::of(Quantity::time)

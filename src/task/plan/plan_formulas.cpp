@@ -236,21 +236,6 @@ void compile_all(TaskPlan& plan, Diagnostics& diagnostics) {
     }
 }
 
-/// A condition between or after trials; empty if the text is not a condition.
-std::optional<Expression> condition(const std::string& text, Quantities& quantities,
-                                    const Place& place, const char* key, Diagnostics& diagnostics) {
-    if (text.empty()) return {};
-    Diagnostics found;
-    Expression out = Expression::compile(text, quantities, place, key, found);
-    diagnostics.add(found.problems());
-    if (found.has_errors()) return {};
-    if (out.type() != Expression::Type::truth) {
-        diagnostics.error(place, key, fmt::format("'{}' is not a condition", text),
-                          "Write a comparison, e.g. score > 10.");
-    }
-    return out;
-}
-
 }  // namespace
 
 Formula formula_of(const std::string& text, const std::string& name, const char* key,
@@ -298,6 +283,21 @@ std::optional<CompiledFormula> compile_formula(const Formula& formula, const Tas
     return {};
 }
 
+std::optional<Expression> compile_condition(const std::string& text, Quantities& quantities,
+                                            const Place& place, const char* key,
+                                            Diagnostics& diagnostics) {
+    if (text.empty()) return {};
+    Diagnostics found;
+    Expression out = Expression::compile(text, quantities, place, key, found);
+    diagnostics.add(found.problems());
+    if (found.has_errors()) return {};
+    if (out.type() != Expression::Type::truth) {
+        diagnostics.error(place, key, fmt::format("'{}' is not a condition", text),
+                          "Write a comparison, e.g. score > 10.");
+    }
+    return out;
+}
+
 void plan_formulas(TaskPlan& plan, Diagnostics& diagnostics) {
     Definer(plan, diagnostics).define();
     if (!diagnostics.has_errors()) compile_all(plan, diagnostics);
@@ -319,6 +319,18 @@ std::vector<int> define_measures(TaskPlan& plan) {
     return slots;
 }
 
+/// A measure that a rule names must be the only one of that name, apart from its unit.
+void check_alone(const CustomMeasure& measure, const Task& task, Diagnostics& diagnostics) {
+    const std::string_view name = split_unit(measure.name).name;
+    for (const CustomMeasure& other : task.custom_measures) {
+        if (other.name == measure.name || split_unit(other.name).name != name) continue;
+        diagnostics.error(measure.place, "name",
+                          fmt::format("'{}' and '{}' are both {}{} in after_trial", other.name,
+                                      measure.name, kMeasurePrefix, name),
+                          "Give them names that differ by more than their unit.");
+    }
+}
+
 /// Keeps what rules look back on, and the custom measures that they name.
 void plan_what_rules_need(TaskPlan& plan, const std::vector<int>& slots, Diagnostics& diagnostics) {
     std::vector<const Expression*> rules;
@@ -337,6 +349,7 @@ void plan_what_rules_need(TaskPlan& plan, const std::vector<int>& slots, Diagnos
         const auto names = [&](const Expression* rule) { return rule->names(slots[i]); };
         if (std::none_of(rules.begin(), rules.end(), names)) continue;
         const CustomMeasure& measure = plan.task.custom_measures[i];
+        check_alone(measure, plan.task, diagnostics);
         if (measure.take == Take::median || measure.window) {
             diagnostics.error(
                 measure.place, measure.window ? "window" : "take",
@@ -349,8 +362,12 @@ void plan_what_rules_need(TaskPlan& plan, const std::vector<int>& slots, Diagnos
         Diagnostics told;  // plan_custom_measures() reports what is wrong with it
         auto compiled = compile_formula(of, plan, plan.quantities, told);
         if (!compiled) continue;
-        plan.rule_measures.push_back(
-            {{std::move(*compiled), measure.take, 0, states_of(measure)}, slots[i]});
+        TaskPlan::RuleMeasure added{{std::move(*compiled), {}, measure.take, 0, states_of(measure)},
+                                    slots[i]};
+        if (auto when =
+                compile_condition(measure.when, plan.quantities, measure.place, "when", told))
+            added.measured.when = std::move(*when);
+        plan.rule_measures.push_back(std::move(added));
     }
 }
 
@@ -366,7 +383,8 @@ void plan_rules(TaskPlan& plan, Diagnostics& diagnostics) {
         plan.symbols.outcomes.push_back(plan.quantities.text(outcome));
     for (const Rule& rule : plan.task.after_trial) {
         TaskPlan::Change change;
-        change.when = condition(rule.when, plan.quantities, rule.place, "when", diagnostics);
+        change.when =
+            compile_condition(rule.when, plan.quantities, rule.place, "when", diagnostics);
         if (rule.set.index < 0) continue;
         change.variable = static_cast<size_t>(rule.set.index);
         const Formula to = formula_of(rule.to, rule.set, "to", rule.place);
@@ -379,7 +397,7 @@ void plan_rules(TaskPlan& plan, Diagnostics& diagnostics) {
     plan_what_rules_need(plan, measures, diagnostics);
     for (const Block& block : plan.task.blocks)
         plan.until.push_back(
-            condition(block.until, plan.between, block.place, "until", diagnostics));
+            compile_condition(block.until, plan.between, block.place, "until", diagnostics));
 }
 
 }  // namespace dihaptic::task

@@ -18,6 +18,12 @@ void plan_rules(TaskPlan& plan, Diagnostics& diagnostics);
 Formula formula_of(const std::string& text, const std::string& name, const char* key,
                    const Place& place);
 
+/// Compiles a condition; empty if the text is empty or, with a problem in the diagnostics, no
+/// condition.
+std::optional<Expression> compile_condition(const std::string& text, Quantities& quantities,
+                                            const Place& place, const char* key,
+                                            Diagnostics& diagnostics);
+
 /// Compiles a formula over `quantities`; nullopt, with a problem in the diagnostics, if its text
 /// does not give a number of the required kind.
 std::optional<CompiledFormula> compile_formula(const Formula& formula, const TaskPlan& plan,

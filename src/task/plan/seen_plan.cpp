@@ -18,6 +18,7 @@ static_assert(frame::TaskFrame::kMostNumbers == kMostInText * (1 + frame::TaskFr
 
 constexpr const char* kRest = "Take a break";
 constexpr const char* kCountdown = "{countdown}";
+constexpr const char* kConfirm = "All answered. Enter: done; Backspace: change the last answer";
 
 frame::LookFrame& look_of(TaskPlan::Looks& looks, size_t body) {
     for (frame::LookFrame& look : looks.things) {
@@ -100,7 +101,13 @@ std::vector<int> SeenPlanner::lines(const std::vector<std::string>& texts, const
 }
 
 void SeenPlanner::plan_state(const State& state, TaskPlan::PlannedState& out) {
-    add_looks(state.look, out.looks, diagnostics);
+    for (const LookSpec& spec : state.look) {
+        if (!spec.during.empty())
+            diagnostics.error(spec.place, "during", "belongs to the looks of conditions",
+                              "Leave it out: a state's look lasts as long as the state.");
+    }
+    check_looks(state.look, diagnostics);
+    add_looks(state.look, kAnyState, out.looks);
     show(state.show, state.show.place.line > 0 ? state.show.place : state.place, out);
     if (state.countdown) {
         const bool ends = std::any_of(state.exits.begin(), state.exits.end(),
@@ -111,9 +118,29 @@ void SeenPlanner::plan_state(const State& state, TaskPlan::PlannedState& out) {
                               "Add e.g. - { when: time, after_s: 5, outcome: too late }.");
         out.lines.push_back(text(kCountdown, state.place, "countdown"));
     }
-    std::vector<std::string> texts = state.lines;
-    if (state.ask) texts.push_back(line_of(*state.ask));
-    for (const int line : lines(texts, state.place)) out.lines.push_back(line);
+    for (const int line : lines(state.lines, state.place)) out.lines.push_back(line);
+}
+
+std::vector<int> SeenPlanner::question(const AskSpec& ask, size_t number, const State& state) {
+    std::vector<std::string> texts;
+    if (state.form) {
+        texts.push_back(
+            fmt::format("{} of {}: {}", number, state.questions().size(), ask.question));
+    } else if (!ask.question.empty()) {
+        texts.push_back(ask.question);
+    }
+    texts.push_back(line_of(ask));
+    if (texts.size() + state.lines.size() > kMostLines)
+        diagnostics.error(state.place, "lines",
+                          fmt::format("there are {}, including {} of the question, but at most {} "
+                                      "are allowed",
+                                      texts.size() + state.lines.size(), texts.size(), kMostLines),
+                          "Leave some out, or write them into the message.");
+    return lines(texts, ask.place);
+}
+
+std::vector<int> SeenPlanner::confirmation(const State& state) {
+    return lines({kConfirm}, state.place);
 }
 
 void SeenPlanner::show(const Show& given, const Place& place, TaskPlan::PlannedState& out) {
@@ -160,8 +187,7 @@ void SeenPlanner::show_some(const Node& given, const char* key, size_t first, co
     }
 }
 
-void SeenPlanner::add_looks(const std::vector<LookSpec>& specs, TaskPlan::Looks& out,
-                            Diagnostics& found) const {
+void SeenPlanner::check_looks(const std::vector<LookSpec>& specs, Diagnostics& found) {
     for (const LookSpec& spec : specs) {
         const int named = static_cast<int>(!spec.body.empty()) +
                           static_cast<int>(!spec.finger.empty()) +
@@ -170,11 +196,22 @@ void SeenPlanner::add_looks(const std::vector<LookSpec>& specs, TaskPlan::Looks&
             found.error(spec.place, "look",
                         named == 0 ? "does not name an object" : "names more than one object",
                         "Give it one of body, finger and target.");
-        if (spec.colour.empty() && spec.scale == 1)
-            found.error(spec.place, "look", "changes nothing", "Give it colour, scale or both.");
-        const int32_t rgb = scene::read_colour(spec.colour, spec.place, found);
+        if (spec.colour.empty() && spec.scale == 1 && !spec.hidden)
+            found.error(spec.place, "look", "changes nothing", "Give it colour, scale or hidden.");
+        scene::read_colour(spec.colour, spec.place, found);
+    }
+}
+
+void SeenPlanner::add_looks(const std::vector<LookSpec>& specs, int state,
+                            TaskPlan::Looks& out) const {
+    Diagnostics reported;  // by check_looks()
+    for (const LookSpec& spec : specs) {
+        const std::vector<int>& during = spec.during.indices;
+        if (!during.empty() && std::ranges::find(during, state) == during.end()) continue;
+        const int32_t rgb = scene::read_colour(spec.colour, spec.place, reported);
         if (spec.target.index >= 0)
             out.targets.push_back({spec.target.index, Vec3::Zero(), spec.scale, rgb});
+        if (spec.target.index >= 0 && spec.hidden) out.hidden_targets |= 1u << spec.target.index;
         const int body = spec.body.index;
         const int finger = spec.finger.index;
         if (body < 0 && finger < 0) continue;
@@ -182,6 +219,7 @@ void SeenPlanner::add_looks(const std::vector<LookSpec>& specs, TaskPlan::Looks&
             out, body >= 0 ? static_cast<size_t>(body) : bodies_ + static_cast<size_t>(finger));
         if (rgb >= 0) look.colour = rgb;
         look.scale *= spec.scale;
+        if (spec.hidden) look.hidden = 1;
     }
 }
 

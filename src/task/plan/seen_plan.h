@@ -14,9 +14,15 @@ class SeenPlanner : Planning {
     int text(const std::string& text, const Place& place, const char* key);
     /// Plans the display in the state, apart from its message.
     void plan_state(const State& state, TaskPlan::PlannedState& out);
-    /// Adds looks to the existing ones. Problems go to `found`, once per call.
-    void add_looks(const std::vector<LookSpec>& specs, TaskPlan::Looks& out,
-                   Diagnostics& found) const;
+    /// The lines while the state asks a question, the number-th from 1.
+    std::vector<int> question(const AskSpec& ask, size_t number, const State& state);
+    /// The lines while a filled form awaits its confirmation.
+    std::vector<int> confirmation(const State& state);
+    /// Problems with looks themselves go to `found`.
+    static void check_looks(const std::vector<LookSpec>& specs, Diagnostics& found);
+    /// Adds looks to the existing ones, apart from those that name other states than this one.
+    void add_looks(const std::vector<LookSpec>& specs, int state, TaskPlan::Looks& out) const;
+    static constexpr int kAnyState = -1;
     /// The task's own lines, breaks and pages.
     void plan_task();
 

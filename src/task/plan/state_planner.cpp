@@ -61,12 +61,14 @@ class StatePlanner : Planning {
 
     TaskPlan::PlannedState planned(const State& state) {
         TaskPlan::PlannedState out;
-        out.message = seen_.text(state.message, state.place, "message");
+        const bool titled = state.message.empty() && state.form;
+        out.message =
+            seen_.text(titled ? state.form->title : state.message, state.place, "message");
         seen_.plan_state(state, out);
         out.marker = state.marker;
         for (const int i : state.sounds.indices) out.sounds |= sound(i, state.place, "sounds");
         out.interval = state.interval;
-        if (state.ask) out.question = question(*state.ask);
+        ask(state, out.questions);
         check_answered(state);
         bodies_.plan_state(state, out);
         for (const Exit& exit : state.exits) out.transitions.push_back(transition(exit));
@@ -109,14 +111,34 @@ class StatePlanner : Planning {
         return out;
     }
 
+    void ask(const State& state, TaskPlan::Questions& out) {
+        if (state.form && state.ask)
+            error(state.place, "ask", "is given together with a form",
+                  "Make it an item of the form, or ask in another state.");
+        if (state.form) {
+            check(*state.form, diagnostics);
+            out.is_form = true;
+            out.confirm = seen_.confirmation(state);
+        } else if (state.ask) {
+            check(*state.ask, diagnostics);
+            if (state.ask->optional)
+                error(state.ask->place, "optional", "belongs to the items of a form",
+                      "Add another exit instead, e.g. by time.");
+        }
+        size_t number = 0;
+        for (const AskSpec& ask : state.questions())
+            out.items.push_back({question(ask), seen_.question(ask, ++number, state)});
+    }
+
     Question question(const AskSpec& ask) {
-        check(ask, diagnostics);
         const std::vector<std::string> asked = names_of(questions_of(plan.task));
         const auto index = std::find(asked.begin(), asked.end(), ask.name) - asked.begin();
         Question out;
         out.least = ask.least();
         out.most = ask.most();
         out.whole = ask.whole();
+        out.optional = ask.optional;
+        out.simulated = ask.simulated;
         out.by = ask.by;
         out.variable = plan.task.variables.size() + plan.levels.size() + static_cast<size_t>(index);
         out.si = split_unit(ask.name).si;
@@ -130,10 +152,10 @@ class StatePlanner : Planning {
     void check_answered(const State& state) {
         for (const Exit& exit : state.exits) {
             if (exit.when != When::answered) continue;
-            if (!state.ask) {
+            if (!state.ask && !state.form) {
                 error(exit.place, "when", "the state does not ask for a number",
                       "Add e.g. ask: { name: heaviness, scale: numbers, from: 1, to: 9 }.");
-            } else if (state.ask->by == AnswerBy::cursor) {
+            } else if (state.ask && state.ask->by == AnswerBy::cursor) {
                 error(exit.place, "when", "an answer by cursor is available at all times",
                       "Use a condition that confirms the answer, e.g. when: still, hold_s: 1.");
             }
@@ -155,6 +177,9 @@ class StatePlanner : Planning {
                   "Give it exactly one of to (a state), outcome (the trial's result) and chooses "
                   "(an interval).");
         }
+        if (exit.ends_session && exit.outcome.empty())
+            error(exit.place, "ends_session", "belongs to an exit with an outcome",
+                  "Give the exit an outcome.");
         if (exit.chooses > 0) out.outcome = choice(exit);
         if (!exit.outcome.empty()) out.outcome = outcome(exit);
         out.feedback = seen_.text(exit.feedback, exit.place, "feedback");
@@ -258,6 +283,12 @@ class StatePlanner : Planning {
                   "Give the outcome another name.");
         for (size_t i = 0; i < plan.outcomes.size(); ++i) {
             if (plan.outcomes[i].name != exit.outcome) continue;
+            if (plan.outcomes[i].ends_session != exit.ends_session) {
+                error(exit.place, "outcome",
+                      fmt::format("'{}' ends the session after one exit, and not after another",
+                                  exit.outcome),
+                      "Give the two outcomes different names.");
+            }
             if (plan.outcomes[i].redo != exit.redo) {
                 error(exit.place, "redo",
                       fmt::format("trials that end with '{}' are repeated after one exit, but not "
@@ -267,7 +298,7 @@ class StatePlanner : Planning {
             }
             return static_cast<int>(i);
         }
-        plan.outcomes.push_back({exit.outcome, exit.redo});
+        plan.outcomes.push_back({exit.outcome, exit.redo, exit.ends_session});
         return static_cast<int>(plan.outcomes.size()) - 1;
     }
 
@@ -275,12 +306,15 @@ class StatePlanner : Planning {
     SeenPlanner& seen_;
 };
 
-/// Checks that every state is reachable from the first one and leads out of the trial.
+/// Checks that every state is reachable from one in which trials begin, and leads out of the trial.
 void check_ways(const TaskPlan& plan, Diagnostics& diagnostics) {
     const size_t n = plan.states.size();
     std::vector<char> reached(n, 0);
     std::vector<char> leaves(n, 0);
     if (n > 0) reached[0] = 1;
+    for (const Block& block : plan.task.blocks) {
+        if (block.begins.index >= 0) reached[static_cast<size_t>(block.begins.index)] = 1;
+    }
     for (size_t round = 0; round < n; ++round) {
         for (size_t i = 0; i < n; ++i) {
             for (const TaskPlan::Transition& transition : plan.states[i].transitions) {
@@ -318,7 +352,7 @@ void plan_states(const Planning& given, BodyPlanner& bodies, SeenPlanner& seen) 
     StatePlanner planner(given, bodies, seen);
     for (const State& state : plan.task.states) plan.states.push_back(planner.planned(state));
     plan.skipped = static_cast<int>(plan.outcomes.size());
-    plan.outcomes.push_back({kSkipped, false});
+    plan.outcomes.push_back({kSkipped});
     check_ways(plan, given.diagnostics);
 }
 

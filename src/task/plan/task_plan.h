@@ -2,6 +2,7 @@
 // hand.
 #pragma once
 
+#include "base/unmeasured.h"
 #include "frame/task_frame.h"
 #include "task/plan/formulas.h"
 #include "task/plan/on_joint.h"
@@ -47,7 +48,8 @@ struct TaskPlan {
     std::vector<std::vector<TextNumber>> numbers;  ///< by message: numbers in its text, in order
     struct Outcome {
         std::string name;
-        bool redo;
+        bool redo = false;
+        bool ends_session = false;
     };
     std::vector<Outcome> outcomes;
     int skipped = -1;  ///< the outcome of a trial that the operator skips
@@ -109,6 +111,17 @@ struct TaskPlan {
     struct Looks {
         std::vector<frame::LookFrame> things;
         std::vector<frame::TargetFrame> targets;
+        uint32_t hidden_targets = 0;  ///< regions, one bit each
+    };
+    /// The questions of a state.
+    struct Questions {
+        struct Item {
+            Question question;
+            std::vector<int> lines;  ///< messages while it is asked
+        };
+        std::vector<Item> items;
+        bool is_form = false;      ///< its answers count once they are confirmed
+        std::vector<int> confirm;  ///< messages while the confirmation is awaited
     };
     struct PlannedState {
         uint32_t shown = 0;  ///< regions shown, one bit each
@@ -119,7 +132,7 @@ struct TaskPlan {
         int marker = 0;
         uint32_t sounds = 0;  ///< one bit each
         int interval = 0;
-        std::optional<Question> question;
+        Questions questions;
         std::vector<Placement> placements;
         std::vector<Drive> drives;
         std::vector<Motor> motors;
@@ -136,7 +149,7 @@ struct TaskPlan {
         std::vector<Perturbation> perturbations;
         std::vector<uint64_t> during;  ///< by perturbation: states in which it acts, one bit each
         std::vector<StartPose> start_poses;
-        Looks looks;
+        std::vector<Looks> looks;   ///< by state
         std::vector<int> formulas;  ///< of regions, start poses and perturbations
 
         bool acts(int perturbation, int state) const {
@@ -198,9 +211,16 @@ struct TaskPlan {
     /// A custom measure of the task.
     struct Measured {
         CompiledFormula value;  ///< with the slots of `measured`
+        Expression when;        ///< condition for the ticks that count; empty: all do
         Take take = Take::max;
         double window = 0;    ///< of moving means [s]; 0: none
         uint64_t states = 0;  ///< one bit each
+
+        /// Its value in a tick, as written in the file; NaN if the tick does not count.
+        double in_tick(std::span<const double> quantities) const noexcept {
+            if (!when.empty() && when(quantities) == 0) return kUnmeasured;
+            return value.value(quantities);
+        }
     };
     Quantities measured;  ///< `quantities`, and further ones for measures
     /// A custom measure that rules name: measure.hold, of hold_N.

@@ -164,8 +164,12 @@ void insert_trials(const Insert& insert, Random& random, std::vector<Trial>& tri
     std::sort(which.rbegin(), which.rend());
     for (int k = 0; k < insert.count; ++k)
         which[static_cast<size_t>(k)] += (insert.count - 1 - k) * (insert.gap - 1);
+    const std::vector<int>& conditions = insert.conditions.indices;
+    size_t left = which.size();  // they are inserted from the last to the first
     for (const int i : which) {
         Trial extra = trials[static_cast<size_t>(i)];
+        --left;
+        if (!conditions.empty()) extra.condition = conditions[left % conditions.size()];
         extra.kind = insert.kind;
         extra.perturb = insert.perturb.indices;
         extra.procedure = -1;

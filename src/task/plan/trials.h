@@ -84,6 +84,13 @@ class TrialQueue {
     /// trial is no longer in the queue.
     bool go_to(int trial, int attempt) noexcept;
 
+    /// Leaves out the remaining trials.
+    void end() noexcept {
+        left_out_ = queue_.size() - at_;
+        at_ = queue_.size();
+    }
+    size_t left_out() const { return left_out_; }
+
     /// Restarts the trial after an unrelated interruption.
     void again() noexcept { ++attempts_[static_cast<size_t>(trial())]; }
 
@@ -98,6 +105,7 @@ class TrialQueue {
     std::vector<int> queue_;     // trials before index at_ are done
     std::vector<int> attempts_;  // by trial
     size_t at_ = 0;
+    size_t left_out_ = 0;  // by end()
 };
 
 }  // namespace dihaptic::task

@@ -30,7 +30,7 @@ void put_on(const std::vector<frame::LookFrame>& looks, frame::TaskFrame& out) n
             add(out.looks, look);
             continue;
         }
-        there->hidden = look.hidden;
+        there->hidden |= look.hidden;
         if (look.colour >= 0) there->colour = look.colour;
         there->scale *= look.scale;
     }
@@ -68,10 +68,10 @@ void Displayer::see(const frame::Frame& last) noexcept {
     if (object_ >= 0) row[fingers_] = frame::mapped_body(last, static_cast<size_t>(object_));
 }
 
-void Displayer::enter(const TaskPlan::PlannedState& planned, const TaskPlan::Cell& cell,
+void Displayer::enter(const TaskPlan::PlannedState& planned, const TaskPlan::Looks& looks,
                       bool new_trial) noexcept {
     planned_ = &planned;
-    cell_ = &cell;
+    looks_ = &looks;
     // a cursor that is held in two consecutive states keeps its position
     if (planned.holds_cursor && (new_trial || !holds_)) {
         for (size_t i = 0; i < fingers_; ++i) held_[i] = past(i, 1);
@@ -88,9 +88,12 @@ const Pose& Displayer::past(size_t thing, long ticks) const noexcept {
 
 void Displayer::order(double now, frame::TaskFrame& out) noexcept {
     if (planned_ == nullptr) return;
-    for (const TaskPlan::Looks* looks : {&cell_->looks, &planned_->looks}) {
+    for (const TaskPlan::Looks* looks : {looks_, &planned_->looks}) {
         put_on(looks->things, out);
         put_on(looks->targets, out);
+        std::erase_if(out.targets, [&](const frame::TargetFrame& target) {
+            return (looks->hidden_targets >> target.region & 1u) != 0;
+        });
     }
     if (!out.visual.empty() && seen_ > 0) {
         const frame::VisualMap& map = out.visual.front();

@@ -18,7 +18,7 @@ class Displayer {
     void see(const frame::Frame& last) noexcept;
     /// Starts a state, in a new trial or in the running one. Its display applies until the next
     /// state starts, also between trials.
-    void enter(const TaskPlan::PlannedState& planned, const TaskPlan::Cell& cell,
+    void enter(const TaskPlan::PlannedState& planned, const TaskPlan::Looks& looks,
                bool new_trial) noexcept;
     /// Call after the task's own orders, which contain the targets and the visual map.
     void order(double now, frame::TaskFrame& out) noexcept;
@@ -41,7 +41,7 @@ class Displayer {
     size_t newest_ = 0;       // row
     size_t seen_ = 0;         // number of filled rows
     const TaskPlan::PlannedState* planned_ = nullptr;
-    const TaskPlan::Cell* cell_ = nullptr;
+    const TaskPlan::Looks* looks_ = nullptr;  // of the condition
     bool holds_ = false;
     std::vector<Pose> held_;  // by finger
 };

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kAtStart = 1e-6;  // tolerance for a body at its start pose [m], [rad], [m/s]
 constexpr double kNever = -1;
+constexpr double kUnread = 0.2;  // time in which nobody can have read a form [s]
 
 bool same_pose(const Pose& a, const Pose& b) noexcept {
     return (a.p - b.p).norm() < kAtStart && a.R.angularDistance(b.R) < kAtStart;
@@ -90,7 +91,9 @@ TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
             variables_[i].value = attempt.variables[i];
         if (!queue_.go_to(attempt.trial, attempt.attempt) || attempt.outcome < 0) continue;
         take_answer(attempt.outcome);
-        queue_.finish(plan.outcomes[static_cast<size_t>(attempt.outcome)].redo);
+        const TaskPlan::Outcome& outcome = plan.outcomes[static_cast<size_t>(attempt.outcome)];
+        queue_.finish(outcome.redo);
+        if (outcome.ends_session) queue_.end();
         skip_done();
     }
     share_ = static_cast<double>(queue_.done()) / queue_.all();
@@ -139,7 +142,7 @@ void TaskDirector::direct(const frame::Frame& last, std::span<const frame::Handl
     // read in every tick, so that input between trials does not affect a trial
     const Input input{key_.exchange(0, std::memory_order_relaxed),
                       trigger_.exchange(0, std::memory_order_relaxed),
-                      clicked_.exchange(Rating::kNowhere, std::memory_order_relaxed)};
+                      clicked_.exchange(Click{}, std::memory_order_relaxed)};
     if (queue_.empty()) {
         order_end(now, commands);
         return;
@@ -148,7 +151,7 @@ void TaskDirector::direct(const frame::Frame& last, std::span<const frame::Handl
         finish(plan_.skipped, false, now, commands);
         return;
     }
-    take_answers(handles, input);
+    take_answers(handles, input, now);
     if (state_ < 0) {
         begin(last, input.key, now, commands);
     } else if (const TaskPlan::Transition* transition = transition_taken(last, input, now)) {
@@ -193,7 +196,8 @@ void TaskDirector::begin(const frame::Frame& last, char key, double now,
         numbers_.quantities().set(numbers_.quantities().start(i), last.bodies[i].X_WB.p);
     }
     if (message_ == plan_.move_away) message_ = -1;
-    enter(0, now, commands);
+    enter(std::max(0, plan_.task.blocks[static_cast<size_t>(trial().block)].begins.index), now,
+          commands);
 }
 
 void TaskDirector::decide_by(TrialControl& between) noexcept {
@@ -290,12 +294,13 @@ void TaskDirector::enter(int state, double now, frame::Commands& commands) noexc
     for (const int i : trial().perturb) {
         if (cell.acts(i, state) && !cell.acts(i, state_)) began_[static_cast<size_t>(i)] = now;
     }
-    displayer_.enter(plan_.states[static_cast<size_t>(state)], cell, state_ < 0);
+    displayer_.enter(plan_.states[static_cast<size_t>(state)],
+                     cell.looks[static_cast<size_t>(state)], state_ < 0);
     sounder_.enter(plan_.states[static_cast<size_t>(state)]);
     state_ = state;
     entered_ = now;
     numbers_.quantities().set(Quantities::kTimeInState, 0);  // drives use it in this tick
-    rating_.begin();
+    answering_.begin(plan_.states[static_cast<size_t>(state)].questions);
     std::fill(judged_.begin(), judged_.end(), Judged{});
     std::fill(is_put_.begin(), is_put_.end(), 0);
     driving_ = false;
@@ -348,7 +353,7 @@ bool TaskDirector::holds(const TaskPlan::Transition& transition, const frame::Fr
                    (input.trigger != 0 &&
                     (transition.exit.code == 0 || input.trigger == transition.exit.code));
         case When::answered:
-            return !std::isnan(rating_.answer());
+            return answering_.answered();
         default:
             return transition.condition(numbers_.values()) != 0;
     }
@@ -367,6 +372,7 @@ void TaskDirector::finish(int outcome, bool redo, double now, frame::Commands& c
     commands.task.variables = variables_;
     take_answer(outcome);
     queue_.finish(redo);
+    if (plan_.outcomes[static_cast<size_t>(outcome)].ends_session) queue_.end();
     skip_done();
     state_ = -1;
     begun_ = false;
@@ -403,7 +409,9 @@ void TaskDirector::say(double now, frame::TaskFrame& out) const noexcept {
     if (feedback_ >= 0 && now < feedback_until_) add_line(feedback_);
     if (rests) add_line(plan_.countdown);
     if (state_ >= 0) {
-        for (const int line : plan_.states[static_cast<size_t>(state_)].lines) add_line(line);
+        const TaskPlan::PlannedState& planned = plan_.states[static_cast<size_t>(state_)];
+        for (const int line : planned.lines) add_line(line);
+        for (const int line : answering_.lines()) add_line(line);
     }
     for (const int line : plan_.lines) add_line(line);
 }
@@ -414,8 +422,8 @@ void TaskDirector::say(int message, double now, frame::TaskFrame& out) const noe
         if (!number.quantity.empty()) {
             add(out.numbers, {number.quantity(numbers_.values())});
         } else {
-            add(out.numbers,
-                {number.figure == Figure::answer ? rating_.shown() : value_of(number.figure, now)});
+            add(out.numbers, {number.figure == Figure::answer ? answering_.shown()
+                                                              : value_of(number.figure, now)});
         }
     }
 }
@@ -477,7 +485,7 @@ void TaskDirector::take_measures() noexcept {
     for (size_t i = 0; i < taken_.size(); ++i) {
         const TaskPlan::Measured& measured = plan_.rule_measures[i].measured;
         if ((measured.states >> state_ & 1u) != 0)
-            taken_[i].add(measured.value.value(numbers_.values()));
+            taken_[i].add(measured.in_tick(numbers_.values()));
     }
 }
 
@@ -526,25 +534,31 @@ void TaskDirector::follow_rules(int outcome, bool redo) noexcept {
     }
 }
 
-void TaskDirector::take_answers(std::span<const frame::Handle> handles,
-                                const Input& input) noexcept {
-    if (state_ < 0 || !plan_.states[static_cast<size_t>(state_)].question) return;
-    const Question& question = *plan_.states[static_cast<size_t>(state_)].question;
-    if (question.by != AnswerBy::cursor) {
-        rating_.press(input.key, question);
-        if (question.by == AnswerBy::mouse && input.clicked != Rating::kNowhere)
-            rating_.click(input.clicked, question);
+void TaskDirector::take_answers(std::span<const frame::Handle> handles, const Input& input,
+                                double now) noexcept {
+    if (state_ < 0) return;
+    const TaskPlan::Questions& questions = plan_.states[static_cast<size_t>(state_)].questions;
+    if (questions.items.empty()) return;
+    const Question& first = questions.items.front().question;
+    if (questions.is_form && now - entered_ < kUnread) {
+        // what is typed belongs to the page before
+    } else if (first.by != AnswerBy::cursor) {
+        answering_.press(input.key);
+        answering_.click(input.clicked);
     } else {
         Vec3 middle_W = Vec3::Zero();
         for (const frame::Handle& handle : handles)
             middle_W += handle.p_WH / static_cast<double>(handles.size());
         const auto& p_W = numbers_.cell().p_W;
-        rating_.point(middle_W, p_W[static_cast<size_t>(question.from)],
-                      p_W[static_cast<size_t>(question.to)], question);
+        answering_.point(middle_W, p_W[static_cast<size_t>(first.from)],
+                         p_W[static_cast<size_t>(first.to)]);
     }
-    const double answer = question.si * rating_.answer();
-    variables_[question.variable].value = answer;
-    numbers_.quantities().set(plan_.symbols.variables[question.variable].slot, answer);
+    for (size_t i = 0; i < questions.items.size(); ++i) {
+        const Question& question = questions.items[i].question;
+        const double answer = question.si * answering_.answer(i);
+        variables_[question.variable].value = answer;
+        numbers_.quantities().set(plan_.symbols.variables[question.variable].slot, answer);
+    }
 }
 
 void TaskDirector::resolve() noexcept {

@@ -8,6 +8,7 @@
 #include "base/unmeasured.h"
 #include "frame/orders.h"
 #include "task/plan/taken.h"
+#include "task/run/answering.h"
 #include "task/run/displayer.h"
 #include "task/run/opening.h"
 #include "task/run/sounder.h"
@@ -28,8 +29,8 @@ class TaskDirector {
 
     /// Passes on a key that the operator pressed; from any thread.
     void press(char key) noexcept { key_.store(key, std::memory_order_relaxed); }
-    /// Passes on a click at a share of the length of a question's line; from any thread.
-    void click(double share) noexcept { clicked_.store(share, std::memory_order_relaxed); }
+    /// Passes on a click on a question's line; from any thread.
+    void click(const Click& click) noexcept { clicked_.store(click, std::memory_order_relaxed); }
     /// Passes on an external trigger; from any thread. `code`: 1 to 255, or kAnyTrigger.
     void trigger(int code) noexcept { trigger_.store(code, std::memory_order_relaxed); }
     static constexpr int kAnyTrigger = -1;  ///< matches every expected code
@@ -56,6 +57,8 @@ class TaskDirector {
         int finger = -1;  ///< -1: a finger presses the body
     };
     Obstacle obstacle() const noexcept { return obstacle_; }
+    /// Number of trials that an exit left out because it ended the session.
+    size_t left_out() const noexcept { return queue_.left_out(); }
     /// Share of completed trials, from any thread.
     double share() const noexcept { return share_.load(std::memory_order_relaxed); }
 
@@ -79,7 +82,7 @@ class TaskDirector {
     struct Input {
         char key;     // 0: none
         int trigger;  // 0: none
-        double clicked;
+        Click clicked;
     };
     bool holds(const TaskPlan::Transition& transition, const frame::Frame& last,
                const Input& input) const noexcept;
@@ -90,8 +93,9 @@ class TaskDirector {
     void order(double now, frame::Commands& commands) const noexcept;
     void put_bodies(const frame::Frame& last, frame::Commands& commands) noexcept;
     void drive_bodies(const frame::Frame& last, double now, frame::Commands& commands) noexcept;
-    /// Uses the typed keys or the position of the hands as the answer to the state's question.
-    void take_answers(std::span<const frame::Handle> handles, const Input& input) noexcept;
+    /// Uses typed keys, clicks or the position of the hands as answers to the state's questions.
+    void take_answers(std::span<const frame::Handle> handles, const Input& input,
+                      double now) noexcept;
 
     /// Like operator(), but without looks, sounds and texts.
     void direct(const frame::Frame& last, std::span<const frame::Handle> handles, double now,
@@ -147,7 +151,7 @@ class TaskDirector {
     Motions motions_;
     // by perturbation: time of entry into its states from other states [s]
     std::vector<double> began_;
-    Rating rating_;
+    Answering answering_;
     Displayer displayer_;
     Sounder sounder_;
     Opening opening_;
@@ -155,7 +159,7 @@ class TaskDirector {
     bool asked_ = false;    // asked, but no decision yet
     double ask_until_ = 0;  // time limit for the decision [s]
     std::atomic<char> key_{0};
-    std::atomic<double> clicked_{Rating::kNowhere};
+    std::atomic<Click> clicked_{Click{}};
     std::vector<Taken> taken_;  // by measure that rules name
     /// Values at the ends of the last trials, by look-back.
     struct Past {

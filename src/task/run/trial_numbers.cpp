@@ -74,6 +74,13 @@ void TrialNumbers::set(std::span<const frame::VariableFrame> variables) noexcept
     }
 }
 
+void TrialNumbers::set_answers(std::span<const frame::VariableFrame> variables) noexcept {
+    const auto& symbols = plan_.symbols.variables;
+    const size_t first = plan_.task.variables.size() + plan_.levels.size();
+    for (size_t i = first; i < std::min(variables.size(), symbols.size()); ++i)
+        quantities_.set(symbols[i].slot, variables[i].value);
+}
+
 bool TrialNumbers::ends_before(int trial) noexcept {
     const Trial& next = plan_.trials[static_cast<size_t>(trial)];
     const auto& until = plan_.until[static_cast<size_t>(next.block)];

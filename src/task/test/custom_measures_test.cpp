@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "analysis/session_report.h"
 #include "base/table.h"
@@ -49,6 +50,11 @@ TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
         "    - { name: sd_x_mm, of: index.x, take: sd }\n"
         "    - { name: held_m_s, of: index.speed, take: max, window_s: 0.05, during: [reach] }\n"
         "    - { name: rms_x_mm, of: index.x, take: rms }\n"
+        "    - { name: later_x_mm, of: index.x, take: mean, during: [reach], "
+        "when: 50 ms < time_in_state < 100 ms }\n"
+        "    - { name: fast_s, of: time_in_state, take: first, during: [reach], "
+        "when: index.speed > 100 mm/s }\n"
+        "    - { name: never_mm, of: index.x, take: max, when: index.x > 1 m }\n"
         "    - { name: median_x_mm, of: index.x, take: median }\n"
         "  blocks:\n");
     const session::Plan plan = session::make_plan(files.request());
@@ -59,6 +65,8 @@ TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
         int phase = 0, ticks = 0;
         std::vector<double> x;       // [mm]
         std::vector<double> speeds;  // in the reach [m/s]
+        std::vector<double> later;   // x from 50 to 100 ms after the reach's begin [mm]
+        double fast = -1;            // when the reach exceeds 0.1 m/s [s]
     };
     std::map<int, Expected> expected;  // by trial
     recording::RawLogReader log(result.folder + "/raw.log");
@@ -75,7 +83,12 @@ TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
                 plan.task->trials[static_cast<size_t>(frame->trial - 1)].draws[0];
         e.z += (p_W.z() - e.z) / ++e.ticks;
         e.x.push_back(1e3 * p_W.x());
-        if (frame->phase == 2) e.speeds.push_back(frame->fingers[0].v_WH.norm());
+        if (frame->phase != 2) continue;
+        const double speed = frame->fingers[0].v_WH.norm();
+        const double time = now - e.entered;
+        e.speeds.push_back(speed);
+        if (time > 0.05 && time < 0.1) e.later.push_back(1e3 * p_W.x());
+        if (speed > 0.1 && e.fast < 0) e.fast = time;
     }
     const CsvFile trials(result.folder + "/trials.csv");
     ASSERT_EQ(trials.rows(), 9u);
@@ -94,7 +107,12 @@ TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
             held = std::max(held, sum / 50);
         }
         EXPECT_NEAR(trials.number(i, "held_m_s"), held, 1e-4);
-        EXPECT_EQ(trials.text(i, kNotMeasured), "");
+        const double later = std::accumulate(e.later.begin(), e.later.end(), 0.0);
+        EXPECT_NEAR(trials.number(i, "later_x_mm"), later / static_cast<double>(e.later.size()),
+                    0.5);  // sums of ticks have rounding errors at both ends
+        EXPECT_NEAR(trials.number(i, "fast_s"), e.fast, 1e-6);
+        EXPECT_EQ(trials.text(i, "never_mm"), "");
+        EXPECT_EQ(trials.text(i, kNotMeasured), "never_mm: not measured");
     }
 }
 
@@ -271,6 +289,9 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kBlocks, "{ name: a_m_s, of: index.speed }", "take: is missing"},
         Mistake{kBlocks, "{ name: a_m_s, take: max }", "of: is missing"},
         Mistake{kBlocks, "{ of: index.speed, take: max }", "name: is missing"},
+        Mistake{kBlocks, "{ name: a, of: 1, take: max, when: 2 + 3 }", "is not a condition"},
+        Mistake{kBlocks, "{ name: a, of: 1, take: max, when: time_in_stat > 1 s }",
+                "Did you mean time_in_state?"},
         Mistake{kBlocks, "{ name: a b, of: 1, take: max }", "cannot be the name of a column"},
         Mistake{kBlocks, "{ name: outcome, of: 1, take: max }", "is the name of another column"},
         Mistake{kBlocks, "{ name: a, of: 1, take: max }, { name: a, of: 2, take: max }",
@@ -296,6 +317,8 @@ TEST_P(MistakenRule, IsRefused) {
 INSTANTIATE_TEST_SUITE_P(
     CustomMeasures, MistakenRule,
     ::testing::Values(Mistake{"median", "measure.x", "is known only after the session"},
+                      Mistake{"last }, { name: x_rad, of: 1, take: last", "1 mm * measure.x",
+                              "'x_mm' and 'x_rad' are both measure.x in after_trial"},
                       Mistake{"last", "measure.y", "'measure.y' is not a quantity"},
                       Mistake{"last", "mean(measure.x)", "the number of trials is missing"},
                       Mistake{"last", "mean(measure.x, 0)", "a whole number from 1 to 1000"},

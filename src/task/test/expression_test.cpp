@@ -422,13 +422,45 @@ TEST(Expression, TenThousandAgreeWithPython) {
     EXPECT_GT(finite, kExpressions / 2);
 }
 
+/// A grip force that grows by 7 N/s, and after a gap by 3 N/s.
+TEST(Expression, RatesAreDifferencesOverTheLastTicks) {
+    Grasp grasp;
+    const Expression rate = grasp.compile("rate(grip_force)");
+    EXPECT_EQ(rate.dimension(), dimension(Quantity::force) / dimension(Quantity::time));
+    EXPECT_TRUE(rate.follows_tick());
+    const auto at = [&](int64_t tick, double force) {
+        grasp.last.sequence = tick;
+        grasp.last.time = std::chrono::milliseconds(tick);
+        grasp.last.grip_force = force;
+        grasp.quantities.update(grasp.last, grasp.handles);
+        return rate(grasp.quantities.values());
+    };
+    for (int i = 0; i < 10; ++i) EXPECT_TRUE(std::isnan(at(i, 7e-3 * i))) << i;
+    for (int i = 10; i < 25; ++i) EXPECT_NEAR(at(i, 7e-3 * i), 7, 1e-9) << i;
+    for (int i = 30; i < 40; ++i) EXPECT_TRUE(std::isnan(at(i, 3e-3 * i))) << i;
+    for (int i = 40; i < 60; ++i) EXPECT_NEAR(at(i, 3e-3 * i), 3, 1e-9) << i;
+}
+
+TEST(Expression, OnlyWhatIsMeasuredInATickHasARate) {
+    for (const char* text : {"rate(3 N)", "rate(grip_force + 1 N)", "rate(score)", "rate(block)",
+                             "rate(goal.x)", "rate(touched(block))", "rate()"}) {
+        Grasp grasp;
+        EXPECT_TRUE(grasp.compile(text).empty()) << text;
+        EXPECT_TRUE(grasp.diagnostics.has_errors()) << text;
+    }
+    Grasp grasp;
+    for (const char* text :
+         {"rate(block.z)", "rate(index.speed)", "rate(contact_force(block, hand))"})
+        EXPECT_FALSE(grasp.compile(text).empty()) << text;
+}
+
 TEST(Expression, AllocatesNothingInTheTick) {
     DIHAPTIC_NEEDS_ALLOCATION_GUARD();
     Grasp grasp;
     const Expression expression = grasp.compile(
         "grip_force > 2 and gripped(block, left) and inside(block, goal) and still(index) and "
         "contact_force(block, hand) > 1 and surface == 'suede' and hand.shown.x < 10 and "
-        "sin(time_in_state / 1 s) < 2 ^ 0.5");
+        "sin(time_in_state / 1 s) < 2 ^ 0.5 and not rate(grip_force) > 1 N / 1 s");
     ASSERT_FALSE(expression.empty());
     const testing::AllocationGuard guard;
     double sum = 0;

@@ -277,6 +277,22 @@ TEST(Formulas, AnAngleIsInRadiansWhereItNamesOneAndElseInTheUnitOfItsKey) {
     EXPECT_NEAR(angle, turn / 2, 1e-12);
 }
 
+TEST(Formulas, InsertedTrialsHaveTheirConditionsInTurn) {
+    session::Files files;
+    files.replace("insert: [{ kind: catch, count: 1 }]",
+                  "conditions: [right], insert: [{ kind: catch, count: 2, conditions: [far] }]");
+    files.replace("repeats: 2, ramp: 2", "repeats: 6, ramp: 2");
+    const session::Plan plan = session::make_plan(files.request());
+    int caught = 0;
+    for (const Trial& trial : plan.task->trials) {
+        if (trial.block != 1) continue;
+        const bool is_catch = trial.kind == TrialKind::catch_trial;
+        EXPECT_EQ(trial.condition, is_catch ? 1 : 0);
+        caught += is_catch ? 1 : 0;
+    }
+    EXPECT_EQ(caught, 2);
+}
+
 TEST(Formulas, InsertedTrialsKeepTheirGap) {
     for (uint64_t seed = 1; seed <= 50; ++seed) {
         session::Files files;

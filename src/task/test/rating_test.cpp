@@ -156,7 +156,7 @@ TEST(Rating, ByMouseIsTakenInATrialAndBetweenTrialsNot) {
         const frame::Commands& commands = hand.tick();
         if (commands.task.outcome >= 0) answers.push_back(commands.task.variables[1].value);
         const bool asked = commands.phase == 1 && commands.task.outcome < 0;
-        hand.director.click(asked ? 0.4 : 0.9);
+        hand.director.click(Click::at(0, asked ? 0.4 : 0.9));
     }
     EXPECT_EQ(answers, (std::vector<double>{40, 40, 40}));
 }
@@ -225,7 +225,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"to: 9", "to: 1", "not above 'from', 1"},
         Mistake{"to: 9", "to: nine", "must be a number"},
         Mistake{"labels: [light, heavy]", "labels: [light, middle, heavy]", "a scale has two ends"},
-        Mistake{"scale: numbers,", "scale: likert,", "numbered from 1"},
+        Mistake{"scale: numbers,", "scale: likert,", "as many numbers as labels"},
         Mistake{"scale: numbers, from: 1, to: 9, labels: [light, heavy]",
                 "scale: likert, labels: [one]", "2 to 9"},
         Mistake{"scale: numbers, from: 1", "scale: magnitude, from: -1", "a magnitude cannot be"},

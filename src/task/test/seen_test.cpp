@@ -203,6 +203,32 @@ TEST(Seen, ConditionsAndStatesColourAndSizeThings) {
     EXPECT_EQ(conditions.size(), 2u);
 }
 
+/// In one condition, the cursor and the target are hidden in the reach, and the block throughout.
+TEST(Seen, ConditionsHideThings) {
+    session::Files files;
+    files.keep_first_block();
+    files.replace("- name: far\n",
+                  "- name: far\n      look: [{ finger: index, hidden: yes, during: reach }, "
+                  "{ target: target, hidden: yes, during: [reach] }, { body: block, hidden: yes "
+                  "}]\n");
+    files.replace("show: [target]\n",
+                  "show: [target]\n      look: [{ finger: index, colour: \"#ff0000\" }]\n");
+    const session::Plan plan = session::make_plan(files.request());
+    std::map<std::pair<int, int>, int> hidden;  // by condition and phase
+    for (const frame::Frame& frame : tell(files).frames) {
+        if (frame.phase == 0 || frame.task.outcome >= 0) continue;
+        const int condition = plan.task->trials[static_cast<size_t>(frame.trial - 1)].condition;
+        const bool no_cursor = !frame::is_displayed(frame, frame::proxy_of(frame, 0));
+        const bool no_target = frame.task.targets.empty();
+        const bool no_block = !frame::is_displayed(frame, 1);
+        hidden[{condition, frame.phase}] = 4 * no_cursor + 2 * no_target + no_block;
+    }
+    EXPECT_EQ((hidden[{0, 1}]), 0);
+    EXPECT_EQ((hidden[{0, kReach}]), 0);
+    EXPECT_EQ((hidden[{1, 1}]), 1);
+    EXPECT_EQ((hidden[{1, kReach}]), 7);
+}
+
 TEST(Seen, TextsHaveLinesNumbersAndACountdown) {
     session::Files files;
     files.replace(

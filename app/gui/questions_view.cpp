@@ -1,0 +1,116 @@
+#include "questions_view.h"
+
+#include <QLabel>
+#include <QPainter>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <cmath>
+
+namespace dihaptic::gui {
+namespace {
+
+const QColor kSheet(20, 24, 30, 235);
+constexpr double kSheetCorner = 8;  // [pixels]
+
+}  // namespace
+
+QuestionsView::QuestionsView(QWidget* parent) : QWidget(parent), layout_(new QVBoxLayout(this)) {
+    setAccessibleName(tr("Questions"));
+    layout_->setSpacing(0);
+    hide();
+}
+
+void QuestionsView::ask(const std::optional<Asked>& asked) {
+    const bool same =
+        asked ? asked->items.data() == first_ && asked->items.size() == count_ : first_ == nullptr;
+    if (!same) fill(asked.value_or(Asked{}));
+    if (!asked) return;
+    for (size_t i = 0; i < rows_.size(); ++i) {
+        rows_[i].line->set_answer(asked->answers[i], is_form_ && i == asked->now);
+        if (!is_form_) continue;
+        QFont font = rows_[i].question->font();
+        font.setBold(i == asked->now);
+        rows_[i].question->setFont(font);
+    }
+    if (done_ != nullptr) done_->setEnabled(asked->now == count_);
+}
+
+void QuestionsView::fill(const Asked& asked) {
+    rows_.clear();
+    while (QLayoutItem* const item = layout_->takeAt(0)) {
+        delete item->widget();
+        delete item;
+    }
+    title_ = nullptr;
+    done_ = nullptr;
+    first_ = asked.items.data();
+    count_ = asked.items.size();
+    is_form_ = asked.is_form;
+    if (is_form_) {
+        title_ = new QLabel(asked.title, this);
+        layout_->addWidget(title_);
+    }
+    for (size_t i = 0; i < count_; ++i) {
+        const task::AskSpec& item = asked.items[i];
+        QLabel* question = nullptr;
+        if (is_form_) {
+            question = new QLabel(QString::fromStdString(item.question), this);
+            question->setWordWrap(true);
+            layout_->addWidget(question);
+        }
+        auto* const line = new RatingView(this);
+        line->set_question(&item);
+        line->setAccessibleName(QString::fromStdString(item.question));
+        layout_->addWidget(line, 1);
+        connect(line, &RatingView::clicked, this,
+                [this, i](double share) { Q_EMIT clicked(task::Click::at(i, share)); });
+        rows_.push_back({question, line});
+    }
+    if (is_form_) {
+        done_ = new QPushButton(tr("Done (Enter)"), this);
+        done_->setFocusPolicy(Qt::NoFocus);  // keys are answers
+        layout_->addWidget(done_, 0, Qt::AlignRight);
+        connect(done_, &QPushButton::clicked, this,
+                [this] { Q_EMIT clicked(task::Click::at(count_, 0)); });
+    }
+    setVisible(count_ > 0);
+    fit();
+}
+
+void QuestionsView::place(const QSize& room) {
+    room_ = room;
+    fit();
+}
+
+/// A rating stands at the bottom of the scene, a form in place of it.
+void QuestionsView::fit() {
+    const int width = room_.width(), height = room_.height();
+    if (is_form_) {
+        // legible from a chair, as far as all items have room
+        const int letters =
+            std::clamp(height / (4 * static_cast<int>(count_) + 6), 11, std::max(12, height / 30));
+        setStyleSheet(QString("QLabel { color: white; font-size: %1px; } "
+                              "QPushButton { font-size: %1px; padding: 4px 16px; }")
+                          .arg(letters));
+        if (title_ != nullptr)
+            title_->setStyleSheet(
+                QString("font-weight: bold; font-size: %1px;").arg(letters * 5 / 4));
+        layout_->setContentsMargins(24, 12, 24, 12);
+        setGeometry(width / 20, height / 20, width * 18 / 20, height * 18 / 20);
+    } else {
+        layout_->setContentsMargins(0, 0, 0, 0);
+        setGeometry(width / 10, height * 7 / 10, width * 8 / 10, height * 2 / 10);
+    }
+}
+
+void QuestionsView::paintEvent(QPaintEvent*) {
+    if (!is_form_) return;
+    QPainter painter(this);
+    painter.setRenderHint(QPainter::Antialiasing);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(kSheet);
+    painter.drawRoundedRect(rect(), kSheetCorner, kSheetCorner);
+}
+
+}  // namespace dihaptic::gui

@@ -1,0 +1,66 @@
+// The questions of a task's state over the scene: the line of a rating that is answered by mouse,
+// or a form, with all its items on one page.
+#pragma once
+
+#include <QWidget>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "rating_view.h"
+#include "task/run/answering.h"
+
+QT_BEGIN_NAMESPACE
+class QLabel;
+class QPushButton;
+class QVBoxLayout;
+QT_END_NAMESPACE
+
+namespace dihaptic::gui {
+
+/// The questions that are asked now.
+struct Asked {
+    std::span<const task::AskSpec> items;
+    QString title;                ///< of the form
+    bool is_form = false;         ///< all items are shown, with a button that confirms them
+    size_t now = 0;               ///< the item whose answer is awaited; their number: none
+    std::vector<double> answers;  ///< by item, in the unit of its name; NaN: none yet
+};
+
+class QuestionsView : public QWidget {
+    Q_OBJECT
+
+  public:
+    explicit QuestionsView(QWidget* parent);
+
+    /// Shows the questions; nullopt: none.
+    void ask(const std::optional<Asked>& asked);
+    bool shows_form() const { return is_form_ && count_ > 0; }
+    /// Takes its place over a scene of this size.
+    void place(const QSize& room);
+
+  Q_SIGNALS:
+    void clicked(const dihaptic::task::Click& click);
+
+  protected:
+    void paintEvent(QPaintEvent* event) override;
+
+  private:
+    struct Row {
+        QLabel* question;
+        RatingView* line;
+    };
+    void fill(const Asked& asked);
+    void fit();
+
+    const task::AskSpec* first_ = nullptr;  // the questions shown are those that begin here
+    size_t count_ = 0;
+    bool is_form_ = false;
+    QSize room_;
+    QVBoxLayout* layout_;
+    QLabel* title_ = nullptr;
+    QPushButton* done_ = nullptr;
+    std::vector<Row> rows_;
+};
+
+}  // namespace dihaptic::gui

@@ -1,0 +1,64 @@
+// A participant's answers to the questions of a state, in the tick. Nothing here allocates or
+// throws.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+#include "task/plan/task_plan.h"
+
+namespace dihaptic::task {
+
+/// A click on a question's line.
+struct Click {
+    int32_t item = -1;  ///< the question, or their number for a click on "done"; -1: no click
+    int32_t place = 0;  ///< in millionths of the line's length, from its left end
+
+    /// `share`: of the line's length, from 0 to 1.
+    static Click at(size_t item, double share) noexcept {
+        return {static_cast<int32_t>(item), static_cast<int32_t>(std::lround(share * kPlaces))};
+    }
+    double share() const noexcept { return place / kPlaces; }
+
+  private:
+    static constexpr double kPlaces = 1e6;
+};
+
+class Answering {
+  public:
+    /// Begins the questions of a state; all are open.
+    void begin(const TaskPlan::Questions& questions) noexcept;
+    void press(char key) noexcept;
+    void click(const Click& click) noexcept;
+    /// Uses the hand's position on the line from `from_W` to `to_W` as the answer.
+    void point(const Vec3& p_W, const Vec3& from_W, const Vec3& to_W) noexcept;
+
+    /// The messages of the present question.
+    std::span<const int> lines() const noexcept;
+    /// Whether the only question is answered, or the form is confirmed.
+    bool answered() const noexcept;
+    /// The question that is asked now; their number, once all are answered.
+    size_t item() const noexcept { return item_; }
+    /// Of a question, in the unit of its name; NaN while it has none.
+    double answer(size_t item) const noexcept { return answers_[item]; }
+    /// The number typed so far, or the answer.
+    double shown() const noexcept { return rating_.shown(); }
+
+  private:
+    size_t count() const noexcept { return questions_ == nullptr ? 0 : questions_->items.size(); }
+    void give(size_t item, double answer) noexcept;
+    void reopen(size_t item) noexcept;
+    void ask_next() noexcept;
+
+    const TaskPlan::Questions* questions_ = nullptr;
+    Rating rating_;  // the answer to the present question
+    std::array<double, frame::TaskFrame::kMostVariables> answers_{};
+    std::array<bool, frame::TaskFrame::kMostVariables> given_{};
+    size_t item_ = 0;
+    bool confirmed_ = false;
+    bool ended_itself_ = false;  // the last key completed a number, so that Enter is superfluous
+};
+
+}  // namespace dihaptic::task

@@ -1,0 +1,119 @@
+"""Studies and questionnaires as other programs had trouble with them. docs/outside.md has the sources.
+
+Usage: outside/studies_test.py PROGRAM, from the project's folder.
+"""
+import csv
+import glob
+import os
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+
+sys.path.append("test/cli")
+from program import dihaptic
+
+STUDY = """title: Two groups
+groups: [{ name: a, people: 3 }, { name: b, people: 3 }]
+sessions: [{ name: only, experiment: short.yaml }]
+"""
+#: A rating that counts backwards, one that counts forwards, and one that nobody has time to give.
+FORM = """title: Mood
+version: "7"
+items:
+  - { name: calm, question: Calm, scale: likert, labels: [no, a little, rather, yes], simulated_answer: 4 }
+  - { name: tense, question: Tense, scale: likert, labels: [no, a little, rather, yes], simulated_answer: 2 }
+  - { name: tired, question: Tired, scale: vas, simulated_answer: 30 }
+scores:
+  - { name: strain, of: 5 - calm + tense }
+  - { name: all_of_it, of: 5 - calm + tense + tired }
+"""
+ASKED = """title: Asked twice
+scene: SCENE
+task:
+  states:
+    - name: ask
+      form: { file: mood.yaml }
+      exits:
+        - { when: answered, outcome: filled }
+        - { when: time, after_s: limit, outcome: out of time }
+  cross: [{ factor: limit_s, levels: [30, 1.4] }]
+  blocks: [{ name: asked, order: sequential, repeats: 2 }]
+"""
+
+
+class Studies(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def write(self, name, text):
+        file = pathlib.Path(self.folder, name)
+        file.write_text(text)
+        return str(file)
+
+    def study(self):
+        text = pathlib.Path("experiments/first-trials.yaml").read_text().replace("../", os.getcwd() + "/")
+        self.write("short.yaml", re.sub(r"repeats: \d+", "repeats: 1", text))
+        return self.write("study.yaml", STUDY)
+
+    def groups(self, study, people):
+        for id in people:
+            self.assertEqual(dihaptic("participant", "add", study, id).returncode, 0)
+        listed = dihaptic("participant", "list", study).stdout
+        return [re.search(rf"{id} +([ab]) ", listed)[1] for id in people]
+
+    def test_a_trial_run_takes_nobodys_place(self):
+        """psiTurk 295: participants of test runs were counted when the next one was assigned a condition."""
+        study = self.study()
+        self.assertEqual(self.groups(study, ["S01"]), ["a"])
+        self.assertEqual(dihaptic("run", study, "--participant", "S01", "--simulate").returncode, 0)
+        self.assertRegex(dihaptic("participant", "list", study).stdout, r"S01 +a +next: only")
+        self.assertEqual(self.groups(study, ["S02", "S03"]), ["b", "a"])
+
+    def test_who_drops_out_leaves_the_groups_balanced(self):
+        """Bride of Frankensystem 16: after dropouts, 20 and 20 participants had become 24 and 16."""
+        study = self.study()
+        self.groups(study, ["S01", "S02", "S03", "S04", "S05"])
+        for id in ("S01", "S03", "S05"):  # all of one group
+            withdrawn = dihaptic("participant", "withdraw", study, id, "--keep-data")
+            self.assertEqual(withdrawn.returncode, 0, withdrawn.stderr)
+        self.groups(study, ["S06", "S07", "S08", "S09"])
+        listed = dihaptic("participant", "list", study).stdout
+        self.assertRegex(listed, r"group a +3 of 3\ngroup b +3 of 3\n")
+
+    def asked(self):
+        self.write("mood.yaml", FORM)
+        file = self.write("asked.yaml", ASKED.replace("SCENE", os.getcwd() + "/scenes/reach-in-space.yaml"))
+        result = dihaptic("run", file, "--simulate", "--participant", "S01", "--out", self.folder + "/out")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        session, = glob.glob(self.folder + "/out/*")
+        with open(session + "/trials.csv") as table:
+            return session, list(csv.DictReader(table))
+
+    def test_a_form_that_is_asked_again_is_blank_again(self):
+        """PsychoPy 4631: a form in a loop kept the answers of the time before."""
+        session, rows = self.asked()
+        events = pathlib.Path(session, "events.csv").read_text()
+        self.assertEqual(events.count("answer,\"calm 4; Mood, version 7\""), 4, events)
+        self.assertEqual([row["tired"] for row in rows], ["30", "", "30", ""])
+
+    def test_items_without_an_answer_are_blank_cells_with_a_reason(self):
+        """experimentum 41: items without an answer had no row; oli-torus 4966: the report failed."""
+        session, rows = self.asked()
+        self.assertEqual([row["outcome"] for row in rows], ["filled", "out of time"] * 2)
+        self.assertEqual([row["all_of_it"] for row in rows], ["33", "", "33", ""])
+        self.assertIn("all_of_it", rows[1]["not_measured"])
+        self.assertEqual([row["strain"] for row in rows], ["3"] * 4)
+        self.assertEqual(dihaptic("report", session).returncode, 0)
+
+    def test_a_score_leaves_the_answers_as_they_were(self):
+        """umx 129: scoring a questionnaire reversed the items in the data themselves."""
+        _, rows = self.asked()
+        self.assertEqual([(row["calm"], row["tense"]) for row in rows], [("4", "2")] * 4)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)
