@@ -221,7 +221,7 @@ MISTAKES = [
     ('colour: "#009e73"', "colour: green",
      "colour", 'Write red, green and blue in hexadecimal, e.g. colour: "#d55e00"'),
     ("scale: 1.5", "scale: 100", "scale", "Correct the value"),
-    ("look: [{ body: block, scale: 1.2 }]", "look: [{ body: block }]", "look", "Give it colour, scale or both"),
+    ("look: [{ body: block, scale: 1.2 }]", "look: [{ body: block }]", "look", "Give it colour, scale or hidden"),
     # placing
     ("body: block, position_mm: [0, 100, 20], held", "body: blok, position_mm: [0, 100, 20], held",
      "body", "Did you mean block?"),
@@ -301,7 +301,7 @@ MISTAKES = [
     ("count: 2, gap", "gap", "count", "Add count"),
     ("until: score >= 100", "until: scor >= 100", "until", "Did you mean score?"),
     ("until: score >= 100", "until: score", "until", "Write a comparison"),
-    ("until: score >= 100", "until: block.z > 1", "until", "docs/files.md (conditions) lists the quantities"),
+    ("until: score >= 100", "until: block.z > 1", "until", "docs/quantities.md lists the quantities"),
     ("kind: force_channel, perturb: channel", "kind: force_channel, perturb: late",
      "kind", "Name a perturbation whose field is a channel"),
     ("kind: force_channel, perturb: channel", "kind: error_clamp, perturb: channel", "kind", "Write visual_clamp"),
