@@ -21,6 +21,7 @@ struct ParticipantOptions {
     std::vector<std::string> facts;
     std::string reason;
     std::string key_file, name, contact;
+    bool with_key = false;  // --key was given
     bool keep_data = false, delete_data = false;
 };
 
@@ -49,9 +50,10 @@ void read_facts(ParticipantOptions& options) {
 
 /// The file of names, if there is one.
 std::optional<study::KeyFile> names_of(const ParticipantOptions& options,
-                                       const study::StudyFile& study) {
-    if (options.key_file.empty()) return {};
-    return study::KeyFile(study, options.key_file);
+                                       const study::StudyFile& study,
+                                       study::KeyFile::Missing missing) {
+    if (!options.with_key) return {};
+    return study::KeyFile(study, options.key_file, missing);
 }
 
 void add(ParticipantOptions& options) {
@@ -73,7 +75,10 @@ void add(ParticipantOptions& options) {
         exit_code = kFailed;
         return;
     }
-    std::optional<study::KeyFile> names = names_of(options, study);
+    std::optional<study::KeyFile> names =
+        names_of(options, study, study::KeyFile::Missing::is_made);
+    if (names && options.name.find_first_not_of(' ') == std::string::npos)
+        throw Error({"--name", 0}, "", "is empty", "Give the participant's name.");
     if (names && names->find(person.id) != nullptr) {
         throw Error({options.key_file, 0}, person.id, "belongs to a name already",
                     "Choose another identifier, or correct the file.");
@@ -85,10 +90,10 @@ void add(ParticipantOptions& options) {
     person.added = recording::iso_now();
     person.version = static_cast<int>(session::versions_of(study).size());
     roster.participants.push_back(person);
+    // first: it is the one that may fail, and can be taken back
+    if (names) names->add({person.id, options.name, options.contact});
     study::log(study, "add", person.id, study.shown_group(person.group));
     study::write_roster(study, roster);
-    // last: a name without a participant would be of somebody who takes no part
-    if (names) names->add({person.id, options.name, options.contact});
     int active = 0;
     for (const study::Group& group : study.groups) active += roster.active(group.name);
     fmt::print("{} added{}: {} of {} participants\n", person.id,
@@ -165,7 +170,7 @@ void show(const ParticipantOptions& options) {
         if (!value.empty()) fmt::print("  {:14s} {}\n", name, value);
     };
     fmt::print("{}\n", member.id);
-    if (const auto names = names_of(options, study)) {
+    if (const auto names = names_of(options, study, study::KeyFile::Missing::is_refused)) {
         const study::Key* const key = names->find(member.id);
         line("name", key == nullptr ? "not in the key file" : key->name);
         line("contact", key == nullptr ? "" : key->contact);
@@ -202,11 +207,15 @@ void withdraw(const ParticipantOptions& options) {
     known(roster, options.person.id);
     study::Member& member =
         *std::ranges::find(roster.participants, options.person.id, &study::Member::id);
+    std::optional<study::KeyFile> names =
+        names_of(options, study, study::KeyFile::Missing::is_refused);
+    const bool had_name = names && names->remove(member.id);
+    if (had_name) fmt::print("{}: the name is deleted\n", member.id);
+    if (!member.takes_part() && had_name && !options.delete_data) return;
     if (!member.takes_part() && (member.data_deleted || !options.delete_data)) {
         throw Error({"participant", 0}, member.id, fmt::format("withdrew on {}", member.withdrawn),
                     "Nothing is left to do.");
     }
-    std::optional<study::KeyFile> names = names_of(options, study);
     const auto recordings = options.delete_data ? session::deletable(study, member) : "";
     study::log(study, "withdraw", member.id,
                fmt::format("data {}{}{}", options.delete_data ? "deleted" : "kept",
@@ -216,7 +225,6 @@ void withdraw(const ParticipantOptions& options) {
     if (!options.reason.empty()) member.reason = options.reason;
     member.data_deleted = options.delete_data;
     study::write_roster(study, roster);
-    if (names && names->remove(member.id)) fmt::print("{}: the name is deleted\n", member.id);
     if (!recordings.empty()) {
         std::error_code failed;
         const auto deleted = fs::remove_all(recordings, failed);
@@ -263,8 +271,10 @@ using Shared = std::shared_ptr<ParticipantOptions>;
 
 /// The option --key; `what` happens to the names.
 CLI::Option* add_key(CLI::App& command, const Shared& options, const char* what) {
-    return command.add_option("--key", options->key_file,
-                              std::string("file of names, outside the study's folder: ") + what);
+    return command
+        .add_option("--key", options->key_file,
+                    std::string("file of names, outside the study's folder: ") + what)
+        ->each([options](const std::string&) { options->with_key = true; });
 }
 
 CLI::App* add_action(CLI::App& parent, const Shared& options, const char* name, const char* what,

@@ -1,9 +1,9 @@
 #include "questions_view.h"
 
+#include <QGridLayout>
 #include <QLabel>
 #include <QPainter>
 #include <QPushButton>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
@@ -12,12 +12,16 @@ namespace {
 
 const QColor kSheet(20, 24, 30, 235);
 constexpr double kSheetCorner = 8;  // [pixels]
+/// Number of items from which on each has its line beside its question, not below it.
+constexpr size_t kMany = 9;
 
 }  // namespace
 
-QuestionsView::QuestionsView(QWidget* parent) : QWidget(parent), layout_(new QVBoxLayout(this)) {
+QuestionsView::QuestionsView(QWidget* parent) : QWidget(parent), layout_(new QGridLayout(this)) {
     setAccessibleName(tr("Questions"));
     layout_->setSpacing(0);
+    layout_->setColumnStretch(0, 2);
+    layout_->setColumnStretch(1, 3);
     hide();
 }
 
@@ -32,8 +36,16 @@ void QuestionsView::ask(const std::optional<Asked>& asked) {
         QFont font = rows_[i].question->font();
         font.setBold(i == asked->now);
         rows_[i].question->setFont(font);
+        rows_[i].question->setText(text_of(*asked, i));
     }
     if (done_ != nullptr) done_->setEnabled(asked->now == count_);
+}
+
+QString QuestionsView::text_of(const Asked& asked, size_t item) {
+    const QString question = QString::fromStdString(asked.items[item].question);
+    const double answer = asked.answers[item];
+    if (!std::isnan(answer)) return question + QString(":  %1").arg(answer);
+    return item == asked.now && !asked.typed.isEmpty() ? question + ":  " + asked.typed : question;
 }
 
 void QuestionsView::fill(const Asked& asked) {
@@ -42,6 +54,7 @@ void QuestionsView::fill(const Asked& asked) {
         delete item->widget();
         delete item;
     }
+    for (int row = 0; row < layout_->rowCount(); ++row) layout_->setRowStretch(row, 0);
     title_ = nullptr;
     done_ = nullptr;
     first_ = asked.items.data();
@@ -49,7 +62,7 @@ void QuestionsView::fill(const Asked& asked) {
     is_form_ = asked.is_form;
     if (is_form_) {
         title_ = new QLabel(asked.title, this);
-        layout_->addWidget(title_);
+        layout_->addWidget(title_, 0, 0, 1, 2);
     }
     for (size_t i = 0; i < count_; ++i) {
         const task::AskSpec& item = asked.items[i];
@@ -57,12 +70,15 @@ void QuestionsView::fill(const Asked& asked) {
         if (is_form_) {
             question = new QLabel(QString::fromStdString(item.question), this);
             question->setWordWrap(true);
-            layout_->addWidget(question);
         }
         auto* const line = new RatingView(this);
         line->set_question(&item);
         line->setAccessibleName(QString::fromStdString(item.question));
-        layout_->addWidget(line, 1);
+        const int row = 1 + 2 * static_cast<int>(i);
+        const bool beside = count_ >= kMany;
+        if (question != nullptr) layout_->addWidget(question, row, 0, 1, beside ? 1 : 2);
+        layout_->addWidget(line, beside ? row : row + 1, beside ? 1 : 0, 1, beside ? 1 : 2);
+        layout_->setRowStretch(beside ? row : row + 1, 1);
         connect(line, &RatingView::clicked, this,
                 [this, i](double share) { Q_EMIT clicked(task::Click::at(i, share)); });
         rows_.push_back({question, line});
@@ -70,7 +86,7 @@ void QuestionsView::fill(const Asked& asked) {
     if (is_form_) {
         done_ = new QPushButton(tr("Done (Enter)"), this);
         done_->setFocusPolicy(Qt::NoFocus);  // keys are answers
-        layout_->addWidget(done_, 0, Qt::AlignRight);
+        layout_->addWidget(done_, 1 + 2 * static_cast<int>(count_), 0, 1, 2, Qt::AlignRight);
         connect(done_, &QPushButton::clicked, this,
                 [this] { Q_EMIT clicked(task::Click::at(count_, 0)); });
     }
@@ -88,8 +104,8 @@ void QuestionsView::fit() {
     const int width = room_.width(), height = room_.height();
     if (is_form_) {
         // legible from a chair, as far as all items have room
-        const int letters =
-            std::clamp(height / (4 * static_cast<int>(count_) + 6), 11, std::max(12, height / 30));
+        const int rows = static_cast<int>(count_) * (count_ >= kMany ? 2 : 4) + 6;
+        const int letters = std::clamp(height / rows, 11, std::max(12, height / 30));
         setStyleSheet(QString("QLabel { color: white; font-size: %1px; } "
                               "QPushButton { font-size: %1px; padding: 4px 16px; }")
                           .arg(letters));

@@ -13,7 +13,7 @@
 QT_BEGIN_NAMESPACE
 class QLabel;
 class QPushButton;
-class QVBoxLayout;
+class QGridLayout;
 QT_END_NAMESPACE
 
 namespace dihaptic::gui {
@@ -25,6 +25,7 @@ struct Asked {
     bool is_form = false;         ///< all items are shown, with a button that confirms them
     size_t now = 0;               ///< the item whose answer is awaited; their number: none
     std::vector<double> answers;  ///< by item, in the unit of its name; NaN: none yet
+    QString typed;                ///< of the awaited answer
 };
 
 class QuestionsView : public QWidget {
@@ -51,13 +52,15 @@ class QuestionsView : public QWidget {
         RatingView* line;
     };
     void fill(const Asked& asked);
+    /// The item's question, with its answer as far as it is known.
+    static QString text_of(const Asked& asked, size_t item);
     void fit();
 
     const task::AskSpec* first_ = nullptr;  // the questions shown are those that begin here
     size_t count_ = 0;
     bool is_form_ = false;
     QSize room_;
-    QVBoxLayout* layout_;
+    QGridLayout* layout_;
     QLabel* title_ = nullptr;
     QPushButton* done_ = nullptr;
     std::vector<Row> rows_;

@@ -22,7 +22,9 @@ std::vector<std::pair<double, QString>> labels_of(const task::AskSpec& question)
     if (question.scale == task::Scale::likert) {
         for (size_t i = 0; i < question.labels.size(); ++i)
             out.emplace_back(static_cast<double>(i) / range,
-                             QString::fromStdString(question.labels[i]));
+                             QString("%1 %2")
+                                 .arg(question.least() + static_cast<double>(i))
+                                 .arg(QString::fromStdString(question.labels[i])));
         return out;
     }
     const bool named = question.labels.size() == 2;
@@ -87,7 +89,7 @@ void RatingView::paintEvent(QPaintEvent*) {
         painter.drawLine(QPointF(x, on.top() - tick), QPointF(x, on.top() + tick));
     }
     QFont font = painter.font();
-    font.setPixelSize(std::max(12, height() / 5));
+    font.setPixelSize(std::max(11, height() / 5));
     painter.setFont(font);
     const auto labels = labels_of(*question_);
     const double room = width() / static_cast<double>(labels.size());
@@ -98,7 +100,7 @@ void RatingView::paintEvent(QPaintEvent*) {
                          : share == 0      ? Qt::AlignLeft
                                            : Qt::AlignRight;
         const double inset = labels.size() > 2 ? 0 : on.left() / 2;
-        painter.drawText(QRectF(left + inset, on.top() + 1.5 * tick, room - 2 * inset, height()),
+        painter.drawText(QRectF(left + inset, on.top() + tick, room - 2 * inset, height()),
                          side | Qt::AlignTop, text);
     }
     if (!std::isnan(answer_)) {

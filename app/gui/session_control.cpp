@@ -134,6 +134,14 @@ std::optional<Asked> SessionControl::asked() const {
     for (const auto& item : items)
         out.answers.push_back(frame.task.variables[item.question.variable].value /
                               item.question.si);
+    const std::vector<std::string> texts = frame::shown_texts(frame.task, plan.messages);
+    for (size_t i = 0; i < frame.task.lines.size() && out.now < items.size(); ++i) {
+        if (frame.task.lines[i].message != items[out.now].lines.back()) continue;
+        // the scale in words ends with the number that is typed so far, or a dash
+        const std::string& scale = texts[i + (frame.task.message >= 0 ? 1 : 0)];
+        const std::string typed = scale.substr(scale.rfind(' ') + 1);
+        if (typed != "-") out.typed = QString::fromStdString(typed);
+    }
     return out;
 }
 

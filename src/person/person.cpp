@@ -34,6 +34,7 @@ constexpr double kRestTime = 0.6;  // duration of the movement to rest [s]
 constexpr double kRetry = 3;      // time in a state after which its finished steps are repeated [s]
 constexpr double kGivingUp = 10;  // delay of an attempt that is not made [s]
 constexpr double kWeak = 0.4;     // grip that is too weak, over the right one
+constexpr double kUnbounded = 1e6;  // upper end of a scale that has none
 constexpr double kDecision = 0.4;   // time to decide on an answer, beyond the reaction [s]
 constexpr double kFeelTime = 0.05;  // kFeelTime of hand/finger.h [s]
 
@@ -666,8 +667,8 @@ void Person::answer(const Sight& sight) noexcept {
     key_ = yes || second == 0 ? first : second;
 }
 
-/// Types a random whole number on the scale of the next question, up to a hundred, because there is
-/// no model of ratings; after the last question of a form, Enter.
+/// Types the simulated answer to the next question or, because there is no model of ratings, a
+/// random whole number on its scale; after the last question of a form, Enter.
 void Person::rate(const TaskPlan::Questions& questions) noexcept {
     if (rated_ == questions.items.size()) {
         key_ = task::Rating::kEnter;
@@ -675,11 +676,12 @@ void Person::rate(const TaskPlan::Questions& questions) noexcept {
     }
     const task::Question& question = questions.items[rated_++].question;
     if (questions.is_form) answer_at_ = now_ + kDecision;
-    const double most = std::min(question.most, question.least + 100);
-    const double number = question.simulated.value_or(
-        std::ceil(random_.uniform(question.least - 1, std::floor(most))));
-    const double answer = std::clamp(number, question.least, most);
-    const auto end = std::to_chars(typed_.data(), typed_.data() + typed_.size() - 1, answer).ptr;
+    const double most = question.most < kUnbounded ? question.most : question.least + 100;
+    const double random = std::clamp(
+        std::ceil(random_.uniform(question.least - 1, std::floor(most))), question.least, most);
+    const auto end = std::to_chars(typed_.data(), typed_.data() + task::Rating::kLongest,
+                                   question.simulated.value_or(random), std::chars_format::fixed)
+                         .ptr;
     *end = task::Rating::kEnter;
     typed_length_ = static_cast<size_t>(end - typed_.data()) + 1;
     typed_at_ = 0;

@@ -71,7 +71,7 @@ struct Setup {
     std::vector<std::string> variables;  ///< the task's variables, by their index in frames
     std::vector<std::string> levels;  ///< numbers that procedures choose; in frames after variables
     std::vector<std::string> answers;  ///< answers that states request; in frames after levels
-    std::vector<std::string> forms;    ///< by answer: title and version of its form, if it has one
+    std::vector<std::string> forms;    ///< by state: title and version of its form, if it has one
     std::vector<std::string> pages;    ///< pages' texts or pictures, by their index in frames
     std::vector<std::string> sounds;   ///< sounds' names, by their index in frames
     std::vector<InputFile> inputs;

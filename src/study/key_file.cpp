@@ -32,13 +32,22 @@ bool is_in(const std::string& file, const std::string& folder) {
 
 }  // namespace
 
-KeyFile::KeyFile(const StudyFile& study, std::string file) : file_(std::move(file)) {
+KeyFile::KeyFile(const StudyFile& study, std::string file, Missing missing)
+    : file_(std::move(file)) {
+    if (file_.empty()) throw Error({"--key", 0}, "", "names no file", "Name the file of names.");
     if (is_in(file_, study.data)) {
         throw Error({file_, 0}, "", "is in the study's folder, and would be shared with the data",
                     "Keep names elsewhere, e.g. on an encrypted disk.");
     }
     struct stat there {};
-    if (::stat(file_.c_str(), &there) != 0) return;
+    if (::stat(file_.c_str(), &there) != 0) {
+        if (missing == Missing::is_refused)
+            throw Error({file_, 0}, "", "does not exist", "Name the file of names.");
+        check_output(file_, "", "");
+        return;
+    }
+    if (!S_ISREG(there.st_mode))
+        throw Error({file_, 0}, "", "is not a file", "Name the file of names.");
     if ((there.st_mode & kOthers) != 0) {
         throw Error({file_, 0}, "", "contains names, and others may read it",
                     fmt::format("Run: chmod 600 {}", file_));

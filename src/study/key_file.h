@@ -25,9 +25,10 @@ struct Key {
 
 class KeyFile {
   public:
-    /// Reads the file, which need not exist yet. Throws Error if it lies in the study's folder, if
-    /// others may read it, or if it is not a key file.
-    KeyFile(const StudyFile& study, std::string file);
+    enum class Missing { is_made, is_refused };
+    /// Reads the file. Throws Error if it lies in the study's folder, if others may read it, if it
+    /// is not a key file or, unless a missing one is made, if there is none.
+    KeyFile(const StudyFile& study, std::string file, Missing missing);
 
     /// Null if the participant has no name in it.
     const Key* find(const std::string& participant) const;

@@ -15,6 +15,7 @@
 #include "base/figure.h"
 #include "base/regular_file.h"
 #include "rows/event_row.h"
+#include "task/plan/levels.h"
 #include "task/plan/trials.h"
 
 namespace dihaptic::analysis::bids {
@@ -88,6 +89,20 @@ std::vector<Column> columns_for(const rows::TrialFile& trials, const rows::LiftF
     return out;
 }
 
+/// Describes the columns of answers by their questions, and the numbers of Likert scales by their
+/// labels.
+void describe_answers(const task::Task& task, Json& json) {
+    for (const task::AskSpec& ask : task::questions_of(task)) {
+        if (!json.contains(ask.name)) continue;
+        if (!ask.question.empty()) json[ask.name]["Description"] = ask.question;
+        if (ask.scale != task::Scale::likert) continue;
+        for (size_t i = 0; i < ask.labels.size(); ++i) {
+            const double number = ask.least() + static_cast<double>(i);
+            json[ask.name]["Levels"][fmt::format("{:g}", number)] = ask.labels[i];
+        }
+    }
+}
+
 Json sidecar(const std::vector<Column>& columns, const recording::SessionInfo& info) {
     Json json{
         {"onset", {{"Description", "time from the first tick of the recording"}, {"Units", "s"}}},
@@ -98,6 +113,7 @@ Json sidecar(const std::vector<Column>& columns, const recording::SessionInfo& i
            {{"trial", "an attempt at a trial, with its demands and measures"},
             {"phase", "value: the state that began"},
             {"outcome", "value: how the trial ended"},
+            {"answer", "value: the answer's column and number, and its form with the version"},
             {"message", "value: message shown to the participant"},
             {"line", "value: line shown to the participant below the message"},
             {"page", "value: text or picture of the page shown"},
@@ -207,7 +223,9 @@ std::optional<Events> events_of(const recording::SessionFolder& session,
     }
     std::stable_sort(rows.begin(), rows.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
-    Events out{{maker.header()}, sidecar(maker.columns(), info).dump(2) + "\n"};
+    Json json = sidecar(maker.columns(), info);
+    describe_answers(read_frozen_task(session.file("task.yaml")), json);
+    Events out{{maker.header()}, json.dump(2) + "\n"};
     for (auto& [time, row] : rows) out.rows.push_back(std::move(row));
     return out;
 }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <cmath>
@@ -89,11 +90,16 @@ void check(const AskSpec& spec, Diagnostics& diagnostics) {
     }
     check_by(spec, diagnostics);
     const double simulated = spec.simulated.value_or(spec.least());
-    if (simulated < spec.least() || simulated > spec.most() ||
+    std::array<char, Rating::kLongest> keys{};
+    const bool typed =
+        std::to_chars(keys.data(), keys.data() + keys.size(), simulated, std::chars_format::fixed)
+            .ec == std::errc();
+    if (!typed || simulated < spec.least() || simulated > spec.most() ||
         (spec.whole() && simulated != std::round(simulated)))
         diagnostics.error(spec.place, "simulated_answer",
                           fmt::format("{:g} is no answer on the scale", simulated),
-                          fmt::format("Write one from {:g} to {:g}.", spec.least(), spec.most()));
+                          fmt::format("Write one from {:g} to {:g}, with at most {} characters.",
+                                      spec.least(), spec.most(), Rating::kLongest));
 }
 
 std::string line_of(const AskSpec& spec) {
@@ -126,7 +132,7 @@ double Rating::typed() const noexcept {
     double value = kNone;
     const char* const end = text_.data() + length_;
     const auto [at, failed] = std::from_chars(text_.data(), end, value);
-    return failed == std::errc() && at == end ? value : kNone;
+    return failed == std::errc() && at == end ? value + 0.0 : kNone;  // 0 for -0
 }
 
 double Rating::shown() const noexcept {
@@ -162,7 +168,7 @@ void Rating::click(double share, const Question& question) noexcept {
 double Rating::at(double share, const Question& question) noexcept {
     const double answer =
         question.least + std::clamp(share, 0.0, 1.0) * (question.most - question.least);
-    return question.whole ? std::round(answer) : answer;
+    return (question.whole ? std::round(answer) : answer) + 0.0;  // 0 for -0
 }
 
 }  // namespace dihaptic::task

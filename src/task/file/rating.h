@@ -95,6 +95,7 @@ struct Question {
 /// The answer to a question while it is being given. In the tick it neither allocates nor throws.
 class Rating {
   public:
+    static constexpr size_t kLongest = 8;  ///< characters of a number
     static constexpr char kEnter = '\r';
     static constexpr char kBack = '\b';
 
@@ -116,7 +117,6 @@ class Rating {
     bool empty() const noexcept { return length_ == 0 && std::isnan(answer_); }
 
   private:
-    static constexpr size_t kLongest = 8;
     static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
     double typed() const noexcept;
     static double at(double share, const Question& question) noexcept;

@@ -130,23 +130,16 @@ std::vector<AskSpec> questions_of(const Task& task) {
 }
 
 std::vector<std::string> forms_of(const Task& task) {
-    const std::vector<AskSpec> asked = questions_of(task);
-    std::vector<std::string> out(asked.size());
+    std::vector<std::string> out;
+    bool any = false;
     for (const State& state : task.states) {
+        std::string& form = out.emplace_back();
         if (!state.form) continue;
-        const std::string name =
-            state.form->version.empty()
-                ? state.form->title
-                : fmt::format("{}, version {}", state.form->title, state.form->version);
-        for (const AskSpec& item : state.form->items) {
-            const auto same = [&](const AskSpec& other) { return other.name == item.name; };
-            const auto i = std::find_if(asked.begin(), asked.end(), same) - asked.begin();
-            std::string& form = out[static_cast<size_t>(i)];
-            if (form.empty()) form = name;
-        }
+        any = true;
+        form = state.form->title;
+        if (!state.form->version.empty()) form += ", version " + state.form->version;
     }
-    const auto none = std::all_of(out.begin(), out.end(), [](auto& name) { return name.empty(); });
-    if (none) out.clear();
+    if (!any) out.clear();
     return out;
 }
 

@@ -34,8 +34,7 @@ std::vector<LevelName> levels_of(const Task& task);
 /// The questions of states, one for each name of an answer: several states can ask the same
 /// question.
 std::vector<AskSpec> questions_of(const Task& task);
-/// By question: title and version of the first form that asks it; "" without one. Empty if the task
-/// has no forms.
+/// By state: title and version of its form; "" without one. Empty if the task has no forms.
 std::vector<std::string> forms_of(const Task& task);
 
 }  // namespace dihaptic::task

@@ -126,6 +126,7 @@ class StatePlanner : Planning {
                       "Add another exit instead, e.g. by time.");
         }
         size_t number = 0;
+        for (const AskSpec& ask : state.questions()) check_same(ask);
         for (const AskSpec& ask : state.questions())
             out.items.push_back({question(ask), seen_.question(ask, ++number, state)});
     }
@@ -149,7 +150,24 @@ class StatePlanner : Planning {
         return out;
     }
 
+    /// A question that several states ask must be the same in all of them: it has one column.
+    void check_same(const AskSpec& ask) {
+        for (const AskSpec& known : questions_of(plan.task)) {
+            if (known.name != ask.name) continue;
+            if (known.scale == ask.scale && known.least() == ask.least() &&
+                known.most() == ask.most())
+                return;
+            error(ask.place, "name",
+                  fmt::format("'{}' is asked on another scale in another state", ask.name),
+                  "Give one of the two questions another name.");
+        }
+    }
+
     void check_answered(const State& state) {
+        const auto confirms = [](const Exit& exit) { return exit.when == When::answered; };
+        if (state.form && std::ranges::none_of(state.exits, confirms))
+            error(state.place, "exits", "do not include the form's confirmation",
+                  "Add e.g. - { when: answered, outcome: filled }.");
         for (const Exit& exit : state.exits) {
             if (exit.when != When::answered) continue;
             if (!state.ask && !state.form) {

@@ -10,6 +10,7 @@
 #include "task/plan/taken.h"
 #include "task/run/answering.h"
 #include "task/run/displayer.h"
+#include "task/run/keys.h"
 #include "task/run/opening.h"
 #include "task/run/sounder.h"
 #include "task/run/trial_control.h"
@@ -28,7 +29,7 @@ class TaskDirector {
                     frame::Commands& commands) noexcept;
 
     /// Passes on a key that the operator pressed; from any thread.
-    void press(char key) noexcept { key_.store(key, std::memory_order_relaxed); }
+    void press(char key) noexcept { keys_.add(key); }
     /// Passes on a click on a question's line; from any thread.
     void click(const Click& click) noexcept { clicked_.store(click, std::memory_order_relaxed); }
     /// Passes on an external trigger; from any thread. `code`: 1 to 255, or kAnyTrigger.
@@ -158,7 +159,7 @@ class TaskDirector {
     TrialControl* between_ = nullptr;
     bool asked_ = false;    // asked, but no decision yet
     double ask_until_ = 0;  // time limit for the decision [s]
-    std::atomic<char> key_{0};
+    Keys keys_;
     std::atomic<Click> clicked_{Click{}};
     std::vector<Taken> taken_;  // by measure that rules name
     /// Values at the ends of the last trials, by look-back.

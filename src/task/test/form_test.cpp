@@ -131,6 +131,27 @@ TEST(Form, EnterAfterANumberThatIsCompleteLeavesNothingOut) {
     EXPECT_EQ(answers(end), (std::vector<double>{20, 1, 7}));
 }
 
+/// A window that draws slowly passes on what was typed meanwhile all at once.
+TEST(Form, LosesNoKeyOfThoseThatComeAtOnce) {
+    Forms files;
+    const session::Plan plan = files.plan();
+    test::RestingHand hand(plan);
+    int ticks = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const frame::Commands& commands = hand.tick();
+        if (commands.phase == 2 && commands.task.outcome >= 0) {
+            EXPECT_EQ(answers(commands.task), (std::vector<double>{12, -1, 123456}));
+            return;
+        }
+        if (commands.phase == 2 && ++ticks == kUnread) {
+            for (const char key :
+                 {'1', '2', '\r', '-', '1', '\r', '1', '2', '3', '4', '5', '6', '\r', '\r'})
+                hand.director.press(key);
+        }
+    }
+    FAIL() << "the trial did not end";
+}
+
 TEST(Form, TakesNoAnswersBeforeItCanHaveBeenRead) {
     Forms files;
     const session::Plan plan = files.plan();
@@ -232,6 +253,14 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"form: { file: form.yaml }",
                 "form: { file: form.yaml }\n      ask: { name: a, scale: vas }",
                 "together with a form"},
+        Mistake{"when: answered, outcome: filled", "when: time, after_s: 9, outcome: filled",
+                "do not include the form's confirmation"},
+        Mistake{"optional: yes }", "optional: yes, simulated_answer: 7.123456789 }",
+                "with at most 8 characters"},
+        Mistake{"after_s: 5, outcome: too late }\n",
+                "after_s: 5, outcome: too late }\n    - name: more\n      ask: { name: effort, "
+                "scale: vas }\n      exits: [{ when: answered, outcome: more }]\n",
+                "is asked on another scale in another state"},
         Mistake{"begins: ask", "begins: aks", "Did you mean ask?"}));
 
 }  // namespace

@@ -206,6 +206,27 @@ TEST(Rating, OfASimulatedPersonIsArbitraryOnTheScaleAndSaidToBe) {
     EXPECT_TRUE(session::replay_session(result.folder, session::kGoOn, {}).good());
 }
 
+TEST(Rating, OfASimulatedPersonMayBeGiven) {
+    for (const char* scale :
+         {"scale: numbers, from: 0, to: 1000, simulated_answer: 500",
+          "scale: vas, from: -1000, to: 0, simulated_answer: -500.5",
+          "scale: magnitude, simulated_answer: 123456",
+          "scale: magnitude, simulated_answer: 0.00001",
+          "scale: likert, from: -2, labels: [a, b, c, d, e], simulated_answer: -1"}) {
+        SCOPED_TRACE(scale);
+        Ratings files;
+        files.replace("after_s: 0.5", "after_s: 10");
+        files.replace("scale: numbers, from: 1, to: 9, labels: [light, heavy]", scale);
+        session::Plan plan = session::make_plan(files.request());
+        session::sit_down(plan, person::median_person(person::Objects::device));
+        const session::RunResult result = files.run(plan);
+        analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
+        const CsvFile trials(result.folder + "/trials.csv");
+        const double given = plan.task->task.states[0].ask->simulated.value();
+        for (size_t i = 0; i < 3; ++i) EXPECT_EQ(trials.number(i, "heaviness"), given);
+    }
+}
+
 class BrokenRating : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(BrokenRating, IsRefusedWithFileLineAndRemedy) {
