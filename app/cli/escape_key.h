@@ -8,13 +8,15 @@
 #include <atomic>
 #include <thread>
 
+#include "task/run/keys.h"
+
 namespace dihaptic::cli {
 
 class EscapeKey {
   public:
-    /// Sets `pressed` when Escape is pressed, and `key` to any other key. Does nothing when
+    /// Sets `pressed` when Escape is pressed, and adds any other key to `keys`. Does nothing when
     /// standard input is not a terminal, or when another program is in its foreground.
-    EscapeKey(std::atomic<bool>& pressed, std::atomic<char>& key);
+    EscapeKey(std::atomic<bool>& pressed, task::Keys& keys);
     ~EscapeKey();
     EscapeKey(const EscapeKey&) = delete;
     EscapeKey& operator=(const EscapeKey&) = delete;
@@ -25,7 +27,7 @@ class EscapeKey {
     void restore() noexcept;
 
   private:
-    void listen(std::atomic<bool>& pressed, std::atomic<char>& key);
+    void listen(std::atomic<bool>& pressed, task::Keys& keys);
 
     bool listens_ = false;
     termios before_{};

@@ -200,6 +200,26 @@ void show(const ParticipantOptions& options) {
     for (const std::string& why : next_of(study, member).against) line("", why);
 }
 
+/// Deletes the participant's name from the file of names; returns whether there was one.
+bool delete_name(const ParticipantOptions& options, const study::StudyFile& study) {
+    std::optional<study::KeyFile> names =
+        names_of(options, study, study::KeyFile::Missing::is_refused);
+    if (!names || !names->remove(options.person.id)) return false;
+    fmt::print("{}: the name is deleted\n", options.person.id);
+    return true;
+}
+
+/// Deletes the folder of a participant who has withdrawn.
+void delete_recordings(const std::string& folder) {
+    std::error_code failed;
+    const auto deleted = fs::remove_all(folder, failed);
+    if (failed) {
+        throw Error({folder, 0}, "", "cannot be deleted: " + failed.message(),
+                    "The withdrawal is noted. Delete this folder yourself.");
+    }
+    fmt::print("{}: {} deleted\n", folder, counted(static_cast<int64_t>(deleted), "file"));
+}
+
 void withdraw(const ParticipantOptions& options) {
     const study::StudyFile study = study::read_study(options.file);
     const study::StudyLock lock(study);
@@ -207,10 +227,7 @@ void withdraw(const ParticipantOptions& options) {
     known(roster, options.person.id);
     study::Member& member =
         *std::ranges::find(roster.participants, options.person.id, &study::Member::id);
-    std::optional<study::KeyFile> names =
-        names_of(options, study, study::KeyFile::Missing::is_refused);
-    const bool had_name = names && names->remove(member.id);
-    if (had_name) fmt::print("{}: the name is deleted\n", member.id);
+    const bool had_name = delete_name(options, study);
     if (!member.takes_part() && had_name && !options.delete_data) return;
     if (!member.takes_part() && (member.data_deleted || !options.delete_data)) {
         throw Error({"participant", 0}, member.id, fmt::format("withdrew on {}", member.withdrawn),
@@ -225,15 +242,7 @@ void withdraw(const ParticipantOptions& options) {
     if (!options.reason.empty()) member.reason = options.reason;
     member.data_deleted = options.delete_data;
     study::write_roster(study, roster);
-    if (!recordings.empty()) {
-        std::error_code failed;
-        const auto deleted = fs::remove_all(recordings, failed);
-        if (failed) {
-            throw Error({recordings, 0}, "", "cannot be deleted: " + failed.message(),
-                        "The withdrawal is noted. Delete this folder yourself.");
-        }
-        fmt::print("{}: {} deleted\n", recordings, counted(static_cast<int64_t>(deleted), "file"));
-    }
+    if (!recordings.empty()) delete_recordings(recordings);
     fmt::print("{} withdrew{}\n", member.id,
                took_part ? "; the place in the group is free for another participant" : "");
 }

@@ -64,9 +64,9 @@ class Console {
             std::fflush(stderr);
         };
         if (run.clock != session::Clock::real) return;
-        escape_.emplace(stop_requested, key_);
+        escape_.emplace(stop_requested, keys_);
         no_suspension_.emplace();
-        run.keys = &key_;
+        run.keys = &keys_;
         run.stuck = [this](const std::string& message) {
             escape_->restore();
             fmt::print(stderr, "\nerror: {}\n", message);
@@ -93,7 +93,7 @@ class Console {
         };
         guide.done = [this] {
             if (stop_requested) throw rig::GivenUp{};
-            const char key = key_.exchange(0);
+            const char key = keys_.take();
             if (key == 's' || key == 'S') throw Skipped{};
             return key == '\n' || key == '\r';
         };
@@ -112,7 +112,7 @@ class Console {
         return warnings;
     }
 
-    std::atomic<char> key_{0};
+    task::Keys keys_;
     std::optional<EscapeKey> escape_;
     std::optional<app::NoSuspension> no_suspension_;
 };

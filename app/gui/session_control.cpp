@@ -108,6 +108,18 @@ SessionControl::Words SessionControl::words() const {
     return {"", said_, QString::fromStdString(page.spec.picture)};
 }
 
+/// What is typed so far: the number at the end of the scale in words, which is the line `scale`.
+QString SessionControl::typed(const frame::TaskFrame& task, const task::TaskPlan& plan, int scale) {
+    const std::vector<std::string> texts = frame::shown_texts(task, plan.messages);
+    for (size_t i = 0; i < task.lines.size(); ++i) {
+        if (task.lines[i].message != scale) continue;
+        const std::string& line = texts[i + (task.message >= 0 ? 1 : 0)];
+        const std::string number = line.substr(line.rfind(' ') + 1);
+        return number == "-" ? "" : QString::fromStdString(number);
+    }
+    return "";
+}
+
 std::optional<Asked> SessionControl::asked() const {
     if (!may(Act::skip)) return {};
     const frame::Frame& frame = runner_.frame();
@@ -134,14 +146,7 @@ std::optional<Asked> SessionControl::asked() const {
     for (const auto& item : items)
         out.answers.push_back(frame.task.variables[item.question.variable].value /
                               item.question.si);
-    const std::vector<std::string> texts = frame::shown_texts(frame.task, plan.messages);
-    for (size_t i = 0; i < frame.task.lines.size() && out.now < items.size(); ++i) {
-        if (frame.task.lines[i].message != items[out.now].lines.back()) continue;
-        // the scale in words ends with the number that is typed so far, or a dash
-        const std::string& scale = texts[i + (frame.task.message >= 0 ? 1 : 0)];
-        const std::string typed = scale.substr(scale.rfind(' ') + 1);
-        if (typed != "-") out.typed = QString::fromStdString(typed);
-    }
+    if (out.now < items.size()) out.typed = typed(frame.task, plan, items[out.now].lines.back());
     return out;
 }
 

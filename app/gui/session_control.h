@@ -134,6 +134,7 @@ class SessionControl : public QObject {
     void ended();
 
   private:
+    static QString typed(const frame::TaskFrame& task, const task::TaskPlan& plan, int scale);
     void take(const Opened& opened);
     void refuse(const QStringList& problems);
     void refuse_to_start();

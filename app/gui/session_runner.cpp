@@ -85,7 +85,7 @@ void SessionRunner::start(session::Plan plan, session::RunOptions options, doubl
     std::atexit(end_program);
     options.live = &session_->live;
     options.observers = true;
-    options.keys = &session_->key;
+    options.keys = &session_->keys;
     session_->clock = options.clock;
     session_->live.pace = pace;
     options.warn = [this](const std::string& message) {

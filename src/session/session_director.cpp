@@ -69,7 +69,10 @@ void SessionDirector::operator()(const frame::Frame& last, std::span<const frame
 
 void SessionDirector::be_steered(const frame::Frame& last, frame::Commands& commands) {
     const Steering steering{last, task_ ? &*task_ : nullptr, commands, servo_.period(), real_};
-    if (task_ && options_.keys != nullptr) task_->press(options_.keys->exchange(0));
+    if (task_ && options_.keys != nullptr) {
+        for (char key = options_.keys->take(); key != 0; key = options_.keys->take())
+            task_->press(key);
+    }
     for (Listener* listener : listeners_) listener->steer(steering);
     // a simulated session receives a trigger once per second
     if (task_ && !real_ && steering.is_once_a_second())

@@ -15,6 +15,7 @@ class Keys {
 
     /// From any thread.
     void add(char key) noexcept {
+        if (key == 0) return;
         const size_t at = added_.fetch_add(1, std::memory_order_relaxed);
         keys_[at % kMost].store(key, std::memory_order_release);
     }
