@@ -14,7 +14,7 @@ constexpr int kWait = 20;  // time between checks whether the session is over [m
 
 }  // namespace
 
-EscapeKey::EscapeKey(std::atomic<bool>& pressed, task::Keys& keys) {
+EscapeKey::EscapeKey(std::atomic<bool>& pressed, ValueRing<char>& keys) {
     const bool ours = isatty(STDIN_FILENO) != 0 && tcgetpgrp(STDIN_FILENO) == getpgrp();
     if (!ours || tcgetattr(STDIN_FILENO, &before_) != 0) return;
     termios mode = before_;
@@ -36,7 +36,7 @@ void EscapeKey::restore() noexcept {
     if (listens_) tcsetattr(STDIN_FILENO, TCSANOW, &before_);
 }
 
-void EscapeKey::listen(std::atomic<bool>& pressed, task::Keys& keys) {
+void EscapeKey::listen(std::atomic<bool>& pressed, ValueRing<char>& keys) {
     while (!done_.load()) {
         pollfd input{STDIN_FILENO, POLLIN, 0};
         if (poll(&input, 1, kWait) <= 0) continue;
@@ -51,7 +51,7 @@ void EscapeKey::listen(std::atomic<bool>& pressed, task::Keys& keys) {
         if (std::find(typed.begin(), typed.begin() + count, kEscape) != typed.begin() + count)
             pressed.store(true);
         else
-            std::for_each(typed.begin(), typed.begin() + count, [&](char key) { keys.add(key); });
+            std::for_each(typed.begin(), typed.begin() + count, [&](char key) { keys.push(key); });
     }
 }
 

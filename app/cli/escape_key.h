@@ -8,7 +8,7 @@
 #include <atomic>
 #include <thread>
 
-#include "task/run/keys.h"
+#include "base/ring.h"
 
 namespace dihaptic::cli {
 
@@ -16,7 +16,7 @@ class EscapeKey {
   public:
     /// Sets `pressed` when Escape is pressed, and adds any other key to `keys`. Does nothing when
     /// standard input is not a terminal, or when another program is in its foreground.
-    EscapeKey(std::atomic<bool>& pressed, task::Keys& keys);
+    EscapeKey(std::atomic<bool>& pressed, ValueRing<char>& keys);
     ~EscapeKey();
     EscapeKey(const EscapeKey&) = delete;
     EscapeKey& operator=(const EscapeKey&) = delete;
@@ -27,7 +27,7 @@ class EscapeKey {
     void restore() noexcept;
 
   private:
-    void listen(std::atomic<bool>& pressed, task::Keys& keys);
+    void listen(std::atomic<bool>& pressed, ValueRing<char>& keys);
 
     bool listens_ = false;
     termios before_{};

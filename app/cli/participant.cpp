@@ -90,7 +90,7 @@ void add(ParticipantOptions& options) {
     person.added = recording::iso_now();
     person.version = static_cast<int>(session::versions_of(study).size());
     roster.participants.push_back(person);
-    // first: it is the one that may fail, and can be taken back
+    // first: if the name cannot be written, nobody has been added
     if (names) names->add({person.id, options.name, options.contact});
     study::log(study, "add", person.id, study.shown_group(person.group));
     study::write_roster(study, roster);

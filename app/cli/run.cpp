@@ -93,7 +93,7 @@ class Console {
         };
         guide.done = [this] {
             if (stop_requested) throw rig::GivenUp{};
-            const char key = keys_.take();
+            const char key = keys_.pop().value_or(0);
             if (key == 's' || key == 'S') throw Skipped{};
             return key == '\n' || key == '\r';
         };
@@ -112,7 +112,7 @@ class Console {
         return warnings;
     }
 
-    task::Keys keys_;
+    ValueRing<char> keys_{task::kMostKeys};
     std::optional<EscapeKey> escape_;
     std::optional<app::NoSuspension> no_suspension_;
 };

@@ -98,7 +98,7 @@ class SessionRunner : public QObject {
             session_->live.note_shown(showing.tick, showing.at, showing.X_WV, showing.tracked);
     }
     /// Passes on a key, for a task that waits for one.
-    void press(char key) { session_->keys.add(key); }
+    void press(char key) { session_->keys.push(key); }
     /// Passes on a click on a question's line.
     void click(const task::Click& click) { session_->live.clicked = click; }
     /// Ends the session properly, even while the hand holds something.
@@ -132,7 +132,7 @@ class SessionRunner : public QObject {
         const frame::Frame* read = &live.frame.read();
         session::Clock clock = session::Clock::real;
         frame::Knobs knobs;  ///< to be reached
-        task::Keys keys;
+        ValueRing<char> keys{task::kMostKeys};
         std::atomic<bool> finishing{false};
     };
     SessionEnd run(Session& session, const session::RunOptions& options);

@@ -97,10 +97,6 @@ void EventFinder::add_texts(const frame::Frame& frame) {
 
 /// Answers count when their state ends: until then, they may change.
 void EventFinder::add_answers(const frame::Frame& frame) {
-    const int state = (frame.task.outcome >= 0 ? frame.phase : phase_) - 1;
-    const std::string form = state >= 0 && head_.forms.size() > static_cast<size_t>(state)
-                                 ? head_.forms[static_cast<size_t>(state)]
-                                 : "";
     const bool ended = frame.phase != phase_ || frame.task.outcome >= 0;
     const size_t first = head_.variables.size() + head_.levels.size();
     answers_.resize(head_.answers.size(), kUnmeasured);
@@ -111,7 +107,10 @@ void EventFinder::add_answers(const frame::Frame& frame) {
         answers_[i] = answer;
         const std::string& name = head_.answers[i];
         std::string what = fmt::format("{} {:g}", name, answer / split_unit(name).si);
-        if (!form.empty()) what += "; " + form;
+        const auto state =
+            static_cast<size_t>((frame.task.outcome >= 0 ? frame.phase : phase_) - 1);
+        if (state < head_.forms.size() && !head_.forms[state].empty())
+            what += "; " + head_.forms[state];
         say(frame, "answer", std::move(what));
     }
 }

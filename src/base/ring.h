@@ -80,14 +80,16 @@ class ValueRing {
 
   public:
     /// Holds at least `count` values.
-    explicit ValueRing(size_t count) : ring_(count * (sizeof(Value) + sizeof(uint32_t))) {}
+    explicit ValueRing(size_t count) : ring_(count * (sizeof(Value) + sizeof(uint32_t))) {
+        taken_.reserve(sizeof(Value));
+    }
 
     /// Producer: appends a value; false when the ring is full. Does not allocate or wait.
     bool push(const Value& value) noexcept {
         return ring_.push(std::as_bytes(std::span(&value, 1)));
     }
 
-    /// Consumer: the oldest value, or nullopt when the ring is empty.
+    /// Consumer: the oldest value, or nullopt when the ring is empty. Does not allocate or wait.
     std::optional<Value> pop() {
         if (!ring_.pop(taken_)) return std::nullopt;
         Value value;

@@ -34,7 +34,6 @@ constexpr double kRestTime = 0.6;  // duration of the movement to rest [s]
 constexpr double kRetry = 3;      // time in a state after which its finished steps are repeated [s]
 constexpr double kGivingUp = 10;  // delay of an attempt that is not made [s]
 constexpr double kWeak = 0.4;     // grip that is too weak, over the right one
-constexpr double kUnbounded = 1e6;  // upper end of a scale that has none
 constexpr double kDecision = 0.4;   // time to decide on an answer, beyond the reaction [s]
 constexpr double kFeelTime = 0.05;  // kFeelTime of hand/finger.h [s]
 
@@ -676,7 +675,7 @@ void Person::rate(const TaskPlan::Questions& questions) noexcept {
     }
     const task::Question& question = questions.items[rated_++].question;
     if (questions.is_form) answer_at_ = now_ + kDecision;
-    const double most = question.most < kUnbounded ? question.most : question.least + 100;
+    const double most = question.most < task::kMostMagnitude ? question.most : question.least + 100;
     const double random = std::clamp(
         std::ceil(random_.uniform(question.least - 1, std::floor(most))), question.least, most);
     const auto end = std::to_chars(typed_.data(), typed_.data() + task::Rating::kLongest,

@@ -70,8 +70,7 @@ void SessionDirector::operator()(const frame::Frame& last, std::span<const frame
 void SessionDirector::be_steered(const frame::Frame& last, frame::Commands& commands) {
     const Steering steering{last, task_ ? &*task_ : nullptr, commands, servo_.period(), real_};
     if (task_ && options_.keys != nullptr) {
-        for (char key = options_.keys->take(); key != 0; key = options_.keys->take())
-            task_->press(key);
+        while (const std::optional<char> key = options_.keys->pop()) task_->press(*key);
     }
     for (Listener* listener : listeners_) listener->steer(steering);
     // a simulated session receives a trigger once per second

@@ -4,12 +4,12 @@
 #include <atomic>
 #include <optional>
 
+#include "base/ring.h"
 #include "recording/raw_log.h"
 #include "recording/session.h"
 #include "servo/run.h"
 #include "session/listeners/live.h"
 #include "session/plan.h"
-#include "task/run/keys.h"
 
 namespace dihaptic::session {
 
@@ -24,7 +24,7 @@ struct RunOptions {
     double sync = 0;  ///< interval at which raw.log is synchronised to the disk [s]; 0: at its end
     recording::Participant participant;
     std::optional<recording::InStudy> in_study;
-    task::Keys* keys = nullptr;  ///< the operator's, until a tick takes them
+    ValueRing<char>* keys = nullptr;  ///< the operator's, until a tick takes them
     /// Called from another thread when a call to the devices never returns, so that run_session()
     /// cannot return either. It must show the message and end the program.
     std::function<void(const std::string& message)> stuck;

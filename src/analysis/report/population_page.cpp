@@ -12,7 +12,7 @@
 #include "analysis/report/measure_section.h"
 #include "analysis/report/statistics.h"
 #include "base/plural.h"
-#include "base/unit.h"
+#include "task/plan/custom_measures.h"
 #include "task/plan/levels.h"
 
 namespace dihaptic::analysis {
@@ -317,24 +317,16 @@ void add_lifts(PopulationPage& out, const std::string& title, const Sessions& se
     out.page.table(table, "Over people, of each person's median. " + origin);
 }
 
-/// The measures of a session, and the answers that it asked for.
-std::vector<Table::Column> measures_and_answers(const SessionData& session) {
-    std::vector<Table::Column> out = measured_columns(session);
-    for (const task::AskSpec& ask : task::questions_of(session.task)) {
-        const NameInUnit name = split_unit(ask.name);
-        std::string unit;
-        if (name.quantity != Quantity::none) unit = ask.name.substr(name.name.size() + 1);
-        std::replace(unit.begin(), unit.end(), '_', '/');
-        if (session.trials.column(ask.name)) out.push_back({ask.name, ask.question, unit});
-    }
-    return out;
-}
-
 /// Lists the measures and answers of the last attempts at trials, by the study's group and session,
 /// and by round, block, condition and kind of trials.
 void list_measures(PopulationPage& out, const std::string& title, const Sessions& sessions) {
     using Key = std::array<std::string, 6>;  // group, session, round, block, condition, kind
-    for (const Table::Column& column : measures_and_answers(*sessions.front())) {
+    std::vector<Table::Column> columns = measured_columns(*sessions.front());
+    const size_t measures = columns.size();
+    for (Table::Column& answer : task::columns_of(task::questions_of(sessions.front()->task)))
+        columns.push_back(std::move(answer));
+    for (size_t c = 0; c < columns.size(); ++c) {
+        const Table::Column& column = columns[c];
         std::map<Key, ByPerson> values;
         std::map<Key, int> trials_of, empty;
         for (const SessionData* session : sessions) {
@@ -355,11 +347,8 @@ void list_measures(PopulationPage& out, const std::string& title, const Sessions
                 if (!std::isnan(value)) of_people.add(person_of(*session), value);
             }
         }
-        const auto answers = task::questions_of(sessions.front()->task);
-        const bool is_answer = std::ranges::any_of(
-            answers, [&](const task::AskSpec& ask) { return ask.name == column.name; });
         for (const auto& [key, of_people] : values) {
-            if (is_answer && empty[key] == trials_of[key]) continue;  // not asked for there
+            if (c >= measures && empty[key] == trials_of[key]) continue;  // not asked for there
             FigureLister row;
             row("experiment", title, "", "title");
             row("group", key[0], "", "group of the study; empty: none");

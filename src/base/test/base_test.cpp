@@ -14,6 +14,7 @@
 #include "base/ring.h"
 #include "base/table.h"
 #include "base/text_file.h"
+#include "testing/allocation_guard.h"
 #include "testing/files.h"
 
 namespace dihaptic::base_test {
@@ -74,6 +75,29 @@ TEST(Ring, RefusesWhatDoesNotFitAndKeepsTheRest) {
     EXPECT_TRUE(ring.pop(out));
     EXPECT_TRUE(ring.pop(out));
     EXPECT_FALSE(ring.pop(out));
+}
+
+/// Keys, for instance: a ring that was full goes on as before.
+TEST(ValueRing, RefusesWhatDoesNotFitAndGoesOn) {
+    ValueRing<char> ring(64);
+    int held = 0;
+    while (ring.push('a')) ++held;
+    EXPECT_GE(held, 64);
+    for (int i = 0; i < held; ++i) EXPECT_EQ(ring.pop(), 'a') << i;
+    EXPECT_EQ(ring.pop(), std::nullopt);
+    EXPECT_TRUE(ring.push('b'));
+    EXPECT_EQ(ring.pop(), 'b');
+}
+
+TEST(ValueRing, AllocatesNothingOnceItIsMade) {
+    DIHAPTIC_NEEDS_ALLOCATION_GUARD();
+    ValueRing<char> ring(64);
+    const testing::AllocationGuard guard;
+    for (int i = 0; i < 1000; ++i) {
+        ring.push('a');
+        ring.pop();
+    }
+    EXPECT_EQ(guard.count(), 0u);
 }
 
 TEST(Ring, CarriesRecordsOfAllSizesBetweenThreadsInOrder) {

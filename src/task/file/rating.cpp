@@ -12,7 +12,6 @@
 namespace dihaptic::task {
 namespace {
 
-constexpr double kMostMagnitude = 1e6;
 constexpr double kEndOfVas = 100;
 constexpr double kTypedBase = 10;
 constexpr size_t kMostLabels = 9;
@@ -65,6 +64,20 @@ void check_by(const AskSpec& spec, Diagnostics& diagnostics) {
                           "Leave it out, or write by: cursor.");
 }
 
+/// The simulated answer must lie on the scale, and is typed.
+void check_simulated(const AskSpec& spec, double simulated, Diagnostics& diagnostics) {
+    std::array<char, Rating::kLongest> keys{};
+    const bool typed =
+        std::to_chars(keys.data(), keys.data() + keys.size(), simulated, std::chars_format::fixed)
+            .ec == std::errc();
+    if (!typed || simulated < spec.least() || simulated > spec.most() ||
+        (spec.whole() && simulated != std::round(simulated)))
+        diagnostics.error(spec.place, "simulated_answer",
+                          fmt::format("{:g} is no answer on the scale", simulated),
+                          fmt::format("Write one from {:g} to {:g}, with at most {} characters.",
+                                      spec.least(), spec.most(), Rating::kLongest));
+}
+
 /// Whether the key can be the next character of a number.
 bool is_of_number(char key, bool first, const Question& question) noexcept {
     if (std::isdigit(static_cast<unsigned char>(key)) != 0) return true;
@@ -89,17 +102,7 @@ void check(const AskSpec& spec, Diagnostics& diagnostics) {
         check_ends(spec, diagnostics);
     }
     check_by(spec, diagnostics);
-    const double simulated = spec.simulated.value_or(spec.least());
-    std::array<char, Rating::kLongest> keys{};
-    const bool typed =
-        std::to_chars(keys.data(), keys.data() + keys.size(), simulated, std::chars_format::fixed)
-            .ec == std::errc();
-    if (!typed || simulated < spec.least() || simulated > spec.most() ||
-        (spec.whole() && simulated != std::round(simulated)))
-        diagnostics.error(spec.place, "simulated_answer",
-                          fmt::format("{:g} is no answer on the scale", simulated),
-                          fmt::format("Write one from {:g} to {:g}, with at most {} characters.",
-                                      spec.least(), spec.most(), Rating::kLongest));
+    if (spec.simulated) check_simulated(spec, *spec.simulated, diagnostics);
 }
 
 std::string line_of(const AskSpec& spec) {

@@ -23,6 +23,9 @@ enum class Scale { numbers, vas, likert, magnitude };
 constexpr auto enum_names(Scale) {
     return std::array{"numbers", "vas", "likert", "magnitude"};
 }
+/// The end of a scale of magnitudes that names none.
+constexpr double kMostMagnitude = 1e6;
+
 enum class AnswerBy { key, mouse, cursor };
 constexpr auto enum_names(AnswerBy) {
     return std::array{"key", "mouse", "cursor"};
@@ -44,7 +47,7 @@ struct AskSpec {
 
     template <class Visitor>
     void visit(Visitor& v) {
-        const Field end = Field::number().within(-1e6, 1e6);
+        const Field end = Field::number().within(-kMostMagnitude, kMostMagnitude);
         v("name", name,
           Field::text().required().says("Name of the answer, which may end in its unit."));
         v("question", question, says("Text above the scale."));

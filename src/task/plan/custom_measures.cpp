@@ -29,6 +29,15 @@ void check_name(const CustomMeasure& measure, const TaskPlan& plan, Diagnostics&
     }
 }
 
+/// The unit at the end of a column's name, e.g. "N/s" of rate_N_s; "" without one.
+std::string unit_of(const std::string& column) {
+    const NameInUnit name = split_unit(column);
+    if (name.quantity == Quantity::none) return "";
+    std::string unit = column.substr(name.name.size() + 1);
+    std::replace(unit.begin(), unit.end(), '_', '/');
+    return unit;
+}
+
 }  // namespace
 
 void plan_custom_measures(TaskPlan& plan, Diagnostics& diagnostics) {
@@ -55,18 +64,20 @@ void plan_custom_measures(TaskPlan& plan, Diagnostics& diagnostics) {
 std::vector<Table::Column> columns_of(const std::vector<CustomMeasure>& measures) {
     std::vector<Table::Column> out;
     for (const CustomMeasure& measure : measures) {
-        const NameInUnit name = split_unit(measure.name);
-        std::string unit;
-        if (name.quantity != Quantity::none) unit = measure.name.substr(name.name.size() + 1);
-        std::replace(unit.begin(), unit.end(), '_', '/');
         out.push_back(
             {measure.name,
              fmt::format(
                  "{} of {}{}{}", enum_name(measure.take), measure.of,
                  measure.when.empty() ? "" : fmt::format(" when {}", measure.when),
                  measure.window ? fmt::format(", moving mean over {:g} s", *measure.window) : ""),
-             unit});
+             unit_of(measure.name)});
     }
+    return out;
+}
+
+std::vector<Table::Column> columns_of(const std::vector<AskSpec>& questions) {
+    std::vector<Table::Column> out;
+    for (const AskSpec& ask : questions) out.push_back({ask.name, ask.question, unit_of(ask.name)});
     return out;
 }
 

@@ -16,8 +16,9 @@ namespace dihaptic::task {
 /// Compiles the custom measures for the plan, whose other measures must have been checked.
 void plan_custom_measures(TaskPlan& plan, Diagnostics& diagnostics);
 
-/// The columns of the custom measures.
+/// The columns of the custom measures, and of the answers to the task's questions.
 std::vector<Table::Column> columns_of(const std::vector<CustomMeasure>& measures);
+std::vector<Table::Column> columns_of(const std::vector<AskSpec>& questions);
 
 /// Computes the custom measures of successive attempts.
 class CustomMeasures {

@@ -11,6 +11,10 @@
 
 namespace dihaptic::task {
 
+/// The largest number of keys that wait until a tick reads them; further ones are refused. A window
+/// that draws slowly passes on several at once.
+constexpr size_t kMostKeys = 64;
+
 /// A click on a question's line.
 struct Click {
     int32_t item = -1;  ///< the question, or their number for a click on "done"; -1: no click

@@ -91,6 +91,7 @@ void Displayer::order(double now, frame::TaskFrame& out) noexcept {
     for (const TaskPlan::Looks* looks : {looks_, &planned_->looks}) {
         put_on(looks->things, out);
         put_on(looks->targets, out);
+        if (looks->hidden_targets == 0) continue;
         std::erase_if(out.targets, [&](const frame::TargetFrame& target) {
             return (looks->hidden_targets >> target.region & 1u) != 0;
         });

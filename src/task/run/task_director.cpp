@@ -140,7 +140,7 @@ void TaskDirector::direct(const frame::Frame& last, std::span<const frame::Handl
                           double now, frame::Commands& commands) noexcept {
     if (now >= feedback_until_ && next_message_ >= 0) message_ = std::exchange(next_message_, -1);
     // read in every tick, so that input between trials does not affect a trial
-    const Input input{keys_.take(), trigger_.exchange(0, std::memory_order_relaxed),
+    const Input input{keys_.pop().value_or(0), trigger_.exchange(0, std::memory_order_relaxed),
                       clicked_.exchange(Click{}, std::memory_order_relaxed)};
     if (queue_.empty()) {
         order_end(now, commands);

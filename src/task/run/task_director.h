@@ -5,12 +5,12 @@
 
 #include <atomic>
 
+#include "base/ring.h"
 #include "base/unmeasured.h"
 #include "frame/orders.h"
 #include "task/plan/taken.h"
 #include "task/run/answering.h"
 #include "task/run/displayer.h"
-#include "task/run/keys.h"
 #include "task/run/opening.h"
 #include "task/run/sounder.h"
 #include "task/run/trial_control.h"
@@ -28,8 +28,8 @@ class TaskDirector {
     void operator()(const frame::Frame& last, std::span<const frame::Handle> handles,
                     frame::Commands& commands) noexcept;
 
-    /// Passes on a key that the operator pressed; from any thread.
-    void press(char key) noexcept { keys_.add(key); }
+    /// Passes on a key that the operator pressed; from one thread. It waits for its tick.
+    void press(char key) noexcept { keys_.push(key); }
     /// Passes on a click on a question's line; from any thread.
     void click(const Click& click) noexcept { clicked_.store(click, std::memory_order_relaxed); }
     /// Passes on an external trigger; from any thread. `code`: 1 to 255, or kAnyTrigger.
@@ -159,7 +159,7 @@ class TaskDirector {
     TrialControl* between_ = nullptr;
     bool asked_ = false;    // asked, but no decision yet
     double ask_until_ = 0;  // time limit for the decision [s]
-    Keys keys_;
+    ValueRing<char> keys_{kMostKeys};
     std::atomic<Click> clicked_{Click{}};
     std::vector<Taken> taken_;  // by measure that rules name
     /// Values at the ends of the last trials, by look-back.
