@@ -21,6 +21,7 @@ try:
     from .errors import Error, NotThere, Problem
     from .rehearsal import Rehearsal
     from .session import Session, load
+    from .study import Study
     from .tables import read_table
     from .vocabulary import Quantity, quantities, quantity
 except ImportError as _why:
@@ -58,7 +59,7 @@ __version__: str = _facts.version()
 __all__ = [
     "Attempt", "BetweenTrials", "Body", "Error", "Experiment", "Finger", "LearningCurveFit", "Live", "Moment", "Next", "NotThere",
     "Part", "Person", "Problem", "PsychometricFit", "Quantity", "Rehearsal", "Rig", "Scene", "Seen", "Session",
-    "SingleRateFit", "TwoRateFit", "World", "check", "env", "find_lift", "fit_learning_curve", "fit_psychometric",
+    "SingleRateFit", "Study", "TwoRateFit", "World", "check", "env", "find_lift", "fit_learning_curve", "fit_psychometric",
     "fit_single_rate", "fit_two_rate", "load", "observe", "plot", "quantities", "quantity", "read_table", "recover", "rehearse",
     "replay", "report", "resume", "run", "shipped", "step_all",
 ]  # fmt: skip

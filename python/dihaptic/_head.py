@@ -24,6 +24,8 @@ _VERSIONS = {
     b"DIHAPTIC LOG 1\n": struct.Struct("<4sII"),
 }
 _MOST_HEAD = 1 << 24  # bytes
+#: The remedy for a damaged file that the program wrote.
+_BACKUP = "Restore it from a backup."
 
 
 @dataclass(frozen=True)
@@ -34,24 +36,24 @@ class Head:
     items: dict[str, list[str]]  #: for each list whose items have names: these names, in order
 
 
-def read_yaml(text: str, file: Path) -> dict[str, Any]:
-    """A mapping, whose values are texts, lists and mappings. Raises Error."""
+def read_yaml(text: str, file: Path, remedy: str = _BACKUP) -> dict[str, Any]:
+    """A mapping, whose values are texts, lists and mappings. Raises Error, with `remedy`."""
     try:
         read = yaml.load(text, _LOADER)
     except (yaml.YAMLError, RecursionError) as why:
-        raise error(f"cannot be read: {why}", "Restore it from a backup.", file=str(file)) from None
+        raise error(f"cannot be read: {why}", remedy, file=str(file)) from None
     if not isinstance(read or {}, dict):
-        raise error("has no keys", "Restore it from a backup.", file=str(file))
+        raise error("has no keys", remedy, file=str(file))
     return read or {}
 
 
-def read_info(file: Path) -> dict[str, Any]:
-    """The content of session.yaml. Raises Error."""
+def read_info(file: Path, remedy: str = _BACKUP) -> dict[str, Any]:
+    """The content of session.yaml, or of another file of keys. Raises Error, with `remedy`."""
     try:
         text = file.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as why:
-        raise error(f"cannot be read: {why}", "Restore it from a backup.", file=str(file)) from None
-    return read_yaml(text, file)
+        raise error(f"cannot be read: {why}", remedy, file=str(file)) from None
+    return read_yaml(text, file, remedy)
 
 
 def read_head(file: Path) -> Head:

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import shlex
 from pathlib import Path
 
 import pandas as pd
 
-from .errors import NotThere, error
-from .tables import read_table
+from .tables import Collected, command_of
 
 
-class Rehearsal:
+class Rehearsal(Collected):
     """The results of a population of simulated people: tables with a row for each person's trial or
     fit.
 
@@ -33,24 +31,13 @@ class Rehearsal:
         return sorted(path.parent for path in self.folder.glob("*/person.yaml"))
 
     @property
-    def tables(self) -> list[str]:
-        """Names of the collected tables, without .csv."""
-        return sorted(path.stem for path in self.folder.glob("*.csv"))
-
-    def table(self, name: str) -> pd.DataFrame:
-        """A table of all people by its name. Raises Error."""
-        if not self.tables:
-            raise error("has no tables yet", f"Type dihaptic collect {shlex.quote(str(self.folder))}.", file=str(self.folder))
-        if name not in self.tables:
-            raise NotThere(name, "is not a table of this rehearsal", self.tables, "Rehearsal.tables lists them.")
-        return read_table(self.folder / f"{name}.csv")
-
-    @property
-    def trials(self) -> pd.DataFrame:
-        """One row for each attempt of each person."""
-        return self.table("trials")
-
-    @property
     def people(self) -> pd.DataFrame:
         """A row for each person, with the person's traits."""
         return self.table("people")
+
+    @property
+    def _tables_folder(self) -> Path:
+        return self.folder
+
+    def _collecting(self) -> tuple[Path, str]:
+        return self.folder, command_of("collect", self.folder)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import shlex
+from abc import ABC, abstractmethod
 from pathlib import Path
+from typing import TextIO
 
 import pandas as pd
 
 from ._facts import facts
-from .errors import error
+from .errors import NotThere, error
 
 #: Columns with yes and no.
 _YES = {"yes": True, "no": False}
@@ -28,18 +31,63 @@ def read_table(file: str | Path) -> pd.DataFrame:
     'peak of the mean over digits, from touch to lowering'
     """
     path = Path(file)
-    texts = dict.fromkeys(facts()["text_columns"], str)
     try:
-        table = pd.read_csv(path, keep_default_na=False, na_values=[""], dtype=texts)
+        return parse_table(path, path.name)
     except (OSError, pd.errors.EmptyDataError, pd.errors.ParserError, UnicodeDecodeError) as why:
         raise error(f"cannot be read as a table: {why}", "Name a CSV file.", file=str(path)) from None
+
+
+def parse_table(source: Path | TextIO, name: str) -> pd.DataFrame:
+    """The table in a file or a text in the form of CSV; `name`: that of its file."""
+    texts = dict.fromkeys(facts()["text_columns"], str)
+    table = pd.read_csv(source, keep_default_na=False, na_values=[""], dtype=texts)
     if "simulated" in table:
         table["simulated"] = table["simulated"].map(_YES)
     units = {column: _unit_of(column) for column in table}
     table.attrs["units"] = {column: unit for column, unit in units.items() if unit}
-    known = facts()["columns"].get(path.name, [])
+    known = facts()["columns"].get(name, [])
     table.attrs["meanings"] = {c: meaning for c, meaning in known if c in table}
     return table
+
+
+class Collected(ABC):
+    """The tables of many sessions, joined by `dihaptic collect`."""
+
+    @property
+    @abstractmethod
+    def _tables_folder(self) -> Path:
+        """The folder that has the joined tables."""
+
+    @abstractmethod
+    def _collecting(self) -> tuple[Path, str]:
+        """What is collected, and the command for that."""
+
+    @property
+    def tables(self) -> list[str]:
+        """Names of the collected tables, without .csv."""
+        return sorted(path.stem for path in self._tables_folder.glob("*.csv"))
+
+    def table(self, name: str) -> pd.DataFrame:
+        """A table of all people by its name, with its units in `attrs`. Raises Error when the tables have not been
+        collected, and NotThere when none has this name."""
+        tables = self.tables
+        if not tables:
+            collected, command = self._collecting()
+            raise error("has no tables yet", f"Type {command}.", file=str(collected))
+        if name not in tables:
+            kind = type(self).__name__
+            raise NotThere(name, f"is not a table of this {kind.lower()}", tables, f"{kind}.tables lists them.")
+        return read_table(self._tables_folder / f"{name}.csv")
+
+    @property
+    def trials(self) -> pd.DataFrame:
+        """One row for each attempt of each person."""
+        return self.table("trials")
+
+
+def command_of(*words: str | Path) -> str:
+    """A command of the program, as it is typed in a shell."""
+    return shlex.join(["dihaptic", *map(str, words)])
 
 
 def _unit_of(column: str) -> str:

@@ -23,6 +23,7 @@
 #include "recording/schema.h"
 #include "recording/seal.h"
 #include "recording/session.h"
+#include "rows/correction_row.h"
 #include "session/check.h"
 
 namespace py = pybind11;
@@ -83,6 +84,7 @@ py::dict table_columns() {
     out["events.csv"] = meanings(list_figures(rows::EventRow{}).columns);
     out["episodes.csv"] = meanings(list_figures(rows::EpisodeRow{}).columns);
     out["lifts.csv"] = meanings(list_figures(rows::LiftRow{}).columns);
+    out["corrections.csv"] = meanings(list_figures(rows::CorrectionRow{}).columns);
     return out;
 }
 

@@ -12,6 +12,8 @@ import matplotlib
 
 matplotlib.use("Agg")
 
+import small_study  # noqa: E402
+
 import dihaptic  # noqa: E402
 
 
@@ -26,6 +28,7 @@ class Examples(unittest.TestCase):
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
         session = dihaptic.run("experiments/lift-block.yaml", out=cls.folder.name, progress=False)
+        small_study.rehearse(cls.folder.name)
         cls.given = {"folder": cls.folder.name, "lift_session": str(session.folder)}
 
     def test_all_run(self):

@@ -11,6 +11,7 @@ import tempfile
 import unittest
 
 import numpy
+import small_study
 
 import dihaptic as dh
 from dihaptic import _native, _remedy
@@ -26,9 +27,9 @@ OF_UNIX = ["fcntl", "grp", "pwd", "resource", "syslog", "termios"]
 EXAMPLES = """
 import doctest, importlib, sys
 flags = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
-for name in ("charts", "errors", "session", "tables", "vocabulary"):
+for name in ("charts", "errors", "session", "study", "tables", "vocabulary"):
     module = importlib.import_module(f"dihaptic.{name}")
-    for test in doctest.DocTestFinder(exclude_empty=True).find(module, extraglobs={"lift_session": "lifts"}):
+    for test in doctest.DocTestFinder(exclude_empty=True).find(module, extraglobs={"lift_session": "lifts", "folder": "."}):
         if test.examples and test.name != "dihaptic.session.Session.exact":
             failed, tried = doctest.DocTestRunner(optionflags=flags).run(test)
             assert tried and not failed, test.name
@@ -81,6 +82,8 @@ class Reader(unittest.TestCase):
 
     def test_has_the_examples_of_its_functions(self):
         folder, _ = self.recorded("lift-block", "lifts")
+        small_study.rehearse(folder)
+        (folder / "studies").symlink_to(PROJECT / "studies")
         self.read(EXAMPLES, folder)
 
     def test_reads_a_rehearsal(self):

@@ -1,0 +1,323 @@
+"""Reads a whole study: its participants, their sessions, and the tables of all sessions."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+import zlib
+from collections.abc import Iterator
+from datetime import datetime
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from ._head import read_info
+from ._seals import broken_seals
+from .errors import Error, NotThere, error
+from .session import Session
+from .tables import Collected, command_of, parse_table
+
+_BEFORE_FACTS = ["id", "group", "number", "age", "sex", "handedness"]
+_AFTER_FACTS = ["added", "version", "withdrawn"]
+#: A folder in which the program is still making a session (src/session/unfinished_folder.h).
+_UNFINISHED = "unfinished-"
+#: The remedy for a mistake in a study's file.
+_CHECK = "dihaptic check names the mistake."
+
+
+class Study(Collected):
+    """A study, opened by its file (docs/files/study.md): its participants, its recordings, and the tables that
+    `dihaptic collect` has joined.
+
+    `rehearsed`: the folder of the study's rehearsal, whose simulated people are read in place of the participants. As
+    in `dihaptic collect`, sessions in which a simulated person stood in for a participant (`dihaptic run --simulate`)
+    do not belong to it.
+
+    `title` is the study's title, `groups` has the names of its groups in the order of its file, and `folder` is the
+    folder of its participants and recordings. Everything else is read on request, and is as new as the files. Raises
+    Error when the file is not a study, or when there is no such rehearsal.
+
+    >>> import dihaptic as dh
+    >>> dh.Study("studies/two-groups.yaml").groups
+    ['size-weight', 'unexpected-weight']
+    >>> study = dh.Study(f"{folder}/two-days.yaml", rehearsed=f"{folder}/rehearsal")
+    >>> study
+    <Study two-days.yaml: Two days of lifting, 4 simulated people>
+    >>> study.trials.groupby("group").id.unique().str.len().to_dict()
+    {'heavy': 2, 'light': 2}
+    """
+
+    def __init__(self, file: str | Path, *, rehearsed: str | Path = "") -> None:
+        self.file = Path(file)
+        spec = read_info(self.file, f"Name a study's file. {_CHECK}")
+        for key in ("title", "groups", "sessions"):
+            if not spec.get(key):
+                raise error(f"is not a study: it has no {key}", "Name a study's file.", file=str(self.file))
+        if rehearsed and not Path(rehearsed).is_dir():
+            raise error(
+                "is not a folder",
+                f"Name the folder of the rehearsal. Without one, type {command_of('rehearse', self.file)}.",
+                file=str(rehearsed),
+            )
+        self.title: str = spec["title"]
+        self.groups = _names(spec, "groups", self.file)
+        self.folder = Path(rehearsed) if rehearsed else self.file.parent
+        self._rehearsed = bool(rehearsed)
+        self._sessions = _names(spec, "sessions", self.file)
+        self._facts = _names(spec, "facts", self.file)
+        resuming = spec.get("resuming") or {}
+        #: Share of its trials from which on an interrupted session counts.
+        self._enough = float(resuming.get("complete", 1)) if isinstance(resuming, dict) else 1.0
+        allocation = spec.get("allocation") or {}
+        if not isinstance(allocation, dict):
+            raise error("has no keys", _CHECK, file=str(self.file), key="allocation")
+        concealed = allocation.get("concealed") in ("yes", "true")
+        codes = {name: _code_of(name, allocation.get("seed", "1")) for name in self.groups}
+        #: What stands for a group that participants.yaml names, or has the code of.
+        self._shown = {name: codes[name] if concealed else name for name in self.groups}
+        self._shown.update({codes[name]: shown for name, shown in self._shown.items()})
+
+    def __repr__(self) -> str:
+        who = "simulated people" if self._rehearsed else "participants"
+        return f"<Study {self.file.name}: {self.title}, {len(self._members())} {who}>"
+
+    # People
+
+    @property
+    def participants(self) -> pd.DataFrame:
+        """A row for each participant, in the order in which they were added, with those who withdrew.
+
+        The columns are those of the collected table `participants`: `id`, `group`, `number` (in the group, from 1),
+        `age` [years], `sex`, `handedness`, one for each of the study's own facts, `added`, `version` (of the study's
+        files at that time) and `withdrawn`. `added` and `withdrawn` are times (ISO 8601); `withdrawn` is NaN for
+        everybody who takes part. A fact that is not known is NaN.
+
+        This is the present state, from participants.yaml, whether or not the tables have been collected. While groups
+        are concealed, `group` has their codes, even if `dihaptic collect --reveal-groups` has named the groups in the
+        tables. Raises Error when participants.yaml is damaged, or belongs to another study.
+
+        >>> import dihaptic as dh
+        >>> study = dh.Study(f"{folder}/two-days.yaml", rehearsed=f"{folder}/rehearsal")
+        >>> people = study.participants
+        >>> people[people.withdrawn.isna()].groupby("group").id.apply(list).to_dict()
+        {'heavy': ['sim-002', 'sim-004'], 'light': ['sim-001', 'sim-003']}
+        """
+        text = io.StringIO()
+        table = csv.writer(text, lineterminator="\n")
+        table.writerow(_BEFORE_FACTS + self._facts + _AFTER_FACTS)
+        for member in self._members():
+            facts = {each.get("name"): each.get("value") for each in member.get("facts") or []}
+            own = [facts.get(name) for name in self._facts]
+            before, after = ([member.get(name) for name in names] for names in (_BEFORE_FACTS, _AFTER_FACTS))
+            table.writerow(before + own + after)
+        text.seek(0)
+        return parse_table(text, "participants.csv")
+
+    # Recordings
+
+    @property
+    def sessions(self) -> pd.DataFrame:
+        """A row for each recording, ordered by participant, by session as in the study's file, and by time.
+
+        The columns are `participant`, `group` (as in `participants`), `study_session`, `study_condition` (NaN: the
+        session has none), `complete` and `folder` (path of the recording, for `dihaptic.load()`). A session has several
+        rows if it was interrupted, and then resumed or begun anew.
+
+        `complete` means that the recording went on to its end, or that no trial was left when it broke off. `dihaptic
+        collect` takes the first complete recording of each session into the tables or, if there is none, the last one
+        if as many of its trials are done as `resuming` in the study's file asks for. Raises Error for a recording that
+        cannot be read, or is somebody else's.
+
+        >>> import dihaptic as dh
+        >>> study = dh.Study(f"{folder}/two-days.yaml", rehearsed=f"{folder}/rehearsal")
+        >>> study.sessions.groupby(["group", "study_session"]).complete.sum().to_dict()
+        {('heavy', 'day1'): 2, ('heavy', 'day2'): 2, ('light', 'day1'): 2, ('light', 'day2'): 2}
+        """
+        rows = []
+        for member in self._members():
+            for name in self._sessions:
+                for session in self._recordings(member["id"], name):
+                    condition = (session.info.get("in_study") or {}).get("condition") or np.nan
+                    row = (member["id"], member["group"], name, condition, _is_complete(session), str(session.folder))
+                    rows.append(row)
+        columns = ["participant", "group", "study_session", "study_condition", "complete", "folder"]
+        return pd.DataFrame(rows, columns=columns).astype({"complete": bool})
+
+    def session(self, participant: str, study_session: str) -> Session:
+        """The recording of a participant's session that is in the tables: the first complete one, or the last one if
+        as many of its trials are done as `resuming` in the study's file asks for.
+
+        Raises NotThere for an unknown participant or session, and Error when there is no such recording.
+
+        >>> import dihaptic as dh
+        >>> study = dh.Study(f"{folder}/two-days.yaml", rehearsed=f"{folder}/rehearsal")
+        >>> study.session("sim-001", "day2").info["in_study"]["group"]
+        'light'
+        >>> study.session("sim-001", "day3")
+        Traceback (most recent call last):
+        ...
+        dihaptic.errors.NotThere: day3: is not a session of this study. Did you mean 'day2'? It has day1, day2.
+        """
+        members = {member["id"]: member for member in self._members()}
+        if participant not in members:
+            if self._rehearsed:
+                what = "is not one of the simulated people"
+                remedy = "Study.participants lists them; sessions of dihaptic run --simulate do not count."
+            else:
+                what, remedy = "is not a participant of this study", "Study.participants lists them."
+            raise NotThere(participant, what, list(members), remedy)
+        if study_session not in self._sessions:
+            remedy = f"It has {', '.join(self._sessions)}."
+            raise NotThere(study_session, "is not a session of this study", self._sessions, remedy)
+        recordings = list(self._recordings(participant, study_session))
+        for session in recordings:
+            if _is_complete(session):
+                return session
+        if recordings and _share_done(recordings[-1]) >= self._enough:
+            return recordings[-1]
+        raise self._without(members[participant], study_session, recordings)
+
+    # How it is read
+
+    @property
+    def _tables_folder(self) -> Path:
+        return self.folder / "tables"
+
+    def _collecting(self) -> tuple[Path, str]:
+        of_rehearsal = ["--rehearsed", str(self.folder)] if self._rehearsed else []
+        return self.file, command_of("collect", self.file, *of_rehearsal)
+
+    def _members(self) -> list[dict[str, Any]]:
+        """The participants in participants.yaml, with the groups as they may be shown. Raises Error."""
+        file = self.folder / "participants.yaml"
+        if not file.exists():
+            return []
+        roster = read_info(file)
+        if (roster.get("study") or self.title) != self.title:
+            what = f"is '{roster['study']}', not '{self.title}'"
+            raise error(what, "Give each study a folder of its own.", file=str(file), key="study")
+        members = _items(roster, "participants", "id", file, "Restore the file: log.csv says who was added.")
+        for member in members:
+            group = member.get("group", "")
+            if group not in self._shown:
+                what = f"is in the group '{group}', which the study does not have"
+                remedy = "Restore the study's groups, or its allocation's seed."
+                raise error(what, remedy, file=str(file), key=member["id"])
+            member["group"] = self._shown[group]
+        return members
+
+    def _recordings(self, participant: str, study_session: str) -> Iterator[Session]:
+        """The recordings of a session, in the order of their start. Raises Error when one cannot be read, because the
+        session would then seem not to have been done."""
+        folder = self.folder / "sessions" / participant / study_session
+        try:
+            # a hidden file is none, such as .DS_Store
+            paths = [path for path in folder.iterdir() if not path.name.startswith((_UNFINISHED, "."))]
+        except FileNotFoundError:
+            return
+        except OSError as why:
+            remedy = "Recordings in it would not count: mend its permissions."
+            raise error(f"cannot be read: {why.strerror}", remedy, file=str(folder)) from None
+        found = [_recording(path, participant, study_session) for path in paths]
+        # names have local time
+        for _, _, session in sorted(found, key=lambda each: each[:2]):
+            yield session
+
+    def _without(self, member: dict[str, Any], study_session: str, recordings: list[Session]) -> Error:
+        """Why there is no complete recording of a participant's session."""
+        who = member["id"]
+        if recordings:
+            last = recordings[-1]
+            state = "is still running, or was killed" if last.info.get("state") == "running" else "broke off"
+            what = f"has no complete recording of {study_session}: {last.folder} {state}"
+            there = " dihaptic.load() opens what there is."
+        else:
+            what = f"has no recording of {study_session}"
+            there = ""
+        if self._rehearsed:
+            remedy = "Repeat the command that rehearsed the study: it does what is missing."
+        elif member.get("withdrawn"):
+            what += f", and withdrew on {member['withdrawn']}"
+            remedy = "" if recordings else "Study.sessions lists the recordings."
+        else:
+            remedy = f"{command_of('run', self.file, '--participant', who)} does what comes next."
+        return error(what, (remedy + there).strip(), key=who)
+
+
+def _items(document: dict[str, Any], key: str, name: str, file: Path, remedy: str) -> list[dict[str, Any]]:
+    """The items of a list, each of which has a name, which may become a part of a path. Raises Error."""
+    items = document.get(key) or []
+    if not isinstance(items, list) or not all(isinstance(item, dict) for item in items):
+        raise error("is not a list of items with keys", remedy, file=str(file), key=key)
+    for item in items:
+        if not re.fullmatch("[A-Za-z0-9_-]+", str(item.get(name, ""))):
+            raise error(f"has an item whose {name} is {item.get(name, '')!r}", remedy, file=str(file), key=key)
+    return items
+
+
+def _names(study: dict[str, Any], key: str, file: Path) -> list[str]:
+    """The names of the items of a list in a study's file. Raises Error."""
+    return [item["name"] for item in _items(study, key, "name", file, _CHECK)]
+
+
+def _code_of(group: str, seed: str) -> str:
+    """The code that stands for a concealed group (StudyFile::code_of)."""
+    return f"arm {zlib.crc32(f'{seed}/{group}'.encode()):08x}"[:8]
+
+
+def _recording(path: Path, participant: str, study_session: str) -> tuple[float, str, Session]:
+    """A recording, with the time of its start and its name. Raises Error when it is not this participant's, or of
+    another session."""
+    session = Session(path)
+    recorded = (session.info.get("participant") or {}).get("id", "")
+    if recorded not in (participant, f"sim-{participant}"):
+        what = f"is '{recorded}', not {participant}"
+        raise error(what, "Move the folder to where it belongs.", file=str(path), key="participant")
+    place = (session.info.get("in_study") or {}).get("session")
+    if place != study_session:
+        what = f"is {place} of a study, not {study_session}" if place else "is missing: it was recorded outside the study"
+        raise error(what, "Move the folder to where it belongs.", file=str(path), key="in_study")
+    started = session.info.get("started", "")
+    try:
+        seconds = datetime.fromisoformat(started).timestamp()
+    except ValueError:
+        remedy = "Restore the file, or move the folder away."
+        raise error(f"'{started}' is not a time", remedy, file=str(path / "session.yaml"), key="started") from None
+    return seconds, path.name, session
+
+
+def _is_complete(session: Session) -> bool:
+    """Whether nothing of a recording is left to be done."""
+    return _share_done(session) == 1
+
+
+def _share_done(session: Session) -> float:
+    """The share of a recording's trials that are done, from 0 to 1. It is 0 while the session runs, and when its files
+    do not tell, or have been changed since; and less than 1 when a procedure ended before its trials did."""
+    state = session.info.get("state")
+    if state == "complete":
+        return 1
+    folder = session.folder
+    if state not in ("interrupted", "recovered") or broken_seals(folder, session.info, "trials.csv"):
+        return 0
+    try:
+        task = read_info(folder / "task.yaml")
+        with (folder / "trial-list.csv").open(encoding="utf-8", newline="") as file:
+            left = {row["trial_num"] for row in csv.DictReader(file)}
+            trials = len(left)
+        with (folder / "trials.csv").open(encoding="utf-8", newline="") as file:
+            attempts = [(row["trial_num"], int(row["attempt"]), row["outcome"]) for row in csv.DictReader(file)]
+    except (OSError, KeyError, ValueError):  # an Error is a ValueError, too
+        return 0
+    exits = {e.get("outcome"): e for state in task.get("states") or [] for e in state.get("exits") or []}
+    most = 1 if task.get("redo") == "never" else int(task.get("most_attempts", 3))
+    for trial, attempt, outcome in attempts:
+        end = exits.get(outcome, {})
+        if end.get("ends_session") == "yes":
+            return 1
+        if outcome != "interrupted" and (end.get("redo") != "yes" or attempt >= most):
+            left.discard(trial)
+    return 1 - len(left) / trials if trials else 0
