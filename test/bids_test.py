@@ -32,6 +32,7 @@ task:
     - { name: target, position_mm: [50, 0, 120], radius_mm: 6 }
   perturbations:
     - name: rotation
+      hed: "Experimental-stimulus, Unexpected"
       visual: { moves: [proxies], about: start, axis: [0, 0, 1], angle_deg: 30 }
   states:
     - name: home
@@ -41,8 +42,9 @@ task:
       simulated_hand: [{ duration_s: 0.2, reach: start }]
     - name: reach
       show: [target]
+      hed: "Sensory-event, Visual-presentation, Go-signal"
       exits:
-        - { when: inside, region: target, outcome: reached }
+        - { when: inside, region: target, outcome: reached, hed: "Agent-action, Correct-action" }
         - { when: time, after_s: 3, outcome: too slow }
       simulated_hand: [{ duration_s: 0.2, reach: target }]
   reach: { from: start, to: target, during: reach, distance_mm: 30, axis: [0, 0, 1] }
@@ -174,8 +176,38 @@ class DataSets(unittest.TestCase):
         onsets = [float(e["onset"]) for e in events]
         self.assertEqual(onsets, sorted(onsets))
         columns = json.loads(pathlib.Path(glob.glob(self.set + "/sub-sim001/motion/*reachturned*events.json")[0]).read_text())
-        self.assertEqual(sorted(columns), sorted(events[0]))
+        self.assertEqual(sorted(columns), sorted(set(events[0]) - {"HED"}))
         self.assertEqual(columns["hand_angle_deg"]["Units"], "deg")
+
+    def test_events_have_the_tags_of_their_kind_and_of_the_task(self):
+        self.assertEqual(json.loads(pathlib.Path(self.set, "dataset_description.json").read_text())["HEDVersion"], "8.3.0")
+        events = self.events()
+        tags = {("phase", "reach"): "Label/reach, (Sensory-event, Visual-presentation, Go-signal)",
+                ("phase", "home"): "Label/home",
+                ("outcome", "reached"): "Label/reached, (Agent-action, Correct-action)",
+                ("outcome", "too slow"): "Label/too-slow",
+                ("perturbation", "on"): "Label/on, (Experimental-stimulus, Unexpected)"}
+        seen = set()
+        for event in events:
+            about = (event["trial_type"], event["value"])
+            if about in tags:
+                self.assertEqual(event["HED"], tags[about])
+            seen.add(about)
+        tags.pop(("outcome", "too slow"))
+        self.assertLessEqual(set(tags), seen)
+        columns = json.loads(pathlib.Path(glob.glob(self.set + "/sub-sim001/motion/*reachturned*events.json")[0]).read_text())
+        self.assertLessEqual({e["trial_type"] for e in events}, set(columns["trial_type"]["HED"]))
+        self.assertEqual(set(columns["trial_type"]["HED"]), set(columns["trial_type"]["Levels"]))
+
+    def test_the_validator_knows_the_tags(self):
+        wrong = self.out + "/wrong"
+        shutil.copytree(self.set, wrong)
+        for file in glob.glob(wrong + "/sub-*/motion/*reachturned*events.tsv"):
+            text = pathlib.Path(file).read_text()
+            pathlib.Path(file).write_text(text.replace("Correct-action", "Corect-action"))
+        checked = subprocess.run(["node", validator(), wrong, "--json"], capture_output=True, text=True, timeout=300)
+        errors = json.loads(checked.stdout)["issues"]["errors"]
+        self.assertTrue(errors and all(i["key"].startswith("HED") for i in errors), [i["key"] for i in errors])
 
     def test_a_lift_and_the_object_are_in_it(self):
         (events,) = glob.glob(self.set + "/sub-sim001/motion/*liftblock*events.tsv")

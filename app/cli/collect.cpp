@@ -257,30 +257,30 @@ class Collection {
         const Node person = read_yaml(session + "/person.yaml");
         const Node* group = person.find("group");
         front_ = {key.seed, group == nullptr ? "" : group->scalar, key.id};
-        for (const auto& [name, rows] : tables_of(session)) append(name, rows);
-        append("people.csv",
-               text_of(recording::marked(
-                   person_table(person),
-                   recording::SessionFolder::open_tables(session).read_info().moved_by)));
+        for (const TextTable& table : tables_of(session)) append(table);
+        append(text_of(
+            recording::marked(person_table(person),
+                              recording::SessionFolder::open_tables(session).read_info().moved_by),
+            "people.csv"));
     }
 
     /// Returns the names of the written files.
     std::vector<std::string> write(const std::string& folder) const {
         std::vector<std::string> out;
-        for (const auto& [name, rows] : tables_) {
-            write_rows(rows, folder + "/" + name);
+        for (const auto& [name, table] : tables_) {
+            write_file(to_csv(table), folder + "/" + name);
             out.push_back(name);
         }
         return out;
     }
-    size_t rows(const std::string& name) const { return tables_.at(name).size() - 1; }
+    size_t rows(const std::string& name) const { return tables_.at(name).rows.size(); }
 
   private:
     /// Each trait has a column, even if some people lack it: people moved by Python may belong to
     /// different classes.
     void note_traits(const Node& person) {
         for (const auto& entry : person.entries) {
-            if (entry.key == "id" || entry.key == "group") continue;
+            if (entry.key == "id" || entry.key == "group" || entry.key == "partner") continue;
             if (std::ranges::find(traits_, entry.key) == traits_.end())
                 traits_.push_back(entry.key);
         }
@@ -297,28 +297,28 @@ class Collection {
     }
 
     /// Appends a session's table. Throws Error when its header differs from earlier ones.
-    void append(const std::string& name, const Rows& table) {
-        if (table.empty()) return;
-        Rows& all = tables_[name];
-        std::vector<std::string> header(session::kCollectedColumns.begin(),
-                                        session::kCollectedColumns.end());
-        header.insert(header.end(), table[0].begin(), table[0].end());
-        if (all.empty()) all.push_back(header);
-        if (all[0] != header) {
-            throw Error({name, 1}, "",
+    void append(const TextTable& table) {
+        TextTable& all = tables_[table.name];
+        std::vector<Table::Column> header;
+        for (const char* name : session::kCollectedColumns) header.push_back({name, ""});
+        header.insert(header.end(), table.columns.begin(), table.columns.end());
+        if (all.columns.empty()) all.columns = header;
+        if (!std::ranges::equal(all.columns, header, {}, &Table::Column::name,
+                                &Table::Column::name)) {
+            throw Error({table.name, 1}, "",
                         fmt::format("of {} has different columns from earlier ones", front_[2]),
                         "Collect sessions of one experiment and one version only.");
         }
-        for (size_t i = 1; i < table.size(); ++i) {
+        for (const auto& cells : table.rows) {
             std::vector<std::string> row = front_;
-            row.insert(row.end(), table[i].begin(), table[i].end());
-            all.push_back(std::move(row));
+            row.insert(row.end(), cells.begin(), cells.end());
+            all.rows.push_back(std::move(row));
         }
     }
 
     std::vector<std::string> traits_;  // columns of people.csv
     std::vector<std::string> front_;
-    std::map<std::string, Rows> tables_;
+    std::map<std::string, TextTable> tables_;
 };
 
 void collect(const CollectOptions& options) {
@@ -356,7 +356,7 @@ void add_collect(CLI::App& app) {
     auto* command = app.add_subcommand(
         "collect", "Join the tables of rehearsed people: trials, lifts, fits, traits");
     auto options = std::make_shared<CollectOptions>();
-    auto study = std::make_shared<StudyCollection>();
+    auto study = std::make_shared<StudyData>();
     command
         ->add_option("FOLDER", options->folders, "folders of dihaptic rehearse, or a study's file")
         ->required();
@@ -378,8 +378,7 @@ void add_collect(CLI::App& app) {
     command->callback([options, study] {
         study->file = options->folders.front();
         if (!is_study(study->file)) return collect(*options);
-        study->out = options->out;
-        collect_study(*study);
+        collect_study(*study, options->out);
     });
 }
 

@@ -6,6 +6,7 @@
 #include "analysis/bids.h"
 #include "analysis/curves.h"
 #include "command.h"
+#include "study_export.h"
 
 namespace dihaptic::cli {
 namespace {
@@ -13,8 +14,10 @@ namespace {
 struct Options {
     std::string session;
     std::string data_set;
+    std::string psych_ds;
     std::string names;
     std::string out;
+    StudyData study;  ///< in place of a session
 };
 
 void tell_log(const std::vector<std::string>& wrong) {
@@ -31,6 +34,18 @@ void to_bids(const recording::SessionFolder& session, const Options& options) {
     print(exported.changed);
     tell_log(exported.log);
     fmt::print("written: {}\n", exported.folder);
+}
+
+void to_study(Options options) {
+    options.study.file = options.session;
+    if (!options.names.empty())
+        throw Error({options.session, 0}, "--csv", "writes the curves of one session, not a study",
+                    "Name the folder of a session.");
+    if (!options.psych_ds.empty()) return export_psych_ds(options.study, options.psych_ds);
+    if (options.study.reveal_groups)
+        throw Error({options.session, 0}, "--reveal-groups", "applies to --psych-ds only",
+                    "Leave it out: BIDS gets what the recordings contain.");
+    export_bids(options.study, options.data_set);
 }
 
 std::vector<std::string> split(const std::string& names) {
@@ -65,11 +80,13 @@ void to_csv(const recording::SessionFolder& session, const Options& options) {
 }  // namespace
 
 void add_export(CLI::App& app) {
-    auto* command = app.add_subcommand("export",
-                                       "Add a session to a BIDS data set (motion, channels, "
-                                       "events, participant), or write its curves to a CSV file");
+    auto* command = app.add_subcommand(
+        "export",
+        "Add a session, or all of a study, to a BIDS data set (motion, channels, events, "
+        "participant); write a study's tables as Psych-DS, or a session's curves to a CSV file");
     auto options = std::make_shared<Options>();
-    command->add_option("SESSION", options->session, "folder of a session")->required();
+    command->add_option("SESSION", options->session, "folder of a session, or a study's file")
+        ->required();
     auto* bids = command->add_option("--bids", options->data_set,
                                      "folder of the data set, created if necessary");
     auto* csv =
@@ -78,18 +95,35 @@ void add_export(CLI::App& app) {
                          "quantities with their names in docs/quantities.md, separated by commas: "
                          "a row for each tick, with its time, its trial and these, in SI units")
             ->excludes(bids);
+    command
+        ->add_option("--psych-ds", options->psych_ds,
+                     "new folder for the tables of a study, with a description of each column")
+        ->excludes(bids)
+        ->excludes(csv);
+    command->add_option("--rehearsed", options->study.rehearsed,
+                        "with a study: the folder of its rehearsal, in place of its participants");
+    command->add_flag("--reveal-groups", options->study.reveal_groups,
+                      "with --psych-ds: name groups that are concealed; the log notes it");
     command->add_option("-o,--out", options->out, "the CSV file; default: SESSION_curves.csv, here")
         ->needs(csv);
     command->footer(
         "\nExamples:\n"
         "  dihaptic export sessions/2026-11-20_101500_lift-block_S07 --bids study\n"
+        "  dihaptic export my-study.yaml --bids study\n"
+        "  dihaptic export my-study.yaml --psych-ds tables-to-share\n"
         "  dihaptic export --csv grip_force,load_force,block.position.z "
         "sessions/2026-11-20_101500_lift-block");
     command->callback([options] {
-        if (options->data_set.empty() && split(options->names).empty()) {
+        if (options->data_set.empty() && options->psych_ds.empty() &&
+            split(options->names).empty()) {
             throw Error("no destination is given",
-                        "Add --bids FOLDER, or --csv with names of quantities.");
+                        "Add --bids FOLDER, --psych-ds FOLDER, or --csv with names of quantities.");
         }
+        if (is_study(options->session)) return to_study(*options);
+        if (!options->psych_ds.empty() || !options->study.rehearsed.empty() ||
+            options->study.reveal_groups)
+            throw Error({options->session, 0}, "", "is not a study's file",
+                        "Name a study, or leave out --psych-ds, --rehearsed and --reveal-groups.");
         const auto session = recording::SessionFolder::open(options->session);
         !options->data_set.empty() ? to_bids(session, *options) : to_csv(session, *options);
     });

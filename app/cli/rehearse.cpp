@@ -73,8 +73,14 @@ int run_person(const RehearseOptions& options, const std::string& id,
         request.participant = id;
         request.order_number = options.population->number_in_group(id);
         session::Plan plan = session::make_plan(request);
-        session::sit_down(plan, person::draw_person(*options.population, plan.seed, id));
         session::RunOptions run;
+        std::optional<person::Traits> partner;
+        if (session::is_for_two(plan)) {
+            run.partner.id = session::partner_of(id);
+            partner = person::draw_person(*options.population, plan.seed, run.partner.id,
+                                          options.population->group_of(id));
+        }
+        session::sit_down(plan, person::draw_person(*options.population, plan.seed, id), partner);
         run.out = place.path();
         run.command = command_line();
         run.participant.id = id;

@@ -7,20 +7,46 @@
 
 #include "base/plural.h"
 #include "command.h"
+#include "study_collection.h"
 
 namespace dihaptic::cli {
+namespace {
+
+/// The folder with the sessions of a study's participants. Throws Error when there is none yet.
+std::string sessions_of(const StudyData& data) {
+    const std::string folder = study_of(data).data + "/sessions";
+    if (!std::filesystem::is_directory(folder))
+        throw Error({data.file, 0}, "", "has no session yet",
+                    "Run a session, or rehearse the study and add --rehearsed FOLDER.");
+    return folder;
+}
+
+}  // namespace
 
 void add_report(CLI::App& app) {
-    auto* command = app.add_subcommand(
-        "report",
-        "Make report.html, and its tables as CSV: for a session, or for all sessions in a folder");
+    auto* command = app.add_subcommand("report",
+                                       "Make report.html, and its tables as CSV: for a session, or "
+                                       "for all sessions in a folder or "
+                                       "of a study");
     auto path = std::make_shared<std::string>();
-    command->add_option("SESSION|FOLDER", *path, "a session, or a folder with sessions")
+    auto study = std::make_shared<StudyData>();
+    command
+        ->add_option("SESSION|FOLDER", *path,
+                     "a session, a folder with sessions, or a study's file")
         ->required();
+    command->add_option("--rehearsed", study->rehearsed,
+                        "with a study: the folder of its rehearsal, in place of its participants");
     command->footer(
         "\nExamples:\n  dihaptic report sessions/2026-11-20_101500_visuomotor-rotation_S07\n"
-        "  dihaptic report sessions");
-    command->callback([path] {
+        "  dihaptic report sessions\n"
+        "  dihaptic report my-study.yaml");
+    command->callback([path, study] {
+        study->file = *path;
+        if (is_study(*path)) {
+            *path = sessions_of(*study);
+        } else if (!study->rehearsed.empty()) {
+            throw Error({*path, 0}, "", "is not a study's file", "Leave out --rehearsed.");
+        }
         analysis::ReportResult result;
         {
             ProgressLine line("reading");

@@ -156,7 +156,13 @@ void run_one(SessionOptions& options) {
     session::Plan plan = session::make_plan(options.request);
     if (options.simulate && plan.task) {
         const uint64_t seed = options.person_seed.value_or(plan.seed);
-        session::sit_down(plan, person::draw_person(people, seed, id));
+        std::optional<person::Traits> partner;
+        if (session::is_for_two(plan)) {
+            std::string& other = options.run.partner.id;
+            other = other.empty() ? session::partner_of(id) : recording::simulated_id(other);
+            partner = person::draw_person(people, seed, other);
+        }
+        session::sit_down(plan, person::draw_person(people, seed, id), partner);
         plan.moved_by.seed = number_text(seed);
     }
     std::optional<session::TrialController> controller;
@@ -446,6 +452,8 @@ void add_simulated_person(CLI::App* command, const std::shared_ptr<SessionOption
 void add_participant_facts(CLI::App* command, const std::shared_ptr<SessionOptions>& options) {
     command->add_option("--participant", options->run.participant.id,
                         "participant's identifier; for a simulated person it starts with sim-");
+    command->add_option("--partner", options->run.partner.id,
+                        "identifier of the second participant, in a task for two");
     command->add_option("--age", options->run.participant.age, "participant's age in years");
     command->add_option("--sex", options->run.participant.sex, "F, M, O, or U: not stated")
         ->check(CLI::IsMember({"F", "M", "O", "U"}));

@@ -8,6 +8,7 @@
 
 #include "base/number.h"
 #include "base/plural.h"
+#include "base/text_file.h"
 #include "common/console.h"
 #include "session/study_session.h"
 #include "session_tables.h"
@@ -20,138 +21,100 @@ namespace fs = std::filesystem;
 
 /// The first columns of each row. Experiments have columns of their own, so these say that they are
 /// the study's, apart from the names that no experiment may use.
-const std::vector<std::string> kFront{
-    "seed", "group", "id", "study_number", "study_session", "study_condition", "study_version"};
+const std::vector<Table::Column> kFront{
+    {"seed", "seed of the session"},
+    {"group", "group of the study, or the code that conceals it"},
+    {"id", "identifier of the participant"},
+    {"study_number", "number of the participant in the group, from 1"},
+    {"study_session", "session of the study"},
+    {"study_condition", "condition of the session; empty: it has none"},
+    {"study_version", "version of the study's files, from 1"}};
 
 /// Tables of different experiments under one another: a cell is empty where its session lacks the
 /// column.
 class JoinedTable {
   public:
-    void add(const std::vector<std::string>& front, const Rows& table) {
-        if (table.empty()) return;
+    void add(const std::vector<std::string>& front, const TextTable& table) {
         std::vector<size_t> places;
-        for (const std::string& name : table[0]) places.push_back(place_of(name));
-        for (size_t i = 1; i < table.size(); ++i) {
+        for (const Table::Column& column : table.columns) places.push_back(place_of(column));
+        for (const auto& cells : table.rows) {
             std::vector<std::string> row(columns_.size());
-            for (size_t k = 0; k < table[i].size() && k < places.size(); ++k)
-                row[places[k]] = table[i][k];
+            for (size_t k = 0; k < cells.size() && k < places.size(); ++k)
+                row[places[k]] = cells[k];
             rows_.emplace_back(front, std::move(row));
         }
     }
 
-    Rows rows() const {
-        Rows out(1, kFront);
-        out[0].insert(out[0].end(), columns_.begin(), columns_.end());
+    TextTable table(const std::string& name) const {
+        TextTable out{name, kFront, {}};
+        out.columns.insert(out.columns.end(), columns_.begin(), columns_.end());
         for (const auto& [front, row] : rows_) {
-            out.push_back(front);
-            out.back().insert(out.back().end(), row.begin(), row.end());
-            out.back().resize(out[0].size());
+            out.rows.push_back(front);
+            out.rows.back().insert(out.rows.back().end(), row.begin(), row.end());
+            out.rows.back().resize(out.columns.size());
         }
         return out;
     }
 
   private:
-    size_t place_of(const std::string& name) {
-        if (std::ranges::find(kFront, name) != kFront.end()) {
-            throw Error({"", 0}, name, "is a column that the joined tables have of the study",
+    size_t place_of(const Table::Column& column) {
+        if (std::ranges::find(kFront, column.name, &Table::Column::name) != kFront.end()) {
+            throw Error({"", 0}, column.name,
+                        "is a column that the joined tables have of the study",
                         "Rename the factor, draw, variable or measure of this name.");
         }
-        const auto [at, is_new] = places_.emplace(name, columns_.size());
-        if (is_new) columns_.push_back(name);
+        const auto [at, is_new] = places_.emplace(column.name, columns_.size());
+        if (is_new) columns_.push_back(column);
         return at->second;
     }
 
-    std::vector<std::string> columns_;
+    std::vector<Table::Column> columns_;
     std::map<std::string, size_t> places_;
     std::vector<std::pair<std::vector<std::string>, std::vector<std::string>>> rows_;
 };
 
-class Collector {
-  public:
-    Collector(const study::StudyFile& study, bool reveal)
-        : study_(study), reveal_(reveal), roster_(study::read_roster(study)) {}
+std::string group_of(const study::StudyFile& study, const study::Member& member, bool reveal) {
+    return reveal ? member.group : study.shown_group(member.group);
+}
 
-    /// Adds every complete session, and lists those that are missing.
-    void run() {
-        ProgressLine line("collecting");
-        double done = 0;
-        for (const study::Member& member : roster_.participants) {
-            add(member);
-            line.show(++done / static_cast<double>(roster_.participants.size()));
-        }
-        line.clear();
+/// The columns before each row of a session's tables.
+std::vector<std::string> front_of(const CompleteSession& session, const std::string& group) {
+    const auto info = recording::SessionFolder::open_tables(session.folder).read_info();
+    const recording::InStudy place = info.in_study.value_or(recording::InStudy{});
+    return {info.seed,
+            group,
+            session.member.id,
+            number_text(session.member.number),
+            place.session,
+            place.condition,
+            number_text(place.version)};
+}
+
+TextTable participants(const study::StudyFile& study, const study::Roster& roster, bool reveal) {
+    TextTable out{"participants.csv",
+                  {{"id", "identifier of the participant"},
+                   {"group", "group of the study, or the code that conceals it"},
+                   {"number", "number of the participant in the group, from 1"},
+                   {"age", "age of the participant", "years"},
+                   {"sex", "as told: F, M, O (other) or U (not stated)"},
+                   {"handedness", "as told: right, left or both"}},
+                  {}};
+    for (const study::FactSpec& fact : study.facts)
+        out.columns.push_back({fact.name, "fact that the study asks of every participant"});
+    const std::vector<Table::Column> last{
+        {"added", "when the participant was added, ISO 8601"},
+        {"version", "version of the study's files when the participant was added"},
+        {"withdrawn", "when the participant withdrew, ISO 8601; empty: takes part"}};
+    out.columns.insert(out.columns.end(), last.begin(), last.end());
+    for (const study::Member& m : roster.participants) {
+        std::vector<std::string> row{
+            m.id, group_of(study, m, reveal), number_text(m.number), m.age, m.sex, m.handedness};
+        for (const study::FactSpec& fact : study.facts) row.push_back(m.fact(fact.name));
+        row.insert(row.end(), {m.added, number_text(m.version), m.withdrawn});
+        out.rows.push_back(std::move(row));
     }
-
-    void write(const std::string& folder) const {
-        fs::create_directories(folder);
-        std::string names = "participants.csv";
-        write_rows(participants(), folder + "/participants.csv");
-        for (const auto& [name, table] : tables_) {
-            write_rows(table.rows(), folder + "/" + name);
-            names += ", " + name;
-        }
-        for (const std::string& text : missing_) fmt::print("{}\n", text);
-        fmt::print("{} of {} people: in {}: {}\n",
-                   counted(static_cast<int64_t>(sessions_), "session"), roster_.participants.size(),
-                   folder, names);
-    }
-
-  private:
-    std::string group_of(const study::Member& member) const {
-        return reveal_ ? member.group : study_.shown_group(member.group);
-    }
-
-    void add(const study::Member& member) {
-        const auto visits = session::visits_of(study_, member);
-        for (size_t i = 0; i < study_.sessions.size(); ++i) {
-            const auto complete = std::ranges::find_if(
-                visits, [&](const study::Visit& v) { return v.session == i && v.complete; });
-            if (complete != visits.end()) {
-                add_session(member, complete->folder);
-            } else if (member.takes_part()) {
-                missing_.push_back(
-                    fmt::format("missing: {} of {}", study_.sessions[i].name, member.id));
-            }
-        }
-    }
-
-    void add_session(const study::Member& member, const std::string& folder) {
-        const auto info = recording::SessionFolder::open_tables(folder).read_info();
-        const recording::InStudy place = info.in_study.value_or(recording::InStudy{});
-        const std::vector<std::string> front{info.seed,
-                                             group_of(member),
-                                             member.id,
-                                             number_text(member.number),
-                                             place.session,
-                                             place.condition,
-                                             number_text(place.version)};
-        for (const auto& [name, rows] : tables_of(folder)) {
-            if (!rows.empty()) tables_[name].add(front, rows);
-        }
-        ++sessions_;
-    }
-
-    Rows participants() const {
-        Rows out{{"id", "group", "number", "age", "sex", "handedness"}};
-        for (const study::FactSpec& fact : study_.facts) out[0].push_back(fact.name);
-        for (const char* name : {"added", "version", "withdrawn"}) out[0].emplace_back(name);
-        for (const study::Member& m : roster_.participants) {
-            out.push_back({m.id, group_of(m), number_text(m.number), m.age, m.sex, m.handedness});
-            for (const study::FactSpec& fact : study_.facts)
-                out.back().push_back(m.fact(fact.name));
-            for (const std::string& text : {m.added, number_text(m.version), m.withdrawn})
-                out.back().push_back(text);
-        }
-        return out;
-    }
-
-    const study::StudyFile& study_;
-    bool reveal_;
-    study::Roster roster_;
-    std::map<std::string, JoinedTable> tables_;
-    std::vector<std::string> missing_;
-    size_t sessions_ = 0;
-};
+    return out;
+}
 
 }  // namespace
 
@@ -160,19 +123,68 @@ bool is_study(const std::string& file) {
     return fs::is_regular_file(file, unreadable) && task::kind_of(file) == task::FileKind::study;
 }
 
-void collect_study(const StudyCollection& collection) {
-    study::StudyFile study = study::read_study(collection.file);
-    if (!collection.rehearsed.empty()) {
-        if (!fs::is_directory(collection.rehearsed))
-            throw Error({"--rehearsed", 0}, collection.rehearsed, "is not a folder",
-                        "Name the folder in which the study was rehearsed, or rehearse it first.");
-        study.data = collection.rehearsed;
+study::StudyFile study_of(const StudyData& data) {
+    study::StudyFile study = study::read_study(data.file);
+    if (data.rehearsed.empty()) return study;
+    if (!fs::is_directory(data.rehearsed))
+        throw Error({"--rehearsed", 0}, data.rehearsed, "is not a folder",
+                    "Name the folder in which the study was rehearsed, or rehearse it first.");
+    study.data = data.rehearsed;
+    return study;
+}
+
+StudySessions::StudySessions(const study::StudyFile& study) : roster_(study::read_roster(study)) {
+    for (const study::Member& member : roster_.participants) {
+        const auto visits = session::visits_of(study, member);
+        for (size_t i = 0; i < study.sessions.size(); ++i) {
+            if (const study::Visit* const visit = study::counted(study, visits, i)) {
+                complete_.push_back({member, visit->folder});
+            } else if (member.takes_part()) {
+                missing_.push_back(
+                    fmt::format("missing: {} of {}", study.sessions[i].name, member.id));
+            }
+        }
     }
-    Collector collector(study, collection.reveal_groups);
-    collector.run();
-    if (collection.reveal_groups && study.allocation.concealed)
-        study::log(study, "reveal groups", "", collection.out);
-    collector.write(collection.out.empty() ? study.data + "/tables" : collection.out);
+}
+
+std::vector<TextTable> tables_of(const study::StudyFile& study, const StudySessions& sessions,
+                                 const StudyData& data) {
+    std::map<std::string, JoinedTable> tables;
+    ProgressLine line("collecting");
+    double done = 0;
+    for (const CompleteSession& session : sessions.complete()) {
+        const auto front = front_of(session, group_of(study, session.member, data.reveal_groups));
+        for (const TextTable& table : tables_of(session.folder))
+            tables[table.name].add(front, table);
+        line.show(++done / static_cast<double>(sessions.complete().size()));
+    }
+    line.clear();
+    std::vector<TextTable> out{participants(study, sessions.roster(), data.reveal_groups)};
+    for (const auto& [name, table] : tables) out.push_back(table.table(name));
+    return out;
+}
+
+void note_revealed(const study::StudyFile& study, const StudyData& data, const std::string& where) {
+    if (data.reveal_groups && study.allocation.concealed)
+        study::log(study, "reveal groups", "", where);
+}
+
+void collect_study(const StudyData& data, const std::string& out) {
+    const study::StudyFile study = study_of(data);
+    const StudySessions sessions(study);
+    const std::vector<TextTable> tables = tables_of(study, sessions, data);
+    const std::string folder = out.empty() ? study.data + "/tables" : out;
+    note_revealed(study, data, folder);
+    fs::create_directories(folder);
+    std::string names;
+    for (const TextTable& table : tables) {
+        write_file(to_csv(table), folder + "/" + table.name);
+        names += (names.empty() ? "" : ", ") + table.name;
+    }
+    for (const std::string& text : sessions.missing()) fmt::print("{}\n", text);
+    fmt::print("{} of {} people: in {}: {}\n",
+               counted(static_cast<int64_t>(sessions.complete().size()), "session"),
+               sessions.roster().participants.size(), folder, names);
 }
 
 }  // namespace dihaptic::cli

@@ -182,14 +182,19 @@ class Rehearsing {
         request.simulate = true;
         request.seed = rehearsal_.seed + index;
         session::Plan plan = session::make_plan(request);
+        session::RunOptions run;
         std::shared_ptr<person::Person> person;
         if (plan.task) {
-            person =
-                session::sit_down(plan, traits_of(rehearsal_.population, rehearsal_.seed, member));
+            const auto traits = [&](const study::Member& of) {
+                return traits_of(rehearsal_.population, rehearsal_.seed, of);
+            };
+            study::Member other = member;
+            other.id = session::partner_of(member.id);
+            if (session::is_for_two(plan)) run.partner.id = other.id;
+            person = session::sit_down(plan, traits(member), traits(other));
             plan.moved_by.seed = number_text(rehearsal_.seed);
             person->recall(learned);
         }
-        session::RunOptions run;
         run.out = out;
         run.command = command_line();
         run.participant = {member.id, member.age, member.sex, member.handedness};

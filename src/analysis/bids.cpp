@@ -195,4 +195,9 @@ Exported export_bids(const recording::SessionFolder& session, const std::string&
     return Exporter(session, data_set).run(progress);
 }
 
+bool is_exported(const recording::SessionFolder& session, const std::string& data_set) {
+    const recording::SessionInfo info = session.read_info();
+    return !bids::DataSet(data_set, session, info).recording_there().empty();
+}
+
 }  // namespace dihaptic::analysis

@@ -29,4 +29,8 @@ struct Exported {
 Exported export_bids(const recording::SessionFolder& session, const std::string& data_set,
                      const std::function<void(double)>& progress);
 
+/// Whether the data set has a recording of the session. Throws Error when its tables cannot be
+/// read.
+bool is_exported(const recording::SessionFolder& session, const std::string& data_set);
+
 }  // namespace dihaptic::analysis

@@ -9,6 +9,7 @@
 #include <map>
 #include <optional>
 
+#include "analysis/corrections.h"
 #include "analysis/events.h"
 #include "analysis/fault_record.h"
 #include "analysis/grasp_trace.h"
@@ -38,6 +39,7 @@ struct Reading {
     Table fault;
     std::optional<TrialFinder> trials;  ///< if the session has a task
     std::optional<MeasureFinder> measures;
+    std::optional<CorrectionFinder> corrections;
     std::vector<rows::LiftRow> lifts;
     std::string why_no_facts;  ///< reason why ObjectFacts are unknown; empty if they are known
 };
@@ -147,6 +149,7 @@ struct SessionReader::Pass {
         if (has_trials(folder)) {
             reading.trials.emplace(folder, head.fingers);
             reading.measures = MeasureFinder::of(folder, head, names);
+            reading.corrections = CorrectionFinder::of(folder, head, names);
             for (const std::string& name : objects_of_trials(folder, info.object)) {
                 objects.push_back(object_of(name, head));
                 if (facts_by_object.count(objects.back()) == 0)
@@ -234,6 +237,7 @@ struct SessionReader::Pass {
         trace.add(frame);
         if (reading.trials) reading.trials->add(frame);
         if (reading.measures) reading.measures->add(frame);
+        if (reading.corrections) reading.corrections->add(frame);
         events.add(frame);
         fault.add(frame);
         SessionFigures& figures = reading.figures;
@@ -489,6 +493,9 @@ SessionFigures write_tables(const recording::SessionFolder& folder, recording::S
     write_csv(by(figure_table<Episode>(out.episodes)), folder.file("episodes.csv"));
     if (!reading.lifts.empty())
         write_csv(by(figure_table<rows::LiftRow>(reading.lifts)), folder.file("lifts.csv"));
+    if (reading.corrections)
+        write_csv(by(figure_table<rows::CorrectionRow>(reading.corrections->rows())),
+                  folder.file("corrections.csv"));
     write_csv(events, folder.file("events.csv"));
     if (!reading.fault.rows.empty()) write_csv(reading.fault, folder.file("fault.csv"));
     if (!conclude) return out;

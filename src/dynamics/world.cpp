@@ -91,7 +91,7 @@ World::World(const scene::Scene& scene, const frame::DynamicsSettings& settings)
                    body.fixed ? Vec3::Zero() : factors(body.moves),
                    body.fixed ? Vec3::Zero() : factors(body.turns));
         impl_->items.back().is_driven = body.driven;
-        impl_->items.back().surface = body.surface;
+        impl_->items.back().set_surface(body.surface);
     }
     for (const scene::Joint& joint : scene.joints) impl_->add(joint);
     impl_->recorded_joints = scene::recorded_joints(scene).size();
@@ -106,7 +106,7 @@ BodyIndex World::add_proxy(const scene::Finger& finger, const Vec3& p_WP, bool t
     impl_->add(finger.name, finger.shape, finger.mass, finger.friction, finger.torsion_radius,
                {rotation_xyz(finger.rotation), p_WP}, Vec3::Ones(), Vec3::Constant(turns ? 1 : 0),
                turns);
-    impl_->items.back().surface = finger.surface;
+    impl_->items.back().set_surface(finger.surface);
     impl_->items.back().is_proxy = true;
     return {size() - 1};
 }
@@ -137,7 +137,7 @@ BodyIndex World::add_point(const scene::Finger& finger, const Vec3& p_WP, bool t
     impl_->add(finger.name, scene::Shape::sphere(scene::kSmallest), finger.mass, finger.friction,
                finger.torsion_radius, {rotation_xyz(finger.rotation), p_WP}, Vec3::Ones(),
                Vec3::Constant(turns ? 1 : 0), turns);
-    impl_->items.back().surface = finger.surface;
+    impl_->items.back().set_surface(finger.surface);
     impl_->items.back().is_proxy = true;
     impl_->items.back().is_point = true;
     return {size() - 1};
@@ -332,6 +332,9 @@ void World::set_properties(BodyIndex body, const BodyProperties& properties) noe
     Impl::Item& item = impl_->items[i];
     if (item.properties == properties) return;
     item.properties = properties;
+    if (item.relief)
+        item.relief->scale(*item.texture, properties.texture_wavelength, properties.texture_height,
+                           properties.texture_friction);
     if (!impl_->surfaces.empty()) impl_->pair_surfaces(i);
     if (!item.can_move) {  // bodies on it may slip now
         for (const size_t k : impl_->can_move) impl_->wake(k, states_);

@@ -53,6 +53,9 @@ struct BodyProperties {
     double friction = 1;     ///< for its coefficients with all other bodies
     double stiffness = 1;    ///< for its own surface, with the damping
     double restitution = 1;  ///< for its own surface, whose restitution stays at most 1
+    double texture_wavelength = 1;
+    double texture_height = 1;    ///< within the limits of scene::Texture::scale()
+    double texture_friction = 1;  ///< for the variation of friction along its texture
     bool operator==(const BodyProperties&) const = default;
 };
 

@@ -36,7 +36,16 @@ struct World::Impl {
     struct Item {
         std::string name;
         double friction = 0;
-        scene::Surface surface;
+        scene::Surface surface;  // without its texture and place: a copy allocates nothing
+        std::optional<scene::Texture> texture;  // as in the scene
+        std::optional<scene::Texture> relief;   // as the properties change it
+
+        void set_surface(const scene::Surface& given) {
+            surface = given;
+            surface.texture.reset();
+            surface.place = {};
+            texture = relief = given.texture;
+        }
         double torsion_radius = 0;
         bool is_proxy = false;
         bool is_point = false;

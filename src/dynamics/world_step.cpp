@@ -384,17 +384,17 @@ void World::Impl::prepare_contacts(std::span<btPersistentManifold* const> manifo
 
 scene::Relief World::Impl::relief_at(size_t i, const Vec3& p_W, const Vec3& n_W) const noexcept {
     const Item& item = items[i];
-    if (!item.surface.texture) return {};
+    if (!item.relief) return {};
     const Pose X_WB = from_bullet(item.body->getWorldTransform()) * item.X_BM.inverse();
     const Pose X_BW = X_WB.inverse();
-    scene::Relief out = item.surface.texture->at(X_BW * p_W, X_BW.R * n_W);
+    scene::Relief out = item.relief->at(X_BW * p_W, X_BW.R * n_W);
     out.slope = X_WB.R * out.slope;
     return out;
 }
 
 bool World::Impl::has_texture(const btPersistentManifold& manifold) const {
     const auto [a, b] = bodies_of(manifold);
-    return items[a].surface.texture || items[b].surface.texture;
+    return items[a].relief || items[b].relief;
 }
 
 void World::Impl::let_feel(btPersistentManifold& manifold) const {

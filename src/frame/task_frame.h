@@ -92,6 +92,9 @@ struct PropertiesFrame {
     double friction_scale = 1;
     double stiffness_scale = 1;
     double restitution_scale = 1;
+    double texture_wavelength_scale = 1;
+    double texture_height_scale = 1;
+    double texture_friction_scale = 1;
 
     template <class Self, class Visitor>
     static void visit(Self& p, Visitor& v) {
@@ -106,6 +109,13 @@ struct PropertiesFrame {
                               "Factor on the stiffness and damping of the body's surface."});
         v(p.restitution_scale,
           {"restitution_scale", "1", "", "Factor on the restitution of the body's surface."});
+        v(p.texture_wavelength_scale,
+          {"texture_wavelength_scale", "1", "", "Factor on the wavelength of the body's texture."});
+        v(p.texture_height_scale,
+          {"texture_height_scale", "1", "", "Factor on the height of the body's texture."});
+        v(p.texture_friction_scale,
+          {"texture_friction_scale", "1", "",
+           "Factor on the variation of friction along the body's texture."});
     }
 };
 

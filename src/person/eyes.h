@@ -21,9 +21,9 @@ struct Sight {
 
 class Eyes {
   public:
-    /// `fingers`: how many of the first fingers form the hand. `delay`, `tick` [s].
-    Eyes(double delay, size_t fingers, double tick)
-        : delay_(delay), fingers_(fingers), past_(delay, tick) {}
+    /// `first`: index of the hand's first finger. `fingers`: how many it has. `delay`, `tick` [s].
+    Eyes(double delay, size_t first, size_t fingers, double tick)
+        : delay_(delay), first_(first), fingers_(fingers), past_(delay, tick) {}
 
     void restart() noexcept { past_.clear(); }
 
@@ -32,7 +32,7 @@ class Eyes {
         sight.trial = frame.trial;
         sight.attempt = frame.task.attempt;
         sight.phase = frame.phase;
-        for (size_t i = 0; i < fingers_; ++i) {
+        for (size_t i = first_; i < first_ + fingers_; ++i) {
             sight.hand += frame::displayed_proxy(frame, i).p / static_cast<double>(fingers_);
             sight.hand_shown |= frame::is_displayed(frame, frame::proxy_of(frame, i));
         }
@@ -48,6 +48,7 @@ class Eyes {
 
   private:
     double delay_;
+    size_t first_;
     size_t fingers_;
     Past<Sight> past_;
 };

@@ -43,21 +43,33 @@ std::vector<Vec3> sides_of(const std::vector<hand::FingerPlace>& places) {
     return out;
 }
 
-double friction_of(const scene::Scene& scene, const scene::Body& body) {
-    const scene::Finger& finger = scene.fingers.front();
+double friction_of(const scene::Scene& scene, size_t first, const scene::Body& body) {
+    const scene::Finger& finger = scene.fingers[first];
     return scene::pair_friction(scene, body.name, body.friction, finger.name, finger.friction);
 }
 
-std::vector<double> frictions_of(const scene::Scene& scene) {
+std::vector<double> frictions_of(const scene::Scene& scene, size_t first) {
     std::vector<double> out;
-    for (const scene::Body& body : scene.bodies) out.push_back(friction_of(scene, body));
+    for (const scene::Body& body : scene.bodies) out.push_back(friction_of(scene, first, body));
     return out;
 }
 
-/// The fingers that the person moves with skill: the scene's first ones, up to those of another
-/// hand. Throws Error if the fingers of another hand are not the last.
+size_t first_finger(const Situation& situation) {
+    return situation.task->first_fingers[situation.participant];
+}
+
+/// The fingers that the person moves with skill: the participant's own; with one participant, the
+/// scene's first ones, up to those of another hand. Throws Error if the fingers of another hand are
+/// not the last.
 std::vector<hand::FingerPlace> own_places(const Situation& situation) {
     auto out = hand::finger_places(situation.hand, scene::finger_names(situation.scene));
+    const std::vector<size_t>& firsts = situation.task->first_fingers;
+    if (firsts.size() > 1) {
+        const size_t next = situation.participant + 1;
+        const size_t end = next < firsts.size() ? firsts[next] : out.size();
+        return {out.begin() + static_cast<std::ptrdiff_t>(first_finger(situation)),
+                out.begin() + static_cast<std::ptrdiff_t>(end)};
+    }
     const auto of_another = [](const hand::FingerPlace& f) { return f.centre || f.aperture; };
     const auto other = std::find_if(out.begin(), out.end(), of_another);
     const auto wrong = std::find_if_not(other, out.end(), of_another);
@@ -74,13 +86,14 @@ std::vector<hand::FingerPlace> own_places(const Situation& situation) {
 
 /// Objects as their appearance suggests: uniform, of ordinary density, with about their true
 /// friction.
-std::vector<GripMemory> looks_of(const scene::Scene& scene, const Traits& traits, uint64_t seed) {
+std::vector<GripMemory> looks_of(const scene::Scene& scene, size_t first, const Traits& traits,
+                                 uint64_t seed) {
     std::vector<GripMemory> out;
     Random random(seed, fmt::format("looks to {}", traits.id));
     for (scene::Body body : scene.bodies) {
         GripMemory& look = out.emplace_back();
         const double misjudged = std::exp(traits.friction_error * random.normal());
-        look.friction = misjudged * friction_of(scene, body);
+        look.friction = misjudged * friction_of(scene, first, body);
         body.mass.reset();
         body.density = kUsualDensity;
         if (body.moves_at_all()) look.weight = kGravity * scene::mass(body);
@@ -116,27 +129,28 @@ Person::Person(const Traits& traits, const Situation& situation)
     : traits_(traits),
       plan_(situation.task),
       numbers_(*plan_),
+      first_(first_finger(situation)),
       places_(own_places(situation)),
       impedance_(situation.hand.impedance),
-      start_{situation.hand.centre, situation.hand.aperture, 0},
+      start_{places_.front().centre.value_or(situation.hand.centre),
+             places_.front().aperture.value_or(situation.hand.aperture), 0},
       seed_(situation.seed),
       random_(seed_, fmt::format("person {}", traits.id)),
-      eyes_(traits.visual_delay, places_.size(), situation.tick),
-      touch_(sides_of(places_), frictions_of(situation.scene), situation.tick),
+      eyes_(traits.visual_delay, first_, places_.size(), situation.tick),
+      touch_(first_, sides_of(places_), frictions_of(situation.scene, first_), situation.tick),
       strains_(traits.visual_delay, situation.tick),
       known_(plan_->task.regions.size(), Vec3::Zero()),
       rotations_(plan_->states.size(), RotationMemory(traits.rotation(), traits.generalisation)),
       gains_(plan_->states.size(), GainMemory(traits.gain())),
       forces_(plan_->states.size(), ForceMemory(traits.force(), traits.force_generalisation)),
-      grip_(traits, looks_of(situation.scene, traits, situation.seed), situation.tick) {
+      grip_(traits, looks_of(situation.scene, first_, traits, situation.seed), situation.tick) {
     for (const scene::Body& body : situation.scene.bodies) bodies_.push_back(body.name);
     for (const std::string& name : plan_->phases()) phases_.push_back({name, 0, 0});
     for (const TaskPlan::PlannedState& planned : plan_->states) {
         std::vector<TaskPlan::Step>& own = steps_.emplace_back(planned.hand);
-        own.erase(std::remove_if(own.begin(), own.end(), [](const auto& s) { return !s.moves(0); }),
-                  own.end());
+        std::erase_if(own, [&](const auto& step) { return !step.moves(first_); });
     }
-    if (places_.size() < situation.scene.fingers.size())
+    if (plan_->first_fingers.size() == 1 && places_.size() < situation.scene.fingers.size())
         other_.emplace(plan_, situation.hand, scene::finger_names(situation.scene));
     restart();
 }
@@ -219,8 +233,9 @@ double Person::noisy(double value, double share) noexcept {
 }
 
 hand::FingerTarget Person::do_target(int finger, double t) const noexcept {
-    if (static_cast<size_t>(finger) >= places_.size()) return other_->target(finger, t);
-    const hand::FingerPlace& place = places_[static_cast<size_t>(finger)];
+    const size_t own = static_cast<size_t>(finger) - first_;
+    if (own >= places_.size()) return other_ ? other_->target(finger, t) : hand::FingerTarget{};
+    const hand::FingerPlace& place = places_[own];
     const Aim aim = aim_.at(t);
     const Aim rate = aim_.rate(t);
     hand::FingerTarget target;
@@ -249,15 +264,17 @@ void Person::measure(const frame::Frame& frame) noexcept {
     centre_ = Vec3::Zero();
     double force = 0;
     for (size_t i = 0; i < places_.size(); ++i) {
-        centre_ += (frame.fingers[i].p_WH - places_[i].offset) / count;
-        force += frame.fingers[i].f_sent_W.norm() / count;
+        const frame::FingerFrame& finger = frame.fingers[first_ + i];
+        centre_ += (finger.p_WH - places_[i].offset) / count;
+        force += finger.f_sent_W.norm() / count;
     }
     const double tick = seconds(frame.time) - now_;
     now_ = seconds(frame.time);
     felt_ += (force - felt_) * std::clamp(tick / kFeelTime, 0.0, 1.0);
     half_ = 0;
     for (size_t i = 0; i < places_.size(); ++i) {
-        half_ += (frame.fingers[i].p_WH - places_[i].offset - centre_).dot(places_[i].side) / count;
+        const Vec3& p_WH = frame.fingers[first_ + i].p_WH;
+        half_ += (p_WH - places_[i].offset - centre_).dot(places_[i].side) / count;
     }
 }
 
@@ -419,17 +436,18 @@ void Person::finish_step(const Sight& sight) noexcept {
 
 Vec3 Person::target(const Sight& sight, const TaskPlan::Step& step) const noexcept {
     const auto region = static_cast<size_t>(step.step.reach.index);
-    if ((sight.shown >> region & 1u) != 0) return sight.target[region] + step.step.move;
-    if ((seen_ >> region & 1u) != 0) return known_[region] + step.step.move;
+    const Vec3 move = numbers_.of(step.step.move);
+    if ((sight.shown >> region & 1u) != 0) return sight.target[region] + move;
+    if ((seen_ >> region & 1u) != 0) return known_[region] + move;
     // never seen: its position in the plan
-    return numbers_.cell().p_W[region] + step.step.move;
+    return numbers_.cell().p_W[region] + move;
 }
 
 void Person::begin_step(const Sight& sight) noexcept {
     const TaskPlan::Step& next = steps()[step_];
     corrections_ = 0;
     const double aperture = grip_.holds() ? 2 * half_ : aim_.goal().aperture;
-    const double wanted = next.step.aperture.value_or(aperture);
+    const double wanted = next.step.aperture ? numbers_.of(*next.step.aperture) : aperture;
     if (grip_.phase() == GripPhase::preload) {
         doing_ = Doing::waiting;  // until the fingers have settled
         return;
@@ -446,10 +464,10 @@ void Person::begin_step(const Sight& sight) noexcept {
                           look(sight.hand, traits_.visual_noise, random_);
         way.centre = plan_reach(sight, seen);
     } else {
-        way.centre = noisy(1, traits_.extent_noise) * next.step.move;
+        way.centre = noisy(1, traits_.extent_noise) * numbers_.of(next.step.move);
     }
-    const double duration =
-        std::max(kShortest, noisy(traits_.tempo * next.step.duration, traits_.tempo_noise));
+    const double duration = std::max(
+        kShortest, noisy(traits_.tempo * numbers_.of(next.step.duration), traits_.tempo_noise));
     if (grip_.phase() == GripPhase::ready && way.centre.z() > kUpward) {
         grip_.lift(now_, aim_);
         pending_ = way;
@@ -547,7 +565,7 @@ Strain Person::strain(const frame::Frame& frame) const noexcept {
     const Aim rate = aim_.rate(now_);
     const auto count = static_cast<double>(places_.size());
     Vec3 v_WH = Vec3::Zero();
-    for (size_t i = 0; i < places_.size(); ++i) v_WH += frame.fingers[i].v_WH / count;
+    for (size_t i = 0; i < places_.size(); ++i) v_WH += frame.fingers[first_ + i].v_WH / count;
     const model::MinimumJerk share = model::minimum_jerk(done);
     const Vec3 off = centre_ - aim.centre + share.share * reach_.strayed;
     const Vec3 drift = v_WH - rate.centre + share.rate / reach_.duration * reach_.strayed;

@@ -29,6 +29,7 @@ struct Situation {
     const hand::HandSpec& hand;
     double tick;  ///< [s]
     uint64_t seed;
+    size_t participant = 0;  ///< of a task for two: which of them, whose hand the person has
 };
 
 class Person final : public task::SeeingDriver {
@@ -89,6 +90,7 @@ class Person final : public task::SeeingDriver {
     std::shared_ptr<const task::TaskPlan> plan_;
     task::TrialNumbers numbers_;
     std::vector<std::vector<task::TaskPlan::Step>> steps_;  // by state
+    size_t first_;                                          // index of the hand's first finger
     std::vector<hand::FingerPlace> places_;
     std::optional<task::TaskHand> other_;  // moves the fingers of other hands, without senses
     hand::Impedance impedance_;

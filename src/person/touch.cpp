@@ -26,8 +26,9 @@ const frame::ContactFrame* hardest(const frame::Frame& frame, size_t finger) noe
 
 }  // namespace
 
-Touch::Touch(std::vector<Vec3> sides, std::vector<double> frictions, double tick)
-    : sides_(std::move(sides)),
+Touch::Touch(size_t first, std::vector<Vec3> sides, std::vector<double> frictions, double tick)
+    : first_(first),
+      sides_(std::move(sides)),
       frictions_(std::move(frictions)),
       tick_(tick),
       slid_(sides_.size(), 0) {}
@@ -44,7 +45,7 @@ Feeling Touch::feel(const frame::Frame& frame) noexcept {
     Vec3 v_WH = Vec3::Zero();
     int pressing = 0;
     for (size_t i = 0; i < sides_.size(); ++i) {
-        const frame::FingerFrame& finger = frame.fingers[i];
+        const frame::FingerFrame& finger = frame.fingers[first_ + i];
         v_WH += finger.v_WH / count;
         out.rise += finger.v_WP.z() / count;
         out.force_W -= finger.f_sent_W;
@@ -52,7 +53,7 @@ Feeling Touch::feel(const frame::Frame& frame) noexcept {
         out.grip += inward / count;
         if (inward > kLeastForce) ++pressing;
 
-        const frame::ContactFrame* contact = hardest(frame, i);
+        const frame::ContactFrame* contact = hardest(frame, first_ + i);
         if (contact == nullptr) {
             slid_[i] = 0;
             continue;

@@ -22,15 +22,17 @@ struct Feeling {
 
 class Touch {
   public:
-    /// `sides`: unit directions of the fingers from the hand's centre. `frictions`: unperturbed
-    /// friction of a finger on each body of the scene. `tick` [s].
-    Touch(std::vector<Vec3> sides, std::vector<double> frictions, double tick);
+    /// `first`: index of the hand's first finger. `sides`: unit directions of the fingers from the
+    /// hand's centre. `frictions`: unperturbed friction of a finger on each body of the scene.
+    /// `tick` [s].
+    Touch(size_t first, std::vector<Vec3> sides, std::vector<double> frictions, double tick);
 
     void restart() noexcept;
     /// The sensation in this Frame. Every Frame must be passed, in order.
     Feeling feel(const frame::Frame& frame) noexcept;
 
   private:
+    size_t first_;
     std::vector<Vec3> sides_;
     std::vector<double> frictions_;
     double tick_;

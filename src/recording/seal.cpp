@@ -14,8 +14,8 @@
 namespace dihaptic::recording {
 namespace {
 
-constexpr std::string_view kMade[] = {"trials.csv", "phases.csv", "episodes.csv",
-                                      "lifts.csv",  "events.csv", "fault.csv"};
+constexpr std::string_view kMade[] = {"trials.csv", "phases.csv",      "episodes.csv", "lifts.csv",
+                                      "events.csv", "corrections.csv", "fault.csv"};
 /// Tables made before the first tick, or while the session ran.
 constexpr std::string_view kGiven[] = {"procedures.csv", "trials-before.csv", "movement-faults.csv",
                                        "shown.csv",      "head.csv",          "heard.csv"};

@@ -84,11 +84,12 @@ struct SessionInfo : Setup {
     std::string started;       ///< ISO 8601 with offset
     std::string command;       ///< as typed
     Participant participant;
-    std::optional<InStudy> in_study;  ///< none: the session does not belong to a study
-    std::string resumes;              ///< folder of the session that this one resumes
-    std::vector<std::string> notes;   ///< warnings given at the start, and findings of the recovery
-    std::string finished;             ///< how the session ended, in words
-    std::vector<TableSeal> tables;    ///< once the session has ended (recording/seal.h)
+    std::optional<Participant> partner;  ///< the second participant of a task for two
+    std::optional<InStudy> in_study;     ///< none: the session does not belong to a study
+    std::string resumes;                 ///< folder of the session that this one resumes
+    std::vector<std::string> notes;  ///< warnings given at the start, and findings of the recovery
+    std::string finished;            ///< how the session ended, in words
+    std::vector<TableSeal> tables;   ///< once the session has ended (recording/seal.h)
     std::string seal;  ///< checksum of this file's own data, once the session has ended
 
     template <class Visitor>
@@ -100,6 +101,7 @@ struct SessionInfo : Setup {
         v("started", started);
         v("command", command);
         v("participant", participant);
+        v("partner", partner);
         v("in_study", in_study);
         v("resumes", resumes);
         Setup::visit(v);

@@ -9,14 +9,48 @@
 
 namespace dihaptic::rows {
 
+/// Version of the HED schema (www.hedtags.org) that has the tags.
+inline constexpr const char* kHedSchema = "8.3.0";
+
+struct EventKind {
+    const char* name;
+    const char* value;  ///< meaning of the event's detail
+    const char* hed;    ///< its HED tags
+};
+inline constexpr EventKind kEventKinds[] = {
+    {"trial", "the attempt's number", "Experiment-structure, Experimental-trial"},
+    {"phase", "the state that began", "Experiment-structure, Task-activity"},
+    {"outcome", "how the trial ended", "Experiment-structure, Task-effect-evidence"},
+    {"answer", "the answer's column and number, and its form with the version",
+     "Agent-action, Experiment-participant, Participant-response"},
+    {"message", "message shown to the participant",
+     "Sensory-event, Visual-presentation, Instructional"},
+    {"line", "line shown to the participant below the message",
+     "Sensory-event, Visual-presentation, Instructional"},
+    {"page", "text or picture of the page shown",
+     "Sensory-event, Visual-presentation, Instructional"},
+    {"sound", "the sound that began", "Sensory-event, Auditory-presentation"},
+    {"sound ends", "the sound that ended", "Experiment-control, Auditory-presentation"},
+    {"marker", "the code sent", "Experiment-control"},
+    {"perturbation", "on or off", "Experiment-control"},
+    {"put back", "number of bodies placed", "Experiment-control"},
+    {"setting", "the setting and its new value", "Experiment-control"},
+    {"paused", "what pausing did", "Experiment-control"},
+    {"went on", "what it went on after", "Experiment-control"},
+    {"touch", "the finger, and the object touched", "Agent-action, Experiment-participant, Touch"},
+    {"release", "the finger, and the object released",
+     "Agent-action, Experiment-participant, Release"},
+    {"lift-off", "the object", "Agent-action, Experiment-participant, Lift"},
+    {"replaced", "the object", "Agent-action, Experiment-participant, Task-activity"},
+    {"limit", "the limit that was reached", "Data-feature"},
+};
+
 /// An event in a tick.
 struct EventRow {
     int64_t tick = 0;  ///< tick in the log; not in the table
     double time = 0;   ///< [s]
     int trial = 0;
-    std::string name;  ///< "touch", "release", "lift-off", "replaced", "phase", "limit", "setting",
-                       ///< "went on"; with a task "trial", "perturbation", "marker", "message",
-                       ///< "line", "page", "sound", "put back", "answer", "outcome"
+    std::string name;            ///< one of kEventKinds
     std::string detail;          ///< fingers, bodies or values concerned
     double shown = kUnmeasured;  ///< [s]
     double heard = kUnmeasured;  ///< [s]

@@ -1,5 +1,6 @@
 #include "scene/texture.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -49,6 +50,15 @@ double Texture::pixel() const noexcept {
 double Texture::steepest() const noexcept {
     if (kind == TextureKind::picture) return picture ? picture->steepest() * height / pixel() : 0;
     return std::numbers::pi * height / wavelength;
+}
+
+void Texture::scale(const Texture& given, double wavelength_scale, double height_scale,
+                    double friction_scale) noexcept {
+    wavelength = wavelength_scale * given.wavelength;
+    height = std::min(kHighest, height_scale * given.height);
+    friction = std::min(1.0, friction_scale * given.friction);
+    const double slope = steepest();
+    if (slope > kSteepest) height *= kSteepest / slope;
 }
 
 Relief Texture::at(const Vec3& p_B, const Vec3& n_B) const noexcept {

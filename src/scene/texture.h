@@ -69,6 +69,11 @@ struct Texture {
     /// The texture's steepest slope.
     double steepest() const noexcept;
 
+    /// Takes the wavelength, height and friction of `given`, multiplied by these factors, but never
+    /// more than kHighest, kSteepest and a friction of 1 allow. Allocates nothing.
+    void scale(const Texture& given, double wavelength_scale, double height_scale,
+               double friction_scale) noexcept;
+
     /// The texture on a face with the normal n_B at p_B [m], in the body's frame. A ridge passes
     /// through the body's origin; a grid has its rows along the two axes of the body's frame that
     /// are most nearly parallel to the face; a picture has its centre at the origin. With r from 0

@@ -396,7 +396,8 @@ void Servo::order_bodies() noexcept {
     for (const frame::PropertiesFrame& now : task.properties) {
         world_.set_properties(
             {now.body}, {now.mass_scale, now.weight_scale, now.turning_scale, now.friction_scale,
-                         now.stiffness_scale, now.restitution_scale});
+                         now.stiffness_scale, now.restitution_scale, now.texture_wavelength_scale,
+                         now.texture_height_scale, now.texture_friction_scale});
     }
 }
 

@@ -13,6 +13,7 @@
 #include "base/number.h"
 #include "base/regular_file.h"
 #include "base/text_file.h"
+#include "person/pair.h"
 #include "person/person.h"
 #include "person/simulated_limits.h"
 #include "recording/seal.h"
@@ -20,6 +21,7 @@
 #include "rows/trial_row.h"
 #include "session/plan_checks.h"
 #include "session/safety_limits.h"
+#include "session/seated_people.h"
 #include "sound/player.h"
 #include "task/run/opening.h"
 #include "task/run/task_director.h"
@@ -289,15 +291,34 @@ Plan make_plan(const Request& request) {
     return plan;
 }
 
-std::shared_ptr<person::Person> sit_down(Plan& plan, const person::Traits& traits) {
+bool is_for_two(const Plan& plan) {
+    return plan.task && plan.task->first_fingers.size() == 2;
+}
+
+std::string partner_of(const std::string& id) {
+    return id + "-partner";
+}
+
+std::shared_ptr<person::Person> sit_down(Plan& plan, const person::Traits& traits,
+                                         const std::optional<person::Traits>& partner) {
     for (const Problem& limit : person::simulated_limits(*plan.task))
         plan.warnings.push_back(limit);
-    plan.person = to_yaml(write_fields(traits));
-    auto person = std::make_shared<person::Person>(
-        traits,
-        person::Situation{plan.task, plan.scene, plan.hand, plan.settings.tick(), plan.seed});
+    SeatedPeople seated{traits, {}};
+    const auto seat = [&](const person::Traits& of, size_t participant) {
+        return std::make_shared<person::Person>(
+            of, person::Situation{plan.task, plan.scene, plan.hand, plan.settings.tick(), plan.seed,
+                                  participant});
+    };
+    auto person = seat(traits, 0);
     plan.seeing = person;
-    plan.driver = person;
+    if (is_for_two(plan)) {
+        seated.partner = partner.value_or(traits);
+        if (!partner) seated.partner->id = partner_of(traits.id);
+        plan.seeing = std::make_shared<person::Pair>(person, seat(*seated.partner, 1),
+                                                     plan.task->first_fingers[1]);
+    }
+    plan.person = to_yaml(write_fields(seated));
+    plan.driver = plan.seeing;
     plan.moved_by = {
         recording::Mover::simulated_person, recording::program_version(),
         traits.group.empty() ? traits.population : traits.population + ", group " + traits.group,

@@ -80,9 +80,16 @@ bool on_real_devices(const Request& request);
 /// Error with every problem found.
 Plan make_plan(const Request& request);
 
+/// Whether the plan's task is for two participants.
+bool is_for_two(const Plan& plan);
+/// Identifier of a simulated participant's partner.
+std::string partner_of(const std::string& id);
+
 /// Puts a simulated person in place of the plan's hand, and returns the person, who belongs to the
-/// plan. The plan must have trials.
-std::shared_ptr<person::Person> sit_down(Plan& plan, const person::Traits& traits);
+/// plan. The plan must have trials. `partner`: of a task for two; without one, somebody with the
+/// same traits, who differs in what happens by chance.
+std::shared_ptr<person::Person> sit_down(Plan& plan, const person::Traits& traits,
+                                         const std::optional<person::Traits>& partner = {});
 
 /// The program that resumes a session: only a window has a mouse.
 enum class Seat { terminal, window };

@@ -18,6 +18,7 @@
 #include "session/load_checks.h"
 #include "session/mass_checks.h"
 #include "session/rehearsal.h"
+#include "session/texture_checks.h"
 #include "task/plan/levels.h"
 #include "task/run/trial_numbers.h"
 
@@ -168,32 +169,6 @@ void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
                             "if its friction is separate from the dynamics, a point carries no "
                             "moment about a contact's normal",
                             "Leave it out, or use 'friction: together' under 'proxy'.");
-    }
-}
-
-/// Warns of textures that the loop cannot render, or that a proxy does not feel.
-void check_textures(const Plan& plan, Diagnostics& diagnostics) {
-    constexpr double kSpeed = 0.25;  // speed of an exploring hand [m/s]
-    const double way = kSpeed * plan.settings.dynamics.every / plan.settings.rate;
-    const bool apart = any_finger(plan, scene::ProxyKind::point) &&
-                       plan.settings.proxy.friction == frame::PointFriction::apart;
-    for (const scene::Body& body : plan.scene.bodies) {
-        const std::optional<scene::Texture>& texture = body.surface.texture;
-        if (!texture || texture->height == 0) continue;
-        // wavelength of a grating of the same height and slope
-        const double ridge = std::numbers::pi * texture->height / texture->steepest();
-        if (ridge < 4 * way)
-            diagnostics.warning(
-                texture->place, "wavelength",
-                fmt::format("at {:g} mm/s a step passes {:.2g} of {}'s ridges of {:.3g} mm: they "
-                            "are felt as noise",
-                            1e3 * kSpeed, way / ridge, body.name, 1e3 * ridge),
-                fmt::format("Make it {:.3g} mm or more.", 4e3 * way / ridge * texture->wavelength));
-        if (apart)
-            diagnostics.warning(
-                texture->place, "height",
-                "if its friction is separate from the dynamics, a point does not feel heights",
-                "Use proxy: friction: together.");
     }
 }
 

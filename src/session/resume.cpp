@@ -15,6 +15,7 @@
 #include "base/text_file.h"
 #include "recording/raw_log.h"
 #include "rows/trial_row.h"
+#include "session/seated_people.h"
 
 namespace dihaptic::session {
 namespace {
@@ -40,10 +41,10 @@ void sit_down_again(Plan& plan, const recording::SessionFolder& folder) {
                     "Run the experiment again with that person: dihaptic.run(person=...).");
     }
     Diagnostics diagnostics;
-    person::Traits traits;
-    read_fields(traits, node, diagnostics);
+    SeatedPeople seated;
+    read_fields(seated, node, diagnostics);
     diagnostics.throw_if_errors();
-    sit_down(plan, traits);
+    sit_down(plan, seated.person, seated.partner);
 }
 
 const char* who_goes_on(Mover mover) {

@@ -60,19 +60,31 @@ std::vector<recording::DeviceRecord> records_of(const servo::Servo& servo,
     return out;
 }
 
-/// Throws Error when an entry for the session's record could not be read back from it.
-void check_words(const Plan& plan, const RunOptions& options) {
-    const std::string& id = options.participant.id;
-    check_text(id, "participant");
+/// Throws Error when facts about a participant could not be read back from the session's record.
+void check_words(const recording::Participant& participant, const char* what) {
+    const std::string& id = participant.id;
+    check_text(id, what);
     if (!id.empty() && std::string_view("=+-@").find(id.front()) != std::string_view::npos) {
-        throw Error({"participant", 0}, shortened(id),
+        throw Error({what, 0}, shortened(id),
                     "starts with a character that a spreadsheet would take for a formula, if it "
                     "opens a table",
                     "Start with a letter or a digit, e.g. S07.");
     }
-    check_text(options.participant.age, "age");
-    check_text(options.participant.sex, "sex");
-    check_text(options.participant.handedness, "handedness");
+    check_text(participant.age, "age");
+    check_text(participant.sex, "sex");
+    check_text(participant.handedness, "handedness");
+}
+
+/// Throws Error when an entry for the session's record could not be read back from it.
+void check_words(const Plan& plan, const RunOptions& options) {
+    check_words(options.participant, "participant");
+    check_words(options.partner, "partner");
+    if (!options.partner.id.empty() && !is_for_two(plan))
+        throw Error({"partner", 0}, options.partner.id, "has no hand: the task is for one person",
+                    "Leave --partner out, or give the task two participants.");
+    if (!options.partner.id.empty() && options.partner.id == options.participant.id)
+        throw Error({"partner", 0}, options.partner.id, "is the participant's identifier too",
+                    "Give the two participants different identifiers.");
     check_text(options.out, "folder for sessions");
     check_text(options.command, "command", Lines::several);
     check_text(plan.file, "experiment file");
@@ -247,6 +259,11 @@ void Run::describe() {
     info_.clock = real_ ? "real" : "virtual";
     info_.seed = number_text(plan_.seed);
     info_.participant = options_.participant;
+    if (is_for_two(plan_)) {
+        info_.partner = options_.partner;
+        if (options_.partner.id.empty())
+            info_.notes.emplace_back("the second participant of this task for two is not named");
+    }
     info_.in_study = options_.in_study;
     info_.moved_by = plan_.moved_by;
     info_.study = plan_.study;

@@ -23,6 +23,7 @@ struct RunOptions {
     std::string command;           ///< command line as typed, for the record
     double sync = 0;  ///< interval at which raw.log is synchronised to the disk [s]; 0: at its end
     recording::Participant participant;
+    recording::Participant partner;  ///< the second participant of a task for two
     std::optional<recording::InStudy> in_study;
     ValueRing<char>* keys = nullptr;  ///< the operator's, until a tick takes them
     /// Called from another thread when a call to the devices never returns, so that run_session()

@@ -52,13 +52,21 @@ Node inputs_of(const std::string& experiment) {
 
 /// What was recorded in a folder. Throws Error when it is not a session of this participant, since
 /// one that is passed over would be done again.
-study::Visit visit_in(const std::string& path, size_t session, const study::Member& member,
-                      std::string& resumes) {
+study::Visit visit_in(const std::string& path, const study::StudyFile& study, size_t session,
+                      const study::Member& member, std::string& resumes) {
     const auto folder = recording::SessionFolder::open_tables(path);
     const recording::SessionInfo info = folder.read_info();
     const std::string& id = info.participant.id;
     if (id != member.id && id != recording::simulated_id(member.id)) {
         throw Error({path, 0}, "participant", fmt::format("is '{}', not {}", id, member.id),
+                    "Move the folder to where it belongs.");
+    }
+    const std::string& name = study.sessions[session].name;
+    if (!info.in_study || info.in_study->session != name) {
+        throw Error({path, 0}, "in_study",
+                    info.in_study
+                        ? fmt::format("is {} of a study, not {}", info.in_study->session, name)
+                        : "is missing: it was recorded outside the study",
                     "Move the folder to where it belongs.");
     }
     const double started = study::seconds_of(info.started);
@@ -84,8 +92,9 @@ void begin_with_first(std::vector<std::pair<study::Visit, std::string>>& found) 
 }
 
 /// Recordings of one session, in the order of their start.
-std::vector<study::Visit> visits_in(const std::string& folder, size_t session,
+std::vector<study::Visit> visits_in(const study::StudyFile& study, size_t session,
                                     const study::Member& member) {
+    const std::string folder = session_folder(study, member, session);
     std::vector<study::Visit> out;
     std::vector<std::pair<study::Visit, std::string>> found;  // with the session that each resumes
     std::vector<std::string> paths;
@@ -98,9 +107,10 @@ std::vector<study::Visit> visits_in(const std::string& folder, size_t session,
                     "Recordings in it would not count: mend its permissions.");
     }
     for (const std::string& path : paths) {
-        if (fs::path(path).filename().string().starts_with(kUnfinished)) continue;
+        const std::string name = fs::path(path).filename().string();
+        if (name.starts_with(kUnfinished) || name.starts_with('.')) continue;  // e.g. .DS_Store
         auto& [visit, resumes] = found.emplace_back();
-        visit = visit_in(path, session, member, resumes);
+        visit = visit_in(path, study, session, member, resumes);
     }
     // by time, not by name: names have local time
     std::ranges::sort(found, {},
@@ -156,7 +166,7 @@ recording::InStudy place_in(const study::StudyFile& study, const study::Member& 
 std::vector<study::Visit> visits_of(const study::StudyFile& study, const study::Member& member) {
     std::vector<study::Visit> out;
     for (size_t i = 0; i < study.sessions.size(); ++i) {
-        const auto some = visits_in(session_folder(study, member, i), i, member);
+        const auto some = visits_in(study, i, member);
         out.insert(out.end(), some.begin(), some.end());
     }
     return out;

@@ -10,6 +10,9 @@
 namespace dihaptic::study {
 
 inline constexpr std::array<std::string_view, 3> kStandardFacts{"age", "sex", "handedness"};
+/// Columns of participants.csv beside the facts.
+inline constexpr std::array<std::string_view, 6> kParticipantColumns{
+    "id", "group", "number", "added", "version", "withdrawn"};
 
 /// A fact of the study's own; null if it is none.
 const FactSpec* spec_of(const StudyFile& study, const std::string& fact);

@@ -72,6 +72,13 @@ double seconds_of(const std::string& iso) {
            numbers[5] - offset;
 }
 
+const Visit* counted(const StudyFile& study, const std::vector<Visit>& visits, size_t session) {
+    const Visit* const visit = latest(visits, session);
+    if (visit == nullptr || visit->complete) return visit;
+    const bool enough = !visit->running && share_of(*visit) >= study.resuming.complete;
+    return enough ? visit : nullptr;
+}
+
 Next next_for(const StudyFile& study, const std::vector<Visit>& visits, double now) {
     Next next;
     const Visit* before = nullptr;
@@ -95,7 +102,7 @@ Next next_for(const StudyFile& study, const std::vector<Visit>& visits, double n
                 next.folder = visit->folder;
                 return next;
             }
-            if (share_of(*visit) < study.resuming.complete) {
+            if (counted(study, visits, i) == nullptr) {
                 next.act = Act::begin;
                 next.note = fmt::format(
                     "{} was interrupted {:.1f} h ago with {} of {} trials: it begins anew, and "

@@ -34,6 +34,10 @@ struct Next {
 /// cannot be read.
 double seconds_of(const std::string& iso);
 
+/// The recording that counts as a session: the first complete one; otherwise the last, if as many
+/// of its trials are done as the study's `resuming` asks for. Null: none.
+const Visit* counted(const StudyFile& study, const std::vector<Visit>& visits, size_t session);
+
 /// What comes next, by the study's rules; `visits` in the order of their start. `now`: [s].
 Next next_for(const StudyFile& study, const std::vector<Visit>& visits, double now);
 

@@ -142,8 +142,13 @@ class Checker {
 
     void check_facts() {
         std::set<std::string> names(kStandardFacts.begin(), kStandardFacts.end());
-        for (const FactSpec& fact : study_.facts)
+        for (const FactSpec& fact : study_.facts) {
             check_name(fact.place, "name", fact.name, "_", names);
+            if (std::ranges::find(kParticipantColumns, fact.name) != kParticipantColumns.end())
+                error(fact.place, "name",
+                      fmt::format("'{}' is another column of participants.csv", fact.name),
+                      "Give the fact another name.");
+        }
     }
 
     void check_include() {

@@ -4,6 +4,7 @@ Usage: studies_test.py PROGRAM, from the project's folder.
 """
 import csv
 import glob
+import json
 import os
 import pathlib
 import re
@@ -243,6 +244,64 @@ class Studies(unittest.TestCase):
                      "all 4 places are taken")
         self.refused(dihaptic("rehearse", self.study, "--slurm", "2"), "not possible for a study")
 
+    def test_a_study_is_exported_as_a_whole(self):
+        self.write("title: Lifts\nabout: How people lift.\ngroups: [{ name: a, people: 1 }, { name: b, people: 1 }]\n"
+                   "facts: [{ name: vision, values: [normal, corrected] }]\n"
+                   "sessions: [{ name: day1, experiment: short.yaml }, { name: day2, experiment: heavy.yaml }]\n")
+        result = dihaptic("rehearse", self.study, "--jobs", "2")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        rehearsed = ["--rehearsed", self.folder + "/rehearsal"]
+        self.refused(dihaptic("report", self.study), "has no session yet", "--rehearsed")
+        said = dihaptic("report", self.study, *rehearsed)
+        self.assertIn("rehearsal/sessions/report.html", said.stdout)
+        self.assertIn("of 4 sessions", said.stdout)
+        data = self.folder + "/bids"
+        # the recordings of a rehearsal are not kept, but its tables are
+        self.refused(dihaptic("export", self.study, "--bids", data, *rehearsed), "raw.log")
+        tables = self.folder + "/share/tables"
+        said = dihaptic("export", self.study, "--psych-ds", tables + "/", *rehearsed)
+        self.assertEqual(said.returncode, 0, said.stderr)
+        self.assertIn("4 sessions of 2 people", said.stdout)
+        self.check_psych_ds(pathlib.Path(tables))
+        self.refused(dihaptic("export", self.study, "--psych-ds", tables, *rehearsed), "exists")
+        self.refused(dihaptic("export", self.study, "--psych-ds", self.folder + "/none"), "without data")
+        self.refused(dihaptic("export", self.study, "--csv", "grip_force"), "curves of one session")
+        # sessions of a participant are added as they come
+        result = dihaptic("rehearse", self.study, "--jobs", "2", "--keep-recordings", "--out", self.folder + "/kept")
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        for session, added in [(None, 4), (None, 0)]:
+            said = dihaptic("export", self.study, "--bids", data, "--rehearsed", self.folder + "/kept")
+            self.assertEqual(said.returncode, 0, said.stderr)
+            self.assertRegex(said.stdout, rf"{added} sessions added to .*, which has 4 sessions of 2 people")
+        self.assertEqual(len(glob.glob(data + "/sub-*/ses-*/motion/*_events.tsv")), 4)
+        session = glob.glob(self.folder + "/kept/sessions/*/day1/*")[0]
+        self.refused(dihaptic("export", session, "--psych-ds", self.folder + "/none"), "not a study's file")
+
+    def check_psych_ds(self, folder):
+        """The rules of Psych-DS: names of files, and that every column is described and every description has a column."""
+        description = json.loads((folder / "dataset_description.json").read_text())
+        self.assertEqual((description["@type"], description["@context"]), ("Dataset", "https://schema.org/"))
+        self.assertEqual(description["name"], "Simulation: Lifts")
+        self.assertEqual(description["description"], "How people lift.")
+        for name in ["README.md", "CHANGES.md"]:
+            self.assertTrue((folder / name).is_file())
+        files = sorted((folder / "data").glob("*.csv"))
+        self.assertIn("study-study_description-trials_data.csv", [file.name for file in files])
+        everywhere = set()
+        for file in files:
+            self.assertRegex(file.name, r"^([a-z]+-[a-zA-Z0-9]+)(_[a-z]+-[a-zA-Z0-9]+)*_data\.csv$")
+            with file.open(newline="") as table:
+                rows = list(csv.reader(table))
+            self.assertEqual({len(row) for row in rows}, {len(rows[0])}, file.name)
+            self.assertEqual(len(set(rows[0])), len(rows[0]), file.name)
+            variables = json.loads(file.with_suffix(".json").read_text())["variableMeasured"]
+            self.assertEqual([v["name"] for v in variables], rows[0])
+            for variable in variables:
+                self.assertEqual(variable["@type"], "PropertyValue")
+                self.assertTrue(variable.get("description"), f"{file.name}: {variable['name']}")
+            everywhere |= set(rows[0])
+        self.assertEqual({v["name"] for v in description["variableMeasured"]}, everywhere)
+
     def test_what_was_learned_slowly_is_there_on_the_next_day(self):
         text = pathlib.Path("experiments/rotation-reversal.yaml").read_text().replace("../", os.getcwd() + "/")
         for name, repeats in {"long": ["4", "60", "1", "2"], "brief": ["2", "6", "1", "2"]}.items():
@@ -374,6 +433,8 @@ class Studies(unittest.TestCase):
             ("is: held, at_least", "at_least", "an outcome is a text"),
             ("at_least: 0.5", "at_least: 50", "is a share of trials"),
             ("facts:", "allocation: { method: blocks, block: 3 }\nfacts:", "Use a multiple of 2"),
+            ("facts: [{ name: vision", "facts: [{ name: group, values: [a, b] }, { name: vision",
+             "'group' is another column of participants.csv"),
         ]:
             with self.subTest(new):
                 self.assertIn(old, STUDY)

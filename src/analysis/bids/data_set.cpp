@@ -13,6 +13,7 @@
 #include "base/output.h"
 #include "base/regular_file.h"
 #include "base/text_file.h"
+#include "rows/event_row.h"
 
 namespace dihaptic::analysis::bids {
 namespace {
@@ -25,6 +26,7 @@ void write_anew(const std::string& text, const std::string& file) {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+constexpr const char* kHedVersion = "HEDVersion";
 constexpr const char* kSimulated = "Simulated";  // key in dataset_description.json: true or false
 
 /// Whether dataset_description.json states that the data are simulated; nullopt if it does not, as
@@ -149,16 +151,23 @@ void DataSet::check_participant() const {
     same("seed", info_.moved_by.seed, "of seed");
 }
 
-void DataSet::check_recordings() const {
+std::string DataSet::recording_there() const {
     const Tsv scans_table(scans(), "filename");
     const std::string own = fs::path(session_.path()).filename().string();
     for (size_t i = 0; i < scans_table.rows(); ++i) {
         const std::string recording = scans_table.text(i, "filename");
-        if (scans_table.text(i, "session") != own || !is_there(file(place() + "/" + recording)))
-            continue;
-        throw Error({scans(), 0}, own, "is in the data set: " + recording,
-                    "Export another session, or remove this one from the data set first.");
+        if (scans_table.text(i, "session") == own && is_there(file(place() + "/" + recording)))
+            return recording;
     }
+    return "";
+}
+
+void DataSet::check_recordings() const {
+    const std::string there = recording_there();
+    if (there.empty()) return;
+    throw Error({scans(), 0}, fs::path(session_.path()).filename().string(),
+                "is in the data set: " + there,
+                "Export another session, or remove this one from the data set first.");
 }
 
 void DataSet::describe() const {
@@ -167,6 +176,7 @@ void DataSet::describe() const {
         const size_t blank = info_.program.find(' ');
         Json json{{"Name", simulated ? "Simulation: " + info_.title : info_.title},
                   {"BIDSVersion", "1.9.0"},
+                  {kHedVersion, rows::kHedSchema},
                   {"DatasetType", "raw"},
                   {"GeneratedBy", Json::array({{{"Name", info_.program.substr(0, blank)},
                                                 {"Version", blank == std::string::npos
@@ -178,10 +188,20 @@ void DataSet::describe() const {
         if (!info_.study.keywords.empty()) json["Keywords"] = info_.study.keywords;
         write_anew(json.dump(2) + "\n", name);
     }
+    add_hed_version();
     if (!is_there(file("README")) && !is_there(file("README.md")))
         write_anew(readme(info_, simulated), file("README"));
     if (!is_there(file("participants.json")))
         write_anew(kParticipantColumns.dump(2) + "\n", file("participants.json"));
+}
+
+/// Earlier versions, and other programs, made data sets without HED tags.
+void DataSet::add_hed_version() const {
+    const std::string name = file("dataset_description.json");
+    Json json = Json::parse(read_text_file(name), nullptr, false);
+    if (json.contains(kHedVersion)) return;
+    json[kHedVersion] = rows::kHedSchema;
+    write_anew(json.dump(2) + "\n", name);
 }
 
 void DataSet::add_participant() const {

@@ -34,6 +34,8 @@ class DataSet {
     /// simulated data; a participant whose label belongs to another; a recording that the data set
     /// already contains.
     void check() const;
+    /// The recording of this session that the data set contains; empty: none.
+    std::string recording_there() const;
     /// Adds the participant, and the recordings, whose paths begin at place().
     void add(const std::vector<std::string>& recordings) const;
 
@@ -44,6 +46,7 @@ class DataSet {
     void check_participant() const;
     void check_recordings() const;
     void describe() const;
+    void add_hed_version() const;
     void add_participant() const;
     void add_visit() const;
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -104,28 +105,19 @@ void describe_answers(const task::Task& task, Json& json) {
 }
 
 Json sidecar(const std::vector<Column>& columns, const recording::SessionInfo& info) {
+    Json levels, tags;
+    for (const rows::EventKind& kind : rows::kEventKinds) {
+        levels[kind.name] = std::string("value: ") + kind.value;
+        tags[kind.name] = fmt::format("({}, {{HED}})", kind.hed);  // with those of the row
+    }
+    levels["trial"] = "an attempt at a trial, with its demands and measures; value: its outcome";
     Json json{
         {"onset", {{"Description", "time from the first tick of the recording"}, {"Units", "s"}}},
         {"duration", {{"Description", "duration of a trial; n/a: a moment"}, {"Units", "s"}}},
         {"trial_type",
          {{"Description", "kind of event; outcomes and markers are the task's own"},
-          {"Levels",
-           {{"trial", "an attempt at a trial, with its demands and measures"},
-            {"phase", "value: the state that began"},
-            {"outcome", "value: how the trial ended"},
-            {"answer", "value: the answer's column and number, and its form with the version"},
-            {"message", "value: message shown to the participant"},
-            {"line", "value: line shown to the participant below the message"},
-            {"page", "value: text or picture of the page shown"},
-            {"sound", "value: the sound that began"},
-            {"sound ends", "value: the sound that ended"},
-            {"marker", "value: the code sent"},
-            {"perturbation", "value: on or off"},
-            {"touch", "value: the finger, and the object touched"},
-            {"release", "value: the finger, and the object released"},
-            {"lift-off", "value: the object"},
-            {"replaced", "value: the object"},
-            {"limit", "value: the limit of force that was reached"}}}}},
+          {"Levels", levels},
+          {"HED", tags}}},
         {"value", {{"Description", "value of the event, as described under trial_type"}}},
         {"moved_by", {{"Description", info.moved_by.describe()}}},
         {"simulated", {{"Description", recording::kMovedByColumns[0].description}}}};
@@ -136,12 +128,71 @@ Json sidecar(const std::vector<Column>& columns, const recording::SessionInfo& i
     return json;
 }
 
+/// A text as a HED label: letters, digits and hyphens. HED takes equal tags at one time for a
+/// fault; labels tell events of one kind apart.
+std::string hed_label(const std::string& text) {
+    constexpr size_t kLongest = 60;
+    std::string out;
+    for (const char c : text) {
+        if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
+            out += c;
+        } else if (!out.empty() && out.back() != '-') {
+            out += '-';
+        }
+        if (out.size() >= kLongest) break;
+    }
+    while (out.ends_with('-')) out.pop_back();
+    return out.empty() ? "" : "Label/" + out;
+}
+
+/// The HED tags of a row, beside those that the sidecar gives its kind: its label, and the tags
+/// that the task's file gives the state, the outcome or the perturbations.
+class HedTags {
+  public:
+    explicit HedTags(const task::Task& task) : task_(task) {}
+
+    /// `perturbations`: names of those of the trial, as in trials.csv.
+    std::string of(const rows::EventRow& event, const std::string& perturbations) const {
+        std::string out = hed_label(event.detail);
+        const auto also = [&](const std::string& tags) {
+            if (!tags.empty()) out += (out.empty() ? "(" : ", (") + tags + ")";
+        };
+        if (event.name == "phase") also(of_state(event.detail));
+        if (event.name == "outcome") also(of_outcome(event.detail));
+        if (event.name != "perturbation" || event.detail != "on") return out;
+        for (const task::PerturbationSpec& spec : task_.perturbations) {
+            if (task::names_perturbation(perturbations, spec.name)) also(spec.hed);
+        }
+        return out;
+    }
+
+  private:
+    std::string of_state(const std::string& name) const {
+        for (const task::State& state : task_.states) {
+            if (state.name == name) return state.hed;
+        }
+        return "";
+    }
+    std::string of_outcome(const std::string& name) const {
+        for (const task::State& state : task_.states) {
+            for (const task::Exit& exit : state.exits) {
+                if (exit.outcome == name && !exit.hed.empty()) return exit.hed;
+            }
+        }
+        return "";
+    }
+
+    const task::Task& task_;
+};
+
 class EventRows {
   public:
     EventRows(const rows::TrialFile& trials, const rows::LiftFile* lifts,
-              const recording::SessionInfo& info, const recording::SessionFolder& session)
+              const recording::SessionInfo& info, const recording::SessionFolder& session,
+              const HedTags& tags)
         : trials_(trials),
           lifts_(lifts),
+          tags_(tags),
           by_(info.moved_by),
           columns_(columns_for(trials, lifts, session, info)) {
         for (size_t i = 0; lifts != nullptr && i < lifts->size(); ++i)
@@ -152,7 +203,7 @@ class EventRows {
     Row header() const {
         Row row{"onset", "duration", "trial_type", "value"};
         for (const Column& c : columns_) row.push_back(c.name);
-        row.insert(row.end(), {"simulated", "moved_by"});
+        row.insert(row.end(), {"simulated", "moved_by", "HED"});
         return row;
     }
     /// Row of an attempt, with all its data.
@@ -169,7 +220,7 @@ class EventRows {
                 row.push_back(lift == lift_of_.end() ? "" : lifts_->text(lift->second, c.from));
             }
         }
-        return finished(row);
+        return finished(row, hed_label(fmt::format("trial {}", of.asked.trial)));
     }
     /// Row of a moment, in an attempt or between attempts.
     Row moment(const rows::EventRow& event, const Attempt* attempt) const {
@@ -181,17 +232,20 @@ class EventRows {
                 row.push_back(&c == &columns_.front() ? number_text(event.trial) : "");
             }
         }
-        return finished(row);
+        const std::string perturbations =
+            attempt == nullptr ? "" : trials_[attempt->row].asked.perturbation;
+        return finished(row, tags_.of(event, perturbations));
     }
 
   private:
-    Row finished(Row row) const {
-        row.insert(row.end(), {by_.simulated(), by_.name()});
+    Row finished(Row row, const std::string& tags) const {
+        row.insert(row.end(), {by_.simulated(), by_.name(), tags});
         return row;
     }
 
     const rows::TrialFile& trials_;
     const rows::LiftFile* lifts_;
+    const HedTags& tags_;
     const recording::MovedBy& by_;
     std::vector<Column> columns_;  // the first holds the trial number
     std::map<std::pair<int, int>, size_t> lift_of_;
@@ -207,7 +261,9 @@ std::optional<Events> events_of(const recording::SessionFolder& session,
     std::optional<rows::LiftFile> lifts;
     if (is_there(session.file("lifts.csv")))
         lifts.emplace(rows::read_lifts(session.file("lifts.csv")));
-    const EventRows maker(trials, lifts ? &*lifts : nullptr, info, session);
+    const task::Task task = read_frozen_task(session.file("task.yaml"));
+    const HedTags tags(task);
+    const EventRows maker(trials, lifts ? &*lifts : nullptr, info, session, tags);
     const std::vector<Attempt> attempts = attempts_of(trials, session);
 
     std::vector<std::pair<double, Row>> rows;  // by onset [s]
@@ -224,7 +280,7 @@ std::optional<Events> events_of(const recording::SessionFolder& session,
     std::stable_sort(rows.begin(), rows.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     Json json = sidecar(maker.columns(), info);
-    describe_answers(read_frozen_task(session.file("task.yaml")), json);
+    describe_answers(task, json);
     Events out{{maker.header()}, json.dump(2) + "\n"};
     for (auto& [time, row] : rows) out.rows.push_back(std::move(row));
     return out;

@@ -20,6 +20,7 @@
 #include "base/regular_file.h"
 #include "base/text_file.h"
 #include "recording/raw_log.h"
+#include "rows/correction_row.h"
 
 namespace dihaptic::analysis {
 namespace {
@@ -229,6 +230,18 @@ void add_generalisation(SessionPage& out, const SessionData& session) {
     out.page.table(
         out.generalisation,
         "Compensation in clamps and catch trials after training began. " + origin_of(session));
+}
+
+void add_corrections(Page& page, const SessionData& session) {
+    const std::string file = session.folder.file("corrections.csv");
+    if (!is_there(file)) return;
+    std::vector<rows::CorrectionRow> rows;
+    for (const rows::CorrectionRow& row : rows::RowFile<rows::CorrectionRow>(file))
+        rows.push_back(row);
+    if (rows.empty()) return;
+    page.heading("Corrections");
+    page.table(figure_table<rows::CorrectionRow>(rows),
+               "When the mean velocity parts from that of matched trials. " + origin_of(session));
 }
 
 /// Chart of the fitted function, and of the share of yes among the answers at each level.
@@ -453,6 +466,7 @@ SessionPage session_page(const SessionData& session, const std::string& command,
     add_measures(out.page, session);
     if (!session.curves.empty()) add_adaptation(out, session);
     if (!session.generalisation.empty()) add_generalisation(out, session);
+    add_corrections(out.page, session);
     if (!session.tracks.empty()) add_thresholds(out, session);
     if (session.lifts && !session.lifts->empty()) add_lifts(out, session);
     // a rehearsal has no log

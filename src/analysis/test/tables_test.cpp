@@ -12,6 +12,7 @@
 #include "analysis/session_report.h"
 #include "analysis/trials.h"
 #include "base/figure.h"
+#include "rows/correction_row.h"
 #include "testing/files.h"
 
 namespace dihaptic::analysis::tables_test {
@@ -63,6 +64,8 @@ std::string tables() {
                  list_figures(rows::EpisodeRow{}).columns) +
            table("lifts.csv", "A row for each attempt with an object and two fingers.",
                  list_figures(rows::LiftRow{}).columns) +
+           table("corrections.csv", "A row for each condition in which something happens.",
+                 list_figures(rows::CorrectionRow{}).columns) +
            table("adaptation.csv", "A row for each reach.", page.adaptation.columns) +
            table("adaptation-blocks.csv", "A row for each block of reaches.", page.blocks.columns) +
            table("fits.csv", "A row for each round.", page.fits.columns) +

@@ -68,6 +68,9 @@ class Pressed {
     }
     /// Moves the handle to p above the block's top within a tick; returns the force on it.
     Vec3 move(const Vec3& p) { return tick(p + Vec3(0, 0, lift_)); }
+    void set_properties(const dynamics::BodyProperties& properties) {
+        world_->set_properties({0}, properties);
+    }
     const Vec3& proxy() const { return world_->state(body_).X_WB.p; }
     const Finger& finger() const { return *finger_; }
 

@@ -107,6 +107,38 @@ TEST_P(High, RidgesLiftAndPushBackAsTheirSlopeSays) {
     EXPECT_NEAR(highest, ridges.height, 1e-6);
 }
 
+TEST_P(High, RidgesAreScaledByTheBodysProperties) {
+    scene::Texture ridges = grating();
+    ridges.friction = 0;
+    ridges.height = 1e-4;
+    scene::Surface surface;
+    surface.texture = ridges;
+    Pressed pressed(GetParam(), surface, 0);
+    dynamics::BodyProperties properties;
+    properties.texture_wavelength = 1.25;
+    properties.texture_height = 2;
+    pressed.set_properties(properties);
+    ridges.wavelength *= 1.25;
+    ridges.height *= 2;
+    const double floor = GetParam() == Proxy::point_solved ? kSkin : 0.008;
+    const auto follow = [&](const scene::Texture& texture, double from) {
+        double highest = 0;
+        for (int i = 0; i < 1500; ++i) {
+            pressed.move({from + i * kPressedTick * 0.01, 0, -kDeep});
+            if (i < 500) continue;
+            const Vec3 p = pressed.proxy();
+            EXPECT_NEAR(p.z() - floor, texture.at(p, Vec3::UnitZ()).height, 4e-6) << p.transpose();
+            highest = std::max(highest, p.z() - floor);
+        }
+        EXPECT_NEAR(highest, texture.height, 1e-5);
+    };
+    follow(ridges, 0);
+    pressed.set_properties({});
+    ridges.wavelength /= 1.25;
+    ridges.height /= 2;
+    follow(ridges, 0.015);
+}
+
 TEST(Texture, RisesAsItsSlopeSays) {
     for (const auto kind : {scene::TextureKind::grating, scene::TextureKind::grid}) {
         scene::Texture texture = grating();

@@ -13,7 +13,7 @@ namespace dihaptic::person::parts_test {
 namespace {
 
 TEST(Eyes, SeeWhereThingsAreShownAWhileAgo) {
-    Eyes eyes(0.1, 2, 1e-3);
+    Eyes eyes(0.1, 0, 2, 1e-3);
     frame::Frame frame;
     frame.fingers.resize(2);
     frame.task.reserve({1});

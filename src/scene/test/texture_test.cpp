@@ -20,6 +20,25 @@ ReliefPicture one_bump() {
     return {8, 6, grey};
 }
 
+TEST(Texture, IsScaledWithinItsLimits) {
+    Texture given;
+    given.wavelength = 2e-3;
+    given.height = 1e-4;
+    given.friction = 0.4;
+    Texture scaled = given;
+    scaled.scale(given, 1.5, 2, 0.5);
+    EXPECT_DOUBLE_EQ(scaled.wavelength, 3e-3);
+    EXPECT_DOUBLE_EQ(scaled.height, 2e-4);
+    EXPECT_DOUBLE_EQ(scaled.friction, 0.2);
+    scaled.scale(given, 1, 10, 10);
+    EXPECT_DOUBLE_EQ(scaled.height, Texture::kHighest);
+    EXPECT_DOUBLE_EQ(scaled.friction, 1);
+    scaled.scale(given, 0.1, 1, 1);  // ridges 0.2 mm apart
+    EXPECT_DOUBLE_EQ(scaled.steepest(), Texture::kSteepest);
+    scaled.scale(given, 1, 1, 1);
+    EXPECT_EQ(scaled, given);
+}
+
 TEST(ReliefPicture, HasItsBumpWhereItsPixelIs) {
     const ReliefPicture picture = one_bump();
     // the pixel's middle is 2.5 right of the picture's, and 1.5 above it

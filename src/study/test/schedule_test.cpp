@@ -76,6 +76,26 @@ TEST(Next, BeginsAnOldInterruptedSessionAnewUnlessEnoughOfItIsDone) {
     EXPECT_EQ(next_for(study, {visit}, kNow).session, 1U);
 }
 
+TEST(Counted, IsTheFirstCompleteRecordingOrTheLastWithEnoughTrials) {
+    StudyFile study = two_days();
+    const auto broken = [](const char* folder, size_t done, bool running = false) {
+        return Visit{0,    folder, seconds_of("2026-03-29T11:00:00+02:00"), false, running, false,
+                     done, 10};
+    };
+    EXPECT_EQ(counted(study, {}, 0), nullptr);
+    EXPECT_EQ(counted(study, {broken("first", 9)}, 0), nullptr);
+    study.resuming.complete = 0.9;
+    const std::vector<Visit> visits{broken("first", 9), broken("second", 10)};
+    ASSERT_NE(counted(study, visits, 0), nullptr);
+    EXPECT_EQ(counted(study, visits, 0)->folder, "second");
+    EXPECT_EQ(counted(study, {broken("first", 9), broken("second", 3)}, 0), nullptr);
+    EXPECT_EQ(counted(study, {broken("first", 10, true)}, 0), nullptr);
+    const std::vector<Visit> done{broken("first", 9), complete(0, "2026-03-29T09:00:00+02:00"),
+                                  broken("third", 10)};
+    EXPECT_EQ(counted(study, done, 0)->folder, "there");
+    EXPECT_EQ(counted(study, done, 1), nullptr);
+}
+
 TEST(Next, IsNotASessionThatIsRunning) {
     const Visit visit{0, "busy", kNow - 60, false, true, false, 10, 40};
     const Next next = next_for(two_days(), {visit}, kNow);

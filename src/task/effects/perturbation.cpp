@@ -1,5 +1,7 @@
 #include "task/effects/perturbation.h"
 
+#include "task/file/hed.h"
+
 namespace dihaptic::task {
 
 Perturbation::Perturbation(const PerturbationSpec& spec, const Names& names,
@@ -15,6 +17,7 @@ Perturbation::Perturbation(const PerturbationSpec& spec, const Names& names,
         diagnostics.error(profile_->place, "fall", "has no effect without plateau",
                           "Add e.g. plateau_ms: 100, the time between rise and fall.");
     }
+    check_hed(spec.hed, spec.place, diagnostics);
     if (!any) {
         diagnostics.error(spec.place, spec.name, "perturbs nothing",
                           "Give it visual, body, joint, loads or field.");

@@ -33,6 +33,7 @@ struct PerturbationSpec {
     std::optional<JointSpec> joint;
     std::optional<LoadSpec> field;  ///< the only load, or the first one
     std::vector<LoadSpec> loads;
+    std::string hed;  ///< HED tags of its beginning
     Place place;
 
     /// Calls f(effect) for each of its effects.
@@ -63,6 +64,7 @@ struct PerturbationSpec {
         v("field", field,
           says("A single load, or the first one, with the same keys as in 'loads'."));
         v("loads", loads, says("Forces and torques on the handles of fingers and on bodies."));
+        v("hed", hed, says("HED tags of the perturbation's beginning, for the export to BIDS."));
     }
 };
 

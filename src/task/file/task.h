@@ -11,6 +11,7 @@
 #include "hand/spec.h"
 #include "rows/trial_kind.h"
 #include "task/effects/perturbation.h"
+#include "task/file/corrections.h"
 #include "task/file/draws.h"
 #include "task/file/drive.h"
 #include "task/file/form.h"
@@ -117,6 +118,7 @@ struct Exit {
     bool ends_session = false;  ///< the remaining trials are left out
     std::string feedback;       ///< shown for Task::feedback at least, then until the next message
     Ref<SoundSpec> sound;       ///< starts when the exit is taken
+    std::string hed;            ///< HED tags of the outcome
     Place place;
 
     /// Whether its condition has any of these fields (WhenRow::Has).
@@ -192,16 +194,17 @@ struct Exit {
           says("Text that is shown on this exit, for at least feedback_s; names in braces are "
                "replaced with numbers."));
         v("sound", sound, says("Sound that is played once on this exit."));
+        v("hed", hed, says("HED tags of the outcome, for the export to BIDS."));
     }
 };
 
 /// A step of the simulated hand in a state: like a step of a script, or a reach to a region.
 struct HandStep {
-    double duration = 0;             ///< [s]
-    Ref<Region> reach;               ///< destination of the hand's centre
-    Vec3 move = Vec3::Zero();        ///< displacement of the hand's centre [m]
-    std::optional<double> aperture;  ///< aperture at the end of the step [m]
-    RefList<scene::Finger> fingers;  ///< fingers that move; empty: all
+    Formula duration = 0;             ///< [s]
+    Ref<Region> reach;                ///< destination of the hand's centre
+    FormulaVec3 move{};               ///< displacement of the hand's centre [m]
+    std::optional<Formula> aperture;  ///< aperture at the end of the step [m]
+    RefList<scene::Finger> fingers;   ///< fingers that move; empty: all
     Place place;
 
     template <class Visitor>
@@ -271,6 +274,7 @@ struct State {
     std::vector<MotorSpec> motors;
     std::vector<Exit> exits;     ///< the first whose condition is met is taken
     std::vector<HandStep> hand;  ///< steps of the simulated hand from entry into the state
+    std::string hed;             ///< HED tags of its beginning
     Place place;
 
     template <class Visitor>
@@ -306,6 +310,7 @@ struct State {
         v("simulated_hand", hand,
           Field{}.formerly("hand").says(
               "Steps that a simulated hand or person performs in the state."));
+        v("hed", hed, says("HED tags of the state's beginning, for the export to BIDS."));
     }
 
     /// What the state asks for: the rating, or the items of its form.
@@ -584,6 +589,7 @@ struct Rule {
 
 struct Task {
     std::vector<Hand> hands;
+    RefList<Hand> participants;  ///< the hand of each of two participants; empty: one participant
     std::vector<DrawSpec> draws;
     std::vector<Variable> variables;
     std::vector<Rule> after_trial;  ///< applied in this order
@@ -610,11 +616,15 @@ struct Task {
     std::vector<std::string> measures;  ///< names from kMeasureTable
     std::vector<CustomMeasure> custom_measures;
     std::optional<Movement> movement;  ///< analysed by `measures`
+    std::optional<CorrectionSpec> corrections;
     Place place;
 
     template <class Visitor>
     void visit(Visitor& v) {
         v("hands", hands, says("Groups of fingers for use in conditions."));
+        v("participants", participants,
+          says("Hands of two participants, one each, who do the task together; one participant has "
+               "all hands if omitted."));
         v("draws", draws, says("Numbers and texts that are drawn for each trial."));
         v("variables", variables, says("Numbers that rules change between trials."));
         v("after_trial", after_trial,
@@ -660,6 +670,8 @@ struct Task {
               .says("Custom measures, given as expressions and reported for each attempt."));
         v("movement", movement,
           says("Movement that the measures analyse; keys omitted here are copied from 'reach'."));
+        v("corrections", corrections,
+          says("Trials in which something happens, whose correction has a latency."));
     }
 };
 

@@ -81,6 +81,7 @@ class MeasureChecker {
         if (needs & MeasureRow::ideal) check_ideal();
         if (needs & MeasureRow::grip) check_grip();
         if (!movement_.error.empty()) check_error();
+        if (task_.corrections) check_corrections(*task_.corrections);
         if ((needs & MeasureRow::step) && movement_.step.empty())
             error("step", "is missing, but grip_latency starts at a load step",
                   "Add movement: { step: name of the state that starts with it }.");
@@ -92,6 +93,23 @@ class MeasureChecker {
     }
     void state(const std::string& name, const char* key) {
         look_up(names_of(task_.states), name, place_, key, "not a state", diagnostics_);
+    }
+
+    /// Whether there are trials to compare; names have been looked up elsewhere.
+    void check_corrections(const CorrectionSpec& spec) {
+        if (spec.axis.isZero(1e-9))
+            diagnostics_.error(spec.place, "axis", "has no direction", "Write e.g. [1, 0, 0].");
+        const auto perturbs = [](const Block& block) {
+            return !block.perturb.empty() || !block.insert.empty();
+        };
+        if (spec.matched.empty() && std::ranges::none_of(task_.blocks, perturbs))
+            diagnostics_.error(spec.place, "matched",
+                               "is missing: no block has perturbations, so that no trial differs "
+                               "from the others",
+                               "Name the conditions in which nothing happens.");
+        if (!spec.matched.empty() && spec.matched.size() == task_.conditions.size())
+            diagnostics_.error(spec.place, "matched", "names all conditions",
+                               "Leave out those in which something happens.");
     }
 
     void check_list() {

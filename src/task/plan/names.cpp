@@ -13,7 +13,8 @@ std::vector<std::string> things_of(const scene::Scene& scene) {
 }  // namespace
 
 Names::Names(const Task& task, const scene::Scene& scene)
-    : known_({names_of(task.regions), "not a region"}, {names_of(scene.bodies), "not a body"},
+    : known_({names_of(task.hands), "not a hand of the task"},
+             {names_of(task.regions), "not a region"}, {names_of(scene.bodies), "not a body"},
              {names_of(recorded_joints(scene)), "not a joint of the scene"},
              {scene::finger_names(scene), "not a finger of the scene"},
              {things_of(scene), "neither a finger nor a body"},

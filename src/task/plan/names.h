@@ -40,8 +40,8 @@ class Names {
     }
 
   private:
-    std::tuple<Known<Region>, Known<scene::Body>, Known<scene::Joint>, Known<scene::Finger>,
-               Known<Thing>, Known<State>, Known<SoundSpec>, Known<Condition>,
+    std::tuple<Known<Hand>, Known<Region>, Known<scene::Body>, Known<scene::Joint>,
+               Known<scene::Finger>, Known<Thing>, Known<State>, Known<SoundSpec>, Known<Condition>,
                Known<PerturbationSpec>, Known<ProcedureSpec>, Known<Variable>>
         known_;
 };

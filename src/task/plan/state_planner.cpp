@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "task/file/hed.h"
 #include "task/plan/levels.h"
 
 namespace dihaptic::task {
@@ -66,6 +67,7 @@ class StatePlanner : Planning {
             seen_.text(titled ? state.form->title : state.message, state.place, "message");
         seen_.plan_state(state, out);
         out.marker = state.marker;
+        check_hed(state.hed, state.place, diagnostics);
         for (const int i : state.sounds.indices) out.sounds |= sound(i, state.place, "sounds");
         out.interval = state.interval;
         ask(state, out.questions);
@@ -200,6 +202,10 @@ class StatePlanner : Planning {
                   "Give the exit an outcome.");
         if (exit.chooses > 0) out.outcome = choice(exit);
         if (!exit.outcome.empty()) out.outcome = outcome(exit);
+        check_hed(exit.hed, exit.place, diagnostics);
+        if (!exit.hed.empty() && exit.outcome.empty())
+            error(exit.place, "hed", "belongs to an exit with an outcome",
+                  "Give the tags to the next state.");
         out.feedback = seen_.text(exit.feedback, exit.place, "feedback");
         out.sounds = sound(exit);
         return out;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/plural.h"
 #include "base/unmeasured.h"
 #include "rows/procedure_row.h"
 #include "task/plan/cell_planner.h"
@@ -79,6 +80,7 @@ class Planner : Planning {
         plan_custom_measures(plan, diagnostics);
         for (const scene::Finger& finger : scene.fingers)
             plan.finger_radius.push_back(reach_of(finger));
+        plan_participants();
     }
 
   private:
@@ -110,6 +112,33 @@ class Planner : Planning {
                 diagnostics.error(hand.place, "fingers", "there are none", "Name at least one.");
         }
         return out;
+    }
+
+    /// Each participant has a hand, whose fingers follow those of the participant before.
+    void plan_participants() {
+        const RefList<Hand>& hands = plan.task.participants;
+        if (hands.empty()) return;
+        if (hands.size() != 2)
+            return diagnostics.error(
+                plan.task.place, "participants",
+                fmt::format("has {}, but a task is for one participant or two",
+                            counted(static_cast<int64_t>(hands.size()), "hand")),
+                "Write e.g. participants: [A, B], or leave it out.");
+        size_t next = 0;
+        plan.first_fingers.clear();
+        for (const int i : hands.indices) {
+            plan.first_fingers.push_back(next);
+            for (const int finger : plan.task.hands[static_cast<size_t>(i)].fingers.indices) {
+                if (finger == static_cast<int>(next++)) continue;
+                return wrong_hands();
+            }
+        }
+        if (next != scene.fingers.size()) wrong_hands();
+    }
+    void wrong_hands() {
+        diagnostics.error(plan.task.place, "participants",
+                          "must have all fingers of the scene, hand by hand in the scene's order",
+                          "List the fingers of 'hands' as the scene does, each in one hand.");
     }
 
     void check_condition(const Condition& condition) {

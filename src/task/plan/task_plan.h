@@ -243,6 +243,8 @@ struct TaskPlan {
     Symbols symbols;
     std::vector<CompiledFormula> formulas;
     std::vector<int> in_states;  ///< formulas
+    /// The first finger of each participant's hand, which has all fingers up to the next one's.
+    std::vector<size_t> first_fingers{0};
     /// A number that procedures choose. In frames, levels come after the variables.
     struct Level {
         size_t variable = 0;

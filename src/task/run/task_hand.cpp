@@ -77,13 +77,13 @@ void TaskHand::begin_step(double now) noexcept {
     for (size_t i = 0; i < places_.size(); ++i) {
         to_[i] = from_[i] = posture(i, now);
         if (!next.moves(i)) continue;
-        to_[i].aperture = next.step.aperture.value_or(from_[i].aperture);
+        if (next.step.aperture) to_[i].aperture = numbers_.of(*next.step.aperture);
         if (const int region = next.step.reach.index; region >= 0)
             to_[i].centre = numbers_.cell().p_W[static_cast<size_t>(region)];
-        to_[i].centre += next.step.move;
+        to_[i].centre += numbers_.of(next.step.move);
     }
     begun_ = now;
-    duration_ = next.step.duration;
+    duration_ = numbers_.of(next.step.duration);
 }
 
 }  // namespace dihaptic::task

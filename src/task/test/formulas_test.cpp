@@ -80,6 +80,38 @@ void finish(const session::RunResult& result) {
     analysis::finish_session(recording::SessionFolder::open(result.folder), result.info, {});
 }
 
+TEST(Formulas, OfTheSimulatedHandsStepsAreResolvedInEachTrial) {
+    Formulas files;
+    files.replace(
+        "[{ duration_s: 0.1, reach: target }]",
+        "[{ duration_s: wait, move_mm: [side * reach, 0, 10], aperture_mm: 20 + wait / 1 s }]");
+    const session::Plan plan = session::make_plan(files.request());
+    const session::RunResult result = files.run(plan);
+    finish(result);
+    const CsvFile trials(result.folder + "/trials.csv");
+    std::map<int, size_t> rows;
+    for (size_t i = 0; i < trials.rows(); ++i)
+        rows[static_cast<int>(trials.number(i, "trial_num"))] = i;
+    recording::RawLogReader log(result.folder + "/raw.log");
+    std::map<int, std::pair<double, Vec3>> began, last;
+    while (const frame::Frame* frame = log.next()) {
+        if (frame->trial < 1 || frame->phase != 2) continue;
+        const std::pair now{seconds(frame->time), frame->fingers[0].p_WH};
+        began.try_emplace(frame->trial, now);
+        last[frame->trial] = now;
+    }
+    ASSERT_GE(began.size(), 5u);
+    for (const auto& [trial, row] : rows) {
+        const Vec3 way = last.at(trial).second - began.at(trial).second;
+        const double reach = trials.number(row, "side") * trials.number(row, "reach_mm") * 1e-3;
+        // the trial ends as the hand enters the target, before the end of its step; and the hand
+        // may still be on its way home as it begins
+        EXPECT_GT(way.x() / reach, 0.5) << trial;
+        EXPECT_LT(way.x() / reach, 1.2) << trial;
+        EXPECT_NEAR(way.z() / way.x(), 0.01 / reach, 0.3 * std::abs(0.01 / reach)) << trial;
+    }
+}
+
 TEST(Formulas, FollowDrawsFactorsAndVariablesInEachTrial) {
     Formulas files;
     const session::Plan plan = session::make_plan(files.request());

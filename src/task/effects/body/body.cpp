@@ -24,6 +24,13 @@ BodyEffect::BodyEffect(const BodySpec& spec, const Names&, const scene::Scene& s
           "stiffness_N_m");
     needs(spec.restitution_scale, "restitution_scale", body.surface.restitution.has_value(),
           "restitution");
+    const auto& texture = body.surface.texture;
+    const char* const kTexture = "texture";
+    needs(spec.texture_wavelength_scale, "texture_wavelength_scale", texture.has_value(), kTexture);
+    needs(spec.texture_height_scale, "texture_height_scale", texture && texture->height > 0,
+          "texture: { height_mm }");
+    needs(spec.texture_friction_scale, "texture_friction_scale", texture && texture->friction > 0,
+          "texture: { friction }");
 }
 
 frame::PropertiesFrame BodyEffect::properties() const noexcept {
@@ -34,15 +41,20 @@ frame::PropertiesFrame BodyEffect::properties() const noexcept {
             density,
             spec_.friction_scale.value,
             spec_.stiffness_scale.value,
-            spec_.restitution_scale.value};
+            spec_.restitution_scale.value,
+            spec_.texture_wavelength_scale.value,
+            spec_.texture_height_scale.value,
+            spec_.texture_friction_scale.value};
 }
 
 void BodyEffect::order(double share, std::span<const Vec3>, const Motions&,
                        frame::TaskFrame& out) const noexcept {
     frame::PropertiesFrame now = properties();
     now.mass_scale = part_of(share, now.mass_scale);
-    for (double* factor : {&now.weight_scale, &now.turning_scale, &now.friction_scale,
-                           &now.stiffness_scale, &now.restitution_scale})
+    for (double* factor :
+         {&now.weight_scale, &now.turning_scale, &now.friction_scale, &now.stiffness_scale,
+          &now.restitution_scale, &now.texture_wavelength_scale, &now.texture_height_scale,
+          &now.texture_friction_scale})
         *factor = part_of(share, *factor);
     const auto same = std::find_if(out.properties.begin(), out.properties.end(),
                                    [&](const auto& other) { return other.body == now.body; });
@@ -53,6 +65,9 @@ void BodyEffect::order(double share, std::span<const Vec3>, const Motions&,
     same->friction_scale *= now.friction_scale;
     same->stiffness_scale *= now.stiffness_scale;
     same->restitution_scale *= now.restitution_scale;
+    same->texture_wavelength_scale *= now.texture_wavelength_scale;
+    same->texture_height_scale *= now.texture_height_scale;
+    same->texture_friction_scale *= now.texture_friction_scale;
 }
 
 void say(const BodySpec& spec, std::vector<std::string>& out) {
@@ -63,6 +78,9 @@ void say(const BodySpec& spec, std::vector<std::string>& out) {
     say_factor("friction", spec.friction_scale, out);
     say_factor("stiffness", spec.stiffness_scale, out);
     say_factor("restitution", spec.restitution_scale, out);
+    say_factor("wavelength of its texture", spec.texture_wavelength_scale, out);
+    say_factor("height of its texture", spec.texture_height_scale, out);
+    say_factor("friction of its texture", spec.texture_friction_scale, out);
 }
 
 }  // namespace dihaptic::task

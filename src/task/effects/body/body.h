@@ -27,6 +27,9 @@ struct BodySpec {
     Formula friction_scale = 1;
     Formula stiffness_scale = 1;    ///< of its surface, with its damping
     Formula restitution_scale = 1;  ///< of its surface
+    Formula texture_wavelength_scale = 1;
+    Formula texture_height_scale = 1;
+    Formula texture_friction_scale = 1;
     Place place;
 
     template <class Visitor>
@@ -49,6 +52,13 @@ struct BodySpec {
         v("restitution_scale", restitution_scale,
           Field::number().within(0, 100).says(
               "Factor on the restitution of its surface, which is limited to 1."));
+        v("texture_wavelength_scale", texture_wavelength_scale,
+          Field::number().within(0.01, 100).says("Factor on the wavelength of its texture."));
+        v("texture_height_scale", texture_height_scale,
+          Field::number().within(0, 100).says("Factor on the height of its texture."));
+        v("texture_friction_scale", texture_friction_scale,
+          Field::number().within(0, 100).says(
+              "Factor on the variation of friction along its texture, which is limited to 1."));
     }
 };
 

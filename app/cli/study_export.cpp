@@ -1,0 +1,72 @@
+#include "study_export.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "analysis/bids.h"
+#include "analysis/psych_ds.h"
+#include "base/plural.h"
+#include "common/console.h"
+
+namespace dihaptic::cli {
+namespace {
+
+void tell_missing(const StudySessions& sessions) {
+    for (const std::string& text : sessions.missing()) fmt::print("{}\n", text);
+}
+
+}  // namespace
+
+void export_bids(const StudyData& data, const std::string& data_set) {
+    const study::StudyFile study = study_of(data);
+    const StudySessions sessions(study);
+    size_t added = 0;
+    double done = 0;
+    for (const CompleteSession& complete : sessions.complete()) {
+        const auto session = recording::SessionFolder::open(complete.folder);
+        if (!analysis::is_exported(session, data_set)) {
+            ProgressLine line("adding sessions");
+            const auto all = static_cast<double>(sessions.complete().size());
+            const analysis::Exported exported = analysis::export_bids(
+                session, data_set, [&](double share) { line.show((done + share) / all); });
+            line.clear();
+            print(exported.changed);
+            for (const std::string& what : exported.log)
+                fmt::print("{}: raw.log: {}\n", complete.folder, what);
+            ++added;
+        }
+        ++done;
+    }
+    tell_missing(sessions);
+    fmt::print("{} added to {}, which has {} of {} people\n",
+               counted(static_cast<int64_t>(added), "session"), data_set,
+               counted(static_cast<int64_t>(sessions.complete().size()), "session"),
+               sessions.roster().participants.size());
+}
+
+void export_psych_ds(const StudyData& data, const std::string& folder) {
+    const study::StudyFile study = study_of(data);
+    const StudySessions sessions(study);
+    analysis::PsychDs out;
+    out.study = std::filesystem::path(data.file).stem().string();
+    out.title = study.title;
+    out.description =
+        study.about.empty() ? "Tables of the study " + study.title + "." : study.about;
+    out.program = recording::program_version();
+    for (const CompleteSession& complete : sessions.complete()) {
+        const auto info = recording::SessionFolder::open_tables(complete.folder).read_info();
+        out.simulated |= info.moved_by.simulated() == "yes";
+    }
+    out.tables = tables_of(study, sessions, data);
+    const std::vector<std::string> files = analysis::write_psych_ds(out, folder);
+    note_revealed(study, data, folder);
+    tell_missing(sessions);
+    std::string names;
+    for (const std::string& name : files) names += (names.empty() ? "" : ", ") + name;
+    fmt::print("{} of {} people: in {}/data: {}\n",
+               counted(static_cast<int64_t>(sessions.complete().size()), "session"),
+               sessions.roster().participants.size(), folder, names);
+}
+
+}  // namespace dihaptic::cli

@@ -1,0 +1,225 @@
+#include "analysis/corrections.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/perturbations.h"
+#include "analysis/savitzky_golay.h"
+#include "analysis/trials.h"
+#include "base/plural.h"
+
+namespace dihaptic::analysis {
+namespace {
+
+constexpr double kShortest = 0.3;  // of a trial that counts [s]
+constexpr double kLongest = 1;     // [s]
+constexpr double kWindow = 0.05;   // of the derivative [s]
+constexpr size_t kFewest = 3;      // trials
+constexpr double kErrors = 3;      // standard errors by which the means have to differ
+
+/// Mean and squared standard error of the velocities at a tick.
+struct Mean {
+    double mean = 0;
+    double variance = 0;
+};
+
+Mean mean_at(const std::vector<const Velocities*>& trials, size_t tick) {
+    const auto n = static_cast<double>(trials.size());
+    Mean out;
+    for (const Velocities* v : trials) out.mean += (*v)[tick] / n;
+    for (const Velocities* v : trials) {
+        const double off = (*v)[tick] - out.mean;
+        out.variance += off * off / (n - 1) / n;
+    }
+    return out;
+}
+
+/// The trials that are long enough. Adds the number of the others to `left_out`.
+std::vector<const Velocities*> long_enough(const std::vector<const Velocities*>& trials,
+                                           double tick, int& left_out) {
+    std::vector<const Velocities*> out;
+    for (const Velocities* v : trials) {
+        if (static_cast<double>(v->size()) * tick < kShortest) {
+            ++left_out;
+        } else {
+            out.push_back(v);
+        }
+    }
+    return out;
+}
+
+/// Where the curve last rises through `level` before `peak`, between ticks; nullopt if it is above
+/// from the start.
+std::optional<double> rises_through(const std::vector<double>& curve, double level, size_t peak) {
+    for (size_t i = peak; i > 0; --i) {
+        if (curve[i - 1] >= level) continue;
+        const double share = (level - curve[i - 1]) / (curve[i] - curve[i - 1]);
+        return static_cast<double>(i - 1) + share;
+    }
+    return std::nullopt;
+}
+
+/// The difference of the means, and its squared standard error, by tick.
+struct Difference {
+    std::vector<double> d;
+    std::vector<double> variance;
+    size_t largest = 0;  // tick of the largest |d|
+};
+
+Difference difference(const std::vector<const Velocities*>& trials,
+                      const std::vector<const Velocities*>& matched, double tick) {
+    auto ticks = static_cast<size_t>(std::llround(kLongest / tick));
+    for (const auto* list : {&trials, &matched}) {
+        for (const Velocities* v : *list) ticks = std::min(ticks, v->size());
+    }
+    Difference out;
+    for (size_t i = 0; i < ticks; ++i) {
+        const Mean with = mean_at(trials, i);
+        const Mean without = mean_at(matched, i);
+        out.d.push_back(with.mean - without.mean);
+        out.variance.push_back(with.variance + without.variance);
+        if (std::abs(out.d[i]) > std::abs(out.d[out.largest])) out.largest = i;
+    }
+    return out;
+}
+
+void find_latency(const Difference& found, double tick, rows::CorrectionRow& row) {
+    const double sign = found.d[found.largest] > 0 ? 1 : -1;
+    std::vector<double> rise = savitzky_golay(found.d, tick, kWindow, 1);
+    for (double& a : rise) a *= sign;
+    const auto last = rise.begin() + static_cast<std::ptrdiff_t>(found.largest) + 1;
+    const auto peak = static_cast<size_t>(std::max_element(rise.begin(), last) - rise.begin());
+    row.acceleration = sign * rise[peak];
+    const auto quarter = rises_through(rise, 0.25 * rise[peak], peak);
+    const auto three = rises_through(rise, 0.75 * rise[peak], peak);
+    if (!quarter || !three) {
+        row.why = "the hand parts from the matched trials as the state begins, or before";
+        return;
+    }
+    row.latency = (*quarter - (*three - *quarter) / 2) * tick;
+}
+
+}  // namespace
+
+rows::CorrectionRow find_correction(const std::vector<const Velocities*>& trials,
+                                    const std::vector<const Velocities*>& matched, double tick) {
+    rows::CorrectionRow row;
+    const auto with = long_enough(trials, tick, row.left_out);
+    const auto without = long_enough(matched, tick, row.left_out);
+    row.trials = static_cast<int>(with.size());
+    row.matched = static_cast<int>(without.size());
+    if (with.size() < kFewest || without.size() < kFewest) {
+        row.why = fmt::format("it takes {} trials of each kind", kFewest);
+        return row;
+    }
+    const Difference found = difference(with, without, tick);
+    row.velocity = found.d[found.largest];
+    row.at = static_cast<double>(found.largest) * tick;
+    row.error = std::sqrt(found.variance[found.largest]);
+    if (std::abs(row.velocity) < kErrors * row.error || row.velocity == 0) {
+        row.why = fmt::format("the means differ by less than {:g} standard errors", kErrors);
+        return row;
+    }
+    find_latency(found, tick, row);
+    return row;
+}
+
+std::optional<CorrectionFinder> CorrectionFinder::of(const recording::SessionFolder& folder,
+                                                     const recording::LogHead& head,
+                                                     const std::vector<std::string>& phases) try {
+    const task::Task task = read_frozen_task(folder.file("task.yaml"));
+    if (!task.corrections) return std::nullopt;
+    CorrectionFinder out;
+    out.spec_ = *task.corrections;
+    const auto finger = std::ranges::find(head.fingers, std::string(out.spec_.of));
+    if (!out.spec_.of.empty() && finger == head.fingers.end()) return std::nullopt;
+    if (!out.spec_.of.empty()) out.finger_ = static_cast<size_t>(finger - head.fingers.begin());
+    const auto phase = std::ranges::find(phases, std::string(out.spec_.after));
+    if (phase == phases.end()) return std::nullopt;
+    out.phase_ = static_cast<int>(phase - phases.begin());
+    out.spec_.axis.normalize();
+    out.tick_ = head.tick;
+    for (const rows::AskedRow& row : rows::RowFile<rows::AskedRow>(folder.file("trial-list.csv")))
+        out.asked_.push_back(row);
+    return out;
+} catch (const Error&) {
+    return std::nullopt;
+}
+
+CorrectionFinder::Trial& CorrectionFinder::attempt_of(const frame::Frame& frame) {
+    Trial& trial = trials_[frame.trial];
+    if (trial.attempt != frame.task.attempt) {
+        trial = {frame.task.attempt, false, true, {}};
+        now_ = nullptr;
+    }
+    return trial;
+}
+
+void CorrectionFinder::add(const frame::Frame& frame) {
+    const bool gap = frame.sequence != sequence_ + 1;
+    sequence_ = frame.sequence;
+    if (gap && now_ != nullptr) {  // the trial's curve is not known to its end
+        now_->whole = false;
+        now_ = nullptr;
+    }
+    if (frame.trial < 1 || frame.phase < 1 || finger_ >= frame.fingers.size()) {
+        now_ = nullptr;
+        return;
+    }
+    Trial& trial = attempt_of(frame);
+    if (frame.phase == phase_ && trial.velocities.empty()) now_ = &trial;
+    if (frame.task.outcome >= 0) trial.ended = true;
+    if (now_ == nullptr || static_cast<double>(trial.velocities.size()) * tick_ >= kLongest) return;
+    const double v = spec_.axis.dot(frame.fingers[finger_].v_WH);
+    if (std::isfinite(v)) trial.velocities.push_back(v);
+}
+
+const Velocities* CorrectionFinder::velocities_of(size_t i) const {
+    if (asked_[i].kind == rows::TrialKind::practice) return nullptr;
+    const auto found = trials_.find(static_cast<int>(i) + 1);
+    if (found == trials_.end()) return nullptr;
+    const Trial& trial = found->second;
+    return trial.ended && trial.whole && !trial.velocities.empty() ? &trial.velocities : nullptr;
+}
+
+bool CorrectionFinder::is_matched(const rows::AskedRow& row, const std::string& condition) const {
+    if (spec_.matched.empty()) return row.perturbation.empty() && row.condition == condition;
+    return std::ranges::find(spec_.matched, row.condition) != spec_.matched.end();
+}
+
+std::vector<CorrectionFinder::Group> CorrectionFinder::groups() const {
+    std::vector<Group> out;
+    for (const rows::AskedRow& row : asked_) {
+        Group group{row.round, row.condition, row.perturbation};
+        if (row.kind == rows::TrialKind::practice || is_matched(row, row.condition)) continue;
+        if (std::ranges::find(out, group) == out.end()) out.push_back(std::move(group));
+    }
+    return out;
+}
+
+std::vector<rows::CorrectionRow> CorrectionFinder::rows() const {
+    std::vector<rows::CorrectionRow> out;
+    for (const Group& group : groups()) {
+        std::vector<const Velocities*> trials, matched;
+        for (size_t i = 0; i < asked_.size(); ++i) {
+            const rows::AskedRow& row = asked_[i];
+            const Velocities* const velocities = velocities_of(i);
+            if (velocities == nullptr || row.round != group.round) continue;
+            if (is_matched(row, group.condition)) {
+                matched.push_back(velocities);
+            } else if (Group{row.round, row.condition, row.perturbation} == group) {
+                trials.push_back(velocities);
+            }
+        }
+        rows::CorrectionRow row = find_correction(trials, matched, tick_);
+        row.round = group.round;
+        row.condition = group.condition;
+        row.perturbation = group.perturbation;
+        out.push_back(std::move(row));
+    }
+    return out;
+}
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,80 @@
+// Finds how soon a hand corrects its movement: from when the mean velocity in trials in which
+// something happens (a target or a cursor jumps, a force pushes) parts from that in matched trials
+// in which nothing does.
+//
+//     d(t)  = mean v(t) in the trials - mean v(t) in the matched ones, along an axis, from the
+//             beginning of a state at t = 0 on
+//     a(t)  = d'(t), by Savitzky and Golay over 50 ms
+//     latency: where the line through a = 25 % and 75 % of its first peak reaches 0 (Oostwoud
+//     Wijdenes, Brenner and Smeets 2014, who compared this method with others: it hardly depends on
+//     how strong the correction is)
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "frame/frame.h"
+#include "recording/raw_log.h"
+#include "recording/session.h"
+#include "rows/correction_row.h"
+#include "rows/trial_row.h"
+#include "task/file/task.h"
+
+namespace dihaptic::analysis {
+
+/// The velocities of a trial from the state's beginning on, one for each tick.
+using Velocities = std::vector<double>;
+
+/// The correction in `trials` against `matched`. Trials of less than 0.3 s are left out; the others
+/// count as far as the shortest of them, and for at most a second.
+rows::CorrectionRow find_correction(const std::vector<const Velocities*>& trials,
+                                    const std::vector<const Velocities*>& matched, double tick);
+
+class CorrectionFinder {
+  public:
+    /// Nullopt if the session's task does not describe corrections, or if its files cannot be read.
+    static std::optional<CorrectionFinder> of(const recording::SessionFolder& folder,
+                                              const recording::LogHead& head,
+                                              const std::vector<std::string>& phases);
+
+    void add(const frame::Frame& frame);
+    /// By round, condition and perturbation, in the order of their first trials. The last attempt
+    /// at each trial counts; practice does not.
+    std::vector<rows::CorrectionRow> rows() const;
+
+  private:
+    CorrectionFinder() = default;
+
+    struct Trial {
+        int attempt = 0;
+        bool ended = false;
+        bool whole = true;  // without a gap in the recording
+        Velocities velocities;
+    };
+
+    /// The trials of a row of the table.
+    struct Group {
+        std::string round, condition, perturbation;
+        bool operator==(const Group&) const = default;
+    };
+
+    Trial& attempt_of(const frame::Frame& frame);
+    /// Null if the trial does not count.
+    const Velocities* velocities_of(size_t trial) const;
+    /// Whether nothing happens in a trial that can be compared with those of `condition`.
+    bool is_matched(const rows::AskedRow& row, const std::string& condition) const;
+    std::vector<Group> groups() const;
+
+    task::CorrectionSpec spec_;
+    std::vector<rows::AskedRow> asked_;  // by trial
+    size_t finger_ = 0;
+    int phase_ = -1;
+    double tick_ = 1e-3;
+    std::map<int, Trial> trials_;
+    int64_t sequence_ = -1;  // of the last frame
+    Trial* now_ = nullptr;   // the attempt in which the state has begun
+};
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,20 @@
+// What the columns of a session's tables mean.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/table.h"
+#include "recording/session.h"
+
+namespace dihaptic::analysis {
+
+/// The columns of `file` (trials.csv, lifts.csv or corrections.csv) with these names, with unit and
+/// description: those that every session has, and in trials.csv the task's own factors, draws,
+/// variables, answers and measures. The description is empty where nothing is known of a name, as
+/// in tables of later versions.
+std::vector<Table::Column> described_columns(const recording::SessionFolder& session,
+                                             const std::string& file,
+                                             const std::vector<std::string>& names);
+
+}  // namespace dihaptic::analysis

@@ -1,0 +1,43 @@
+// A row of corrections.csv. analysis/corrections.h describes how corrections are found.
+#pragma once
+
+#include <string>
+
+#include "base/unmeasured.h"
+#include "rows/row_file.h"
+
+namespace dihaptic::rows {
+
+/// The correction in the trials of a condition, in SI units; NaN where it was not found.
+struct CorrectionRow {
+    std::string round, condition, perturbation;
+    int trials = 0, matched = 0, left_out = 0;
+    double latency = kUnmeasured;
+    double acceleration = kUnmeasured;
+    double velocity = kUnmeasured, at = kUnmeasured, error = kUnmeasured;
+    std::string why;
+
+    template <class Self, class Visitor>
+    static void visit(Self& f, Visitor& v) {
+        v("round", f.round, "", "name");
+        v("condition", f.condition, "", "name");
+        v("perturbation", f.perturbation, "", "name, or names joined by ' + '; empty: none");
+        v("trials", f.trials, "1", "trials in which something happened");
+        v("matched", f.matched, "1", "matched trials, in which nothing happened");
+        v("left_out", f.left_out, "1",
+          "trials of both kinds that ended, or that the recording covers, for less than 0.3 s");
+        v("latency", f.latency, "s",
+          "from the state's beginning until the correction begins: the line through 25 % and 75 % "
+          "of the acceleration's peak is extended to zero (Oostwoud Wijdenes, Brenner and Smeets "
+          "2014)");
+        v("acceleration", f.acceleration, "m/s2",
+          "peak of the correction's acceleration along the axis: of the difference of the means");
+        v("velocity", f.velocity, "m/s",
+          "largest difference of the mean velocities along the axis, with its sign");
+        v("velocity_at", f.at, "s", "time of this difference");
+        v("velocity_error", f.error, "m/s", "its standard error");
+        v("not_measured", f.why, "", "why there is no latency");
+    }
+};
+
+}  // namespace dihaptic::rows

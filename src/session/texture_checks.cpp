@@ -1,0 +1,115 @@
+#include "session/texture_checks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+#include <set>
+
+#include "task/run/trial_numbers.h"
+
+namespace dihaptic::session {
+namespace {
+
+using scene::Texture;
+
+constexpr double kSpeed = 0.25;  // speed of an exploring hand [m/s]
+
+bool has_apart_points(const Plan& plan) {
+    const auto is_point = [&](const scene::Finger& finger) {
+        return plan.settings.proxy.of(finger.proxy) == scene::ProxyKind::point;
+    };
+    return plan.settings.proxy.friction == frame::PointFriction::apart &&
+           std::ranges::any_of(plan.scene.fingers, is_point);
+}
+
+class TextureChecks {
+  public:
+    TextureChecks(const Plan& plan, Diagnostics& diagnostics)
+        : plan_(plan),
+          diagnostics_(diagnostics),
+          way_(kSpeed * plan.settings.dynamics.every / plan.settings.rate) {}
+
+    void check() {
+        const bool apart = has_apart_points(plan_);
+        for (const scene::Body& body : plan_.scene.bodies) {
+            if (!body.surface.texture || body.surface.texture->height == 0) continue;
+            const Texture& texture = *body.surface.texture;
+            check_ridges(body.name, texture, texture.place, "");
+            if (apart)
+                diagnostics_.warning(
+                    texture.place, "height",
+                    "if its friction is separate from the dynamics, a point does not feel heights",
+                    "Use proxy: friction: together.");
+        }
+        if (plan_.task) check_trials();
+    }
+
+  private:
+    /// The textures of each trial, as its perturbations change them.
+    void check_trials() {
+        task::each_trial(*plan_.task, [&](size_t t, const task::TrialNumbers& numbers) {
+            for (const int p : plan_.task->trials[t].perturb) {
+                const task::PerturbationSpec& spec =
+                    plan_.task->task.perturbations[static_cast<size_t>(p)];
+                const auto changed =
+                    numbers.cell().perturbations[static_cast<size_t>(p)].properties();
+                if (changed && spec.body) check_changed(*changed, *spec.body, t);
+            }
+        });
+    }
+
+    void check_changed(const frame::PropertiesFrame& changed, const task::BodySpec& spec,
+                       size_t trial) {
+        const scene::Body& body = plan_.scene.bodies[static_cast<size_t>(changed.body)];
+        if (!body.surface.texture || changed.texture_height_scale == 0) return;
+        const Texture& given = *body.surface.texture;
+        if (given.height == 0) return;
+        Texture texture = given;
+        texture.scale(given, changed.texture_wavelength_scale, changed.texture_height_scale,
+                      changed.texture_friction_scale);
+        const double wanted = changed.texture_height_scale * given.height;
+        if (texture.height < 0.9999 * wanted && limited_.insert(spec.place.line).second) {
+            diagnostics_.warning(
+                spec.place, "texture_height_scale",
+                fmt::format("in trial {} ridges of {} would be {:.3g} mm high: they are limited "
+                            "to {:.3g} mm, since no slope may exceed 45 degrees and no ridge "
+                            "{:g} mm",
+                            trial + 1, body.name, 1e3 * wanted, 1e3 * texture.height,
+                            1e3 * Texture::kHighest),
+                "Lower it, or make the wavelength longer.");
+        }
+        if (texture.wavelength == given.wavelength && texture.height == given.height) return;
+        if (!close_.contains(spec.place.line))
+            check_ridges(body.name, texture, spec.place, fmt::format("in trial {}, ", trial + 1));
+    }
+
+    void check_ridges(const std::string& body, const Texture& texture, const Place& place,
+                      const std::string& when) {
+        // wavelength of a grating of the same height and slope
+        const double ridge = std::numbers::pi * texture.height / texture.steepest();
+        if (ridge >= 4 * way_) return;
+        diagnostics_.warning(
+            place, when.empty() ? "wavelength" : "texture_wavelength_scale",
+            fmt::format("{}at {:g} mm/s a step passes {:.2g} of {}'s ridges of {:.3g} mm: they "
+                        "are felt as noise",
+                        when, 1e3 * kSpeed, way_ / ridge, body, 1e3 * ridge),
+            fmt::format("Make {} {:.3g} mm or more.", when.empty() ? "it" : "the wavelength",
+                        4e3 * way_ / ridge * texture.wavelength));
+        if (!when.empty()) close_.insert(place.line);
+    }
+
+    const Plan& plan_;
+    Diagnostics& diagnostics_;
+    double way_;             // of an exploring hand in a step [m]
+    std::set<int> limited_;  // lines of the perturbations that a warning has named
+    std::set<int> close_;
+};
+
+}  // namespace
+
+void check_textures(const Plan& plan, Diagnostics& diagnostics) {
+    TextureChecks(plan, diagnostics).check();
+}
+
+}  // namespace dihaptic::session
