@@ -48,7 +48,8 @@ task:
         - { when: time, after_s: 3, outcome: too slow }
       simulated_hand: [{ duration_s: 0.2, reach: target }]
   reach: { from: start, to: target, during: reach, distance_mm: 30, axis: [0, 0, 1] }
-  conditions: [{ name: near }, { name: far, regions: [{ name: target, position_mm: [60, 0, 120], radius_mm: 6 }] }]
+  conditions: [{ name: near }, { name: far, regions: [{ name: target, position_mm: [60, 0, 120], radius_mm: 6 }],
+      perturbations: [{ name: rotation, hed: Distractor, visual: { moves: [proxies], about: start, axis: [0, 0, 1], angle_deg: 30 } }] }]
   blocks:
     - { name: before, kind: baseline, repeats: 1 }
     - { name: turned, kind: perturbed, perturb: rotation, repeats: 2 }
@@ -185,14 +186,18 @@ class DataSets(unittest.TestCase):
         tags = {("phase", "reach"): "Label/reach, (Sensory-event, Visual-presentation, Go-signal)",
                 ("phase", "home"): "Label/home",
                 ("outcome", "reached"): "Label/reached, (Agent-action, Correct-action)",
-                ("outcome", "too slow"): "Label/too-slow",
-                ("perturbation", "on"): "Label/on, (Experimental-stimulus, Unexpected)"}
+                ("outcome", "too slow"): "Label/too-slow"}
+        begun = {"near": "Label/on, (Experimental-stimulus, Unexpected)", "far": "Label/on, (Distractor)"}
         seen = set()
         for event in events:
             about = (event["trial_type"], event["value"])
             if about in tags:
                 self.assertEqual(event["HED"], tags[about])
+            if about == ("perturbation", "on"):
+                self.assertEqual(event["HED"], begun[event["condition"]])
+                seen.add(event["condition"])
             seen.add(about)
+        self.assertLessEqual(set(begun), seen)
         tags.pop(("outcome", "too slow"))
         self.assertLessEqual(set(tags), seen)
         columns = json.loads(pathlib.Path(glob.glob(self.set + "/sub-sim001/motion/*reachturned*events.json")[0]).read_text())

@@ -7,6 +7,7 @@
 #include "analysis/bids.h"
 #include "analysis/psych_ds.h"
 #include "base/plural.h"
+#include "base/regular_file.h"
 #include "common/console.h"
 
 namespace dihaptic::cli {
@@ -24,6 +25,13 @@ void export_bids(const StudyData& data, const std::string& data_set) {
     size_t added = 0;
     double done = 0;
     for (const CompleteSession& complete : sessions.complete()) {
+        if (!is_there(complete.folder + "/raw.log"))
+            throw Error({complete.folder, 0}, "",
+                        "has no recording of the motion: raw.log is missing",
+                        data.rehearsed.empty()
+                            ? "Restore it, or export the tables alone: --psych-ds."
+                            : "Rehearse the study anew: dihaptic rehearse STUDY --keep-recordings "
+                              "--out FOLDER. Or export the tables alone: --psych-ds.");
         const auto session = recording::SessionFolder::open(complete.folder);
         if (!analysis::is_exported(session, data_set)) {
             ProgressLine line("adding sessions");
@@ -57,6 +65,7 @@ void export_psych_ds(const StudyData& data, const std::string& folder) {
     for (const CompleteSession& complete : sessions.complete()) {
         const auto info = recording::SessionFolder::open_tables(complete.folder).read_info();
         out.simulated |= info.moved_by.simulated() == "yes";
+        if (out.authors.empty()) out.authors = info.study.experimenters;
     }
     out.tables = tables_of(study, sessions, data);
     const std::vector<std::string> files = analysis::write_psych_ds(out, folder);

@@ -180,7 +180,8 @@ class Rehearsing {
         request.participant = member.id;
         request.order_number = member.number;
         request.simulate = true;
-        request.seed = rehearsal_.seed + index;
+        request.seed = study::seed_of(
+            fmt::format("{}/{}/{}", rehearsal_.seed, member.id, study_.sessions[index].name));
         session::Plan plan = session::make_plan(request);
         session::RunOptions run;
         std::shared_ptr<person::Person> person;

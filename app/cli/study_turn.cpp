@@ -42,11 +42,6 @@ void check_needs(const study::StudyFile& study, study::Next& next) {
     }
 }
 
-/// A seed from words, so that each participant's sessions have their own and keep it.
-uint64_t seed_of(const std::string& words) {
-    return 1 + whole_number<uint64_t>(checksum_of(words), 16).value_or(0);
-}
-
 /// What comes next, allowed or not.
 study::Next next_of(const study::StudyFile& study, const study::Member& member, bool simulated) {
     const study::StudyFile where = simulated ? session::rehearsed(study) : study;
@@ -107,8 +102,8 @@ StudyTurn study_turn(const std::string& file, const std::string& participant,
     out.participant = {member.id, member.age, member.sex, member.handedness};
     out.in_study = session::place_in(study, member, next.session);
     const std::string& name = out.in_study.session;
-    out.person_seed = seed_of(fmt::format("{}/{}", study.allocation.seed, member.id));
-    out.seed = seed_of(fmt::format("{}/{}/{}", study.allocation.seed, member.id, name));
+    out.person_seed = study::seed_of(fmt::format("{}/{}", study.allocation.seed, member.id));
+    out.seed = study::seed_of(fmt::format("{}/{}/{}", study.allocation.seed, member.id, name));
     if (!next.note.empty()) fmt::print("note: {}\n", next.note);
     fmt::print("{}: {} of {}, session {} of {}{}\n", study.title, member.id,
                study.allocation.concealed ? "a concealed group" : "group " + member.group,

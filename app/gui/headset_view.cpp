@@ -17,6 +17,7 @@ HeadsetView::HeadsetView(const display::Headset& place)
     words_.setAttribute(Qt::WA_TranslucentBackground);
     words_.resize(Words::kWidth, Words::kHeight);
     page_->setGeometry(words_.rect());
+    page_->on_move([this] { draw_words(); });
     banner_->setStyleSheet(
         "background: rgba(20, 24, 30, 200); color: white; padding: 16px 28px; font-size: 44px; "
         "border-radius: 12px;");

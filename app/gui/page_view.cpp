@@ -25,13 +25,28 @@ PageView::PageView(QWidget* parent)
 bool PageView::set_page(const QString& text, const QString& picture) {
     if (text == text_ && picture == file_) return false;
     text_ = text;
-    if (picture != file_) whole_ = picture.isEmpty() ? QPixmap() : QPixmap(picture);
-    file_ = picture;
+    if (picture != file_) show_picture(picture);
     words_->setText(text_);
     words_->setVisible(!text_.isEmpty());
     setVisible(!text_.isEmpty() || !file_.isEmpty());
     fit();
     return true;
+}
+
+void PageView::show_picture(const QString& file) {
+    file_ = file;
+    movie_.reset();
+    whole_ = file.isEmpty() ? QPixmap() : QPixmap(file);
+    if (file.isEmpty()) return;
+    auto movie = std::make_unique<QMovie>(file);
+    if (movie->frameCount() < 2) return;
+    movie_ = std::move(movie);
+    connect(movie_.get(), &QMovie::frameChanged, this, [this] {
+        whole_ = movie_->currentPixmap();
+        fit();
+        if (moved_) moved_();
+    });
+    movie_->start();
 }
 
 void PageView::resizeEvent(QResizeEvent* event) {

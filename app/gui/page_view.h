@@ -1,8 +1,12 @@
-// A page that a task shows in place of the scene: text, in Markdown, and a picture above it.
+// A page that a task shows in place of the scene: text, in Markdown, and a picture above it, which
+// moves if its file does.
 #pragma once
 
 #include <QLabel>
+#include <QMovie>
 #include <QPixmap>
+#include <functional>
+#include <memory>
 
 namespace dihaptic::gui {
 
@@ -13,16 +17,21 @@ class PageView : public QWidget {
     /// `picture`: a file, or empty. Without text and picture there is no page. Returns whether the
     /// page changed.
     bool set_page(const QString& text, const QString& picture);
+    /// Calls this whenever the picture has moved.
+    void on_move(std::function<void()> moved) { moved_ = std::move(moved); }
 
   protected:
     void resizeEvent(QResizeEvent* event) override;
 
   private:
     void fit();
+    void show_picture(const QString& file);
 
     QString text_;
     QString file_;
     QPixmap whole_;
+    std::unique_ptr<QMovie> movie_;  ///< null: the picture stands still
+    std::function<void()> moved_;
     QLabel* picture_;
     QLabel* words_;
 };

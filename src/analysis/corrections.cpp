@@ -17,7 +17,8 @@ constexpr double kShortest = 0.3;  // of a trial that counts [s]
 constexpr double kLongest = 1;     // [s]
 constexpr double kWindow = 0.05;   // of the derivative [s]
 constexpr size_t kFewest = 3;      // trials
-constexpr double kErrors = 3;      // standard errors by which the means have to differ
+constexpr double kErrors = 3;      // standard errors by which the means have to differ ...
+constexpr double kLasts = 0.02;    // ... for so long [s]
 
 /// Mean and squared standard error of the velocities at a tick.
 struct Mean {
@@ -36,12 +37,21 @@ Mean mean_at(const std::vector<const Velocities*>& trials, size_t tick) {
     return out;
 }
 
-/// The trials that are long enough. Adds the number of the others to `left_out`.
+/// Number of ticks that nine tenths of the trials have, at least kShortest.
+size_t most_have(const std::vector<const Velocities*>& trials, double tick) {
+    std::vector<size_t> lengths;
+    for (const Velocities* v : trials) lengths.push_back(v->size());
+    std::ranges::sort(lengths);
+    const auto least = static_cast<size_t>(std::llround(kShortest / tick));
+    return lengths.empty() ? least : std::max(least, lengths[lengths.size() / 10]);
+}
+
+/// The trials of at least this many ticks. Adds the number of the others to `left_out`.
 std::vector<const Velocities*> long_enough(const std::vector<const Velocities*>& trials,
-                                           double tick, int& left_out) {
+                                           size_t ticks, int& left_out) {
     std::vector<const Velocities*> out;
     for (const Velocities* v : trials) {
-        if (static_cast<double>(v->size()) * tick < kShortest) {
+        if (v->size() < ticks) {
             ++left_out;
         } else {
             out.push_back(v);
@@ -61,35 +71,56 @@ std::optional<double> rises_through(const std::vector<double>& curve, double lev
     return std::nullopt;
 }
 
-/// The difference of the means, and its squared standard error, by tick.
+/// The difference of the means, and its standard error, by tick.
 struct Difference {
     std::vector<double> d;
-    std::vector<double> variance;
-    size_t largest = 0;  // tick of the largest |d|
+    std::vector<double> error;
+    std::optional<size_t> peak;  // of the first excursion
+
+    /// Whether the means differ at a tick, to the side of `sign`.
+    bool differs(size_t i, double sign) const {
+        return sign * d[i] > 0 && sign * d[i] >= kErrors * error[i];
+    }
 };
 
 Difference difference(const std::vector<const Velocities*>& trials,
-                      const std::vector<const Velocities*>& matched, double tick) {
-    auto ticks = static_cast<size_t>(std::llround(kLongest / tick));
-    for (const auto* list : {&trials, &matched}) {
-        for (const Velocities* v : *list) ticks = std::min(ticks, v->size());
-    }
+                      const std::vector<const Velocities*>& matched, size_t ticks) {
     Difference out;
     for (size_t i = 0; i < ticks; ++i) {
         const Mean with = mean_at(trials, i);
         const Mean without = mean_at(matched, i);
         out.d.push_back(with.mean - without.mean);
-        out.variance.push_back(with.variance + without.variance);
-        if (std::abs(out.d[i]) > std::abs(out.d[out.largest])) out.largest = i;
+        out.error.push_back(std::sqrt(with.variance + without.variance));
     }
     return out;
 }
 
+/// The peak of the first excursion: the means differ for 20 ms to one side, and the difference then
+/// grows until it has fallen to half of its largest value. A later one, such as the way back after
+/// a jump that does not last, does not count.
+std::optional<size_t> first_peak(const Difference& of, double tick) {
+    const auto lasts = static_cast<size_t>(std::llround(kLasts / tick));
+    size_t in_a_row = 0;
+    double sign = 0;
+    for (size_t i = 0; i < of.d.size(); ++i) {
+        const double side = of.d[i] > 0 ? 1 : -1;
+        in_a_row = of.differs(i, side) ? (side == sign ? in_a_row + 1 : 1) : 0;
+        sign = side;
+        if (in_a_row < lasts) continue;
+        size_t peak = i;
+        for (size_t k = i; k < of.d.size() && sign * of.d[k] > sign * of.d[peak] / 2; ++k) {
+            if (sign * of.d[k] > sign * of.d[peak]) peak = k;
+        }
+        return peak;
+    }
+    return std::nullopt;
+}
+
 void find_latency(const Difference& found, double tick, rows::CorrectionRow& row) {
-    const double sign = found.d[found.largest] > 0 ? 1 : -1;
+    const double sign = found.d[*found.peak] > 0 ? 1 : -1;
     std::vector<double> rise = savitzky_golay(found.d, tick, kWindow, 1);
     for (double& a : rise) a *= sign;
-    const auto last = rise.begin() + static_cast<std::ptrdiff_t>(found.largest) + 1;
+    const auto last = rise.begin() + static_cast<std::ptrdiff_t>(*found.peak) + 1;
     const auto peak = static_cast<size_t>(std::max_element(rise.begin(), last) - rise.begin());
     row.acceleration = sign * rise[peak];
     const auto quarter = rises_through(rise, 0.25 * rise[peak], peak);
@@ -106,22 +137,27 @@ void find_latency(const Difference& found, double tick, rows::CorrectionRow& row
 rows::CorrectionRow find_correction(const std::vector<const Velocities*>& trials,
                                     const std::vector<const Velocities*>& matched, double tick) {
     rows::CorrectionRow row;
-    const auto with = long_enough(trials, tick, row.left_out);
-    const auto without = long_enough(matched, tick, row.left_out);
+    const size_t ticks = std::min({most_have(trials, tick), most_have(matched, tick),
+                                   static_cast<size_t>(std::llround(kLongest / tick))});
+    const auto with = long_enough(trials, ticks, row.left_out);
+    const auto without = long_enough(matched, ticks, row.left_out);
     row.trials = static_cast<int>(with.size());
     row.matched = static_cast<int>(without.size());
     if (with.size() < kFewest || without.size() < kFewest) {
         row.why = fmt::format("it takes {} trials of each kind", kFewest);
         return row;
     }
-    const Difference found = difference(with, without, tick);
-    row.velocity = found.d[found.largest];
-    row.at = static_cast<double>(found.largest) * tick;
-    row.error = std::sqrt(found.variance[found.largest]);
-    if (std::abs(row.velocity) < kErrors * row.error || row.velocity == 0) {
-        row.why = fmt::format("the means differ by less than {:g} standard errors", kErrors);
+    row.compared = static_cast<double>(ticks) * tick;
+    Difference found = difference(with, without, ticks);
+    found.peak = first_peak(found, tick);
+    if (!found.peak) {
+        row.why = fmt::format("the means never differ by {:g} standard errors for {:g} ms", kErrors,
+                              1e3 * kLasts);
         return row;
     }
+    row.velocity = found.d[*found.peak];
+    row.at = static_cast<double>(*found.peak) * tick;
+    row.error = found.error[*found.peak];
     find_latency(found, tick, row);
     return row;
 }

@@ -27,8 +27,8 @@ namespace dihaptic::analysis {
 /// The velocities of a trial from the state's beginning on, one for each tick.
 using Velocities = std::vector<double>;
 
-/// The correction in `trials` against `matched`. Trials of less than 0.3 s are left out; the others
-/// count as far as the shortest of them, and for at most a second.
+/// The correction in `trials` against `matched`. They are compared for as long as nine tenths of
+/// the trials of each kind last, 0.3 s to 1 s; shorter trials are left out.
 rows::CorrectionRow find_correction(const std::vector<const Velocities*>& trials,
                                     const std::vector<const Velocities*>& matched, double tick);
 

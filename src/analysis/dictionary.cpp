@@ -31,8 +31,8 @@ class Dictionary {
 
   private:
     void add_trials(const recording::SessionFolder& session) {
-        add_all(trial_columns());
-        add_all(list_figures(rows::PlainTrialRow{}).columns);
+        add_all(has_trials(session) ? trial_columns()
+                                    : list_figures(rows::PlainTrialRow{}).columns);
         for (const NumberColumn& column : columns_of_numbers(session.read_info())) add(column);
         if (!is_there(session.file("task.yaml"))) return;
         const task::Task task = read_frozen_task(session.file("task.yaml"));

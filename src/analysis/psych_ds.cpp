@@ -27,11 +27,14 @@ Json variable(const Table::Column& column) {
 Json dataset(const PsychDs& data, const std::vector<Table::Column>& columns) {
     Json variables = Json::array();
     for (const Table::Column& column : columns) variables.push_back(variable(column));
-    return {{"@context", "https://schema.org/"},
-            {"@type", "Dataset"},
-            {"name", data.simulated ? "Simulation: " + data.title : data.title},
-            {"description", data.description},
-            {"variableMeasured", variables}};
+    Json out{{"@context", "https://schema.org/"},
+             {"@type", "Dataset"},
+             {"name", data.simulated ? "Simulation: " + data.title : data.title},
+             {"description", data.description}};
+    for (const std::string& name : data.authors)
+        out["author"].push_back({{"@type", "Person"}, {"name", name}});
+    out["variableMeasured"] = variables;
+    return out;
 }
 
 /// The columns of all tables, each once: a description with the words of the first table that has
@@ -59,8 +62,8 @@ std::string readme(const PsychDs& data, const std::vector<std::string>& files) {
            "participant and the group in all tables.\n\n";
     for (const std::string& file : files) out += fmt::format("- `data/{}`\n", file);
     return out +
-           "\nAuthors, licence and funding are not known to the program: add them to "
-           "`dataset_description.json`\nbefore you share the data.\n\nMade by " +
+           "\nComplete authors, licence and funding in "
+           "`dataset_description.json` before you share the\ndata.\n\nMade by " +
            data.program + " with `dihaptic export`.\n";
 }
 

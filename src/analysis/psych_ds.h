@@ -14,6 +14,7 @@ struct PsychDs {
     std::string study;  ///< label in file names; letters and digits of it count
     std::string title;
     std::string description;
+    std::vector<std::string> authors;
     std::string program;
     bool simulated = false;
     std::vector<TextTable> tables;  ///< those without rows are left out

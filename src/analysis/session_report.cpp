@@ -513,6 +513,11 @@ recording::NwbContent content_of(const Reading& reading, const recording::Sessio
     content.trials =
         reading.trials ? reading.trials->table(info) : trial_table(reading.figures, info);
     if (reading.measures) reading.measures->add_to(content.trials);
+    if (info.partner) {
+        content.trials.columns.push_back(kPartnerColumn);
+        for (std::vector<Table::Cell>& row : content.trials.rows)
+            row.emplace_back(info.partner->id);
+    }
     content.trials = by(std::move(content.trials));
     if (reading.trials) number_session(content.trials, folder);
     content.phases = by(figure_table<rows::PhaseRow>(reading.figures.phases));

@@ -238,6 +238,7 @@ size_t TrialFinder::ended() const {
 
 std::vector<Table::Column> trial_columns() {
     std::vector<Table::Column> out = list_figures(rows::TrialRow{}).columns;
+    out.push_back(kPartnerColumn);
     append(out, recording::kMovedByColumns);
     return out;
 }

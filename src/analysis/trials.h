@@ -92,6 +92,9 @@ struct NumberColumn : Table::Column {
 /// Those of a session, in the order of trials.csv.
 std::vector<NumberColumn> columns_of_numbers(const recording::SessionInfo& info);
 
+/// Column of trials.csv in a task for two.
+inline const Table::Column kPartnerColumn{"partner", "second participant of a task for two"};
+
 /// Columns of trials.csv with their descriptions, with a task or without.
 std::vector<Table::Column> trial_columns();
 

@@ -12,6 +12,7 @@ namespace dihaptic::rows {
 struct CorrectionRow {
     std::string round, condition, perturbation;
     int trials = 0, matched = 0, left_out = 0;
+    double compared = kUnmeasured;
     double latency = kUnmeasured;
     double acceleration = kUnmeasured;
     double velocity = kUnmeasured, at = kUnmeasured, error = kUnmeasured;
@@ -25,7 +26,9 @@ struct CorrectionRow {
         v("trials", f.trials, "1", "trials in which something happened");
         v("matched", f.matched, "1", "matched trials, in which nothing happened");
         v("left_out", f.left_out, "1",
-          "trials of both kinds that ended, or that the recording covers, for less than 0.3 s");
+          "trials of both kinds that ended before the comparison does");
+        v("compared", f.compared, "s",
+          "how far the means are compared: nine tenths of the trials of each kind last so long");
         v("latency", f.latency, "s",
           "from the state's beginning until the correction begins: the line through 25 % and 75 % "
           "of the acceleration's peak is extended to zero (Oostwoud Wijdenes, Brenner and Smeets "
@@ -33,8 +36,8 @@ struct CorrectionRow {
         v("acceleration", f.acceleration, "m/s2",
           "peak of the correction's acceleration along the axis: of the difference of the means");
         v("velocity", f.velocity, "m/s",
-          "largest difference of the mean velocities along the axis, with its sign");
-        v("velocity_at", f.at, "s", "time of this difference");
+          "peak of the difference of the mean velocities along the axis, in its first excursion");
+        v("velocity_at", f.at, "s", "time of this peak");
         v("velocity_error", f.error, "m/s", "its standard error");
         v("not_measured", f.why, "", "why there is no latency");
     }

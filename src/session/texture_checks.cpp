@@ -59,6 +59,12 @@ class TextureChecks {
         });
     }
 
+    /// A trial in words; a procedure's trials are checked at the ends of its levels.
+    std::string in_trial(size_t trial) const {
+        return fmt::format("in trial {}{}", trial + 1,
+                           plan_.task->trials[trial].procedure < 0 ? "" : ", at some level,");
+    }
+
     void check_changed(const frame::PropertiesFrame& changed, const task::BodySpec& spec,
                        size_t trial) {
         const scene::Body& body = plan_.scene.bodies[static_cast<size_t>(changed.body)];
@@ -72,16 +78,16 @@ class TextureChecks {
         if (texture.height < 0.9999 * wanted && limited_.insert(spec.place.line).second) {
             diagnostics_.warning(
                 spec.place, "texture_height_scale",
-                fmt::format("in trial {} ridges of {} would be {:.3g} mm high: they are limited "
+                fmt::format("{} ridges of {} would be {:.3g} mm high: they are limited "
                             "to {:.3g} mm, since no slope may exceed 45 degrees and no ridge "
                             "{:g} mm",
-                            trial + 1, body.name, 1e3 * wanted, 1e3 * texture.height,
+                            in_trial(trial), body.name, 1e3 * wanted, 1e3 * texture.height,
                             1e3 * Texture::kHighest),
                 "Lower it, or make the wavelength longer.");
         }
         if (texture.wavelength == given.wavelength && texture.height == given.height) return;
         if (!close_.contains(spec.place.line))
-            check_ridges(body.name, texture, spec.place, fmt::format("in trial {}, ", trial + 1));
+            check_ridges(body.name, texture, spec.place, in_trial(trial) + " ");
     }
 
     void check_ridges(const std::string& body, const Texture& texture, const Place& place,

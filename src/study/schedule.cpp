@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 
+#include "base/checksum.h"
 #include "base/number.h"
 #include "rows/trial_row.h"
 
@@ -77,6 +78,10 @@ const Visit* counted(const StudyFile& study, const std::vector<Visit>& visits, s
     if (visit == nullptr || visit->complete) return visit;
     const bool enough = !visit->running && share_of(*visit) >= study.resuming.complete;
     return enough ? visit : nullptr;
+}
+
+uint64_t seed_of(const std::string& words) {
+    return 1 + whole_number<uint64_t>(checksum_of(words), 16).value_or(0);
 }
 
 Next next_for(const StudyFile& study, const std::vector<Visit>& visits, double now) {

@@ -40,14 +40,14 @@ std::optional<bool> says_simulated(const std::string& file) {
     return json[kSimulated].get<bool>();
 }
 
-std::string readme(const recording::SessionInfo& info, bool simulated) {
+std::string readme(const std::string& title, const std::string& program, bool simulated) {
     const std::string who =
         simulated ? "THIS DATA SET IS A SIMULATION. No person took part in it: the hand was moved "
                     "by a\nsimulated person, a script or a recorded movement, as the column "
                     "moved_by of\nparticipants.tsv states.\n"
                   : "Persons took part in it, at force-feedback devices, or by mouse at simulated "
                     "ones, as\nthe column moved_by of participants.tsv states.\n";
-    return info.title + "\n\n" + who +
+    return title + "\n\n" + who +
            "\nEach run has the motion of each finger as a separate tracking system: the device's "
            "handle,\nthe finger in the virtual world (proxy), the force on the handle and the "
            "force of the touched\nbodies. The tracking system `objects` has the virtual objects "
@@ -59,7 +59,7 @@ std::string readme(const recording::SessionInfo& info, bool simulated) {
            "outcomes. events.json describes each column.\n\nAuthors, licence and funding are in "
            "dataset_description.json as far as they are known:\ncomplete them before you share the "
            "data.\n\nMade by " +
-           info.program + " with `dihaptic export`.\n";
+           program + " with `dihaptic export`.\n";
 }
 
 const Json kParticipantColumns{
@@ -172,9 +172,10 @@ void DataSet::check_recordings() const {
 
 void DataSet::describe() const {
     const bool simulated = info_.moved_by.simulated() == "yes";
+    const std::string title = info_.in_study ? info_.in_study->study : info_.title;
     if (const std::string name = file("dataset_description.json"); !is_there(name)) {
         const size_t blank = info_.program.find(' ');
-        Json json{{"Name", simulated ? "Simulation: " + info_.title : info_.title},
+        Json json{{"Name", simulated ? "Simulation: " + title : title},
                   {"BIDSVersion", "1.9.0"},
                   {kHedVersion, rows::kHedSchema},
                   {"DatasetType", "raw"},
@@ -190,7 +191,7 @@ void DataSet::describe() const {
     }
     add_hed_version();
     if (!is_there(file("README")) && !is_there(file("README.md")))
-        write_anew(readme(info_, simulated), file("README"));
+        write_anew(readme(title, info_.program, simulated), file("README"));
     if (!is_there(file("participants.json")))
         write_anew(kParticipantColumns.dump(2) + "\n", file("participants.json"));
 }

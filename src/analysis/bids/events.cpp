@@ -73,6 +73,7 @@ std::vector<Column> columns_for(const rows::TrialFile& trials, const rows::LiftF
         add(c, c.known_before ? Column::Of::asked : Column::Of::measured);
     // events and measures of a trial: only the trial's own row has them
     for (Table::Column& c : measure_columns_of(task)) measured.push_back(std::move(c));
+    measured.push_back(kPartnerColumn);
     for (const Table::Column& c : measured) add(c, Column::Of::measured);
     if (lifts == nullptr) return out;
     const std::vector<Table::Column> of_lifts = list_figures(rows::LiftRow{}).columns;
@@ -151,22 +152,37 @@ class HedTags {
   public:
     explicit HedTags(const task::Task& task) : task_(task) {}
 
-    /// `perturbations`: names of those of the trial, as in trials.csv.
-    std::string of(const rows::EventRow& event, const std::string& perturbations) const {
+    /// `trial`: null between trials.
+    std::string of(const rows::EventRow& event, const rows::AskedRow* trial) const {
         std::string out = hed_label(event.detail);
         const auto also = [&](const std::string& tags) {
             if (!tags.empty()) out += (out.empty() ? "(" : ", (") + tags + ")";
         };
         if (event.name == "phase") also(of_state(event.detail));
         if (event.name == "outcome") also(of_outcome(event.detail));
-        if (event.name != "perturbation" || event.detail != "on") return out;
+        if (event.name != "perturbation" || event.detail != "on" || trial == nullptr) return out;
         for (const task::PerturbationSpec& spec : task_.perturbations) {
-            if (task::names_perturbation(perturbations, spec.name)) also(spec.hed);
+            if (task::names_perturbation(trial->perturbation, spec.name))
+                also(of_perturbation(spec, *trial));
         }
         return out;
     }
 
   private:
+    /// A condition, or else a round, may replace the perturbation by one of the same name.
+    std::string of_perturbation(const task::PerturbationSpec& spec,
+                                const rows::AskedRow& trial) const {
+        for (const auto& [list, name] : {std::pair(&task_.conditions, &trial.condition),
+                                         std::pair(&task_.rounds, &trial.round)}) {
+            for (const task::Condition& owner : *list) {
+                if (owner.name != *name) continue;
+                const auto own = std::ranges::find(owner.perturbations, spec.name,
+                                                   &task::PerturbationSpec::name);
+                if (own != owner.perturbations.end()) return own->hed;
+            }
+        }
+        return spec.hed;
+    }
     std::string of_state(const std::string& name) const {
         for (const task::State& state : task_.states) {
             if (state.name == name) return state.hed;
@@ -232,9 +248,8 @@ class EventRows {
                 row.push_back(&c == &columns_.front() ? number_text(event.trial) : "");
             }
         }
-        const std::string perturbations =
-            attempt == nullptr ? "" : trials_[attempt->row].asked.perturbation;
-        return finished(row, tags_.of(event, perturbations));
+        return finished(
+            row, tags_.of(event, attempt == nullptr ? nullptr : &trials_[attempt->row].asked));
     }
 
   private:

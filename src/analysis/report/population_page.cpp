@@ -318,9 +318,10 @@ void add_lifts(PopulationPage& out, const std::string& title, const Sessions& se
 }
 
 /// Lists the measures and answers of the last attempts at trials, by the study's group and session,
-/// and by round, block, condition and kind of trials.
+/// and by round, block, condition, kind of trials and perturbation.
 void list_measures(PopulationPage& out, const std::string& title, const Sessions& sessions) {
-    using Key = std::array<std::string, 6>;  // group, session, round, block, condition, kind
+    // group, session, round, block, condition, kind, perturbation
+    using Key = std::array<std::string, 7>;
     std::vector<Table::Column> columns = measured_columns(*sessions.front());
     const size_t measures = columns.size();
     for (Table::Column& answer : task::columns_of(task::questions_of(sessions.front()->task)))
@@ -338,8 +339,10 @@ void list_measures(PopulationPage& out, const std::string& title, const Sessions
             for (size_t i = 0; i < trials.size(); ++i) last[trials[i].asked.trial] = i;
             for (const auto& [trial, i] : last) {
                 const rows::AskedRow& asked = trials[i].asked;
-                const Key key{in_study.group, in_study.session, asked.round,
-                              asked.block,    asked.condition,  std::string(enum_name(asked.kind))};
+                const Key key{in_study.group,    in_study.session,
+                              asked.round,       asked.block,
+                              asked.condition,   std::string(enum_name(asked.kind)),
+                              asked.perturbation};
                 const double value = trials.number(i, measured);
                 ++trials_of[key];
                 empty[key] += std::isnan(value) ? 1 : 0;
@@ -359,6 +362,7 @@ void list_measures(PopulationPage& out, const std::string& title, const Sessions
             row("block", key[3], "", "name");
             row("condition", key[4], "", "name");
             row("kind", key[5], "", "kind of the trials");
+            row("perturbation", key[6], "", "name, or names joined by ' + '; empty: none");
             row("trials", trials_of[key], "1", "number over all people, the last attempt at each");
             row("left_out", empty[key], "1", "trials without the measure: not_measured says why");
             list(row, of_people.over_people());

@@ -81,7 +81,7 @@ TEST(Corrections, SayWhyThereIsNone) {
     };
     EXPECT_EQ(of(Planted(2, 0.15, 0.02, 1), matched).why, "it takes 3 trials of each kind");
     EXPECT_EQ(of(Planted(20, 0, 0, 3), matched).why,
-              "the means differ by less than 3 standard errors");
+              "the means never differ by 3 standard errors for 20 ms");
     EXPECT_TRUE(std::isnan(of(Planted(20, 0, 0, 3), matched).latency));
     EXPECT_EQ(of(Planted(20, -0.1, 0.05, 3), matched).why,
               "the hand parts from the matched trials as the state begins, or before");
@@ -89,8 +89,36 @@ TEST(Corrections, SayWhyThereIsNone) {
     EXPECT_EQ(shorter.left_out, 20);
     EXPECT_EQ(shorter.why, "it takes 3 trials of each kind");
     const rows::CorrectionRow exact = of(matched, matched);
-    EXPECT_EQ(exact.velocity, 0);
-    EXPECT_EQ(exact.why, "the means differ by less than 3 standard errors");
+    EXPECT_TRUE(std::isnan(exact.velocity));
+    EXPECT_EQ(exact.why, "the means never differ by 3 standard errors for 20 ms");
+}
+
+TEST(Corrections, AreComparedAsFarAsMostTrialsLast) {
+    Planted jumped(20, 0.15, 0.02, 1);
+    const Planted matched(20, 0, 0, 2);
+    const rows::CorrectionRow whole = find_correction(jumped.all(), matched.all(), kTick);
+    EXPECT_NEAR(whole.compared, 0.8, 1e-9);
+    jumped.trials[3].resize(320);  // one trial that ended soon
+    const rows::CorrectionRow row = find_correction(jumped.all(), matched.all(), kTick);
+    EXPECT_EQ(row.left_out, 1);
+    EXPECT_NEAR(row.compared, 0.8, 1e-9);
+    EXPECT_NEAR(row.latency, whole.latency, 0.01);
+    for (Velocities& v : jumped.trials) v.resize(400);
+    EXPECT_NEAR(find_correction(jumped.all(), matched.all(), kTick).compared, 0.32, 0.081);
+}
+
+TEST(Corrections, AreThoseOfTheFirstExcursionNotOfTheWayBack) {
+    Planted jumped(20, 0.12, 0.01, 1);
+    for (Velocities& v : jumped.trials) {
+        for (size_t k = 0; k < v.size(); ++k) {
+            const double s = (static_cast<double>(k) * kTick - 0.45) / 0.2;
+            if (s > 0 && s < 1) v[k] -= 0.01 * model::minimum_jerk(s).rate / 0.2;  // faster
+        }
+    }
+    const rows::CorrectionRow row =
+        find_correction(jumped.all(), Planted(20, 0, 0, 2).all(), kTick);
+    EXPECT_GT(row.velocity, 0);
+    EXPECT_NEAR(row.latency, 0.12 + bias(), 0.012);
 }
 
 }  // namespace

@@ -67,6 +67,7 @@ TEST(Session, OfTwoPeopleHasBothWithTheirTraitsAndReplaysToTheBit) {
     const auto info = recording::SessionFolder::open(folder).read_info();
     ASSERT_TRUE(info.partner);
     EXPECT_EQ(info.partner->id, "S02");
+    EXPECT_EQ(CsvFile(folder + "/trials.csv").text(0, "partner"), "S02");
     const Node node = read_yaml(folder + "/person.yaml");
     ASSERT_NE(node.find("partner"), nullptr);
     EXPECT_EQ(node.find("partner")->find("id")->scalar, "S02");

@@ -82,7 +82,7 @@ struct LookSpec {
 /// A page that is shown in place of the scene until a key is pressed or a time has passed.
 struct PageSpec {
     std::string text;      ///< Markdown
-    std::string picture;   ///< PNG file, relative to the experiment file
+    std::string picture;   ///< PNG or GIF file, relative to the experiment file
     std::string checksum;  ///< of the picture, once it is found (base/checksum.h)
     std::string key;       ///< one letter or digit; empty: any
     double lasts = 0;      ///< longest time for which it is shown; 0: until the key press [s]
@@ -92,7 +92,7 @@ struct PageSpec {
     void visit(Visitor& v) {
         v("text", text,
           says("Text of the page, in Markdown; names in braces are replaced with numbers."));
-        v("picture", picture, says("PNG file, relative to this file."));
+        v("picture", picture, says("PNG or GIF file, which may move, relative to this file."));
         v("key", key, says("Letter or digit that turns the page; any key if omitted."));
         v("for", lasts,
           Field::of(Quantity::time)

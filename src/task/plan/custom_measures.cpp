@@ -1,6 +1,7 @@
 #include "task/plan/custom_measures.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -67,7 +68,9 @@ std::vector<Table::Column> columns_of(const std::vector<CustomMeasure>& measures
         out.push_back(
             {measure.name,
              fmt::format(
-                 "{} of {}{}{}", enum_name(measure.take), measure.of,
+                 "{} of {}{}{}{}", enum_name(measure.take), measure.of,
+                 measure.during.empty() ? std::string()
+                                        : fmt::format(" in {}", fmt::join(measure.during, ", ")),
                  measure.when.empty() ? "" : fmt::format(" when {}", measure.when),
                  measure.window ? fmt::format(", moving mean over {:g} s", *measure.window) : ""),
              unit_of(measure.name)});

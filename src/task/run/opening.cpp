@@ -16,12 +16,15 @@ constexpr double kTolerance = 1e-6;  // times are sums of ticks, with rounding e
 
 constexpr int64_t kMostPicture = 200'000'000;  // [bytes]
 
-/// Stores the checksum of a page's picture. Throws Error if the file cannot be read or is not a PNG
-/// file.
+/// Stores the checksum of a page's picture. Throws Error if the file cannot be read or is neither a
+/// PNG nor a GIF file.
 void note_checksum(PageSpec& page) {
     const std::string bytes = read_bytes(page.picture, kMostPicture);
-    if (!bytes.starts_with("\x89PNG\r\n\x1a\n"))
-        throw Error("is not a PNG file", "Convert it, e.g. with an image editor.");
+    const bool is_png = bytes.starts_with("\x89PNG\r\n\x1a\n");
+    if (!is_png && !bytes.starts_with("GIF87a") && !bytes.starts_with("GIF89a"))
+        throw Error("is neither a PNG nor a GIF file",
+                    "Convert it with an image editor; or a video, for a picture that moves: ffmpeg "
+                    "-i video.mp4 picture.gif.");
     page.checksum = checksum_of(bytes);
 }
 
@@ -36,7 +39,7 @@ void find_pictures(Task& task, const std::string& folder, Diagnostics& diagnosti
             if (!std::filesystem::is_regular_file(page.picture, unreadable)) {
                 diagnostics.error(page.place, "picture",
                                   fmt::format("there is no file {}", page.picture),
-                                  "Name a PNG file, relative to this one.");
+                                  "Name a PNG or GIF file, relative to this one.");
                 continue;
             }
             try {

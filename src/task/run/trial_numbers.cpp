@@ -32,9 +32,10 @@ void look_at(int index, size_t trial, const TrialNumbers& numbers, TaskPlan& pla
                           "are listed before it.");
         return;
     }
-    const auto say =
-        fmt::format("'{}' gives {:.6g} in trial {}, but must be from {:.6g} to {:.6g}", f.text,
-                    given / f.to_si, trial + 1, f.field.min / f.to_si, f.field.max / f.to_si);
+    const auto say = fmt::format("'{}' gives {:.6g} in trial {}, but must be {} {:.6g} {} {:.6g}",
+                                 f.text, given / f.to_si, trial + 1,
+                                 f.field.above_min ? "above" : "from", f.field.min / f.to_si,
+                                 f.field.above_min ? "and at most" : "to", f.field.max / f.to_si);
     if (compiled.expression.foreseen()) {
         diagnostics.error(f.place, f.key, say, "Correct the formula or the quantities in it.");
     } else {
