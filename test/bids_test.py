@@ -10,6 +10,7 @@ import hashlib
 import json
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -183,18 +184,18 @@ class DataSets(unittest.TestCase):
     def test_events_have_the_tags_of_their_kind_and_of_the_task(self):
         self.assertEqual(json.loads(pathlib.Path(self.set, "dataset_description.json").read_text())["HEDVersion"], "8.3.0")
         events = self.events()
-        tags = {("phase", "reach"): "Label/reach, (Sensory-event, Visual-presentation, Go-signal)",
-                ("phase", "home"): "Label/home",
-                ("outcome", "reached"): "Label/reached, (Agent-action, Correct-action)",
-                ("outcome", "too slow"): "Label/too-slow"}
-        begun = {"near": "Label/on, (Experimental-stimulus, Unexpected)", "far": "Label/on, (Distractor)"}
+        tags = {("phase", "reach"): "reach, (Sensory-event, Visual-presentation, Go-signal)",
+                ("phase", "home"): "home",
+                ("outcome", "reached"): "reached, (Agent-action, Correct-action)",
+                ("outcome", "too slow"): "too-slow"}
+        begun = {"near": "on, (Experimental-stimulus, Unexpected)", "far": "on, (Distractor)"}
         seen = set()
         for event in events:
             about = (event["trial_type"], event["value"])
             if about in tags:
-                self.assertEqual(event["HED"], tags[about])
+                self.assertRegex(event["HED"], r"^Label/\d+-" + re.escape(tags[about]) + "$")
             if about == ("perturbation", "on"):
-                self.assertEqual(event["HED"], begun[event["condition"]])
+                self.assertRegex(event["HED"], r"^Label/\d+-" + re.escape(begun[event["condition"]]) + "$")
                 seen.add(event["condition"])
             seen.add(about)
         self.assertLessEqual(set(begun), seen)
@@ -271,6 +272,47 @@ class DataSets(unittest.TestCase):
         task = self.run_session(self.reaches, "--simulate", "--participant", "sim-005")
         said = dihaptic("export", task, "--bids", study, code=2)
         self.assertIn("participants.tsv:1: error: id: is its first column, but BIDS expects participant_id", said)
+
+
+@unittest.skipUnless(os.environ.get("DIHAPTIC_EVERY_EXPERIMENT"), "the soak exports every shipped experiment")
+class EveryExperiment(unittest.TestCase):
+    """The design and the measures of each shipped experiment, in short, are in the export alone."""
+
+    def test_has_its_design_and_measures_in_the_export(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        data = folder.name + "/data"
+        experiments = sorted(pathlib.Path("experiments").glob("*.yaml"))
+        for experiment in experiments:
+            with self.subTest(experiment.stem):
+                text = experiment.read_text().replace("../", os.getcwd() + "/")
+                for key, most in [("repeats", 1), ("trials", 4)]:
+                    text = re.sub(rf"\b{key}: (\d+)", lambda m, most=most, key=key: f"{key}: {min(int(m[1]), most)}", text)
+                short = pathlib.Path(folder.name, experiment.name)
+                short.write_text(text)
+                said = subprocess.run([PROGRAM, "run", str(short), "--simulate", "--out", folder.name + "/" + experiment.stem],
+                                      capture_output=True, text=True, timeout=patient(600))
+                self.assertIn("session: ", said.stdout, said.stdout + said.stderr)
+                session = said.stdout.split("session: ")[1].split("\n")[0]
+                dihaptic("export", session, "--bids", data)
+                self.check(session, data, experiment.stem)
+        checked = subprocess.run(["node", validator(), data, "--json"], capture_output=True, text=True, timeout=1800)
+        errors = json.loads(checked.stdout)["issues"]["errors"]
+        self.assertEqual([(i["key"], [f["evidence"] for f in i["files"]][:3]) for i in errors], [])
+
+    def check(self, session, data, name):
+        label = "".join(c for c in name if c.isalnum())
+        (file,) = glob.glob(f"{data}/sub-*/motion/*task-{label}_run-01_events.tsv")
+        exported = [e for e in table(file) if e["trial_type"] == "trial"]
+        described = json.loads(pathlib.Path(file.replace(".tsv", ".json")).read_text())
+        self.assertLessEqual(set(exported[0]) - {"HED"} if exported else set(), set(described))
+        with open(session + "/trials.csv") as own:
+            rows = list(csv.DictReader(own))
+        self.assertEqual(len(exported), len(rows))
+        known = {"start_time", "stop_time", "experiment", "ppid", "session_num"}  # onset, duration, sub- and task- have them
+        for column in set(rows[0]) - known if rows else ():
+            self.assertIn(column, exported[0])
+            self.assertEqual([e[column] for e in exported], [row[column] or "n/a" for row in rows], column)
 
 
 if __name__ == "__main__":

@@ -160,7 +160,7 @@ void run_one(SessionOptions& options) {
         if (session::is_for_two(plan)) {
             std::string& other = options.run.partner.id;
             other = other.empty() ? session::partner_of(id) : recording::simulated_id(other);
-            partner = person::draw_person(people, seed, other);
+            partner = person::draw_person(people, seed, other, people.group_of(id));
         }
         session::sit_down(plan, person::draw_person(people, seed, id), partner);
         plan.moved_by.seed = number_text(seed);
@@ -398,6 +398,10 @@ std::string take_turn(SessionOptions& options) {
         throw Error({options.request.file, 0}, "rig", "is simulated: no person can take part",
                     "Name a rig with devices (--rig), or rehearse the session: --simulate.");
     }
+    if (!options.run.partner.id.empty()) study::check_identifier(options.run.partner.id);
+    if (!turn.resume.empty() && !options.run.partner.id.empty())
+        throw Error({"--partner", 0}, options.run.partner.id,
+                    "is named by the session that goes on", "Leave it out.");
     turn.log_begin();
     return turn.resume;
 }

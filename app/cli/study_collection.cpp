@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "base/number.h"
 #include "base/plural.h"
@@ -65,6 +66,10 @@ class JoinedTable {
         }
         const auto [at, is_new] = places_.emplace(column.name, columns_.size());
         if (is_new) columns_.push_back(column);
+        std::string& known = columns_[at->second].description;
+        // experiments may mean different things by one name
+        if (known.find(column.description) == std::string::npos)
+            known += (known.empty() ? "" : "; or: ") + column.description;
         return at->second;
     }
 
@@ -133,12 +138,86 @@ study::StudyFile study_of(const StudyData& data) {
     return study;
 }
 
-StudySessions::StudySessions(const study::StudyFile& study) : roster_(study::read_roster(study)) {
+namespace {
+
+/// A recording and those that it resumes, the first one first.
+std::vector<std::string> parts_of(const std::string& folder) {
+    std::vector<std::string> out{folder};
+    for (;;) {
+        const auto info = recording::SessionFolder::open_tables(out.front()).read_info();
+        if (info.resumes.empty()) return out;
+        const fs::path earlier = fs::path(folder).parent_path() / fs::path(info.resumes).filename();
+        if (!fs::is_directory(earlier))
+            throw Error({out.front(), 0}, "resumes",
+                        fmt::format("{}, which is missing", earlier.string()),
+                        "Restore that recording: it has the first part of the session.");
+        out.insert(out.begin(), earlier.string());
+    }
+}
+
+/// Folders of recordings of people who are not in the list of participants, in words.
+std::vector<std::string> strangers(const study::StudyFile& study, const study::Roster& roster) {
+    std::vector<std::string> out;
+    std::error_code none;
+    for (fs::directory_iterator at(study.data + "/sessions", none), end; !none && at != end;
+         at.increment(none)) {
+        const std::string id = at->path().filename().string();
+        const auto found = std::ranges::find(roster.participants, id, &study::Member::id);
+        if (at->is_directory() && !id.starts_with('.') && found == roster.participants.end())
+            out.push_back(
+                fmt::format("left out: {} is not in participants.yaml", at->path().string()));
+    }
+    std::ranges::sort(out);
+    return out;
+}
+
+size_t column_of(const TextTable& table, const std::string& name) {
+    const auto found = std::ranges::find(table.columns, name, &Table::Column::name);
+    return static_cast<size_t>(found - table.columns.begin());
+}
+
+/// The tables of a session. Those of trials have the rows of all its parts; the lifts of earlier
+/// parts are added here, if trials.csv has their attempts.
+std::vector<TextTable> tables_of_parts(const CompleteSession& session) {
+    std::vector<TextTable> out = tables_of(session.folder);
+    if (session.parts.size() < 2) return out;
+    const auto named = [](const char* name) {
+        return [name](const TextTable& table) { return table.name == name; };
+    };
+    const auto trials = std::ranges::find_if(out, named("trials.csv"));
+    if (trials == out.end()) return out;
+    std::set<std::pair<std::string, std::string>> attempts;
+    const size_t trial = column_of(*trials, "trial_num"), attempt = column_of(*trials, "attempt");
+    for (const auto& row : trials->rows) attempts.emplace(row[trial], row[attempt]);
+    std::vector<TextTable> earlier;
+    for (const std::string& part : session.parts) {
+        for (TextTable& table : tables_of(part)) {
+            if (table.name != "lifts.csv") continue;
+            const size_t of = column_of(table, "trial_num"), number = column_of(table, "attempt");
+            std::erase_if(table.rows, [&](const auto& row) {
+                return attempts.erase({row[of], row[number]}) == 0;
+            });
+            earlier.push_back(std::move(table));
+        }
+    }
+    std::erase_if(out, named("lifts.csv"));
+    out.insert(out.end(), earlier.begin(), earlier.end());
+    return out;
+}
+
+}  // namespace
+
+StudySessions::StudySessions(const study::StudyFile& study)
+    : roster_(study::read_roster(study)), missing_(strangers(study, roster_)) {
+    if (roster_.participants.empty() && !missing_.empty())
+        throw Error({study.data + "/participants.yaml", 0}, "",
+                    "names nobody, but there are recordings in " + study.data + "/sessions",
+                    "Restore the list of participants.");
     for (const study::Member& member : roster_.participants) {
         const auto visits = session::visits_of(study, member);
         for (size_t i = 0; i < study.sessions.size(); ++i) {
             if (const study::Visit* const visit = study::counted(study, visits, i)) {
-                complete_.push_back({member, visit->folder});
+                complete_.push_back({member, visit->folder, parts_of(visit->folder)});
             } else if (member.takes_part()) {
                 missing_.push_back(
                     fmt::format("missing: {} of {}", study.sessions[i].name, member.id));
@@ -154,7 +233,7 @@ std::vector<TextTable> tables_of(const study::StudyFile& study, const StudySessi
     double done = 0;
     for (const CompleteSession& session : sessions.complete()) {
         const auto front = front_of(session, group_of(study, session.member, data.reveal_groups));
-        for (const TextTable& table : tables_of(session.folder))
+        for (const TextTable& table : tables_of_parts(session))
             tables[table.name].add(front, table);
         line.show(++done / static_cast<double>(sessions.complete().size()));
     }

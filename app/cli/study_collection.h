@@ -29,6 +29,7 @@ study::StudyFile study_of(const StudyData& data);
 struct CompleteSession {
     const study::Member& member;
     std::string folder;
+    std::vector<std::string> parts;  ///< folders of all its recordings, if it was resumed, in order
 };
 
 /// The complete sessions of a study, in the order of its participants and sessions.
@@ -39,7 +40,8 @@ class StudySessions {
 
     const study::Roster& roster() const { return roster_; }
     const std::vector<CompleteSession>& complete() const { return complete_; }
-    /// Sessions that participants who take part still have to do, in words.
+    /// Sessions that participants who take part still have to do, and recordings of people who are
+    /// not in the list of participants, in words.
     const std::vector<std::string>& missing() const { return missing_; }
 
   private:

@@ -17,6 +17,32 @@ void tell_missing(const StudySessions& sessions) {
     for (const std::string& text : sessions.missing()) fmt::print("{}\n", text);
 }
 
+/// Throws Error when the recording of the motion is missing, as in a rehearsal of tables alone.
+void check_recording(const std::string& folder, const StudyData& data) {
+    if (is_there(folder + "/raw.log")) return;
+    throw Error({folder, 0}, "", "has no recording of the motion: raw.log is missing",
+                data.rehearsed.empty()
+                    ? "Restore it, or export the tables alone: --psych-ds."
+                    : "Rehearse the study anew: dihaptic rehearse STUDY --keep-recordings --out "
+                      "FOLDER. Or export the tables alone: --psych-ds.");
+}
+
+/// Adds a recording unless the data set has it. Returns the number added.
+size_t add(const std::string& folder, const std::string& data_set,
+           const std::function<void(double)>& progress) {
+    const auto session = recording::SessionFolder::open(folder);
+    if (analysis::is_exported(session, data_set)) return 0;
+    try {
+        const analysis::Exported exported = analysis::export_bids(session, data_set, progress);
+        print(exported.changed);
+        for (const std::string& what : exported.log) fmt::print("{}: raw.log: {}\n", folder, what);
+        return 1;
+    } catch (const Error&) {
+        if (!analysis::is_exported(session, data_set)) throw;
+        return 0;  // another program has just added it
+    }
+}
+
 }  // namespace
 
 void export_bids(const StudyData& data, const std::string& data_set) {
@@ -25,30 +51,17 @@ void export_bids(const StudyData& data, const std::string& data_set) {
     size_t added = 0;
     double done = 0;
     for (const CompleteSession& complete : sessions.complete()) {
-        if (!is_there(complete.folder + "/raw.log"))
-            throw Error({complete.folder, 0}, "",
-                        "has no recording of the motion: raw.log is missing",
-                        data.rehearsed.empty()
-                            ? "Restore it, or export the tables alone: --psych-ds."
-                            : "Rehearse the study anew: dihaptic rehearse STUDY --keep-recordings "
-                              "--out FOLDER. Or export the tables alone: --psych-ds.");
-        const auto session = recording::SessionFolder::open(complete.folder);
-        if (!analysis::is_exported(session, data_set)) {
+        const double all = static_cast<double>(sessions.complete().size());
+        for (const std::string& part : complete.parts) {
+            check_recording(part, data);
             ProgressLine line("adding sessions");
-            const auto all = static_cast<double>(sessions.complete().size());
-            const analysis::Exported exported = analysis::export_bids(
-                session, data_set, [&](double share) { line.show((done + share) / all); });
-            line.clear();
-            print(exported.changed);
-            for (const std::string& what : exported.log)
-                fmt::print("{}: raw.log: {}\n", complete.folder, what);
-            ++added;
+            added += add(part, data_set, [&](double share) { line.show((done + share) / all); });
         }
         ++done;
     }
     tell_missing(sessions);
-    fmt::print("{} added to {}, which has {} of {} people\n",
-               counted(static_cast<int64_t>(added), "session"), data_set,
+    fmt::print("{} added to {}; the study has {} of {} people\n",
+               counted(static_cast<int64_t>(added), "recording"), data_set,
                counted(static_cast<int64_t>(sessions.complete().size()), "session"),
                sessions.roster().participants.size());
 }

@@ -103,6 +103,12 @@ person::Traits traits_of(const person::Population& population, uint64_t seed,
                : person::draw_person(population, seed, member.id, member.group);
 }
 
+/// What a participant, and the partner in tasks for two, learned in earlier sessions.
+struct Memories {
+    person::Learned person;
+    person::Learned partner;
+};
+
 /// A study's people and their work.
 class Rehearsing {
   public:
@@ -126,7 +132,7 @@ class Rehearsing {
     /// Returns the exit status.
     int run(const std::string& id) const {
         const study::Member& member = *roster_.find(id);
-        person::Learned learned;
+        Memories learned;
         try {
             for (size_t i = 0; i < study_.sessions.size() && !all_complete(member, i); ++i) {
                 if (!run_session(member, i, learned)) return kFailed;
@@ -153,7 +159,7 @@ class Rehearsing {
         return true;
     }
 
-    bool run_session(const study::Member& member, size_t index, person::Learned& learned) const {
+    bool run_session(const study::Member& member, size_t index, Memories& learned) const {
         if (is_complete(member, index)) {
             const TemporaryFolder scratch;
             return !record(member, index, scratch.path(), false, learned).empty();
@@ -174,7 +180,7 @@ class Rehearsing {
     /// Returns the folder of the session; empty if it did not end well. `learned`: before it, and
     /// then after it.
     std::string record(const study::Member& member, size_t index, const std::string& out,
-                       bool keep_log, person::Learned& learned) const {
+                       bool keep_log, Memories& learned) const {
         session::Request request;
         request.file = study_.experiment_of(index, member.group, member.number);
         request.participant = member.id;
@@ -187,14 +193,17 @@ class Rehearsing {
         std::shared_ptr<person::Person> person;
         if (plan.task) {
             const auto traits = [&](const study::Member& of) {
-                return traits_of(rehearsal_.population, rehearsal_.seed, of);
+                person::Traits drawn = traits_of(rehearsal_.population, rehearsal_.seed, of);
+                if (study_.allocation.concealed) drawn.group.clear();  // it would name the study's
+                return drawn;
             };
             study::Member other = member;
             other.id = session::partner_of(member.id);
             if (session::is_for_two(plan)) run.partner.id = other.id;
             person = session::sit_down(plan, traits(member), traits(other));
             plan.moved_by.seed = number_text(rehearsal_.seed);
-            person->recall(learned);
+            person->recall(learned.person);
+            if (plan.partner) plan.partner->recall(learned.partner);
         }
         run.out = out;
         run.command = command_line();
@@ -207,7 +216,8 @@ class Rehearsing {
                        session.fault.empty() ? "the session did not end well" : session.fault);
             return "";
         }
-        if (person) learned = person->learned();
+        if (person) learned.person = person->learned();
+        if (plan.partner) learned.partner = plan.partner->learned();
         return session.folder;
     }
 

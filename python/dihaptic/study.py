@@ -9,7 +9,7 @@ import zlib
 from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 import pandas as pd
@@ -26,6 +26,14 @@ _AFTER_FACTS = ["added", "version", "withdrawn"]
 _UNFINISHED = "unfinished-"
 #: The remedy for a mistake in a study's file.
 _CHECK = "dihaptic check names the mistake."
+#: The remedy for a damaged participants.yaml.
+_ROSTER = "Restore the file: log.csv says who was added."
+#: The remedy for a damaged session.yaml.
+_AWAY = "Restore the file, or move the folder away."
+#: What is wrong with a part of a file that is not of this kind.
+_WRONG: dict[type, str] = {dict: "has no keys", list: "is not a list of items with keys", str: "is not a single value"}
+#: A kind of part: keys with values, a list of such, or a single value.
+_Part = TypeVar("_Part", dict[str, Any], list[Any], str)
 
 
 class Study(Collected):
@@ -62,20 +70,17 @@ class Study(Collected):
                 f"Name the folder of the rehearsal. Without one, type {command_of('rehearse', self.file)}.",
                 file=str(rehearsed),
             )
-        self.title: str = spec["title"]
+        self.title = _part(spec, "title", str, self.file, _CHECK)
         self.groups = _names(spec, "groups", self.file)
         self.folder = Path(rehearsed) if rehearsed else self.file.parent
         self._rehearsed = bool(rehearsed)
         self._sessions = _names(spec, "sessions", self.file)
         self._facts = _names(spec, "facts", self.file)
-        resuming = spec.get("resuming") or {}
-        #: Share of its trials from which on an interrupted session counts.
-        self._enough = float(resuming.get("complete", 1)) if isinstance(resuming, dict) else 1.0
-        allocation = spec.get("allocation") or {}
-        if not isinstance(allocation, dict):
-            raise error("has no keys", _CHECK, file=str(self.file), key="allocation")
-        concealed = allocation.get("concealed") in ("yes", "true")
-        codes = {name: _code_of(name, allocation.get("seed", "1")) for name in self.groups}
+        self._enough = _enough(spec, self.file)
+        allocation = _part(spec, "allocation", dict, self.file, _CHECK)
+        concealed = _part(allocation, "concealed", str, self.file, _CHECK, "allocation.") in ("yes", "true")
+        seed = _part(allocation, "seed", str, self.file, _CHECK, "allocation.") or "1"
+        codes = {name: _code_of(name, seed) for name in self.groups}
         #: What stands for a group that participants.yaml names, or has the code of.
         self._shown = {name: codes[name] if concealed else name for name in self.groups}
         self._shown.update({codes[name]: shown for name, shown in self._shown.items()})
@@ -109,7 +114,7 @@ class Study(Collected):
         table = csv.writer(text, lineterminator="\n")
         table.writerow(_BEFORE_FACTS + self._facts + _AFTER_FACTS)
         for member in self._members():
-            facts = {each.get("name"): each.get("value") for each in member.get("facts") or []}
+            facts = {each["name"]: each.get("value") for each in member.get("facts") or []}
             own = [facts.get(name) for name in self._facts]
             before, after = ([member.get(name) for name in names] for names in (_BEFORE_FACTS, _AFTER_FACTS))
             table.writerow(before + own + after)
@@ -140,7 +145,7 @@ class Study(Collected):
         for member in self._members():
             for name in self._sessions:
                 for session in self._recordings(member["id"], name):
-                    condition = (session.info.get("in_study") or {}).get("condition") or np.nan
+                    condition = session.info["in_study"].get("condition") or np.nan
                     row = (member["id"], member["group"], name, condition, _is_complete(session), str(session.folder))
                     rows.append(row)
         columns = ["participant", "group", "study_session", "study_condition", "complete", "folder"]
@@ -199,7 +204,8 @@ class Study(Collected):
         if (roster.get("study") or self.title) != self.title:
             what = f"is '{roster['study']}', not '{self.title}'"
             raise error(what, "Give each study a folder of its own.", file=str(file), key="study")
-        members = _items(roster, "participants", "id", file, "Restore the file: log.csv says who was added.")
+        members = _items(roster, "participants", "id", file, _ROSTER)
+        _check_members(members, file)
         for member in members:
             group = member.get("group", "")
             if group not in self._shown:
@@ -247,20 +253,58 @@ class Study(Collected):
         return error(what, (remedy + there).strip(), key=who)
 
 
-def _items(document: dict[str, Any], key: str, name: str, file: Path, remedy: str) -> list[dict[str, Any]]:
+def _part(document: dict[str, Any], key: str, kind: type[_Part], file: Path, remedy: str, of: str = "") -> _Part:
+    """A part of a file, or an empty one if it is not there. `of`: the keys that lead to it. Raises Error."""
+    part = document.get(key, "")
+    if part == "":
+        return kind()
+    if not isinstance(part, kind) or (kind is list and not all(isinstance(item, dict) for item in part)):
+        raise error(_WRONG[kind], remedy, file=str(file), key=of + key)
+    return part
+
+
+def _items(
+    document: dict[str, Any], key: str, name: str, file: Path, remedy: str, of: str = ""
+) -> list[dict[str, Any]]:
     """The items of a list, each of which has a name, which may become a part of a path. Raises Error."""
-    items = document.get(key) or []
-    if not isinstance(items, list) or not all(isinstance(item, dict) for item in items):
-        raise error("is not a list of items with keys", remedy, file=str(file), key=key)
+    items = _part(document, key, list, file, remedy, of)
     for item in items:
         if not re.fullmatch("[A-Za-z0-9_-]+", str(item.get(name, ""))):
-            raise error(f"has an item whose {name} is {item.get(name, '')!r}", remedy, file=str(file), key=key)
+            raise error(f"has an item whose {name} is {item.get(name, '')!r}", remedy, file=str(file), key=of + key)
     return items
 
 
 def _names(study: dict[str, Any], key: str, file: Path) -> list[str]:
     """The names of the items of a list in a study's file. Raises Error."""
     return [item["name"] for item in _items(study, key, "name", file, _CHECK)]
+
+
+def _check_members(members: list[dict[str, Any]], file: Path) -> None:
+    """Raises Error when a participant is there twice, or has something other than single values and facts."""
+    there = set()
+    for member in members:
+        who = member["id"]
+        if who.lower() in there:
+            raise error("is there twice", _ROSTER, file=str(file), key=who)
+        there.add(who.lower())
+        for key in _BEFORE_FACTS + _AFTER_FACTS:
+            _part(member, key, str, file, _ROSTER, f"{who}.")
+        for fact in _items(member, "facts", "name", file, _ROSTER, f"{who}."):
+            _part(fact, "value", str, file, _ROSTER, f"{who}.{fact['name']}.")
+
+
+def _enough(study: dict[str, Any], file: Path) -> float:
+    """The share of its trials from which on an interrupted session counts. Raises Error."""
+    resuming = _part(study, "resuming", dict, file, _CHECK)
+    text = _part(resuming, "complete", str, file, _CHECK, "resuming.") or "1"
+    try:
+        share = float(text)
+    except ValueError:
+        share = np.nan
+    if not 0.01 <= share <= 1:
+        what = f"must be a number from 0.01 to 1, but is '{text}'"
+        raise error(what, _CHECK, file=str(file), key="resuming.complete")
+    return share
 
 
 def _code_of(group: str, seed: str) -> str:
@@ -272,20 +316,20 @@ def _recording(path: Path, participant: str, study_session: str) -> tuple[float,
     """A recording, with the time of its start and its name. Raises Error when it is not this participant's, or of
     another session."""
     session = Session(path)
-    recorded = (session.info.get("participant") or {}).get("id", "")
+    file = session.folder / "session.yaml"
+    recorded = _part(session.info, "participant", dict, file, _AWAY).get("id", "")
     if recorded not in (participant, f"sim-{participant}"):
         what = f"is '{recorded}', not {participant}"
         raise error(what, "Move the folder to where it belongs.", file=str(path), key="participant")
-    place = (session.info.get("in_study") or {}).get("session")
+    place = _part(session.info, "in_study", dict, file, _AWAY).get("session")
     if place != study_session:
         what = f"is {place} of a study, not {study_session}" if place else "is missing: it was recorded outside the study"
         raise error(what, "Move the folder to where it belongs.", file=str(path), key="in_study")
-    started = session.info.get("started", "")
+    started = _part(session.info, "started", str, file, _AWAY)
     try:
         seconds = datetime.fromisoformat(started).timestamp()
     except ValueError:
-        remedy = "Restore the file, or move the folder away."
-        raise error(f"'{started}' is not a time", remedy, file=str(path / "session.yaml"), key="started") from None
+        raise error(f"'{started}' is not a time", _AWAY, file=str(file), key="started") from None
     return seconds, path.name, session
 
 
@@ -300,18 +344,25 @@ def _share_done(session: Session) -> float:
     state = session.info.get("state")
     if state == "complete":
         return 1
-    folder = session.folder
-    if state not in ("interrupted", "recovered") or broken_seals(folder, session.info, "trials.csv"):
+    if state not in ("interrupted", "recovered"):
         return 0
     try:
-        task = read_info(folder / "task.yaml")
-        with (folder / "trial-list.csv").open(encoding="utf-8", newline="") as file:
-            left = {row["trial_num"] for row in csv.DictReader(file)}
-            trials = len(left)
-        with (folder / "trials.csv").open(encoding="utf-8", newline="") as file:
-            attempts = [(row["trial_num"], int(row["attempt"]), row["outcome"]) for row in csv.DictReader(file)]
-    except (OSError, KeyError, ValueError):  # an Error is a ValueError, too
+        return _share_told(session)
+    except (OSError, csv.Error, AttributeError, KeyError, TypeError, ValueError):
+        return 0  # the files are damaged; an Error is a ValueError, too
+
+
+def _share_told(session: Session) -> float:
+    """The share of its trials that an interrupted recording's files tell."""
+    folder = session.folder
+    if broken_seals(folder, session.info, "trials.csv"):
         return 0
+    task = read_info(folder / "task.yaml")
+    with (folder / "trial-list.csv").open(encoding="utf-8", newline="") as file:
+        left = {row["trial_num"] for row in csv.DictReader(file)}
+        trials = len(left)
+    with (folder / "trials.csv").open(encoding="utf-8", newline="") as file:
+        attempts = [(row["trial_num"], int(row["attempt"]), row["outcome"]) for row in csv.DictReader(file)]
     exits = {e.get("outcome"): e for state in task.get("states") or [] for e in state.get("exits") or []}
     most = 1 if task.get("redo") == "never" else int(task.get("most_attempts", 3))
     for trial, attempt, outcome in attempts:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shlex
 from abc import ABC, abstractmethod
 from pathlib import Path
@@ -20,8 +21,8 @@ def read_table(file: str | Path) -> pd.DataFrame:
     """Reads a table of the program (docs/tables.md), or any CSV file of your own.
 
     `attrs["units"]` has the unit of each column whose name ends in one, and `attrs["meanings"]` a
-    few words on each column of trials, phases, events, episodes and lifts. An empty cell is NaN.
-    Raises Error when the file cannot be read.
+    few words on each column of trials, phases, events, episodes and lifts. Cells that are empty
+    or missing are NaN. Raises Error when the file cannot be read, or a row has more cells than the header.
 
     >>> import dihaptic as dh
     >>> lifts = dh.read_table(f"{lift_session}/lifts.csv")
@@ -32,8 +33,16 @@ def read_table(file: str | Path) -> pd.DataFrame:
     """
     path = Path(file)
     try:
-        return parse_table(path, path.name)
+        table = parse_table(path, path.name)
+        if len(table) and not isinstance(table.index, pd.RangeIndex):
+            # the first row has more cells than the header, and pandas took some for the row's name: without a
+            # header, it refuses this row as it does later ones
+            pd.read_csv(path, header=None)
+        return table
     except (OSError, pd.errors.EmptyDataError, pd.errors.ParserError, UnicodeDecodeError) as why:
+        if longer := re.search(r"Expected \d+ fields in line (\d+)", str(why)):
+            remedy = "Correct this line, or make the table anew."
+            raise error("has more cells than the header", remedy, file=str(path), line=int(longer[1])) from None
         raise error(f"cannot be read as a table: {why}", "Name a CSV file.", file=str(path)) from None
 
 

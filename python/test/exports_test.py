@@ -59,7 +59,7 @@ class Exports(unittest.TestCase):
         self.assertIn("contacts: is a list, which has no curve.", done.stderr)
         self.assertFalse((self.here / "none.csv").exists())
         for words in ([], ["--csv", " , "]):
-            self.assertIn("Add --bids FOLDER, or --csv", export(self.here, self.session.folder, *words).stderr)
+            self.assertIn("Add --bids FOLDER, --psych-ds FOLDER, or --csv", export(self.here, self.session.folder, *words).stderr)
 
 
 if __name__ == "__main__":

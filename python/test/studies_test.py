@@ -253,11 +253,14 @@ class Studies(Case):
         for old, new, said in (
             ("id: sim-S03", "id: S02", "participant: is 'S02', not S03. Move the folder"),
             ("started: ", "started: long ago #", "started: 'long ago' is not a time"),
+            ("started: ", "started: [1] #", "session.yaml: error: started: is not a single value. Restore the file"),
+            ("in_study:", "in_study: 3\nolder:", "session.yaml: error: in_study: has no keys. Restore the file, or move"),
+            ("participant:", "participant: 3\nolder:", "session.yaml: error: participant: has no keys"),
             ("state: complete", "state: [", "session.yaml: error: cannot be read"),
         ):
             with self.subTest(said):
                 edit(info, old, new)
-                self.assert_refused(said, lambda: self.study.sessions)
+                self.assert_refused(re.escape(said), lambda: self.study.sessions)
                 info.write_text(whole)
         info.unlink()
         self.assert_refused("is not a session: it has no session.yaml", lambda: self.study.sessions)
@@ -272,11 +275,80 @@ class Studies(Case):
             ("group: light", "group: other", "S01: is in the group 'other', which the study does not have"),
             ("participants:", "participants: 3\nolder:", "participants: is not a list"),
             ("participants:", "participants: [", "cannot be read"),
+            ("participants:", "participants: [3]\nolder:", "participants: is not a list of items with keys. Restore"),
+            ("group: light", "group: [light]", "S01.group: is not a single value. Restore the file"),
+            ("age: ", "age: [1] #", "S01.age: is not a single value"),
+            ("facts:", "facts: 3\n    older:", "S01.facts: is not a list of items with keys"),
+            ("facts:", "facts: [3]\n    older:", "S01.facts: is not a list of items with keys"),
+            ("value: normal", "value: [normal]", "S01.vision.value: is not a single value"),
+            ("id: S02", "id: S01", "S01: is there twice. Restore the file: log.csv says who was added."),
+            ("id: S02", "id: s01", "s01: is there twice"),
         ):
             with self.subTest(said):
                 edit(roster, old, new)
                 self.assert_refused("participants.yaml: error: " + re.escape(said), lambda: self.study.participants)
                 roster.write_text(whole)
+
+    def test_an_interrupted_session_counts_if_its_files_tell_enough_of_its_trials(self):
+        broken = self.press("yy")
+        edit(self.file, "title:", "resuming: { complete: 0.5 }\ntitle:")
+        study = dh.Study(self.file)
+        self.assertEqual(study.session("S04", "day1").folder, broken)
+        task = broken / "task.yaml"
+        whole = task.read_text()
+        for old, new in (
+            ("states:", "states: 3\nolder:"),
+            ("states:", "states: [3]\nolder:"),
+            ("states:", "states: [{ exits: 3 }]\nolder:"),
+            ("most_attempts: 2", "most_attempts: x"),
+            ("most_attempts: 2", "most_attempts: [2]"),
+        ):
+            with self.subTest(new):
+                edit(task, old, new)
+                self.assertFalse(study.sessions.complete.iloc[-1])
+                self.assert_refused("S04: has no complete recording of day1", lambda: study.session("S04", "day1"))
+                task.write_text(whole)
+
+    def test_a_damaged_file_of_the_study_is_an_error(self):
+        whole = self.file.read_text()
+        number = "resuming.complete: must be a number from 0.01 to 1, but is "
+        for more, said in (
+            ("resuming: { complete: yes }", number + "'yes'. dihaptic check names the mistake."),
+            ("resuming: { complete: .nan }", number + "'.nan'"),
+            ("resuming: { complete: nan }", number + "'nan'"),
+            ("resuming: { complete: 0 }", number + "'0'"),
+            ("resuming: { complete: 1.5 }", number + "'1.5'"),
+            ("resuming: { complete: [1] }", "resuming.complete: is not a single value"),
+            ("resuming: [1]", "resuming: has no keys"),
+            ("resuming: 1", "resuming: has no keys"),
+            ("allocation: 3", "allocation: has no keys"),
+            ("allocation: { concealed: [yes] }", "allocation.concealed: is not a single value"),
+        ):
+            with self.subTest(more):
+                self.file.write_text(f"{whole}{more}\n")
+                self.assert_refused("two-days.yaml: error: " + re.escape(said), lambda: dh.Study(self.file))
+        edit(self.file, f"title: {self.study.title}", "title: [Two days]")
+        self.assert_refused("two-days.yaml: error: title: is not a single value", lambda: dh.Study(self.file))
+
+    def test_a_row_with_more_cells_than_the_header_is_an_error(self):
+        table = self.folder / "tables/trials.csv"
+        table.parent.mkdir()
+        for text, line in (
+            ("a,b\n1,2,3\n", 2),
+            ("a,b\n1,2,\n", 2),
+            ("a,b\n1,2,3,4\n5,6\n", 2),
+            ("\na,b\n\n1,2,3\n", 4),
+            ("a,b\n1,2\n3,4,5\n", 3),
+        ):
+            with self.subTest(text):
+                table.write_text(text)
+                said = self.assert_refused("", lambda: self.study.trials)
+                remedy = "Correct this line, or make the table anew."
+                self.assertEqual(said, f"{table}:{line}: error: has more cells than the header. {remedy}")
+        table.write_text("a,b\n1\n3,4\n")
+        self.assertEqual(self.study.trials.fillna(0).values.tolist(), [[1, 0], [3, 4]])
+        table.write_text("a,b\n")
+        self.assertEqual(len(self.study.trials), 0)
 
     def test_only_a_study_is_opened(self):
         for file, rehearsed, said in (

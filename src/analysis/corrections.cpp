@@ -196,15 +196,12 @@ CorrectionFinder::Trial& CorrectionFinder::attempt_of(const frame::Frame& frame)
 void CorrectionFinder::add(const frame::Frame& frame) {
     const bool gap = frame.sequence != sequence_ + 1;
     sequence_ = frame.sequence;
-    if (gap && now_ != nullptr) {  // the trial's curve is not known to its end
-        now_->whole = false;
-        now_ = nullptr;
-    }
     if (frame.trial < 1 || frame.phase < 1 || finger_ >= frame.fingers.size()) {
         now_ = nullptr;
         return;
     }
     Trial& trial = attempt_of(frame);
+    if (gap) trial.whole = false;  // the state may have begun in it
     if (frame.phase == phase_ && trial.velocities.empty()) now_ = &trial;
     if (frame.task.outcome >= 0) trial.ended = true;
     if (now_ == nullptr || static_cast<double>(trial.velocities.size()) * tick_ >= kLongest) return;
@@ -213,7 +210,8 @@ void CorrectionFinder::add(const frame::Frame& frame) {
 }
 
 const Velocities* CorrectionFinder::velocities_of(size_t i) const {
-    if (asked_[i].kind == rows::TrialKind::practice) return nullptr;
+    // part of a perturbation is another one
+    if (asked_[i].kind == rows::TrialKind::practice || asked_[i].share != 1) return nullptr;
     const auto found = trials_.find(static_cast<int>(i) + 1);
     if (found == trials_.end()) return nullptr;
     const Trial& trial = found->second;
@@ -223,6 +221,15 @@ const Velocities* CorrectionFinder::velocities_of(size_t i) const {
 bool CorrectionFinder::is_matched(const rows::AskedRow& row, const std::string& condition) const {
     if (spec_.matched.empty()) return row.perturbation.empty() && row.condition == condition;
     return std::ranges::find(spec_.matched, row.condition) != spec_.matched.end();
+}
+
+std::string CorrectionFinder::matched_perturbation(const Group& group) const {
+    for (const rows::AskedRow& row : asked_) {
+        if (row.round == group.round && row.perturbation == group.perturbation &&
+            is_matched(row, group.condition))
+            return group.perturbation;
+    }
+    return "";
 }
 
 std::vector<CorrectionFinder::Group> CorrectionFinder::groups() const {
@@ -239,12 +246,13 @@ std::vector<rows::CorrectionRow> CorrectionFinder::rows() const {
     std::vector<rows::CorrectionRow> out;
     for (const Group& group : groups()) {
         std::vector<const Velocities*> trials, matched;
+        const std::string without = matched_perturbation(group);
         for (size_t i = 0; i < asked_.size(); ++i) {
             const rows::AskedRow& row = asked_[i];
             const Velocities* const velocities = velocities_of(i);
             if (velocities == nullptr || row.round != group.round) continue;
             if (is_matched(row, group.condition)) {
-                matched.push_back(velocities);
+                if (row.perturbation == without) matched.push_back(velocities);
             } else if (Group{row.round, row.condition, row.perturbation} == group) {
                 trials.push_back(velocities);
             }

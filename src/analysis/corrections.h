@@ -65,6 +65,9 @@ class CorrectionFinder {
     const Velocities* velocities_of(size_t trial) const;
     /// Whether nothing happens in a trial that can be compared with those of `condition`.
     bool is_matched(const rows::AskedRow& row, const std::string& condition) const;
+    /// The perturbation of the matched trials: the group's own, which their conditions make
+    /// harmless, or else none.
+    std::string matched_perturbation(const Group& group) const;
     std::vector<Group> groups() const;
 
     task::CorrectionSpec spec_;

@@ -82,6 +82,7 @@ std::vector<std::string> write_psych_ds(const PsychDs& data, const std::string& 
         throw Error({folder, 0}, "", "exists",
                     "Name another folder, or remove this one: the data set is made as a whole.");
     if (whole.has_parent_path()) fs::create_directories(whole.parent_path());
+    remove_dead_parts(whole.string());
     Output making(whole.string());
     const std::string data_folder = making.path() + "/data";
     fs::create_directories(data_folder);

@@ -314,8 +314,9 @@ std::shared_ptr<person::Person> sit_down(Plan& plan, const person::Traits& trait
     if (is_for_two(plan)) {
         seated.partner = partner.value_or(traits);
         if (!partner) seated.partner->id = partner_of(traits.id);
-        plan.seeing = std::make_shared<person::Pair>(person, seat(*seated.partner, 1),
-                                                     plan.task->first_fingers[1]);
+        plan.partner = seat(*seated.partner, 1);
+        plan.seeing =
+            std::make_shared<person::Pair>(person, plan.partner, plan.task->first_fingers[1]);
     }
     plan.person = to_yaml(write_fields(seated));
     plan.driver = plan.seeing;

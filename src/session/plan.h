@@ -56,6 +56,7 @@ struct Plan {
     std::optional<MovementReport> movement;
     std::shared_ptr<const task::TaskPlan> task;  ///< trials; null if the experiment has none
     std::shared_ptr<task::SeeingDriver> seeing;  ///< the driver, if it acts on its sight
+    std::shared_ptr<person::Person> partner;     ///< simulated, in a task for two
     std::string person;               ///< text of person.yaml, if the driver is a simulated person
     bool resumable = true;            ///< its driver can be rebuilt from its files
     std::vector<task::Attempt> done;  ///< attempts made by an earlier part of the session

@@ -13,8 +13,10 @@
 
 #include "analysis/bids.h"
 #include "analysis/trials.h"
+#include "base/figure.h"
 #include "model/grasp.h"
 #include "recording/nwb.h"
+#include "rows/lift_row.h"
 #include "session/load_checks.h"
 #include "session/mass_checks.h"
 #include "session/rehearsal.h"
@@ -469,6 +471,10 @@ void check_columns(const Plan& plan, Diagnostics& diagnostics) {
         known[name] = "is a name that NWB gives to a part of each table";
     for (const char* name : kCollectedColumns)
         known[name] = "is the name of a column of 'dihaptic collect'";
+    for (const char* name : kStudyColumns)
+        known[name] = "is the name of a column of 'dihaptic collect' for a study";
+    for (const Table::Column& column : list_figures(rows::LiftRow{}).columns)
+        known["lift_" + column.name] = "is the name of a column of events in BIDS";
     for (const Table::Column& column : analysis::trial_columns())
         known[column.name] = "is the name of another column of trials.csv";
     for (const Table::Column& column : task::measure_columns())

@@ -14,6 +14,9 @@ namespace dihaptic::session {
 inline constexpr int kMostPeople = 9999;
 /// First columns of the tables that `dihaptic collect` makes: they say which person a row is of.
 inline constexpr std::array kCollectedColumns = {"seed", "group", "id"};
+/// Those that a study's tables have too.
+inline constexpr std::array kStudyColumns = {"study_number", "study_session", "study_condition",
+                                             "study_version"};
 
 /// The request of the latest command. It is not part of the rehearsal's identity.
 struct Asked {

@@ -261,7 +261,11 @@ void Run::describe() {
     info_.participant = options_.participant;
     if (is_for_two(plan_)) {
         info_.partner = options_.partner;
-        if (options_.partner.id.empty())
+        if (!plan_.resumes.empty())
+            info_.partner = recording::SessionFolder::open_tables(plan_.resumes)
+                                .read_info()
+                                .partner.value_or(options_.partner);
+        if (info_.partner->id.empty())
             info_.notes.emplace_back("the second participant of this task for two is not named");
     }
     info_.in_study = options_.in_study;

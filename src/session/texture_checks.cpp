@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -49,12 +50,19 @@ class TextureChecks {
     /// The textures of each trial, as its perturbations change them.
     void check_trials() {
         task::each_trial(*plan_.task, [&](size_t t, const task::TrialNumbers& numbers) {
+            std::map<int, frame::PropertiesFrame> all;  // by body: factors multiply
             for (const int p : plan_.task->trials[t].perturb) {
                 const task::PerturbationSpec& spec =
                     plan_.task->task.perturbations[static_cast<size_t>(p)];
                 const auto changed =
                     numbers.cell().perturbations[static_cast<size_t>(p)].properties();
-                if (changed && spec.body) check_changed(*changed, *spec.body, t);
+                if (!changed || !spec.body) continue;
+                frame::PropertiesFrame& together = all[changed->body];
+                together.body = changed->body;
+                together.texture_wavelength_scale *= changed->texture_wavelength_scale;
+                together.texture_height_scale *= changed->texture_height_scale;
+                together.texture_friction_scale *= changed->texture_friction_scale;
+                check_changed(together, *spec.body, t);
             }
         });
     }

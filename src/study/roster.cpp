@@ -30,19 +30,6 @@ std::string file_of(const StudyFile& study) {
     return study.data + "/participants.yaml";
 }
 
-void check_identifier(const std::string& id) {
-    const auto fault = [&](const char* what, const char* remedy) {
-        return Error({"participant", 0}, shortened(id), what, remedy);
-    };
-    const bool word =
-        std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::isalnum(c) != 0; });
-    if (id.empty() || !word || id.size() > 32)
-        throw fault("is not an identifier", "Use letters and digits, 32 at most, e.g. S07.");
-    if (std::none_of(id.begin(), id.end(), [](unsigned char c) { return std::isdigit(c) != 0; }))
-        throw fault("has no digit, and may be a person's name",
-                    "Use an identifier, e.g. S07, and keep the list of names elsewhere.");
-}
-
 /// Throws Error when a person's fact is missing, or is not a value of that fact.
 void check_fact(const StudyFile& study, const Member& person, const std::string& name) {
     const std::string value = person.fact(name);
@@ -106,6 +93,19 @@ std::vector<std::string> needed_facts(const StudyFile& study) {
 }
 
 }  // namespace
+
+void check_identifier(const std::string& id) {
+    const auto fault = [&](const char* what, const char* remedy) {
+        return Error({"participant", 0}, shortened(id), what, remedy);
+    };
+    const bool word =
+        std::all_of(id.begin(), id.end(), [](unsigned char c) { return std::isalnum(c) != 0; });
+    if (id.empty() || !word || id.size() > 32)
+        throw fault("is not an identifier", "Use letters and digits, 32 at most, e.g. S07.");
+    if (std::none_of(id.begin(), id.end(), [](unsigned char c) { return std::isdigit(c) != 0; }))
+        throw fault("has no digit, and may be a person's name",
+                    "Use an identifier, e.g. S07, and keep the list of names elsewhere.");
+}
 
 std::string Member::fact(const std::string& name) const {
     if (name == "age") return age;

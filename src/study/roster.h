@@ -80,6 +80,10 @@ void write_roster(const StudyFile& study, Roster roster);
 /// used, and for a fact that is missing.
 std::vector<std::string> reasons_against(const StudyFile& study, const Member& person);
 
+/// Throws Error unless the text is an identifier: letters and digits, with a digit, so that it is
+/// no name.
+void check_identifier(const std::string& id);
+
 /// Adds a line to log.csv in the study's folder, with the time. It comes before what it tells of,
 /// so that nothing happens that the log cannot tell. Throws Error when it cannot be written.
 void log(const StudyFile& study, const std::string& action, const std::string& participant,

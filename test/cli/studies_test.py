@@ -272,7 +272,7 @@ class Studies(unittest.TestCase):
         for session, added in [(None, 4), (None, 0)]:
             said = dihaptic("export", self.study, "--bids", data, "--rehearsed", self.folder + "/kept")
             self.assertEqual(said.returncode, 0, said.stderr)
-            self.assertRegex(said.stdout, rf"{added} sessions added to .*, which has 4 sessions of 2 people")
+            self.assertRegex(said.stdout, rf"{added} recordings added to .*; the study has 4 sessions of 2 people")
         self.assertEqual(len(glob.glob(data + "/sub-*/ses-*/motion/*_events.tsv")), 4)
         session = glob.glob(self.folder + "/kept/sessions/*/day1/*")[0]
         self.refused(dihaptic("export", session, "--psych-ds", self.folder + "/none"), "not a study's file")

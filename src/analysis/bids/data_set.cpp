@@ -156,8 +156,11 @@ std::string DataSet::recording_there() const {
     const std::string own = fs::path(session_.path()).filename().string();
     for (size_t i = 0; i < scans_table.rows(); ++i) {
         const std::string recording = scans_table.text(i, "filename");
-        if (scans_table.text(i, "session") == own && is_there(file(place() + "/" + recording)))
-            return recording;
+        // data sets of earlier versions have no identities
+        const std::string identity = scans_table.text(i, "identity");
+        const bool same =
+            identity.empty() ? scans_table.text(i, "session") == own : identity == info_.identity;
+        if (same && is_there(file(place() + "/" + recording))) return recording;
     }
     return "";
 }
@@ -256,12 +259,13 @@ void DataSet::add(const std::vector<std::string>& recordings) const {
     if (info_.in_study) add_visit();
     Tsv table(scans(), "filename");
     for (const std::string& name : recordings) {
-        table.put({"filename", "acq_time", "session", "simulated", "moved_by"},
+        table.put({"filename", "acq_time", "session", "identity", "simulated", "moved_by"},
                   {name, info_.started.substr(0, 19), fs::path(session_.path()).filename().string(),
-                   info_.moved_by.simulated(), info_.moved_by.name()});
+                   info_.identity, info_.moved_by.simulated(), info_.moved_by.name()});
     }
     table.write();
     const Json columns{{"session", {{"Description", "folder of the recorded session"}}},
+                       {"identity", {{"Description", "of the recording, in its session.yaml"}}},
                        {"simulated", {{"Description", recording::kMovedByColumns[0].description}}},
                        {"moved_by", {{"Description", recording::kMovedByColumns[1].description}}}};
     const std::string json = file(place() + "/" + stem() + "_scans.json");

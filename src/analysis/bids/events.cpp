@@ -129,21 +129,20 @@ Json sidecar(const std::vector<Column>& columns, const recording::SessionInfo& i
     return json;
 }
 
-/// A text as a HED label: letters, digits and hyphens. HED takes equal tags at one time for a
-/// fault; labels tell events of one kind apart.
-std::string hed_label(const std::string& text) {
+/// A HED label: the row's number, since HED takes equal tags at one time for a fault, and the
+/// letters and digits of a text.
+std::string hed_label(size_t number, const std::string& text) {
     constexpr size_t kLongest = 60;
-    std::string out;
-    for (const char c : text) {
+    std::string out = fmt::format("Label/{}-", number);
+    for (const char c : text.substr(0, kLongest)) {
         if (std::isalnum(static_cast<unsigned char>(c)) != 0) {
             out += c;
-        } else if (!out.empty() && out.back() != '-') {
+        } else if (out.back() != '-') {
             out += '-';
         }
-        if (out.size() >= kLongest) break;
     }
     while (out.ends_with('-')) out.pop_back();
-    return out.empty() ? "" : "Label/" + out;
+    return out;
 }
 
 /// The HED tags of a row, beside those that the sidecar gives its kind: its label, and the tags
@@ -152,36 +151,44 @@ class HedTags {
   public:
     explicit HedTags(const task::Task& task) : task_(task) {}
 
-    /// `trial`: null between trials.
-    std::string of(const rows::EventRow& event, const rows::AskedRow* trial) const {
-        std::string out = hed_label(event.detail);
+    /// Tags of the next moment, in the order of their times. `number`: of the row; `trial`: null
+    /// between trials.
+    std::string of(const rows::EventRow& event, size_t number, const rows::AskedRow* trial) {
+        std::string out = hed_label(number, event.detail);
         const auto also = [&](const std::string& tags) {
-            if (!tags.empty()) out += (out.empty() ? "(" : ", (") + tags + ")";
+            const std::string group = ", (" + tags + ")";
+            if (!tags.empty() && out.find(group) == std::string::npos) out += group;
         };
-        if (event.name == "phase") also(of_state(event.detail));
+        if (event.name == "phase") {
+            state_ = event.detail;
+            also(of_state(state_));
+        }
         if (event.name == "outcome") also(of_outcome(event.detail));
         if (event.name != "perturbation" || event.detail != "on" || trial == nullptr) return out;
         for (const task::PerturbationSpec& spec : task_.perturbations) {
-            if (task::names_perturbation(trial->perturbation, spec.name))
-                also(of_perturbation(spec, *trial));
+            if (!task::names_perturbation(trial->perturbation, spec.name)) continue;
+            const task::PerturbationSpec& acting = of_trial(spec, *trial);
+            const auto& during = static_cast<const Texts&>(acting.during);
+            if (during.empty() || std::ranges::find(during, state_) != during.end())
+                also(acting.hed);
         }
         return out;
     }
 
   private:
     /// A condition, or else a round, may replace the perturbation by one of the same name.
-    std::string of_perturbation(const task::PerturbationSpec& spec,
-                                const rows::AskedRow& trial) const {
+    const task::PerturbationSpec& of_trial(const task::PerturbationSpec& spec,
+                                           const rows::AskedRow& trial) const {
         for (const auto& [list, name] : {std::pair(&task_.conditions, &trial.condition),
                                          std::pair(&task_.rounds, &trial.round)}) {
             for (const task::Condition& owner : *list) {
                 if (owner.name != *name) continue;
                 const auto own = std::ranges::find(owner.perturbations, spec.name,
                                                    &task::PerturbationSpec::name);
-                if (own != owner.perturbations.end()) return own->hed;
+                if (own != owner.perturbations.end()) return *own;
             }
         }
-        return spec.hed;
+        return spec;
     }
     std::string of_state(const std::string& name) const {
         for (const task::State& state : task_.states) {
@@ -199,13 +206,14 @@ class HedTags {
     }
 
     const task::Task& task_;
+    std::string state_;  // that has begun
 };
 
 class EventRows {
   public:
     EventRows(const rows::TrialFile& trials, const rows::LiftFile* lifts,
               const recording::SessionInfo& info, const recording::SessionFolder& session,
-              const HedTags& tags)
+              HedTags& tags)
         : trials_(trials),
           lifts_(lifts),
           tags_(tags),
@@ -236,10 +244,10 @@ class EventRows {
                 row.push_back(lift == lift_of_.end() ? "" : lifts_->text(lift->second, c.from));
             }
         }
-        return finished(row, hed_label(fmt::format("trial {}", of.asked.trial)));
+        return finished(row, hed_label(attempt.row + 1, fmt::format("trial {}", of.asked.trial)));
     }
     /// Row of a moment, in an attempt or between attempts.
-    Row moment(const rows::EventRow& event, const Attempt* attempt) const {
+    Row moment(const rows::EventRow& event, size_t number, const Attempt* attempt) const {
         Row row{number_text(event.time), "n/a", event.name, event.detail};
         for (const Column& c : columns_) {
             if (attempt != nullptr && c.of == Column::Of::asked) {
@@ -248,8 +256,8 @@ class EventRows {
                 row.push_back(&c == &columns_.front() ? number_text(event.trial) : "");
             }
         }
-        return finished(
-            row, tags_.of(event, attempt == nullptr ? nullptr : &trials_[attempt->row].asked));
+        return finished(row, tags_.of(event, number,
+                                      attempt == nullptr ? nullptr : &trials_[attempt->row].asked));
     }
 
   private:
@@ -260,7 +268,7 @@ class EventRows {
 
     const rows::TrialFile& trials_;
     const rows::LiftFile* lifts_;
-    const HedTags& tags_;
+    HedTags& tags_;
     const recording::MovedBy& by_;
     std::vector<Column> columns_;  // the first holds the trial number
     std::map<std::pair<int, int>, size_t> lift_of_;
@@ -277,7 +285,7 @@ std::optional<Events> events_of(const recording::SessionFolder& session,
     if (is_there(session.file("lifts.csv")))
         lifts.emplace(rows::read_lifts(session.file("lifts.csv")));
     const task::Task task = read_frozen_task(session.file("task.yaml"));
-    const HedTags tags(task);
+    HedTags tags(task);
     const EventRows maker(trials, lifts ? &*lifts : nullptr, info, session, tags);
     const std::vector<Attempt> attempts = attempts_of(trials, session);
 
@@ -289,8 +297,8 @@ std::optional<Events> events_of(const recording::SessionFolder& session,
             return a.start <= moment.time && moment.time <= a.stop;
         };
         const auto found = std::find_if(attempts.begin(), attempts.end(), in_it);
-        rows.emplace_back(moment.time,
-                          maker.moment(moment, found == attempts.end() ? nullptr : &*found));
+        rows.emplace_back(moment.time, maker.moment(moment, rows.size() + 1,
+                                                    found == attempts.end() ? nullptr : &*found));
     }
     std::stable_sort(rows.begin(), rows.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });

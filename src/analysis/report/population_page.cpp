@@ -365,7 +365,11 @@ void list_measures(PopulationPage& out, const std::string& title, const Sessions
             row("perturbation", key[6], "", "name, or names joined by ' + '; empty: none");
             row("trials", trials_of[key], "1", "number over all people, the last attempt at each");
             row("left_out", empty[key], "1", "trials without the measure: not_measured says why");
-            list(row, of_people.over_people());
+            const Sample all = of_people.over_people();
+            list(row, all);
+            row("median", all.median, "", "over people");
+            row("lower_quartile", all.quartiles.low, "", "over people");
+            row("upper_quartile", all.quartiles.high, "", "over people");
             add_row(out.measures, row);
         }
     }

@@ -2,6 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <set>
+#include <string_view>
+
 namespace dihaptic::task {
 namespace {
 
@@ -12,21 +18,84 @@ std::string foreign(char c) {
                                                                          : fmt::format("'{}'", c);
 }
 
+/// Tags that only definitions and whole events may have, or that mean another column's cell.
+constexpr std::array<std::string_view, 10> kNotHere{
+    "onset",      "offset",   "inset", "def", "def-expand",
+    "definition", "duration", "delay", "n/a", "event-context"};
+
+std::string fault_of_tag(std::string tag) {
+    for (char& c : tag) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    const std::string_view text = tag;
+    if (text.starts_with('/') || text.ends_with('/') || text.find("//") != text.npos ||
+        text.find('#') != text.npos)
+        return fmt::format("has a tag, '{}', with a '/' or '#' too many", tag);
+    const std::string_view first = text == "n/a" ? text : text.substr(0, text.find('/'));
+    if (std::ranges::find(kNotHere, first) == kNotHere.end()) return "";
+    return fmt::format("has the tag '{}', which the export cannot use", tag);
+}
+
+/// Reads tags and groups of tags, one after the other.
+class HedReader {
+  public:
+    explicit HedReader(const std::string& text) : text_(text) {}
+
+    /// The first fault; "" if there is none.
+    std::string fault() {
+        const std::string first = list();
+        if (!first.empty()) return first;
+        return at_ < text_.size() ? "has a ')' without a '('" : "";
+    }
+
+  private:
+    char next() {
+        while (at_ < text_.size() && text_[at_] == ' ') ++at_;
+        return at_ < text_.size() ? text_[at_] : '\0';
+    }
+    std::string list() {
+        std::set<std::string> known;
+        for (;;) {
+            const size_t begin = (next(), at_);
+            if (std::string what = item(); !what.empty()) return what;
+            std::string words = text_.substr(begin, at_ - begin);
+            while (words.ends_with(' ')) words.pop_back();
+            if (!known.insert(words).second) return fmt::format("has '{}' twice", words);
+            const char after = next();
+            if (after == '(') return "has a '(' without a comma before it";
+            if (after != ',') return "";
+            ++at_;
+        }
+    }
+    std::string item() {
+        if (next() == '(') {
+            ++at_;
+            if (std::string what = list(); !what.empty()) return what;
+            if (next() != ')') return "has a '(' without a ')'";
+            ++at_;
+            const char after = next();
+            return after == '\0' || after == ',' || after == ')' || after == '('
+                       ? ""
+                       : "has a ')' without a comma after it";
+        }
+        const size_t begin = at_;
+        while (at_ < text_.size() &&
+               std::string_view(",()").find(text_[at_]) == std::string_view::npos)
+            ++at_;
+        std::string tag = text_.substr(begin, at_ - begin);
+        while (tag.ends_with(' ')) tag.pop_back();
+        return tag.empty() ? "has an empty tag" : fault_of_tag(tag);
+    }
+
+    const std::string& text_;
+    size_t at_ = 0;
+};
+
 /// The fault of the tags; "" if they have none.
 std::string fault_of(const std::string& tags) {
-    int depth = 0;
-    bool is_empty = true;  // since the last comma or parenthesis that opens a group
     for (const char c : tags) {
         if (const std::string what = foreign(c); !what.empty())
             return "contains the character " + what;
-        const bool ends = c == ',' || c == ')';
-        if (ends && is_empty) return fmt::format("has an empty tag before a '{}'", c);
-        if (c == '(') ++depth;
-        if (c == ')' && --depth < 0) return "has a ')' without a '('";
-        if (c != ' ') is_empty = c == ',' || c == '(';
     }
-    if (depth > 0) return "has a '(' without a ')'";
-    return is_empty ? "ends with an empty tag" : "";
+    return HedReader(tags).fault();
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 
 namespace dihaptic::task {
 
-/// Reports tags that no HED schema accepts: with unbalanced parentheses, an empty tag, or a
-/// character that has another meaning. Whether a tag exists depends on the schema, which a HED
-/// validator of the exported data set knows.
+/// Reports tags that no HED schema accepts beside an event: with unbalanced parentheses, a missing
+/// comma, an empty or a repeated tag, or a character or a tag that has another meaning. Whether a
+/// tag exists depends on the schema, which a HED validator of the exported data set knows.
 void check_hed(const std::string& tags, const Place& place, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::task

@@ -99,10 +99,12 @@ class MeasureChecker {
     void check_corrections(const CorrectionSpec& spec) {
         if (spec.axis.isZero(1e-9))
             diagnostics_.error(spec.place, "axis", "has no direction", "Write e.g. [1, 0, 0].");
-        const auto perturbs = [](const Block& block) {
-            return !block.perturb.empty() || !block.insert.empty();
+        const auto perturbs = [](const auto& part) { return !part.perturb.empty(); };
+        const auto any = [&](const Block& block) {
+            return perturbs(block) || std::ranges::any_of(block.insert, perturbs);
         };
-        if (spec.matched.empty() && std::ranges::none_of(task_.blocks, perturbs))
+        if (spec.matched.empty() && std::ranges::none_of(task_.blocks, any) &&
+            std::ranges::none_of(task_.procedures, perturbs))
             diagnostics_.error(spec.place, "matched",
                                "is missing: no block has perturbations, so that no trial differs "
                                "from the others",

@@ -313,6 +313,11 @@ class StatePlanner : Planning {
                                   exit.outcome),
                       "Give the two outcomes different names.");
             }
+            if (plan.outcomes[i].hed != exit.hed) {
+                error(exit.place, "hed",
+                      fmt::format("'{}' has other tags after another exit", exit.outcome),
+                      "Give the two outcomes different names, or the same tags.");
+            }
             if (plan.outcomes[i].redo != exit.redo) {
                 error(exit.place, "redo",
                       fmt::format("trials that end with '{}' are repeated after one exit, but not "
@@ -322,7 +327,7 @@ class StatePlanner : Planning {
             }
             return static_cast<int>(i);
         }
-        plan.outcomes.push_back({exit.outcome, exit.redo, exit.ends_session});
+        plan.outcomes.push_back({exit.outcome, exit.redo, exit.ends_session, exit.hed});
         return static_cast<int>(plan.outcomes.size()) - 1;
     }
 

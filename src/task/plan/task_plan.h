@@ -50,6 +50,7 @@ struct TaskPlan {
         std::string name;
         bool redo = false;
         bool ends_session = false;
+        std::string hed{};
     };
     std::vector<Outcome> outcomes;
     int skipped = -1;  ///< the outcome of a trial that the operator skips
