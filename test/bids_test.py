@@ -286,7 +286,7 @@ class EveryExperiment(unittest.TestCase):
         for experiment in experiments:
             with self.subTest(experiment.stem):
                 text = experiment.read_text().replace("../", os.getcwd() + "/")
-                for key, most in [("repeats", 1), ("trials", 4)]:
+                for key, most in [("repeats", 3 if "insert" in text else 1), ("trials", 4), ("count", 1), ("gap", 1)]:
                     text = re.sub(rf"\b{key}: (\d+)", lambda m, most=most, key=key: f"{key}: {min(int(m[1]), most)}", text)
                 short = pathlib.Path(folder.name, experiment.name)
                 short.write_text(text)

@@ -212,7 +212,8 @@ StudySessions::StudySessions(const study::StudyFile& study)
     if (roster_.participants.empty() && !missing_.empty())
         throw Error({study.data + "/participants.yaml", 0}, "",
                     "names nobody, but there are recordings in " + study.data + "/sessions",
-                    "Restore the list of participants.");
+                    "Restore the list of participants. Sessions of 'dihaptic run --simulate' do not "
+                    "count: rehearse the study.");
     for (const study::Member& member : roster_.participants) {
         const auto visits = session::visits_of(study, member);
         for (size_t i = 0; i < study.sessions.size(); ++i) {

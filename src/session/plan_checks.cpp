@@ -450,41 +450,51 @@ void check_measures(const task::TaskPlan& plan, Diagnostics& diagnostics) {
                         "Measure before the target, e.g. at its edge.");
 }
 
+/// The columns that a task names itself.
+std::vector<std::string> columns_named_by(const task::Task& task) {
+    std::vector<std::string> out;
+    for (const Table::Column& column : task::own_columns(task)) out.push_back(column.name);
+    for (const task::Variable& variable : task.variables) {
+        out.push_back(variable.name);
+        out.push_back(task::next_column(variable.name));
+    }
+    for (const task::CustomMeasure& measure : task.custom_measures) out.push_back(measure.name);
+    for (const task::LevelName& level : task::levels_of(task)) out.push_back(level.name);
+    for (const task::AskSpec& ask : task::questions_of(task)) out.push_back(ask.name);
+    return out;
+}
+
+/// Names that no such column may have, each with the reason.
+std::map<std::string, const char*> taken_names() {
+    std::map<std::string, const char*> out;
+    for (const char* name : analysis::kEventColumns)
+        out[name] = "is the name of a column of events in BIDS";
+    for (const char* name : recording::kReservedColumns)
+        out[name] = "is a name that NWB gives to a part of each table";
+    for (const char* name : kCollectedColumns)
+        out[name] = "is the name of a column of 'dihaptic collect'";
+    for (const char* name : kStudyColumns)
+        out[name] = "is the name of a column of 'dihaptic collect' for a study";
+    for (const Table::Column& column : list_figures(rows::LiftRow{}).columns)
+        out["lift_" + column.name] = "is the name of a column of events in BIDS";
+    for (const Table::Column& column : analysis::trial_columns())
+        out[column.name] = "is the name of another column of trials.csv";
+    for (const Table::Column& column : task::measure_columns())
+        out[column.name] = "is the name of a column of measures";
+    return out;
+}
+
 }  // namespace
 
 void check_columns(const Plan& plan, Diagnostics& diagnostics) {
     if (!plan.task) return;
-    const task::Task& task = plan.task->task;
-    std::vector<std::string> own;
-    for (const Table::Column& column : task::own_columns(task)) own.push_back(column.name);
-    for (const task::Variable& variable : task.variables) {
-        own.push_back(variable.name);
-        own.push_back(task::next_column(variable.name));
-    }
-    for (const task::CustomMeasure& measure : task.custom_measures) own.push_back(measure.name);
-    for (const task::LevelName& level : task::levels_of(task)) own.push_back(level.name);
-    for (const task::AskSpec& ask : task::questions_of(task)) own.push_back(ask.name);
-    std::map<std::string, const char*> known;
-    for (const char* name : analysis::kEventColumns)
-        known[name] = "is the name of a column of events in BIDS";
-    for (const char* name : recording::kReservedColumns)
-        known[name] = "is a name that NWB gives to a part of each table";
-    for (const char* name : kCollectedColumns)
-        known[name] = "is the name of a column of 'dihaptic collect'";
-    for (const char* name : kStudyColumns)
-        known[name] = "is the name of a column of 'dihaptic collect' for a study";
-    for (const Table::Column& column : list_figures(rows::LiftRow{}).columns)
-        known["lift_" + column.name] = "is the name of a column of events in BIDS";
-    for (const Table::Column& column : analysis::trial_columns())
-        known[column.name] = "is the name of another column of trials.csv";
-    for (const Table::Column& column : task::measure_columns())
-        known[column.name] = "is the name of a column of measures";
-    for (const std::string& name : own) {
+    std::map<std::string, const char*> known = taken_names();
+    for (const std::string& name : columns_named_by(plan.task->task)) {
         const auto [at, is_new] =
             known.emplace(name, "is the name of another column of trials.csv");
         if (is_new) continue;
         diagnostics.error(
-            task.place, name, at->second,
+            plan.task->task.place, name, at->second,
             "Give the factor, draw, variable, level, answer or measure another name.");
     }
 }

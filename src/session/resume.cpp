@@ -190,7 +190,10 @@ Rest rest_of(const std::string& session, Seat seat, const std::function<void(dou
     if (folder.read_info(log.head(), ignored).state == SessionState::running)
         out.warnings = analysis::recover_session(folder, progress).warnings;
     out.plan = make_rest(session, seat, out.before);
-    if (out.plan.moved_by.mover == Mover::simulated_person) sit_down_again(out.plan, folder);
+    if (out.plan.moved_by.mover == Mover::simulated_person) {
+        sit_down_again(out.plan, folder);
+        out.plan.moved_by.seed = out.before.moved_by.seed;  // with which the person was drawn
+    }
     return out;
 }
 

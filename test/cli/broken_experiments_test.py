@@ -286,7 +286,7 @@ MISTAKES = [
     ("error: lateral_deviation }", "go: rech }", "go", "Did you mean reach?"),
     # blocks: pages, breaks, perturbations, inserts, until
     ("pages: [{ text: Hello,", "pages: [{ txt: Hello,", "txt", "Did you mean text?"),
-    ("pages: [{ text: Hello,", "pages: [{ picture: none.png,", "picture", "Name a PNG file, relative to this one"),
+    ("pages: [{ text: Hello,", "pages: [{ picture: none.png,", "picture", "Name a PNG or GIF file, relative to this one"),
     ("pages: [{ text: Hello,", "pages: [{", "pages", "Give the page text, picture or both"),
     ("key: y,", "key: yes please,", "key", "Write one letter or digit, or leave it out to accept any key"),
     ("for_s: 30", "for: 30", "for", "Write for_s or for_ms"),

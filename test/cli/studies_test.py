@@ -9,6 +9,7 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import tempfile
 import unittest
@@ -301,6 +302,36 @@ class Studies(unittest.TestCase):
                 self.assertTrue(variable.get("description"), f"{file.name}: {variable['name']}")
             everywhere |= set(rows[0])
         self.assertEqual({v["name"] for v in description["variableMeasured"]}, everywhere)
+
+    def test_a_resumed_session_is_exported_with_all_its_parts(self):
+        self.write("title: Lifts\ngroups: [{ name: a, people: 1 }]\nsessions: [{ name: day1, experiment: long.yaml }]\n")
+        text = pathlib.Path("experiments/grip-and-lift.yaml").read_text().replace("../", os.getcwd() + "/")
+        pathlib.Path(self.folder, "long.yaml").write_text(text)
+        self.assertEqual(self.participant("add", "S01", "--age", "30").returncode, 0)
+        arguments = ["run", self.study, "--participant", "S01", "--simulate"]
+        with subprocess.Popen([PROGRAM, *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True) as running:
+            wait_for_log(self.folder + "/rehearsal/sessions/S01/day1", 3_000_000)
+            running.send_signal(signal.SIGINT)
+            running.communicate(timeout=120)
+        result = dihaptic(*arguments)
+        self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
+        parts = sorted(glob.glob(self.folder + "/rehearsal/sessions/S01/day1/*"))
+        self.assertEqual(len(parts), 2)
+        shutil.copy(self.folder + "/participants.yaml", self.folder + "/rehearsal")
+        data = self.folder + "/data"
+        said = dihaptic("export", self.study, "--bids", data, "--rehearsed", self.folder + "/rehearsal")
+        self.assertIn("2 recordings added", said.stdout, said.stderr)
+        self.assertEqual(dihaptic("collect", self.study, "--rehearsed", self.folder + "/rehearsal").returncode, 0)
+        tables = {}
+        for name in ["trials", "lifts"]:
+            with open(f"{self.folder}/rehearsal/tables/{name}.csv") as file:
+                tables[name] = sorted((int(r["trial_num"]), int(r["attempt"])) for r in csv.DictReader(file))
+        self.assertEqual(tables["lifts"], tables["trials"])
+        exported = 0
+        for file in glob.glob(data + "/sub-*/ses-*/motion/*events.tsv"):
+            with open(file) as events:
+                exported += sum(1 for e in csv.DictReader(events, delimiter="\t") if e["trial_type"] == "trial")
+        self.assertGreaterEqual(exported, len(tables["trials"]))
 
     def test_what_was_learned_slowly_is_there_on_the_next_day(self):
         text = pathlib.Path("experiments/rotation-reversal.yaml").read_text().replace("../", os.getcwd() + "/")
