@@ -210,10 +210,11 @@ std::vector<TextTable> tables_of_parts(const CompleteSession& session) {
 StudySessions::StudySessions(const study::StudyFile& study)
     : roster_(study::read_roster(study)), missing_(strangers(study, roster_)) {
     if (roster_.participants.empty() && !missing_.empty())
-        throw Error({study.data + "/participants.yaml", 0}, "",
-                    "names nobody, but there are recordings in " + study.data + "/sessions",
-                    "Restore the list of participants. Sessions of 'dihaptic run --simulate' do not "
-                    "count: rehearse the study.");
+        throw Error(
+            {study.data + "/participants.yaml", 0}, "",
+            "names nobody, but there are recordings in " + study.data + "/sessions",
+            "Restore the list of participants. Sessions of 'dihaptic run --simulate' do not "
+            "count: rehearse the study.");
     for (const study::Member& member : roster_.participants) {
         const auto visits = session::visits_of(study, member);
         for (size_t i = 0; i < study.sessions.size(); ++i) {
