@@ -97,12 +97,15 @@ TEST(Bids, HasTheFilesAndColumnsThatTheSpecificationAsksFor) {
     ASSERT_EQ(events.size(), 4u);
     EXPECT_EQ(events[0],
               "onset\tduration\ttrial_type\tvalue\ttrial_num\tattempt\tblock\tcondition\toutcome"
-              "\thand_angle_deg\tsimulated\tmoved_by");
+              "\thand_angle_deg\tsimulated\tmoved_by\tHED");
     EXPECT_EQ(events[1],
-              "0\t0.001\ttrial\treached\t1\t1\tturned\tfar, left\treached\t12.5\tno\tdevices");
+              "0\t0.001\ttrial\treached\t1\t1\tturned\tfar, "
+              "left\treached\t12.5\tno\tdevices\tLabel/2-trial-1");
     EXPECT_EQ(events[2],
-              "0.001\tn/a\ttouch\tindex block\t1\t1\tturned\tfar, left\tn/a\tn/a\tno\tdevices");
-    EXPECT_EQ(events[3], "0.002\tn/a\tphase\tn/a\t0\tn/a\tn/a\tn/a\tn/a\tn/a\tno\tdevices");
+              "0.001\tn/a\ttouch\tindex block\t1\t1\tturned\tfar, "
+              "left\tn/a\tn/a\tno\tdevices\tLabel/2-index-block");
+    EXPECT_EQ(events[3],
+              "0.002\tn/a\tphase\tn/a\t0\tn/a\tn/a\tn/a\tn/a\tn/a\tno\tdevices\tLabel/3");
     EXPECT_EQ(lines(testing::read_file(set + "/participants.tsv"))[1],
               "sub-S07\t25\tF\tright\tS 07\tno\tdevices");
     const auto set_json =
