@@ -7,16 +7,21 @@
 
 namespace dihaptic::cli {
 
+std::optional<TextTable> table_of(const std::string& session, const char* name) {
+    const std::string file = session + "/" + name;
+    if (!is_there(file)) return std::nullopt;
+    const auto folder = recording::SessionFolder::open_tables(session);
+    auto rows = read_csv(file);
+    TextTable out{name, analysis::described_columns(folder, name, rows.front()), {}};
+    rows.erase(rows.begin());
+    out.rows = std::move(rows);
+    return out;
+}
+
 std::vector<TextTable> tables_of(const std::string& session) {
     std::vector<TextTable> out;
-    const auto folder = recording::SessionFolder::open_tables(session);
     for (const char* name : {"trials.csv", "lifts.csv", "corrections.csv"}) {
-        const std::string file = session + "/" + name;
-        if (!is_there(file)) continue;
-        auto rows = read_csv(file);
-        out.push_back({name, analysis::described_columns(folder, name, rows.front()), {}});
-        rows.erase(rows.begin());
-        out.back().rows = std::move(rows);
+        if (auto table = table_of(session, name)) out.push_back(std::move(*table));
     }
     const auto data = analysis::SessionData::read(session);
     const auto page = analysis::session_page(data, "", [](double) {});

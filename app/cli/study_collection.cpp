@@ -177,31 +177,31 @@ size_t column_of(const TextTable& table, const std::string& name) {
 }
 
 /// The tables of a session. Those of trials have the rows of all its parts; the lifts of earlier
-/// parts are added here, if trials.csv has their attempts.
+/// parts are added here, if trials.csv has their attempts. An attempt that was interrupted may be
+/// there again in the next part, which counts.
 std::vector<TextTable> tables_of_parts(const CompleteSession& session) {
     std::vector<TextTable> out = tables_of(session.folder);
     if (session.parts.size() < 2) return out;
-    const auto named = [](const char* name) {
-        return [name](const TextTable& table) { return table.name == name; };
-    };
-    const auto trials = std::ranges::find_if(out, named("trials.csv"));
+    const auto trials = std::ranges::find(out, "trials.csv", &TextTable::name);
     if (trials == out.end()) return out;
+    const auto attempts_in = [](const TextTable& table) {
+        const size_t trial = column_of(table, "trial_num"), attempt = column_of(table, "attempt");
+        return [=](const std::vector<std::string>& row) {
+            return std::pair(row[trial], row[attempt]);
+        };
+    };
     std::set<std::pair<std::string, std::string>> attempts;
-    const size_t trial = column_of(*trials, "trial_num"), attempt = column_of(*trials, "attempt");
-    for (const auto& row : trials->rows) attempts.emplace(row[trial], row[attempt]);
-    std::vector<TextTable> earlier;
-    for (const std::string& part : session.parts) {
-        for (TextTable& table : tables_of(part)) {
-            if (table.name != "lifts.csv") continue;
-            const size_t of = column_of(table, "trial_num"), number = column_of(table, "attempt");
-            std::erase_if(table.rows, [&](const auto& row) {
-                return attempts.erase({row[of], row[number]}) == 0;
-            });
-            earlier.push_back(std::move(table));
-        }
+    for (const auto& row : trials->rows) attempts.insert(attempts_in(*trials)(row));
+    std::erase_if(out, [](const TextTable& table) { return table.name == "lifts.csv"; });
+    const auto others = static_cast<std::ptrdiff_t>(out.size());
+    for (auto part = session.parts.rbegin(); part != session.parts.rend(); ++part) {
+        auto lifts = table_of(*part, "lifts.csv");
+        if (!lifts) continue;
+        const auto attempt_of = attempts_in(*lifts);
+        std::erase_if(lifts->rows,
+                      [&](const auto& row) { return attempts.erase(attempt_of(row)) == 0; });
+        out.insert(out.begin() + others, std::move(*lifts));  // in the order of the parts
     }
-    std::erase_if(out, named("lifts.csv"));
-    out.insert(out.end(), earlier.begin(), earlier.end());
     return out;
 }
 

@@ -327,6 +327,13 @@ class Studies(unittest.TestCase):
             with open(f"{self.folder}/rehearsal/tables/{name}.csv") as file:
                 tables[name] = sorted((int(r["trial_num"]), int(r["attempt"])) for r in csv.DictReader(file))
         self.assertEqual(tables["lifts"], tables["trials"])
+        # an attempt that was interrupted, and made again, is that of the second part
+        grips = []
+        for lifts in [f"{self.folder}/rehearsal/tables/lifts.csv", parts[1] + "/lifts.csv"]:
+            with open(lifts) as file:
+                grips.append({(r["trial_num"], r["attempt"]): r["peak_grip_N"] for r in csv.DictReader(file)})
+        self.assertGreater(len(grips[1]), 0)
+        self.assertLessEqual(grips[1].items(), grips[0].items())
         exported = 0
         for file in glob.glob(data + "/sub-*/ses-*/motion/*events.tsv"):
             with open(file) as events:
