@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "analysis/bids/motion.h"
 #include "base/output.h"
@@ -41,10 +41,10 @@ Json dataset(const PsychDs& data, const std::vector<Table::Column>& columns) {
 /// it. A file beside each table has that table's own.
 std::vector<Table::Column> all_columns(const std::vector<TextTable>& tables) {
     std::vector<Table::Column> out;
-    std::map<std::string, bool> known;
+    std::set<std::string> known;
     for (const TextTable& table : tables) {
         for (const Table::Column& column : table.columns) {
-            if (known.emplace(column.name, true).second) out.push_back(column);
+            if (known.insert(column.name).second) out.push_back(column);
         }
     }
     return out;

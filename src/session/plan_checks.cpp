@@ -19,6 +19,7 @@
 #include "rows/lift_row.h"
 #include "session/load_checks.h"
 #include "session/mass_checks.h"
+#include "session/proxies.h"
 #include "session/rehearsal.h"
 #include "session/texture_checks.h"
 #include "task/plan/levels.h"
@@ -76,16 +77,6 @@ void resolve_shares(Plan& plan, Diagnostics& diagnostics) {
     if (const auto c = of_maximum(plan, "damping", Quantity::damping, coupling.damping_share,
                                   &frame::DeviceInfo::max_damping, diagnostics))
         coupling.damping = *c;
-}
-
-bool is_point(const Plan& plan, const scene::Finger& finger) {
-    return plan.settings.proxy.of(finger.proxy) == scene::ProxyKind::point;
-}
-
-bool any_finger(const Plan& plan, scene::ProxyKind kind) {
-    return std::any_of(
-        plan.scene.fingers.begin(), plan.scene.fingers.end(),
-        [&](const scene::Finger& finger) { return plan.settings.proxy.of(finger.proxy) == kind; });
 }
 
 /// Warns of a stiffness that the loop may not hold calmly. The limit is that of passivity: below it
@@ -166,7 +157,8 @@ void check_proxy(const Plan& plan, Diagnostics& diagnostics) {
     }
     if (plan.settings.proxy.friction == frame::PointFriction::together) return;
     for (const scene::Finger& finger : plan.scene.fingers) {
-        if (finger.torsion_radius <= 0 || !is_point(plan, finger)) continue;
+        if (finger.torsion_radius <= 0 || proxy_of(plan, finger) != scene::ProxyKind::point)
+            continue;
         diagnostics.warning(finger.place, "torsion_radius",
                             "if its friction is separate from the dynamics, a point carries no "
                             "moment about a contact's normal",

@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <numbers>
 #include <set>
 
+#include "session/proxies.h"
 #include "task/run/trial_numbers.h"
 
 namespace dihaptic::session {
@@ -16,14 +16,6 @@ using scene::Texture;
 
 constexpr double kSpeed = 0.25;  // speed of an exploring hand [m/s]
 
-bool has_apart_points(const Plan& plan) {
-    const auto is_point = [&](const scene::Finger& finger) {
-        return plan.settings.proxy.of(finger.proxy) == scene::ProxyKind::point;
-    };
-    return plan.settings.proxy.friction == frame::PointFriction::apart &&
-           std::ranges::any_of(plan.scene.fingers, is_point);
-}
-
 class TextureChecks {
   public:
     TextureChecks(const Plan& plan, Diagnostics& diagnostics)
@@ -32,7 +24,8 @@ class TextureChecks {
           way_(kSpeed * plan.settings.dynamics.every / plan.settings.rate) {}
 
     void check() {
-        const bool apart = has_apart_points(plan_);
+        const bool apart = any_finger(plan_, scene::ProxyKind::point) &&
+                           plan_.settings.proxy.friction == frame::PointFriction::apart;
         for (const scene::Body& body : plan_.scene.bodies) {
             if (!body.surface.texture || body.surface.texture->height == 0) continue;
             const Texture& texture = *body.surface.texture;

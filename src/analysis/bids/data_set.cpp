@@ -191,8 +191,9 @@ void DataSet::describe() const {
         if (!info_.study.experimenters.empty()) json["Authors"] = info_.study.experimenters;
         if (!info_.study.keywords.empty()) json["Keywords"] = info_.study.keywords;
         write_anew(json.dump(2) + "\n", name);
+    } else {
+        add_hed_version();
     }
-    add_hed_version();
     if (!is_there(file("README")) && !is_there(file("README.md")))
         write_anew(readme(title, info_.program, simulated), file("README"));
     if (!is_there(file("participants.json")))

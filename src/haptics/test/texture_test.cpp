@@ -75,15 +75,24 @@ class High : public ::testing::TestWithParam<Proxy> {};
 INSTANTIATE_TEST_SUITE_P(Haptics, High, ::testing::Values(Proxy::rigid, Proxy::point_solved),
                          name_of_proxy);
 
+scene::Texture smooth_ridges(double height) {
+    scene::Texture out = grating();
+    out.friction = 0;
+    out.height = height;
+    return out;
+}
+
+scene::Surface surface_with(const scene::Texture& texture) {
+    scene::Surface out;
+    out.texture = texture;
+    return out;
+}
+
 /// Ridges of 0.2 mm without friction: the proxy rides on them, and the force is perpendicular to
 /// their slope.
 TEST_P(High, RidgesLiftAndPushBackAsTheirSlopeSays) {
-    scene::Texture ridges = grating();
-    ridges.friction = 0;
-    ridges.height = 2e-4;
-    scene::Surface surface;
-    surface.texture = ridges;
-    Pressed pressed(GetParam(), surface, 0);
+    scene::Texture ridges = smooth_ridges(2e-4);
+    Pressed pressed(GetParam(), surface_with(ridges), 0);
     const bool is_point = GetParam() == Proxy::point_solved;
     const double floor = is_point ? kSkin : 0.008;
     const double deep = kDeep + (is_point ? kSkin : 0);
@@ -108,12 +117,8 @@ TEST_P(High, RidgesLiftAndPushBackAsTheirSlopeSays) {
 }
 
 TEST_P(High, RidgesAreScaledByTheBodysProperties) {
-    scene::Texture ridges = grating();
-    ridges.friction = 0;
-    ridges.height = 1e-4;
-    scene::Surface surface;
-    surface.texture = ridges;
-    Pressed pressed(GetParam(), surface, 0);
+    scene::Texture ridges = smooth_ridges(1e-4);
+    Pressed pressed(GetParam(), surface_with(ridges), 0);
     dynamics::BodyProperties properties;
     properties.texture_wavelength = 1.25;
     properties.texture_height = 2;
