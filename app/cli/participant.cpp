@@ -184,7 +184,7 @@ void show(const ParticipantOptions& options) {
     line("age", member.age);
     line("sex", member.sex);
     line("handedness", member.handedness);
-    for (const study::Fact& fact : member.facts) line(fact.name, fact.value);
+    for (const recording::Fact& fact : member.facts) line(fact.name, fact.value);
     line("added", fmt::format("{}, version {} of the files", member.added, member.version));
     line("withdrawn", member.withdrawn);
     line("reason", member.reason);

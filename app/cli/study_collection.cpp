@@ -171,6 +171,16 @@ std::vector<std::string> strangers(const study::StudyFile& study, const study::R
     return out;
 }
 
+/// A session that is not there, with what its needs say if the session before is.
+std::string missing_session(const study::SessionSpec& session, const study::Member& member,
+                            const study::Visit* before) {
+    std::string out = fmt::format("missing: {} of {}", session.name, member.id);
+    if (before == nullptr) return out;
+    const auto unmet = study::unmet_needs(session, before->folder);
+    if (!unmet.empty()) out += fmt::format(", who may not begin it: {}", fmt::join(unmet, "; "));
+    return out;
+}
+
 size_t column_of(const TextTable& table, const std::string& name) {
     const auto found = std::ranges::find(table.columns, name, &Table::Column::name);
     return static_cast<size_t>(found - table.columns.begin());
@@ -217,13 +227,15 @@ StudySessions::StudySessions(const study::StudyFile& study)
             "count: rehearse the study.");
     for (const study::Member& member : roster_.participants) {
         const auto visits = session::visits_of(study, member);
+        const study::Visit* before = nullptr;
         for (size_t i = 0; i < study.sessions.size(); ++i) {
-            if (const study::Visit* const visit = study::counted(study, visits, i)) {
+            const study::Visit* const visit = study::counted(study, visits, i);
+            if (visit != nullptr) {
                 complete_.push_back({member, visit->folder, parts_of(visit->folder)});
             } else if (member.takes_part()) {
-                missing_.push_back(
-                    fmt::format("missing: {} of {}", study.sessions[i].name, member.id));
+                missing_.push_back(missing_session(study.sessions[i], member, before));
             }
+            before = visit;
         }
     }
 }

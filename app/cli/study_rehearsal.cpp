@@ -118,6 +118,19 @@ class Rehearsing {
 
     bool is_done(const std::string& id) const { return all_complete(*roster_.find(id), 0); }
 
+    /// Before which session a person stops, and why: the session before does not meet its needs.
+    /// Empty: the person does all sessions.
+    std::string stops(const std::string& id) const {
+        const study::Member& member = *roster_.find(id);
+        for (size_t i = 1; i < study_.sessions.size(); ++i) {
+            const auto unmet = unmet_needs(member, i);
+            if (!unmet.empty())
+                return fmt::format("{} stops before {}: {}", id, study_.sessions[i].name,
+                                   fmt::join(unmet, "; "));
+        }
+        return "";
+    }
+
     std::string messages(const std::string& id) const {
         const study::Member& member = *roster_.find(id);
         for (size_t i = 0; i < study_.sessions.size(); ++i) {
@@ -152,9 +165,16 @@ class Rehearsing {
     bool is_complete(const study::Member& member, size_t session) const {
         return session::has_session(folder(member, session) + "/" + kRehearsed);
     }
+    /// Why a person does not go on to a session, the one before being complete.
+    std::vector<std::string> unmet_needs(const study::Member& member, size_t session) const {
+        if (session == 0 || !is_complete(member, session - 1)) return {};
+        return study::unmet_needs(study_.sessions[session],
+                                  folder(member, session - 1) + "/" + kRehearsed);
+    }
+    /// Whether a person has nothing left to do.
     bool all_complete(const study::Member& member, size_t from) const {
         for (size_t i = from; i < study_.sessions.size(); ++i) {
-            if (!is_complete(member, i)) return false;
+            if (!is_complete(member, i)) return !unmet_needs(member, i).empty();
         }
         return true;
     }
@@ -277,6 +297,10 @@ void rehearse_study(const StudyRehearsal& given) {
     work.is_done = [&](const std::string& id) { return rehearsing.is_done(id); };
     work.messages = [&](const std::string& id) { return rehearsing.messages(id); };
     for (const std::string& text : run_crowd(work, waiting)) fmt::print(stderr, "{}\n", text);
+    for (const study::Member& member : roster.participants) {
+        const std::string text = rehearsing.stops(member.id);
+        if (!text.empty()) fmt::print("{}\n", text);
+    }
     if (exit_code == kOk)
         fmt::print("complete: {}\nnext: dihaptic collect {} --rehearsed {}\n", study.data,
                    shell_file(rehearsal.file), shell_file(study.data));

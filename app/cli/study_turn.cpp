@@ -30,18 +30,6 @@ const study::Member& member_of(const study::StudyFile& study, const study::Roste
     return *member;
 }
 
-/// Adds the conditions on the session before that are not met.
-void check_needs(const study::StudyFile& study, study::Next& next) {
-    if (next.act != study::Act::begin || next.after.empty()) return;
-    const std::string trials = next.after + "/trials.csv";
-    for (const study::Condition& need : study.sessions[next.session].needs) {
-        const std::string why = is_there(trials)
-                                    ? study::unmet(need, trials)
-                                    : fmt::format("{} is missing, on which it depends", trials);
-        if (!why.empty()) next.against.push_back(why);
-    }
-}
-
 /// What comes next, allowed or not.
 study::Next next_of(const study::StudyFile& study, const study::Member& member, bool simulated) {
     const study::StudyFile where = simulated ? session::rehearsed(study) : study;
@@ -54,7 +42,10 @@ study::Next next_of(const study::StudyFile& study, const study::Member& member, 
     study::Next next = study::next_for(study, visits, study::seconds_of(recording::iso_now()));
     // simulated sessions follow each other at once
     if (simulated && next.act == study::Act::begin) next.against.clear();
-    check_needs(study, next);
+    if (next.act == study::Act::begin && !next.after.empty()) {
+        const auto unmet = study::unmet_needs(study.sessions[next.session], next.after);
+        next.against.insert(next.against.end(), unmet.begin(), unmet.end());
+    }
     return next;
 }
 

@@ -42,14 +42,27 @@ struct Participant {
     }
 };
 
+/// What a study asks of its participants beside age, sex and handedness.
+struct Fact {
+    std::string name;
+    std::string value;
+
+    template <class Visitor>
+    void visit(Visitor& v) {
+        v("name", name, Field::text().required());
+        v("value", value, Field::text().required());
+    }
+};
+
 /// The place of a session in a study.
 struct InStudy {
-    std::string study;      ///< title
-    int version = 0;        ///< of the study's files
-    std::string group;      ///< or the code that conceals it
-    int number = 0;         ///< of the participant in the group
-    std::string session;    ///< name
-    std::string condition;  ///< empty: the session has none
+    std::string study;        ///< title
+    int version = 0;          ///< of the study's files
+    std::string group;        ///< or the code that conceals it
+    int number = 0;           ///< of the participant in the group
+    std::string session;      ///< name
+    std::string condition;    ///< empty: the session has none
+    std::vector<Fact> facts;  ///< of the participant
 
     template <class Visitor>
     void visit(Visitor& v) {
@@ -59,6 +72,7 @@ struct InStudy {
         v("number", number);
         v("session", session);
         v("condition", condition);
+        v("facts", facts);
     }
 };
 

@@ -160,7 +160,8 @@ recording::InStudy place_in(const study::StudyFile& study, const study::Member& 
             study.shown_group(member.group),
             member.number,
             study.sessions[session].name,
-            study.condition_of(session, member.group, member.number)};
+            study.condition_of(session, member.group, member.number),
+            member.facts};
 }
 
 std::vector<study::Visit> visits_of(const study::StudyFile& study, const study::Member& member) {

@@ -111,7 +111,7 @@ std::string Member::fact(const std::string& name) const {
     if (name == "age") return age;
     if (name == "sex") return sex;
     if (name == "handedness") return handedness;
-    const auto found = std::ranges::find(facts, name, &Fact::name);
+    const auto found = std::ranges::find(facts, name, &recording::Fact::name);
     return found == facts.end() ? "" : found->value;
 }
 
@@ -161,7 +161,7 @@ void write_roster(const StudyFile& study, Roster roster) {
 std::vector<std::string> reasons_against(const StudyFile& study, const Member& person) {
     check_identifier(person.id);
     std::set<std::string> names;
-    for (const Fact& fact : person.facts) {
+    for (const recording::Fact& fact : person.facts) {
         if (!names.insert(fact.name).second)
             throw Error({"participant", 0}, fact.name, "is given twice", "Give each fact once.");
         if (spec_of(study, fact.name) == nullptr)

@@ -6,20 +6,10 @@
 #include <vector>
 
 #include "base/descriptor.h"
+#include "recording/session.h"
 #include "study/study_file.h"
 
 namespace dihaptic::study {
-
-struct Fact {
-    std::string name;
-    std::string value;
-
-    template <class Visitor>
-    void visit(Visitor& v) {
-        v("name", name, Field::text().required());
-        v("value", value, Field::text().required());
-    }
-};
 
 /// A participant.
 struct Member {
@@ -27,7 +17,7 @@ struct Member {
     std::string group;
     int number = 0;  ///< in the group, from 1; free again after a withdrawal
     std::string age, sex, handedness;
-    std::vector<Fact> facts;
+    std::vector<recording::Fact> facts;
     std::string added;      ///< ISO 8601
     int version = 0;        ///< of the study's files when added
     std::string withdrawn;  ///< ISO 8601; empty: takes part

@@ -9,6 +9,7 @@
 
 #include "base/checksum.h"
 #include "base/number.h"
+#include "base/regular_file.h"
 #include "rows/trial_row.h"
 
 namespace dihaptic::study {
@@ -156,6 +157,18 @@ std::string unmet(const Condition& condition, const std::string& trials) {
         return fmt::format("{} is {:.4g} in {} trials; at most {:g} is asked for", what, value,
                            count, *condition.at_most);
     return "";
+}
+
+std::vector<std::string> unmet_needs(const SessionSpec& session, const std::string& before) {
+    const std::string trials = before + "/trials.csv";
+    std::vector<std::string> out;
+    for (const Condition& need : session.needs) {
+        const std::string why = is_there(trials)
+                                    ? unmet(need, trials)
+                                    : fmt::format("{} is missing, on which it depends", trials);
+        if (!why.empty()) out.push_back(why);
+    }
+    return out;
 }
 
 }  // namespace dihaptic::study

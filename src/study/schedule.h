@@ -49,4 +49,8 @@ Next next_for(const StudyFile& study, const std::vector<Visit>& visits, double n
 /// they do. `trials`: its trials.csv.
 std::string unmet(const Condition& condition, const std::string& trials);
 
+/// Why the recording of the session before does not meet the needs of a session, each with a
+/// figure; none if it does. `before`: its folder.
+std::vector<std::string> unmet_needs(const SessionSpec& session, const std::string& before);
+
 }  // namespace dihaptic::study

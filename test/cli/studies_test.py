@@ -245,9 +245,22 @@ class Studies(unittest.TestCase):
                      "all 4 places are taken")
         self.refused(dihaptic("rehearse", self.study, "--slurm", "2"), "not possible for a study")
 
+    def test_who_does_not_meet_the_needs_stops_in_a_rehearsal_too(self):
+        self.write("title: Two days\ngroups: [{ name: all, people: 2 }]\nsessions:\n"
+                   "  - { name: day1, experiment: short.yaml }\n"
+                   "  - { name: day2, experiment: heavy.yaml, needs: [{ column: outcome, is: declined, at_least: 1 }] }\n"
+                   "  - { name: day3, experiment: heavy.yaml }\n")
+        result = dihaptic("rehearse", self.study)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        why = r"the share of outcome = declined is 0 in \d+ trials; at least 1 is asked for"
+        self.assertRegex(result.stdout, f"sim-002 stops before day2: {why}\ncomplete: ")
+        self.assertIn("0 to do", dihaptic("rehearse", self.study).stdout)
+        collected = dihaptic("collect", self.study, "--rehearsed", self.folder + "/rehearsal").stdout
+        self.assertRegex(collected, f"missing: day2 of sim-001, who may not begin it: {why}\nmissing: day3 of sim-001\n")
+
     def test_a_study_is_exported_as_a_whole(self):
         self.write("title: Lifts\nabout: How people lift.\ngroups: [{ name: a, people: 1 }, { name: b, people: 1 }]\n"
-                   "facts: [{ name: vision, values: [normal, corrected] }]\n"
+                   "facts: [{ name: vision, values: [normal, corrected] }, { name: program }]\n"
                    "sessions: [{ name: day1, experiment: short.yaml }, { name: day2, experiment: heavy.yaml }]\n")
         result = dihaptic("rehearse", self.study, "--jobs", "2")
         self.assertEqual(result.returncode, 0, result.stdout + result.stderr)
@@ -275,6 +288,14 @@ class Studies(unittest.TestCase):
             self.assertEqual(said.returncode, 0, said.stderr)
             self.assertRegex(said.stdout, rf"{added} recordings added to .*; the study has 4 sessions of 2 people")
         self.assertEqual(len(glob.glob(data + "/sub-*/ses-*/motion/*_events.tsv")), 4)
+        with open(data + "/participants.tsv", newline="") as file:
+            people = list(csv.DictReader(file, delimiter="\t"))
+        dihaptic("collect", self.study, "--rehearsed", self.folder + "/kept")
+        own = {row["id"]: row["vision"] for row in self.rows("participants.csv", "kept/tables")}
+        self.assertEqual({p["participant"]: p["vision"] for p in people}, own)
+        self.assertEqual({p["fact_program"].isdigit() for p in people}, {True})  # `program` is a column of BIDS
+        described = json.loads(pathlib.Path(data, "participants.json").read_text())
+        self.assertEqual(set(people[0]) - set(described), set())
         session = glob.glob(self.folder + "/kept/sessions/*/day1/*")[0]
         self.refused(dihaptic("export", session, "--psych-ds", self.folder + "/none"), "not a study's file")
 

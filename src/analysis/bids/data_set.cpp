@@ -89,6 +89,11 @@ const Json kParticipantColumns{
     {"population", {{"Description", "population from which the simulated person was drawn"}}},
     {"seed", {{"Description", "seed with which the person was drawn"}}}};
 
+/// Column of participants.tsv for a fact of the study's own.
+std::string column_of(const recording::Fact& fact) {
+    return kParticipantColumns.contains(fact.name) ? "fact_" + fact.name : fact.name;
+}
+
 /// Adds an item to a comma-separated list in one cell, unless the list contains it.
 std::string with(const std::string& list, const std::string& item) {
     if (item.empty() || ("," + list + ",").find("," + item + ",") != std::string::npos) return list;
@@ -196,8 +201,24 @@ void DataSet::describe() const {
     }
     if (!is_there(file("README")) && !is_there(file("README.md")))
         write_anew(readme(title, info_.program, simulated), file("README"));
-    if (!is_there(file("participants.json")))
-        write_anew(kParticipantColumns.dump(2) + "\n", file("participants.json"));
+    describe_participants();
+}
+
+/// A later session may bring facts that earlier ones lacked.
+void DataSet::describe_participants() const {
+    const std::string name = file("participants.json");
+    const bool there = is_there(name);
+    Json columns = there ? Json::parse(read_text_file(name), nullptr, false) : kParticipantColumns;
+    if (!columns.is_object()) return;  // another program's, or damaged
+    const Json before = columns;
+    if (info_.in_study) {
+        for (const recording::Fact& fact : info_.in_study->facts) {
+            const std::string column = column_of(fact);
+            if (!columns.contains(column))
+                columns[column] = {{"Description", "fact of the participant, in the study"}};
+        }
+    }
+    if (!there || columns != before) write_anew(columns.dump(2) + "\n", name);
 }
 
 /// Earlier versions, and other programs, made data sets without HED tags.
@@ -229,6 +250,10 @@ void DataSet::add_participant() const {
     if (info_.in_study) {
         columns.emplace_back("group");
         row.push_back(info_.in_study->group);
+        for (const recording::Fact& fact : info_.in_study->facts) {
+            columns.push_back(column_of(fact));
+            row.push_back(fact.value);
+        }
     }
     if (people.has(subject_)) {
         // existing facts on a participant are kept, and only added to

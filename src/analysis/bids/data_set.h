@@ -47,6 +47,7 @@ class DataSet {
     void check_recordings() const;
     void describe() const;
     void add_hed_version() const;
+    void describe_participants() const;
     void add_participant() const;
     void add_visit() const;
 
