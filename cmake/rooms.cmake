@@ -131,6 +131,24 @@ function(dihaptic_room name)
     endforeach()
 endfunction()
 
+# A file of tests in Python that imports test/soak.py does a sample in `./dev test`, and everything in `./dev soak`, as
+# NAME/soak. Arguments after the file are the test's.
+function(dihaptic_soak_of name file)
+    file(STRINGS ${file} imports REGEX "^(from|import) soak")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
+    if(NOT imports)
+        return()
+    endif()
+    add_test(NAME ${name}/soak COMMAND ${SYSTEM_PYTHON} ${file} ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR})
+    set_tests_properties(${name}/soak PROPERTIES TIMEOUT 7200 LABELS soak ENVIRONMENT DIHAPTIC_SOAK=1
+        ENVIRONMENT_MODIFICATION PYTHONPATH=set:${PROJECT_BINARY_DIR}/python)
+    if(name MATCHES "^attack/")
+        set_tests_properties(${name}/soak PROPERTIES LABELS "soak;attack")
+    elseif(name MATCHES "^gui/")
+        set_tests_properties(${name}/soak PROPERTIES RUN_SERIAL ON)
+    endif()
+endfunction()
+
 # The table of a seam's implementations: each subfolder with a header KIND.h has a namespace of the
 # folder's name, in NAMESPACE, with a function KIND(); a KIND of test/NAME is for tests alone, and its function is
 # NAME(). FILE is made from FILE.in, which has @includes@ and @entries@. Adding one touches one folder.

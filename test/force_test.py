@@ -13,6 +13,7 @@ import time
 import unittest
 
 import needs
+import soak
 
 needs.program("pgrep", "procps")
 
@@ -130,8 +131,9 @@ def signalled(which):
     return lambda process: process.send_signal(which)
 
 
-ORDERLY = ["SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT", "SIGTSTP", "SIGUSR1", "SIGALRM", "SIGXCPU"]
-ERRORS = ["SIGSEGV", "SIGABRT", "SIGBUS", "SIGFPE", "SIGILL"]
+ORDERLY = soak.of(["SIGINT", "SIGTERM", "SIGTSTP"],
+                  ["SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT", "SIGTSTP", "SIGUSR1", "SIGALRM", "SIGXCPU"])
+ERRORS = soak.of(["SIGSEGV", "SIGABRT"], ["SIGSEGV", "SIGABRT", "SIGBUS", "SIGFPE", "SIGILL"])
 
 
 class Signals(Program):

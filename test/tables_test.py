@@ -3,9 +3,9 @@ own, those of its report, the list of its trials, the task as it was understood,
 a small population.
 
 Usage: tables_test.py PROGRAM, from the project's folder. A few experiments that have all kinds of tables between them, or all,
-if DIHAPTIC_EVERY_EXPERIMENT is set. When a table is meant to differ, renew tables.txt in the same commit, and say why:
+in the soak. When a table is meant to differ, renew tables.txt in the same commit, and say why:
 
-    DIHAPTIC_RENEW_TABLES=1 DIHAPTIC_EVERY_EXPERIMENT=1 /usr/bin/python3 test/tables_test.py build/release/dihaptic
+    DIHAPTIC_RENEW_TABLES=1 DIHAPTIC_SOAK=1 /usr/bin/python3 test/tables_test.py build/release/dihaptic
 """
 import hashlib
 import os
@@ -16,6 +16,8 @@ import tempfile
 import unittest
 
 import h5py
+
+import soak
 
 PROGRAM = os.path.abspath(sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic")
 KEPT = pathlib.Path("test/tables.txt")
@@ -89,7 +91,7 @@ class Tables(unittest.TestCase):
     def test_are_those_that_were_kept(self):
         kept = dict(line.split() for line in KEPT.read_text().splitlines()) if KEPT.exists() else {}
         now = {}
-        experiments = EVERY if "DIHAPTIC_EVERY_EXPERIMENT" in os.environ else A_FEW
+        experiments = soak.of(A_FEW, EVERY)
         for experiment in experiments:
             print(experiment, flush=True)
             now.update(tables_of(experiment))

@@ -6,6 +6,7 @@ import os
 import pathlib
 import pickle
 import shutil
+import sys
 import tempfile
 import unittest
 
@@ -14,11 +15,14 @@ import numpy as np
 import dihaptic as dh
 from dihaptic import Experiment, Part, Rig, Scene  # noqa: F401: what repr() is made of
 
+sys.path.append("test")
+import soak  # noqa: E402
+
 PROJECT = pathlib.Path.cwd()
 KINDS = {"scenes": Scene, "rigs": Rig, "experiments": Experiment}
 # trials, formulas and joints, and neither
 RUN = ["first-trials", "squeeze-spring", "lift-block"]
-if os.environ.get("DIHAPTIC_EVERY_EXPERIMENT"):
+if soak.EVERYTHING:
     RUN = sorted(pathlib.Path(file).stem for file in glob.glob("experiments/*.yaml"))
 
 

@@ -5,6 +5,7 @@ import os
 import pathlib
 import pickle
 import shutil
+import sys
 import tarfile
 import tempfile
 import unittest
@@ -19,9 +20,12 @@ matplotlib.use("Agg")
 
 import dihaptic as dh  # noqa: E402
 
+sys.path.append("test")
+import soak  # noqa: E402
+
 # one of each kind of record: no task, a simulated person's trials, joints, devices that turn, a lattice, sounds
 KINDS = ["lift-block", "first-trials", "swing-rod", "hand-over", "reach-at-tone"]
-if os.environ.get("DIHAPTIC_EVERY_EXPERIMENT"):
+if soak.EVERYTHING:
     KINDS = sorted(pathlib.Path(file).stem for file in glob.glob("experiments/*.yaml"))
 RECORDINGS = pathlib.Path("test/recordings")
 

@@ -4,8 +4,8 @@ Each arrangement is a fresh folder as a stranger may hand it over: it has what a
 of the names that the command would write to or delete. What the trap leads to must stay as it is, and the command
 must end, and say so if it could not do what it was asked.
 
-Usage: attack/links_test.py PROGRAM, from the project's folder. DIHAPTIC_ATTACKS=all tries all arrangements; otherwise
-a sample of them is tried.
+Usage: attack/links_test.py PROGRAM, from the project's folder. The soak tries all arrangements, not a
+sample.
 """
 import datetime
 import itertools
@@ -22,9 +22,9 @@ import unittest
 
 sys.path.append("test/cli")
 from program import PROGRAM, dihaptic, patient
+import soak  # program.py says where it is
 
 PROGRAM = os.path.abspath(PROGRAM)
-ALL = os.environ.get("DIHAPTIC_ATTACKS") == "all"
 SAMPLE = 60
 TRAPS = ["link to a file", "link to a folder", "link to nothing", "link to itself", "second name of a file", "pipe",
          "folder", "link to a device"]
@@ -169,7 +169,7 @@ class Links(unittest.TestCase):
     def test_nothing_outside_changes(self):
         arrangements = self.arrangements()
         self.assertGreater(len(arrangements), 400)
-        chosen = arrangements if ALL else random.Random(1).sample(arrangements, SAMPLE)
+        chosen = soak.of(random.Random(1).sample(arrangements, SAMPLE), arrangements)
         silent = 0
         for name, kind, trap in chosen:
             with self.subTest(command=name, trap=trap, kind=kind):

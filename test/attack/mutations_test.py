@@ -1,6 +1,6 @@
 """Files of each kind with bytes and words changed, cut, doubled or exchanged: each is read, or refused by its name.
 
-Usage: attack/mutations_test.py PROGRAM, from the project's folder. DIHAPTIC_ATTACKS=all tries 10,000 of each kind.
+Usage: attack/mutations_test.py PROGRAM, from the project's folder. The soak tries 10,000 of each kind.
 """
 import glob
 import os
@@ -17,9 +17,10 @@ import wave
 
 sys.path.append("test/cli")
 from program import PROGRAM, dihaptic, patient
+import soak  # program.py says where it is
 
-EACH = 10_000 if os.environ.get("DIHAPTIC_ATTACKS") == "all" else 60
-EACH_SESSION = 2_000 if EACH == 10_000 else 60
+EACH = soak.of(60, 10_000)
+EACH_SESSION = soak.of(30, 2_000)
 BATCH = 50
 #: Time of the processor that a file may take [s].
 LONGEST = patient(2)
@@ -100,17 +101,17 @@ class Attack(unittest.TestCase):
 
 class Mutations(Attack):
 
-    def try_all(self, kinds, name, scene_of=None, has_checksums=False, longest=LONGEST):
+    def try_all(self, kinds, name, scene_of=None, has_checksums=False, longest=LONGEST, each=EACH):
         """`kinds`: files to begin with. `scene_of`: what names such a file; it is checked in the file's place."""
         here = os.getcwd().encode() + b"/"
         contents = [pathlib.Path(file).read_bytes() for file in kinds]
         if name.endswith(".yaml"):
             contents = [content.replace(b"../", here) for content in contents]
         refused = 0
-        for batch in range(0, EACH, BATCH):
+        for batch in range(0, each, BATCH):
             place = pathlib.Path(tempfile.mkdtemp(dir=self.folder))
             files = []
-            for n in range(min(BATCH, EACH - batch)):
+            for n in range(min(BATCH, each - batch)):
                 content = mutated(self.chosen, self.chosen.choice(contents))
                 file = place / name.replace("*", str(n))
                 file.write_bytes(content)
@@ -126,10 +127,10 @@ class Mutations(Attack):
                 self.assertTrue(about, f"nothing was said of {file}: {told[-500:]}")
                 refused += any(": error: " in line for line in about)
             shutil.rmtree(place)
-        self.assertGreater(refused, EACH // 20)
+        self.assertGreater(refused, each // 20)
         if not has_checksums:
-            self.assertLess(refused, EACH, "no file was read: the first ones are wrong")
-        print(f"{name}: {EACH}, {refused} refused")
+            self.assertLess(refused, each, "no file was read: the first ones are wrong")
+        print(f"{name}: {each}, {refused} refused")
 
     def test_yaml(self):
         for kind in ("scenes", "experiments", "rigs", "populations"):
@@ -154,7 +155,7 @@ class Mutations(Attack):
         for files in (["meshes/pad.obj"], ["meshes/apple.ply"], stl[:1], stl[1:], off):
             with self.subTest(files=files):
                 # what reads a mesh has a limit of its own, 2 s, which one reaches whose head claims millions of faces
-                self.try_all(files, "mesh-*" + os.path.splitext(files[0])[1], scene.format, longest=patient(4))
+                self.try_all(files, "mesh-*" + os.path.splitext(files[0])[1], scene.format, longest=patient(4), each=soak.of(30, EACH))
 
     def test_sounds(self):
         """Ogg has a checksum of each page, FLAC of each frame: few files of these can be read."""

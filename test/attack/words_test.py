@@ -3,7 +3,7 @@
 What gets in has to come out as it was, of every file that the program wrote; all else is refused before a session
 begins.
 
-Usage: attack/words_test.py PROGRAM, from the project's folder. DIHAPTIC_ATTACKS=all tries far more of them.
+Usage: attack/words_test.py PROGRAM, from the project's folder. The soak tries far more of them.
 """
 import csv
 import itertools
@@ -21,11 +21,11 @@ import unittest
 
 sys.path.append("test/cli")
 from program import PROGRAM, dihaptic, patient
+import soak  # program.py says where it is
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(PROGRAM)), "python"))
 import dihaptic as dihaptic_package
 
-ALL = os.environ.get("DIHAPTIC_ATTACKS") == "all"
 ESCAPES = ["\\e", "\\x01", "\\0", "\\x7f", "\\a", "\\b", "\\r", "\\x85", "\\x9b", "\\uFEFF", "\\uFFFE"]
 
 
@@ -81,7 +81,7 @@ class Words(unittest.TestCase):
         places = [i for i in range(len(text)) if text.startswith(": ", i) and text[i + 2].isalpha() and not in_comment(i)]
         chosen = random.Random(1)
         file = self.folder / "escapes.yaml"
-        for n in range(200 if ALL else 15):
+        for n in range(soak.of(15, 200)):
             at = chosen.choice(places) + 2
             end = min(text.index(c, at) for c in ",}]\n" if c in text[at:])
             escape = chosen.choice(ESCAPES)
@@ -98,7 +98,7 @@ class Words(unittest.TestCase):
     def test_what_gets_in_comes_out(self):
         """A participant of any words: of session.yaml, trials.csv, reports and resumed sessions."""
         chosen = random.Random(2)
-        for n in range(60 if ALL else 6):
+        for n in range(soak.of(6, 60)):
             word = self.random_word(chosen) + "1"
             with self.subTest(n=n, word=word), tempfile.TemporaryDirectory() as out:
                 result = dihaptic("run", "experiments/first-trials.yaml", "--simulate", f"--participant={word}", "--out", out)
@@ -281,7 +281,7 @@ class Fields(unittest.TestCase):
         chosen = random.Random(int(os.environ.get("DIHAPTIC_SEED", 3)))
         names = sorted({field for form in FILES.values() for field in PLAIN.findall(form)} | {"participant", "age"})
         tried, refused, sessions = 0, 0, 0
-        while tried < (20_000 if ALL else 300):
+        while tried < soak.of(300, 20_000):
             texts = {name: any_text(chosen, n) for n, name in enumerate(names)}
             for option in ("participant", "age"):
                 texts[option] = texts[option].replace("\0", "\x01")  # no command line has such a letter
@@ -332,7 +332,7 @@ class Python(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             file = pathlib.Path(folder, "scene.yaml")
             refused = 0
-            for n in range(2_000 if ALL else 100):
+            for n in range(soak.of(100, 2_000)):
                 text = any_text(chosen, n)
                 before = file.read_bytes() if file.exists() else None
                 scene = dihaptic_package.Scene(title=text, bodies=[{"name": text, "shape": "plane", "fixed": True}])

@@ -17,6 +17,7 @@ import unittest
 from program import PROGRAM, dihaptic, patient
 
 import needs  # program.py says where it is
+import soak
 
 TABLES = ["trials.csv", "people.csv", "adaptation.csv", "fits.csv"]
 
@@ -247,6 +248,7 @@ PATH={shlex.quote(self.slurm)}/inside:$PATH APPTAINER_CONTAINER={shlex.quote(con
         self.assertEqual(self.submitted(), [])
 
 
+@soak.alone
 class Parallel(InShards):
     def setUp(self):
         needs.for_this_test("parallel", "parallel")

@@ -11,6 +11,8 @@ import unittest
 
 from program import MADE, SHORT, dihaptic, session_of, with_largest_file
 
+import soak  # program.py says where it is
+
 BLOCK = "v 0 0 0\nv 40 0 0\nv 0 40 0\nv 0 0 40\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
 TICKS = 201
 
@@ -90,7 +92,8 @@ class Damage(unittest.TestCase):
         inputs = ["scene.yaml", "rig.yaml", "settings.yaml", "mesh-1-block.obj"]
         for name in names:
             size = len(whole[name])
-            lengths = {0, 1, size - 1, *range(100, min(size, 151), 25), *(random.randrange(size) for _ in range(3))}
+            lengths = soak.of({0, random.randrange(size)},
+                              {0, 1, size - 1, *range(100, min(size, 151), 10), *(random.randrange(size) for _ in range(9))})
             for length in [None, *sorted(lengths)]:
                 for other, data in whole.items():
                     pathlib.Path(self.folder + other).write_bytes(data)

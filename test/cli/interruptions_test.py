@@ -1,4 +1,4 @@
-"""Sessions that are interrupted, killed, or find the disk full. DIHAPTIC_KILLS: how many are killed.
+"""Sessions that are interrupted, killed, or find the disk full. The soak kills more of them.
 
 Usage: interruptions_test.py PROGRAM, from the project's folder.
 """
@@ -19,6 +19,7 @@ import time
 import unittest
 
 from program import MADE, PROGRAM, SLOWNESS, dihaptic, patient, session_of, wait_for_log, with_largest_file
+import soak  # program.py says where it is
 
 REAL_CLOCK = ["--clock", "real"]
 
@@ -173,7 +174,7 @@ class Interruptions(unittest.TestCase):
             self.start(out).communicate(timeout=patient(60))
             whole = os.path.getsize(session_of(out) + "raw.log")
         kills = 0
-        while kills < int(os.environ.get("DIHAPTIC_KILLS", 8)):
+        while kills < soak.of(8, 200):
             with tempfile.TemporaryDirectory() as out:
                 process = self.start(out)
                 size = wait_for_log(out, random.uniform(0.01, 0.99) * whole)

@@ -13,9 +13,11 @@ import shutil
 import sys
 import tempfile
 import unittest
+from functools import partial
 
 sys.path.append("test")
 import needs  # noqa: E402
+import soak  # noqa: E402
 
 needs.module("jsonschema", "python3-jsonschema")
 import jsonschema  # noqa: E402
@@ -117,34 +119,34 @@ def stem(key):
 
 
 def mistakes(schema, root):
-    """(kind of mistake, file with it), of kinds that a schema can know."""
+    """(kind of mistake, what makes the file with it), of kinds that a schema can know."""
     for path, value, of in schema.walk(root):
         kinds = of.get("type", [])
         is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
         if isinstance(value, dict) and of["properties"]:
-            yield "unknown key", changed(root, path, lambda parent, key: parent[key].update(not_a_key=1))
-            yield "not a mapping", replaced(root, path, "word")
+            yield "unknown key", partial(changed, root, path, lambda parent, key: parent[key].update(not_a_key=1))
+            yield "not a mapping", partial(replaced, root, path, "word")
             for names in of["groups"]:
                 for name in names:
                     if name in value:
-                        yield "missing key", changed(root, path, lambda parent, key: parent[key].pop(name))
+                        yield "missing key", partial(changed, root, path, lambda parent, key, name=name: parent[key].pop(name))
             for key in value:
                 if len([name for name in of["properties"] if stem(name) == stem(key)]) > 1 and key != stem(key):
-                    yield "wrong unit", renamed(root, path + (key,), stem(key) + "_furlongs")
+                    yield "wrong unit", partial(renamed, root, path + (key,), stem(key) + "_furlongs")
         if isinstance(value, list):
-            yield "not a list", replaced(root, path, {"x": 1})
+            yield "not a list", partial(replaced, root, path, {"x": 1})
         if not isinstance(value, (list, dict)):
-            yield "not a value", replaced(root, path, {"x": 1})
+            yield "not a value", partial(replaced, root, path, {"x": 1})
         if "enum" in of:
-            yield "unknown word", replaced(root, path, "sideways")
+            yield "unknown word", partial(replaced, root, path, "sideways")
         if is_number and "pattern" in of:
-            yield "not a number", replaced(root, path, "heavy")
+            yield "not a number", partial(replaced, root, path, "heavy")
         if is_number and "maximum" in of:
-            yield "too large", replaced(root, path, 2 * abs(of["maximum"]) + 1)
+            yield "too large", partial(replaced, root, path, 2 * abs(of["maximum"]) + 1)
         if is_number and "minimum" in of:
-            yield "too small", replaced(root, path, of["minimum"] - abs(of["minimum"]) - 1)
+            yield "too small", partial(replaced, root, path, of["minimum"] - abs(of["minimum"]) - 1)
         if is_number and "integer" in kinds:
-            yield "not whole", replaced(root, path, value + 0.5)
+            yield "not whole", partial(replaced, root, path, value + 0.5)
 
 
 OTHER_UNIT = {"mm": ("cm", 0.1), "deg": ("rad", 0.017453292519943295), "g": ("kg", 0.001), "s": ("ms", 1000), "N": ("mN", 1000)}
@@ -152,20 +154,20 @@ ANY = [0, -1, 1.5, 1e9, "", "word", "5", "1e3", "+.5", "yes", "true", True, Fals
 
 
 def other_ways(schema, root):
-    """(what is done, file that says the same in another way)."""
+    """(what is done, what makes the file that says the same in another way)."""
     def are_numbers(value):
         return value and all(isinstance(one, (int, float)) and not isinstance(one, bool) for one in value)
     for path, value, of in schema.walk(root):
         if "pattern" in of and are_numbers([value]):
-            yield "quotes", replaced(root, path, str(value))
-            yield "fraction", replaced(root, path, float(value))
+            yield "quotes", partial(replaced, root, path, str(value))
+            yield "fraction", partial(replaced, root, path, float(value))
         for key, inner in value.items() if isinstance(value, dict) else []:
             unit, factor = OTHER_UNIT.get(key[len(stem(key)) + 1:], ("", 1))
             other = f"{stem(key)}_{unit}"
             if other in of["properties"] and are_numbers([inner]):
-                yield "unit", renamed(root, path + (key,), other, lambda old: old * factor)
+                yield "unit", partial(renamed, root, path + (key,), other, lambda old, factor=factor: old * factor)
             if other in of["properties"] and isinstance(inner, list) and are_numbers(inner):
-                yield "unit of a list", renamed(root, path + (key,), other, lambda old: [number * factor for number in old])
+                yield "unit of a list", partial(renamed, root, path + (key,), other, lambda old, factor=factor: [number * factor for number in old])
 
 
 def nonsense(schema, root, chance):
@@ -251,9 +253,10 @@ class Schemas(unittest.TestCase):
             schema = self.schemas[kind]
             every = collections.defaultdict(list)
             for path, root in files.items():
-                for what, mistaken in mistakes(schema, root):
-                    every[what].append((path, mistaken))
-            some = [(what, *one) for what, all_of in every.items() for one in chance.sample(all_of, min(40, len(all_of)))]
+                for what, make in mistakes(schema, root):
+                    every[what].append((path, make))
+            some = [(what, path, make()) for what, all_of in every.items()
+                    for path, make in chance.sample(all_of, min(soak.of(20, 200), len(all_of)))]
             for (what, path, mistaken), usable in zip(some, self.usable(kind, [root for _, _, root in some])):
                 with self.subTest(what=what, file=str(path)):
                     self.assertNotEqual(schema.problems(mistaken), [], mistaken)
@@ -268,7 +271,7 @@ class Schemas(unittest.TestCase):
         for kind in ("scene", "rig", "experiment"):
             schema = self.schemas[kind]
             every = [(path, *one) for path, root in self.files[kind].items() for one in other_ways(schema, root)]
-            some = chance.sample(every, min(150, len(every)))
+            some = [(path, what, make()) for path, what, make in chance.sample(every, min(soak.of(150, 1000), len(every)))]
             for (path, what, other), usable in zip(some, self.usable(kind, [root for _, _, root in some])):
                 with self.subTest(what=what, file=str(path)):
                     self.assertEqual(schema.problems(other), [])
@@ -281,12 +284,12 @@ class Schemas(unittest.TestCase):
         refused = 0
         for kind, files in self.files.items():
             schema = self.schemas[kind]
-            roots = [nonsense(schema, chance.choice(list(files.values())), chance) for _ in range(400)]
+            roots = [nonsense(schema, chance.choice(list(files.values())), chance) for _ in range(soak.of(150, 2000))]
             for root, usable in zip(roots, self.usable(kind, roots)):
                 problems = schema.problems(root)
                 refused += problems != []
                 self.assertFalse(problems and usable, f"{problems}\n{json.dumps(root)[:3000]}")
-        self.assertGreater(refused, 800)
+        self.assertGreater(refused, soak.of(300, 4000))
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """Tables that were cut, exchanged or taken from elsewhere: collect refuses them, report tells.
 
-Usage: seals_test.py PROGRAM, from the project's folder. DIHAPTIC_SEALS: number of mischiefs.
+Usage: seals_test.py PROGRAM, from the project's folder.
 """
 import csv
 import glob
@@ -14,8 +14,9 @@ import tempfile
 import unittest
 
 from program import dihaptic
+import soak  # program.py says where it is
 
-MISCHIEFS = int(os.environ.get("DIHAPTIC_SEALS", 30))
+MISCHIEFS = soak.of(30, 200)
 PEOPLE = ["sim-001", "sim-002", "sim-003"]
 #: What report reads of a session.
 READ = ["trials.csv"]

@@ -14,6 +14,7 @@ import time
 import unittest
 
 from program import PROGRAM, dihaptic, patient, session_of
+import soak  # program.py says where it is
 
 
 class SessionFiles(unittest.TestCase):
@@ -161,7 +162,7 @@ task:
         motion = glob.glob(self.out + "/whole/sub-S07/motion/*run-01_motion.tsv")[0]
         size = os.path.getsize(motion)
         study = self.out + "/killed"
-        for _ in range(int(os.environ.get("DIHAPTIC_KILLS", 12))):
+        for _ in range(soak.of(12, 200)):
             process = subprocess.Popen([PROGRAM, "export", self.made, "--bids", study], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             time.sleep(random.uniform(0, duration))
             process.kill()

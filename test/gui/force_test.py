@@ -10,8 +10,8 @@ import h5py
 
 from window import PROGRAM, Window, patient
 from felt import Felt
+import soak
 
-EVERY_SIGNAL = "DIHAPTIC_EVERY_SIGNAL" in os.environ  # `./dev soak`: each takes a window, and six seconds
 FORCE_OFF, STOPPED, ABANDONED, PAUSED = 10, 21, 28, 29  # bits of a frame's status
 
 
@@ -133,7 +133,7 @@ class Force(Window):
         self.quit()
 
     def test_goes_at_signals_and_the_session_is_whole(self):
-        for name in ("INT", "TERM", "HUP", "TSTP") + (("QUIT", "USR1", "ALRM", "XCPU") if EVERY_SIGNAL else ()):
+        for name in soak.of(("TERM", "TSTP"), ("INT", "TERM", "HUP", "TSTP", "QUIT", "USR1", "ALRM", "XCPU")):
             with self.subTest(name):
                 self.open()
                 self.start()
@@ -150,7 +150,7 @@ class Force(Window):
 
     def test_goes_when_the_window_fails_is_killed_or_stopped(self):
         """By the process that owns the devices: nothing in the window could."""
-        for name in ("SEGV", "KILL", "STOP") + (("ABRT", "BUS", "FPE", "ILL") if EVERY_SIGNAL else ()):
+        for name in soak.of(("SEGV", "KILL", "STOP"), ("SEGV", "KILL", "STOP", "ABRT", "BUS", "FPE", "ILL")):
             with self.subTest(name):
                 self.open()
                 self.start()

@@ -2,7 +2,7 @@
 real devices push and a session runs. The window must neither crash nor hang, its sessions have to be whole, and no force
 may be left.
 
-DIHAPTIC_MONKEY: how long it plays [s], 20 if it is not set. DIHAPTIC_SEED: what it does, 1 if it is not set.
+DIHAPTIC_MONKEY: how long it plays [s], otherwise 20, and 600 in the soak. DIHAPTIC_SEED: what it does, 1 if it is not set.
 """
 import glob
 import os
@@ -14,8 +14,9 @@ import unittest
 
 from window import PROGRAM, Window, patient
 from felt import Felt
+import soak
 
-TIME = float(os.environ.get("DIHAPTIC_MONKEY", 20))
+TIME = float(os.environ.get("DIHAPTIC_MONKEY", soak.of(20, 600)))
 SEED = int(os.environ.get("DIHAPTIC_SEED", 1))
 
 # Neither what quits, nor what removes files in a dialog that chooses one.

@@ -9,6 +9,8 @@ import numpy as np
 
 from window import Window
 
+import soak
+
 
 class Mouse(Window):
     OPEN, CLOSE = "4", "5"  # X's buttons for the wheel
@@ -44,6 +46,7 @@ class Mouse(Window):
         self.move(0, -4, steps)
         self.recorded("a lifted block that rests", lambda file: self.height(file)[-1] > 0.03 and self.rests(file))
 
+    @soak.alone
     def test_grips_and_lifts_while_the_solver_changes(self):
         self.open()
         self.screenshot("opened")
@@ -132,6 +135,7 @@ class Mouse(Window):
             self.assertGreater(height.max(), 0.04)
             self.assertAlmostEqual(height[-1], 0.02, delta=0.001)
 
+    @soak.alone
     def test_turns_by_a_drag(self):
         self.open()
         self.lift(20)

@@ -1,10 +1,10 @@
 """The window on displays of other sizes: what opens has room on them, and the keyboard reaches it. `./dev soak` looks at more
 sizes; the pictures are for people."""
-import os
 import time
 import unittest
 
 from window import Participants, starts_programs
+import soak
 
 
 @starts_programs
@@ -97,7 +97,7 @@ class Fine(Small):
 
 
 def load_tests(loader, tests, pattern):
-    return tests if "DIHAPTIC_EVERY_SIZE" in os.environ else loader.loadTestsFromTestCase(Small)
+    return soak.of(loader.loadTestsFromTestCase(Small), tests)
 
 
 if __name__ == "__main__":

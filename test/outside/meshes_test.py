@@ -1,6 +1,6 @@
 """Meshes as people bring them: each is felt as it is drawn, or refused with the reason. docs/outside.md has the sources.
 
-Usage: outside/meshes_test.py PROGRAM, from the project's folder. DIHAPTIC_MESHES: how many made meshes are tried.
+Usage: outside/meshes_test.py PROGRAM, from the project's folder.
 """
 import glob
 import math
@@ -18,9 +18,10 @@ from scipy.spatial import ConvexHull
 sys.path += ["test/cli", "test/outside"]
 import made_meshes as made
 from program import PROGRAM, patient
+import soak  # program.py says where it is
 
 PROGRAM = os.path.abspath(PROGRAM)
-COUNT = int(os.environ.get("DIHAPTIC_MESHES", "28"))
+COUNT = soak.of(14, 300)  # of made meshes
 CUBE = made.box((-20, -20, -20), (20, 20, 20))
 
 
