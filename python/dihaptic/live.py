@@ -111,7 +111,7 @@ class Live:
                 self._waiting.append(moment)
 
     def press(self, key: str) -> None:
-        """Presses a key for a task that waits for one."""
+        """Presses a key for a task that waits for one: a character, "Enter" or "Backspace"."""
         self._send({"key": key})
 
     def trigger(self, code: int) -> None:

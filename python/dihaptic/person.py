@@ -134,7 +134,7 @@ class Person:
         sitting.lead(fingers.index(finger), position, velocity)
 
     def press(self, key: str) -> None:
-        """Presses a key of the keyboard."""
+        """Presses a key of the keyboard: a character, "Enter" or "Backspace"."""
         self._seat()[0].press(key)
 
     def _seat(self) -> tuple[_native.Sitting, list[str]]:

@@ -17,6 +17,7 @@
 #include "session/record.h"
 #include "session/rehearsal.h"
 #include "session/unfinished_folder.h"
+#include "task/file/key_names.h"
 
 namespace py = pybind11;
 
@@ -168,9 +169,11 @@ class Sitting {
         hand_->lead(finger, position, velocity);
     }
     void press(const std::string& key) {
-        if (key.size() != 1)
-            throw Error({}, "key", fmt::format("is '{}'", key), "Press one letter or digit.");
-        hand_->press(key.front());
+        const std::optional<char> named = task::key_named(key);
+        if (!named)
+            throw Error({}, "key", fmt::format("is '{}'", key),
+                        "Press one character, \"Enter\" or \"Backspace\".");
+        hand_->press(*named);
     }
     double time() const { return seconds(hand_->frame().time); }
     std::string state() const {

@@ -80,6 +80,16 @@ bool is_perturbed(const Stretch& s) {
     return has_kind(s, TrialKind::perturbed);
 }
 
+/// Whether its perturbed trials are perturbed in opposite directions, as when each draws its own.
+bool has_both_signs(const Stretch& s) {
+    const auto any = [&](double sign) {
+        return std::ranges::any_of(s.trials, [&](const Trial& t) {
+            return t.kind == TrialKind::perturbed && sign * t.perturbation > kSame;
+        });
+    };
+    return any(1) && any(-1);
+}
+
 /// Compensations that show the learning in a block's trials of one kind: those of the channels
 /// among them or, without channels, of all.
 std::vector<double> learned_in(const Stretch& stretch, TrialKind kind, bool in_channels) {
@@ -271,7 +281,7 @@ AdaptationCurve::Windows AdaptationCurve::windows() const {
         baseline.insert(baseline.end(), own.begin(), own.end());
     }
     out.baseline = window(baseline);
-    if (first == parts.end()) return out;
+    if (first == parts.end() || has_both_signs(*first)) return out;
     out.early = window(first_of(learned_in(*first, TrialKind::perturbed, in_channels()), kFew));
     auto last = first;
     for (auto part = first; part != parts.end(); ++part) {
@@ -309,6 +319,13 @@ std::string AdaptationCurve::note() const {
         what += (what.empty() ? "" : ", ") + trial.under;
     }
     return what.empty() ? "" : "not measured under " + what;
+}
+
+std::string AdaptationCurve::mixed() const {
+    const std::vector<Stretch> parts = stretches();
+    const auto first = std::find_if(parts.begin(), parts.end(), is_perturbed);
+    if (first == parts.end() || !has_both_signs(*first)) return "";
+    return "no means of " + first->block + ": its perturbation has both signs";
 }
 
 void AdaptationCurve::Window::list(FigureLister& row, const std::string& name,

@@ -23,6 +23,7 @@ constexpr double kShortest = 0.2;       // shortest stroke [s]
 constexpr double kSettled = 0.05;       // time after a stroke before its end is judged [s]
 constexpr double kGoodEnough = 4e-3;    // error at the target that needs no correction [m]
 constexpr int kMostCorrections = 4;
+constexpr double kWorse = 1.2;     // growth of the error after which a person stops correcting it
 constexpr double kYields = 0.015;  // yielding under each finger above which it presses less [m]
 constexpr double kOver = 0.02;     // rise or fall above which a hand moves in two parts [m]
 constexpr double kOverlap = 0.6;   // share of the duration taken by each part
@@ -140,6 +141,7 @@ Person::Person(const Traits& traits, const Situation& situation)
       touch_(first_, sides_of(places_), frictions_of(situation.scene, first_), situation.tick),
       strains_(traits.visual_delay, situation.tick),
       known_(plan_->task.regions.size(), Vec3::Zero()),
+      left_(plan_->states.size()),
       rotations_(plan_->states.size(), RotationMemory(traits.rotation(), traits.generalisation)),
       gains_(plan_->states.size(), GainMemory(traits.gain())),
       forces_(plan_->states.size(), ForceMemory(traits.force(), traits.force_generalisation)),
@@ -329,6 +331,7 @@ void Person::follow_cues(const Sight& sight) noexcept {
     see_targets(sight);
     const bool new_attempt = sight.trial != trial_ || sight.attempt != attempt_;
     if (!new_attempt && sight.phase == phase_) return;
+    follow_held_cursor(sight, new_attempt);
     if (new_attempt) begin_attempt();
     trial_ = sight.trial;
     attempt_ = sight.attempt;
@@ -346,6 +349,30 @@ void Person::follow_cues(const Sight& sight) noexcept {
     doing_ = Doing::waiting;
     since_ = now_;
     wait_until_ = begins;
+}
+
+/// Whether the display shows the fingers where they were at an earlier moment.
+bool Person::holds_cursor(const Sight& sight) const noexcept {
+    return sight.phase > 0 && plan_->states[static_cast<size_t>(sight.phase - 1)].holds_cursor;
+}
+
+/// Call when a new state is seen, before it is acted on.
+void Person::follow_held_cursor(const Sight& sight, bool new_attempt) noexcept {
+    const Left now{now_ - traits_.visual_delay, strains_.before(traits_.visual_delay).hand};
+    const bool held =
+        !new_attempt && phase_ > 0 && plan_->states[static_cast<size_t>(phase_ - 1)].holds_cursor;
+    if (new_attempt) {
+        std::ranges::fill(left_, Left{});
+    } else if (phase_ > 0) {
+        left_[static_cast<size_t>(phase_ - 1)] = now;
+    }
+    if (!holds_cursor(sight)) return;
+    const int from = plan_->states[static_cast<size_t>(sight.phase - 1)].held_from;
+    if (from >= 0 && left_[static_cast<size_t>(from)].time >= 0) {
+        held_ = left_[static_cast<size_t>(from)];
+    } else if (!held) {
+        held_ = now;
+    }
 }
 
 /// Lets go, or moves the hand to its rest position: between trials objects are put back, and the
@@ -460,8 +487,10 @@ void Person::begin_step(const Sight& sight) noexcept {
     Aim way;
     if (!grip_.holds()) way.aperture = wanted - aperture;
     if (next.step.reach.index >= 0) {
-        const Vec3 seen = look(target(sight, next), traits_.visual_noise, random_) -
-                          look(sight.hand, traits_.visual_noise, random_);
+        const Vec3 seen =
+            look(target(sight, next), traits_.visual_noise, random_) -
+            look(holds_cursor(sight) ? strains_.before(traits_.visual_delay).hand : sight.hand,
+                 traits_.visual_noise, random_);
         way.centre = plan_reach(sight, seen);
     } else {
         way.centre = noisy(1, traits_.extent_noise) * numbers_.of(next.step.move);
@@ -530,7 +559,7 @@ Vec3 Person::plan_reach(const Sight& sight, const Vec3& displacement) noexcept {
     reach_ = {.going = true,
               .number = reach_.number + 1,
               .state = static_cast<size_t>(acting_ - 1),
-              .from = sight.hand,
+              .from = holds_cursor(sight) ? strains_.before(traits_.visual_delay).hand : sight.hand,
               .felt_from = strains_.before(traits_.visual_delay).hand,
               .way = displacement,
               .along = made.normalized()};
@@ -593,6 +622,8 @@ void Person::feel_strain() noexcept {
 /// correction becomes visible.
 void Person::watch_reach(const Sight& sight) noexcept {
     if (!reach_.going || reach_.seen || !sight.hand_shown) return;
+    const bool held = holds_cursor(sight);
+    if (held && held_.time < reach_.begin) return;  // it shows an earlier movement
     const Vec3 shown = sight.hand - reach_.from;
     const double length = reach_.way.norm();
     if (!reach_.mended && shown.norm() >= kGlance * length) {
@@ -600,7 +631,7 @@ void Person::watch_reach(const Sight& sight) noexcept {
         const Vec3 arm = look(shown, traits_.visual_noise, random_).normalized();
         const Vec3 missed = reach_.way - length * arm;
         const double left = std::max(kShortest, aim_.end() - now_);
-        if (doing_ == Doing::moving && traits_.online_correction > 0)
+        if (doing_ == Doing::moving && traits_.online_correction > 0 && !held)
             aim_.add({traits_.online_correction * made_for(missed), 0, 0}, now_, left);
     }
     if (shown.norm() < kJudged * length) return;
@@ -611,15 +642,19 @@ void Person::watch_reach(const Sight& sight) noexcept {
         reach_.moved > 0;  // later pushes belong to the next state, for which this reach ends
     if (reach_.pushed) {
         // a pushed hand is seen where it is felt, with the expected rotation
-        const Vec3 felt = strains_.before(traits_.visual_delay).hand - reach_.felt_from;
+        const Vec3 felt =
+            (held ? held_.felt : strains_.before(traits_.visual_delay).hand) - reach_.felt_from;
         wanted = rotated(rotations_[reach_.state].expected(reach_.way.normalized()), felt);
     }
     reach_.error = rotation_between(wanted.normalized(), arm.normalized());
 }
 
-/// Judges the extent of a reach whose first stroke has ended, and learns from it.
+/// Judges the extent of a reach whose first stroke has ended, and learns from it. A cursor that is
+/// held shows how far the hand had come by then, not where it ended.
 void Person::judge_extent(const Sight& sight) noexcept {
     if (!reach_.going || reach_.ended || !sight.hand_shown) return;
+    const bool held = holds_cursor(sight);
+    if (held && held_.time < reach_.begin) return;
     reach_.ended = true;
     const double shown =
         look(sight.hand - reach_.from, traits_.visual_noise, random_).dot(reach_.way.normalized());
@@ -627,8 +662,9 @@ void Person::judge_extent(const Sight& sight) noexcept {
     if (shown < least) return;
     const Vec3 d = reach_.way.normalized();
     double wanted = reach_.way.norm();
-    if (reach_.pushed) {
-        const Vec3 felt = strains_.before(traits_.visual_delay).hand - reach_.felt_from;
+    if (reach_.pushed || held) {
+        const Vec3 felt =
+            (held ? held_.felt : strains_.before(traits_.visual_delay).hand) - reach_.felt_from;
         wanted = std::exp(gains_[reach_.state].expected(d)) * felt.norm();
         if (wanted < least) return;
     }
@@ -652,8 +688,13 @@ bool Person::correct(const Sight& sight) noexcept {
     if (now_ < aim_.end() + traits_.visual_delay + kSettled) return true;
     if (!sight.hand_shown) return false;  // an unseen hand is assumed to be at its goal
     judge_extent(sight);
+    if (holds_cursor(sight)) return false;  // it does not follow the hand
     const Vec3 missed = look(target(sight, step) - sight.hand, traits_.visual_noise, random_);
     if (missed.norm() < kGoodEnough) return false;
+    // where the display turns movements by more than 70 degrees, each stroke leads further away
+    const bool worse = missed.norm() > std::max(kReach, kWorse * missed_);
+    if (corrections_ > 0 && worse && !reach_.pushed) return false;
+    missed_ = missed.norm();
     ++corrections_;
     aim_.add({made_for(missed), 0, 0}, now_, kShortest);
     return true;

@@ -76,6 +76,8 @@ class Person final : public task::SeeingDriver {
     void watch_reach(const Sight& sight) noexcept;
     void end_reach() noexcept;
     bool correct(const Sight& sight) noexcept;
+    bool holds_cursor(const Sight& sight) const noexcept;
+    void follow_held_cursor(const Sight& sight, bool new_attempt) noexcept;
     bool from_above(const Vec3& displacement) const noexcept;
     Vec3 made_for(const Vec3& displacement) const noexcept;
     void judge_extent(const Sight& sight) noexcept;
@@ -109,7 +111,14 @@ class Person final : public task::SeeingDriver {
     double felt_ = 0;          // force on a finger, smoothed like the stiffness that follows it [N]
     Past<Strain> strains_;     // delayed like sight, for comparison with it
     std::vector<Vec3> known_;  // where each region was last seen [m]
-    uint32_t seen_ = 0;        // regions that have been seen, one bit each
+    /// A moment at which the hand left a state.
+    struct Left {
+        double time = -1;          // [s]; negative: not in this attempt
+        Vec3 felt = Vec3::Zero();  // the hand [m]
+    };
+    std::vector<Left> left_;  // by state
+    Left held_;               // the moment at which the display shows a cursor that it holds
+    uint32_t seen_ = 0;       // regions that have been seen, one bit each
 
     // memory
     Learned before_;  // in earlier sessions
@@ -135,7 +144,8 @@ class Person final : public task::SeeingDriver {
     Aim pending_;  // the current movement; in a lift it starts when the object comes off
     double pending_time_ = 0;  // duration of that movement [s]
     int corrections_ = 0;
-    double delay_ = 0;  // hesitation before this trial's next movement [s]
+    double missed_ = 0;  // before the last correction [m]
+    double delay_ = 0;   // hesitation before this trial's next movement [s]
     struct Reach {
         bool going = false;
         bool mended = false;  // the reach was corrected in its course

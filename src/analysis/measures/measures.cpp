@@ -29,15 +29,26 @@ size_t place_of(const Table& table, const char* name) {
                                table.columns.begin());
 }
 
-/// Null if they cannot be computed.
-std::unique_ptr<task::CustomMeasures> custom_measures(const task::Task& task,
-                                                      const recording::SessionFolder& folder) {
+struct Planned {
+    scene::Scene scene;
+    task::TaskPlan plan;
+};
+
+/// The session's plan with its trials; nullopt if this version cannot make it.
+std::optional<Planned> planned(const task::Task& task, const recording::SessionFolder& folder) {
     Diagnostics problems(UnknownKeys::are_left_out);
-    const scene::Scene scene = scene::read_scene(folder.file("scene.yaml"), problems);
+    scene::Scene scene = scene::read_scene(folder.file("scene.yaml"), problems);
     task::TaskPlan plan = task::plan_task(task, scene, problems);
-    if (problems.has_errors()) return nullptr;
+    if (problems.has_errors()) return std::nullopt;
     plan.trials = task::read_trial_list(plan.task, folder.file("trial-list.csv"));
-    return std::make_unique<task::CustomMeasures>(std::move(plan));
+    return Planned{std::move(scene), std::move(plan)};
+}
+
+/// Finds in which states the channels of the movements' trials act.
+void find_channels(const Planned& of, std::vector<task::MovementPlan>& movements) {
+    const std::vector<task::MovementPlan> known = task::movements_of(of.plan, of.scene);
+    for (size_t i = 0; i < std::min(known.size(), movements.size()); ++i)
+        movements[i].channel_states = known[i].channel_states;
 }
 
 }  // namespace
@@ -58,7 +69,8 @@ std::optional<MeasureFinder> MeasureFinder::of(const recording::SessionFolder& f
         if (const task::MeasureRow* row = task::measure_row(name)) out.measures_.push_back(row);
     }
     out.custom_measures_ = task.custom_measures;
-    if (!out.custom_measures_.empty()) out.own_ = custom_measures(task, folder);
+    out.plans_ = task::read_movements(folder.file("trial-list.csv"));
+    out.plan_with(task, folder);
     if (out.measures_.empty() && !out.own_) return std::nullopt;
     out.options_ = movement_of(task, head.fingers.empty() ? "" : head.fingers.front());
     const std::vector<std::string>& during = out.options_.during;
@@ -68,13 +80,24 @@ std::optional<MeasureFinder> MeasureFinder::of(const recording::SessionFolder& f
                                                     : during.front();
     out.phases_.go = index_of(phases, go);
     out.phases_.step = index_of(phases, out.options_.step);
-    out.plans_ = task::read_movements(folder.file("trial-list.csv"));
     out.finger_ = index_of(head.fingers, out.options_.of);
     if (out.finger_ < 0) out.body_ = index_of(head.bodies, out.options_.of);
     out.tick_ = head.tick;
     return out;
 } catch (const Error&) {
     return std::nullopt;
+}
+
+/// Takes what trial-list.csv does not have from a plan of the task.
+void MeasureFinder::plan_with(const task::Task& task, const recording::SessionFolder& folder) {
+    const bool in_channels = std::ranges::any_of(
+        plans_, [](const task::MovementPlan& plan) { return plan.channel != 0; });
+    if (!in_channels && custom_measures_.empty()) return;
+    std::optional<Planned> known = planned(task, folder);
+    if (!known) return;
+    find_channels(*known, plans_);
+    if (!custom_measures_.empty())
+        own_ = std::make_unique<task::CustomMeasures>(std::move(known->plan));
 }
 
 MotionSample MeasureFinder::sample(const frame::Frame& frame) const {

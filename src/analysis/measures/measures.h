@@ -34,6 +34,7 @@ class MeasureFinder {
 
   private:
     MeasureFinder() = default;
+    void plan_with(const task::Task& task, const recording::SessionFolder& folder);
     MotionSample sample(const frame::Frame& frame) const;
 
     std::vector<const task::MeasureRow*> measures_;

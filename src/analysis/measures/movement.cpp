@@ -111,6 +111,8 @@ std::string AttemptMeasures::find_movement(const MeasurePhases& phases) {
         const size_t next = from + stroke.end;
         find_ends(from, from + stroke.peak);
         before = onset_ == from && (from == 0 || before);
+        continued_ = before && from == 0 && options_.continues;
+        before = before && !continued_;
         const std::string small = why_too_small();
         if ((before || !small.empty()) && next + 1 < speed.size()) {
             from = next;
@@ -178,12 +180,16 @@ std::string AttemptMeasures::why_no_index() const {
     if (const double share = extent(true) / line; !(share >= kIndexShare))
         return fmt::format("it covered {:.0f} % of the line, less than {:.0f} %", 100 * share,
                            100 * kIndexShare);
-    const double lasted = static_cast<double>(end_ - onset_) * tick_;
+    const Values ideals = while_in_channel(ideal_);
+    // the last tick lasts until the next one, which is no longer in the movement
+    const double lasted = (static_cast<double>(ideals.size()) - 1) * tick_;
     if (lasted < kIndexTime)
-        return fmt::format("it lasted {:.0f} ms, less than {:.0f}", 1e3 * lasted, 1e3 * kIndexTime);
+        return fmt::format("it lasted {:.0f} ms{}, less than {:.0f}", 1e3 * lasted,
+                           ideals.size() < whole(ideal_).size() ? " in the channel" : "",
+                           1e3 * kIndexTime);
     double square = 0;
-    for (const double ideal : whole(ideal_)) square += ideal * ideal;
-    const double mean = std::sqrt(square / static_cast<double>(whole(ideal_).size()));
+    for (const double ideal : ideals) square += ideal * ideal;
+    const double mean = std::sqrt(square / static_cast<double>(ideals.size()));
     if (!(mean >= kLeastIdeal))
         return fmt::format("the ideal force was {:.2g} N, less than {:g}", mean, kLeastIdeal);
     return "";
@@ -204,10 +210,18 @@ std::string AttemptMeasures::why_missing(const task::MeasureRow& row) const {
         return "no channel";
     if (row.needs & MeasureRow::movement) {
         const std::string& why = row.needs & MeasureRow::begun ? no_onset_ : no_end_;
+        if (why.empty() && (row.needs & MeasureRow::channel) && while_in_channel(force_).empty())
+            return "no channel acted in its movement";
         return why.empty() && (row.needs & MeasureRow::ideal) ? why_no_index() : why;
     }
     if (row.needs & MeasureRow::step) return std::isnan(step_) ? "no load step" : "";
     return attempt_.lift == nullptr ? "no lift" : "";
+}
+
+/// Why another value than the first is missing.
+std::string AttemptMeasures::why_in_part(const task::MeasureRow& row) const {
+    return row.needs == task::kInChannel && !in_channel(peak_) ? "no channel acted at peak speed"
+                                                               : "";
 }
 
 MeasuredValues AttemptMeasures::measure(const task::MeasureRow& row) const {
@@ -220,8 +234,9 @@ MeasuredValues AttemptMeasures::measure(const task::MeasureRow& row) const {
     static constexpr const char* kNever = "not to be computed";
     static constexpr const char* kAxis = "the axis lies along the line";
     static const Rule kRules[] = {
-        {"reaction_time", [](const A& a) { return Values{a.time(a.onset_) - a.go_}; },
-         "no go signal"},
+        {"reaction_time",
+         [](const A& a) { return Values{a.continued_ ? kUnmeasured : a.time(a.onset_) - a.go_}; },
+         "no go signal, or it had begun before its states"},
         {"movement_time", [](const A& a) { return Values{a.time(a.end_) - a.time(a.onset_)}; },
          kNever},
         {"peak_speed", [](const A& a) { return Values{a.speed_[a.peak_]}; }, kNever},
@@ -262,6 +277,7 @@ MeasuredValues AttemptMeasures::measure(const task::MeasureRow& row) const {
         if (std::isnan(out.values.front()))
             out.why = rule.otherwise != nullptr ? rule.otherwise : "lift: " + lift().mark;
     }
+    if (out.why.empty()) out.why = why_in_part(row);
     // known with or without a movement
     if (row.needs & task::MeasureRow::ideal)
         out.values.back() = attempt_.plan.field_share * attempt_.share;
@@ -299,15 +315,26 @@ Values AttemptMeasures::initial_direction() const {
     return {angle_about(attempt_.plan.axis_W, along_W_, run_[at].p_W - run_[onset_].p_W)};
 }
 
+Values AttemptMeasures::while_in_channel(const Values& of_run) const {
+    Values out;
+    for (size_t i = onset_; i <= end_; ++i) {
+        if (in_channel(i)) out.push_back(of_run[i]);
+    }
+    return out;
+}
+
 Values AttemptMeasures::channel_force() const {
     double impulse = 0;
-    for (size_t i = onset_; i < end_; ++i)
-        impulse += (force_[i] + force_[i + 1]) / 2 * (time(i + 1) - time(i));
-    return {largest_by_size(whole(force_)), force_[peak_], impulse};
+    for (size_t i = onset_; i < end_; ++i) {
+        if (in_channel(i) && in_channel(i + 1))
+            impulse += (force_[i] + force_[i + 1]) / 2 * (time(i + 1) - time(i));
+    }
+    return {largest_by_size(while_in_channel(force_)),
+            in_channel(peak_) ? force_[peak_] : kUnmeasured, impulse};
 }
 
 Values AttemptMeasures::adaptation_index() const {
-    const Regression of(whole(ideal_), whole(force_));
+    const Regression of(while_in_channel(ideal_), while_in_channel(force_));
     return {of.through_zero, of.slope, of.offset, of.r2, kUnmeasured};
 }
 

@@ -61,10 +61,17 @@ class AttemptMeasures {
     std::string why_too_small() const;
     std::string why_no_index() const;
     bool in_channel() const { return attempt_.plan.channel != 0 && attempt_.share != 0; }
+    /// Whether the channel acts in a tick of the run.
+    bool in_channel(size_t i) const {
+        return in_channel() && (attempt_.plan.channel_states >> (run_[i].phase - 1) & 1u) != 0;
+    }
+    /// Of the ticks from onset to end in which the channel acts.
+    Values while_in_channel(const Values& of_run) const;
     /// Largest distance from its place at onset that the movement reached; `along`: along the line.
     double extent(bool along) const;
     void find_lines();
     std::string why_missing(const task::MeasureRow& row) const;
+    std::string why_in_part(const task::MeasureRow& row) const;
 
     Values lateral_deviation() const;
     Values early_lateral_deviation() const;
@@ -89,6 +96,7 @@ class AttemptMeasures {
     std::span<const MotionSample> run_;  // the samples in the movement's states
     std::string no_onset_;  // reason why the movement has no onset; empty if it has one
     std::string no_end_;
+    bool continued_ = false;  // it had begun before its states
     size_t onset_ = 0, peak_ = 0, end_ = 0;
     Vec3 along_W_, left_W_;
     /// In the run. The speed, by which the movement is found, is that along the line in a channel:

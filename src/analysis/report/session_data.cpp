@@ -70,19 +70,35 @@ bool hides_cursor(const task::Task& task, const std::string& state, const rows::
     return of(task.conditions, asked.condition) || of(task.rounds, asked.round);
 }
 
-/// A reach whose cursor was hidden showed no error.
+/// Whether the cursor is held in the state, as feedback on a movement that has ended.
+bool holds_cursor(const task::Task& task, const std::string& state) {
+    return std::ranges::any_of(task.states, [&](const task::State& one) {
+        return one.name == state && one.show.cursor == task::Cursor::held;
+    });
+}
+
+/// A reach whose cursor was hidden showed no error, unless its end was shown later in the trial.
 void note_hidden_cursor(SessionData& data) {
     if (!data.task.reach || !is_there(data.folder.file("phases.csv"))) return;
     const auto& during = data.task.reach->during;
-    std::map<int, std::string> state;  // in which a trial's last reach was made
+    std::map<int, std::string> state;     // in which a trial's last reach was made
+    std::map<int, std::string> feedback;  // after it, with its end
     for (const rows::PhaseRow& phase : rows::PhaseFile(data.folder.file("phases.csv"))) {
         const auto& names = static_cast<const Texts&>(during);
-        if (std::ranges::find(names, phase.name) != names.end()) state[phase.trial] = phase.name;
+        if (std::ranges::find(names, phase.name) != names.end()) {
+            state[phase.trial] = phase.name;
+            feedback.erase(phase.trial);
+        } else if (state.contains(phase.trial) && holds_cursor(data.task, phase.name)) {
+            feedback[phase.trial] = phase.name;
+        }
     }
     std::set<int> hidden;
     for (const rows::TrialRow& row : data.trials) {
-        const auto reached = state.find(row.asked.trial);
-        if (reached != state.end() && hides_cursor(data.task, reached->second, row.asked))
+        const auto hid = [&](const std::map<int, std::string>& states) {
+            const auto at = states.find(row.asked.trial);
+            return at == states.end() || hides_cursor(data.task, at->second, row.asked);
+        };
+        if (state.contains(row.asked.trial) && hid(state) && hid(feedback))
             hidden.insert(row.asked.trial);
     }
     for (AdaptationCurve& curve : data.curves) {

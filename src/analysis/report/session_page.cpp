@@ -153,8 +153,8 @@ void add_curve(SessionPage& out, const SessionData& session, const AdaptationCur
         row("unit", curve.unit, "", "unit of the values below");
         row("perturbation", trial.perturbation, "1", "0 if no error was seen");
         row("error_seen", std::string(trial.clamp ? "no" : "yes"), "",
-            "no in clamps, in reaches that fell short or whose cursor was hidden, "
-            "and if unknown");
+            "no in clamps, in reaches that fell short, in those of which neither the way nor the "
+            "end was shown, and if unknown");
         row("compensation", trial.compensation, "1", "compensation of the hand");
         row("two_rate", fitted, "1", "fitted");
         row("single_rate", single, "1", "fitted");
@@ -197,7 +197,7 @@ void add_adaptation(SessionPage& out, const SessionData& session) {
         row("round", curve.round, "", "name");
         curve.list_landmarks(row);
         list_fits(row, fits, true);
-        row("note", curve.note(), "", "unmeasured quantity");
+        row("note", curve.note().empty() ? curve.mixed() : curve.note(), "", "unmeasured quantity");
         add_row(out.fits, row);
     }
     if (const Table windows = windows_of(session); !windows.rows.empty())

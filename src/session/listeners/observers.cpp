@@ -31,6 +31,7 @@
 #include "session/knob_turner.h"
 #include "session/plan.h"
 #include "session/session_run.h"
+#include "task/file/key_names.h"
 #include "task/run/recorded.h"
 #include "task/run/task_director.h"
 
@@ -329,8 +330,8 @@ void Observers::watch(Observer& observer, const Json& asked) {
 void Observers::request(const Json& asked) {
     for (const auto& [what, value] : asked.items()) {
         const std::string text = value.is_string() ? value.get<std::string>() : "";
-        if (what == "key" && text.size() == 1) {
-            key_ = text[0];
+        if (const auto key = task::key_named(text); what == "key" && key) {
+            key_ = *key;
             ++keys_;
         } else if (what == "trigger" && value.is_number_integer() && value >= 1 && value <= 255) {
             trigger_ = value.get<int>();

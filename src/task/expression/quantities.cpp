@@ -524,15 +524,25 @@ void Quantities::update(const frame::Frame& last, std::span<const frame::Handle>
     if (!rates_.empty()) update_rates(last);
 }
 
+void Quantities::read_frame(const frame::Frame& last, std::span<const frame::Handle> handles,
+                            std::span<double> values) const noexcept {
+    for (const Source& source : sources_)
+        values[static_cast<size_t>(source.slot)] = read(source, last, handles);
+    for (const Rate& rate : rates_) {
+        const auto at = static_cast<size_t>(rate.slot);
+        if (!rate.of_handle) values[at] = values_[at];
+    }
+}
+
 std::optional<int> Quantities::rate(int slot) {
     const auto known = std::find_if(rates_.begin(), rates_.end(),
                                     [&](const Rate& rate) { return rate.of == slot; });
     if (known != rates_.end()) return known->slot;
-    const bool measured = std::any_of(sources_.begin(), sources_.end(),
-                                      [&](const Source& source) { return source.slot == slot; });
-    if (!measured) return {};
+    const auto source = std::ranges::find(sources_, slot, &Source::slot);
+    if (source == sources_.end()) return {};
+    const bool of_handle = source->reads_handles();
     const int out = define_unnamed({}).slot;
-    rates_.push_back({slot, out});
+    rates_.push_back({slot, out, of_handle});
     return out;
 }
 

@@ -130,6 +130,10 @@ class Quantities {
     /// Updates the values that change with the tick.
     void update(const frame::Frame& last, std::span<const frame::Handle> handles) noexcept;
     std::span<const double> values() const { return values_; }
+    /// Turns a copy of values(), made before update(), into those of the Frame `last` itself, in
+    /// which the handles are of the same tick as all else. `handles`: of that Frame.
+    void read_frame(const frame::Frame& last, std::span<const frame::Handle> handles,
+                    std::span<double> values) const noexcept;
 
   private:
     /// Instruction for reading a value of the tick.
@@ -156,10 +160,13 @@ class Quantities {
         Thing a{};  ///< for middle, pressing, contact, grip
         Thing b{};
         bool shown = false;  ///< for middle
+
+        bool reads_handles() const { return from == From::handle || from == From::middle; }
     };
     struct Rate {
         int of = -1;  ///< slot
         int slot = -1;
+        bool of_handle = false;  ///< whose last rate is of the handles in the last Frame
         std::array<double, kRateTicks> past{};  ///< a ring of values
     };
     struct Member;

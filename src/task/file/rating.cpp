@@ -148,7 +148,9 @@ void Rating::press(char key, const Question& question) noexcept {
     const bool more = is_of_number(key, length_ == 0, question) && length_ < kLongest;
     if (more) text_[length_++] = key;
     const double value = typed();
-    const bool full = more && question.whole && (value == 0 || kTypedBase * value > question.most);
+    const bool full = more && question.whole &&
+                      (value == 0 || kTypedBase * value > question.most ||
+                       (value < 0 && kTypedBase * value < question.least));
     if (key != kEnter && !full) return;
     if (value >= question.least && value <= question.most) {
         answer_ = value;

@@ -15,7 +15,8 @@ namespace dihaptic::task {
 
 struct State;
 
-/// Display of the fingers' proxies. `held`: they are shown at their positions when the state began.
+/// Display of the fingers' proxies. `held`: they are shown where they were displayed when the state
+/// began, or when another state last ended.
 enum class Cursor { yes, no, held };
 constexpr auto enum_names(Cursor) {
     return std::array{"yes", "no", "held"};
@@ -25,9 +26,10 @@ constexpr auto enum_names(Cursor) {
 struct Show {
     std::vector<std::string> targets;  ///< regions
     Cursor cursor = Cursor::yes;
-    bool object = true;  ///< the scene's object is shown
-    Node bodies;         ///< name: yes or no
-    Node fingers;        ///< name: yes or no; overrides `cursor`
+    std::string held_from;  ///< state; empty: the state before
+    bool object = true;     ///< the scene's object is shown
+    Node bodies;            ///< name: yes or no
+    Node fingers;           ///< name: yes or no; overrides `cursor`
     Place place;
 
     template <class Visitor>
@@ -35,7 +37,10 @@ struct Show {
         v("targets", targets, says("Regions that are shown."));
         v("cursor", cursor,
           says("Whether the fingers' proxies are shown; held: shown at their positions when the "
-               "state began."));
+               "state began, or when the state held_from ended."));
+        v("held_from", held_from,
+          says("With cursor: held, the state at whose end the fingers' proxies were where they are "
+               "shown; the state before if omitted."));
         v("object", object, says("Whether the scene's object is shown."));
         v("bodies", bodies, says("Individual bodies by name, each shown or not."));
         v("fingers", fingers,
@@ -44,8 +49,8 @@ struct Show {
     /// Visits the single key of a struct that contains a Show.
     template <class Visitor>
     void visit_in(Visitor& v) {
-        bool is_list = cursor == Cursor::yes && object && bodies.kind == Node::Kind::null &&
-                       fingers.kind == Node::Kind::null;
+        bool is_list = cursor == Cursor::yes && held_from.empty() && object &&
+                       bodies.kind == Node::Kind::null && fingers.kind == Node::Kind::null;
         if constexpr (requires { v.is_list("show"); }) is_list = v.is_list("show");
         if (is_list) {
             v("show", targets);

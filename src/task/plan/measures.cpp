@@ -236,6 +236,7 @@ void compare(MovementPlan& out, const Task& task, const TaskPlan::Cell& cell, co
     if (ideal != nullptr)
         out.ideal = cell.perturbations[place_of(task.perturbations, ideal->name)].field_gain();
     out.channel = 0;
+    out.channel_states = 0;
     out.field_share = 0;
     Mat3 gain = Mat3::Zero();
     for (const int p : trial.perturb) {
@@ -244,7 +245,10 @@ void compare(MovementPlan& out, const Task& task, const TaskPlan::Cell& cell, co
         const bool holds = std::any_of(loads.begin(), loads.end(), [&](const Load& load) {
             return acts_on(load.spec(), movement) && holds_to_line(load, cell.p_W, out);
         });
-        if (holds) out.channel = 1;
+        if (holds) {
+            out.channel = 1;
+            out.channel_states |= cell.during[i];
+        }
         gain += cell.perturbations[i].field_gain();
     }
     if (out.channel == 1) {
@@ -330,24 +334,30 @@ void check_measures(const TaskPlan& plan, const scene::Scene& scene, Diagnostics
     MeasureChecker(plan.task, scene, diagnostics).check();
 }
 
-void add_movements(Table& list, const TaskPlan& plan, const scene::Scene& scene) {
-    if ((needs_of(plan.task) & MeasureRow::movement) == 0) return;
-    add_columns<MovementPlan>(list);
+std::vector<MovementPlan> movements_of(const TaskPlan& plan, const scene::Scene& scene) {
+    std::vector<MovementPlan> list;
+    if ((needs_of(plan.task) & MeasureRow::movement) == 0) return list;
     const Movement movement = movement_of(plan.task, scene.fingers.front().name);
     const size_t from = place_of(plan.task.regions, movement.from);
     const size_t to = place_of(plan.task.regions, movement.to);
     TrialNumbers numbers(plan);
     for (size_t i = 0; i < plan.trials.size(); ++i) {
-        const Trial& trial = plan.trials[i];
         numbers.begin(static_cast<int>(i), 1, plan.start);
         const TaskPlan::Cell& cell = numbers.cell();
-        MovementPlan out;
+        MovementPlan& out = list.emplace_back();
         out.from_W = cell.p_W[from];
         out.to_W = cell.p_W[to];
         out.axis_W = movement.axis ? movement.axis->normalized() : usual_axis(cell);
-        compare(out, plan.task, cell, trial, movement);
-        add_cells(list.rows[i], out);
+        compare(out, plan.task, cell, plan.trials[i], movement);
     }
+    return list;
+}
+
+void add_movements(Table& list, const TaskPlan& plan, const scene::Scene& scene) {
+    const std::vector<MovementPlan> movements = movements_of(plan, scene);
+    if ((needs_of(plan.task) & MeasureRow::movement) == 0) return;
+    add_columns<MovementPlan>(list);
+    for (size_t i = 0; i < movements.size(); ++i) add_cells(list.rows[i], movements[i]);
 }
 
 std::vector<MovementPlan> read_movements(const std::string& file) {

@@ -227,6 +227,7 @@ struct Movement {
     double end_still = 0;           ///< time below that speed after which it has ended [s]
     double direction_after = 0.1;   ///< from onset to the initial direction [s]
     double deviation_after = 0.15;  ///< from onset to the early lateral deviation [s]
+    bool continues = false;         ///< a movement that had begun before its states counts
     std::optional<Vec3> axis;       ///< like ReachMeasure::axis
     std::string ideal;  ///< perturbation whose field defines the ideal force; empty: the first
     /// Column of a listed measure, without its unit: the error to which adaptation is fitted, since
@@ -267,6 +268,9 @@ struct Movement {
           Field::of(Quantity::time)
               .within(1e-3, 10)
               .says("Time from onset at which the early lateral deviation is measured."));
+        v("continues", continues,
+          says("Whether a movement that had begun before its states counts, from their first tick "
+               "on, as that through a via point."));
         v("axis", axis,
           Field::number()
               .within(-1000, 1000)
@@ -288,7 +292,9 @@ struct MovementPlan {
     Vec3 from_W = Vec3::Zero();
     Vec3 to_W = Vec3::Zero();
     Vec3 axis_W = Vec3::UnitZ();
-    int channel = 0;            ///< 1: confined by a channel
+    int channel = 0;  ///< 1: confined by a channel
+    /// States in which that channel acts, one bit each; not in trial-list.csv.
+    uint64_t channel_states = ~uint64_t{0};
     double field_share = 0;     ///< ratio of the trial's field to the ideal one; NaN in a channel
     Mat3 ideal = Mat3::Zero();  ///< matrix from velocity to the force of the ideal field [N*s/m]
 
@@ -321,6 +327,8 @@ Movement movement_of(const Task& task, const std::string& first_finger);
 /// Checks the names of a task's measures, and that the task meets their requirements.
 void check_measures(const TaskPlan& plan, const scene::Scene& scene, Diagnostics& diagnostics);
 
+/// The movements by trial; none if the task's measures need no movement.
+std::vector<MovementPlan> movements_of(const TaskPlan& plan, const scene::Scene& scene);
 /// Adds columns for the numbers of the trials' movements to a list with one row per trial.
 void add_movements(Table& list, const TaskPlan& plan, const scene::Scene& scene);
 /// Name of the first of these columns; columns on reaches precede it.

@@ -149,6 +149,12 @@ void SeenPlanner::show(const Show& given, const Place& place, TaskPlan::PlannedS
         if (i >= 0) out.shown |= 1u << i;
     }
     out.holds_cursor = given.cursor == Cursor::held;
+    if (!given.held_from.empty()) {
+        out.held_from = names.find<State>(given.held_from, place, "held_from", diagnostics);
+        if (!out.holds_cursor)
+            diagnostics.error(place, "held_from", "is only used by cursor: held",
+                              "Write cursor: held, or leave it out.");
+    }
     if (given.cursor == Cursor::no) {
         for (size_t i = 0; i < fingers_; ++i) look_of(out.looks, bodies_ + i).hidden = 1;
     }

@@ -128,6 +128,8 @@ struct TaskPlan {
         uint32_t shown = 0;  ///< regions shown, one bit each
         Looks looks;
         bool holds_cursor = false;
+        int held_from =
+            -1;  ///< state at whose end the cursor was where it is held; -1: the one before
         std::vector<int> lines;  ///< messages
         int message = -1;
         int marker = 0;

@@ -49,14 +49,17 @@ void put_on(const std::vector<frame::TargetFrame>& looks, frame::TaskFrame& out)
 }  // namespace
 
 Displayer::Displayer(const TaskPlan& plan, uint64_t seed, double tick)
-    : fingers_(plan.finger_radius.size()),
+    : plan_(plan),
+      fingers_(plan.finger_radius.size()),
       object_(plan.object),
       tick_(tick),
       random_(seed, "displayed noise"),
       things_(fingers_ + (object_ >= 0 ? 1 : 0)),
       rows_(rows_of(plan, tick)),
       past_(rows_ * things_),
-      held_(fingers_) {}
+      held_(fingers_),
+      ended_(plan.states.size() * fingers_),
+      has_ended_(plan.states.size()) {}
 
 void Displayer::see(const frame::Frame& last) noexcept {
     if (last.sequence < 0) return;
@@ -68,12 +71,22 @@ void Displayer::see(const frame::Frame& last) noexcept {
     if (object_ >= 0) row[fingers_] = frame::mapped_body(last, static_cast<size_t>(object_));
 }
 
-void Displayer::enter(const TaskPlan::PlannedState& planned, const TaskPlan::Looks& looks,
-                      bool new_trial) noexcept {
-    planned_ = &planned;
+void Displayer::enter(int state, const TaskPlan::Looks& looks, bool new_trial) noexcept {
+    if (new_trial) {
+        std::ranges::fill(has_ended_, 0);
+    } else if (state_ >= 0 && seen_ > 0) {
+        const auto left = static_cast<size_t>(state_);
+        for (size_t i = 0; i < fingers_; ++i) ended_[left * fingers_ + i] = past(i, 1);
+        has_ended_[left] = 1;
+    }
+    state_ = state;
     looks_ = &looks;
-    // a cursor that is held in two consecutive states keeps its position
-    if (planned.holds_cursor && (new_trial || !holds_)) {
+    const TaskPlan::PlannedState& planned = plan_.states[static_cast<size_t>(state)];
+    const auto from = static_cast<size_t>(std::max(0, planned.held_from));
+    if (planned.holds_cursor && planned.held_from >= 0 && has_ended_[from] != 0) {
+        for (size_t i = 0; i < fingers_; ++i) held_[i] = ended_[from * fingers_ + i];
+    } else if (planned.holds_cursor && (new_trial || !holds_)) {
+        // a cursor that is held in two consecutive states keeps its position
         for (size_t i = 0; i < fingers_; ++i) held_[i] = past(i, 1);
     }
     holds_ = planned.holds_cursor && seen_ > 0;
@@ -87,8 +100,9 @@ const Pose& Displayer::past(size_t thing, long ticks) const noexcept {
 }
 
 void Displayer::order(double now, frame::TaskFrame& out) noexcept {
-    if (planned_ == nullptr) return;
-    for (const TaskPlan::Looks* looks : {looks_, &planned_->looks}) {
+    if (state_ < 0) return;
+    const TaskPlan::PlannedState& planned = plan_.states[static_cast<size_t>(state_)];
+    for (const TaskPlan::Looks* looks : {looks_, &planned.looks}) {
         put_on(looks->things, out);
         put_on(looks->targets, out);
         if (looks->hidden_targets == 0) continue;

@@ -18,8 +18,7 @@ class Displayer {
     void see(const frame::Frame& last) noexcept;
     /// Starts a state, in a new trial or in the running one. Its display applies until the next
     /// state starts, also between trials.
-    void enter(const TaskPlan::PlannedState& planned, const TaskPlan::Looks& looks,
-               bool new_trial) noexcept;
+    void enter(int state, const TaskPlan::Looks& looks, bool new_trial) noexcept;
     /// Call after the task's own orders, which contain the targets and the visual map.
     void order(double now, frame::TaskFrame& out) noexcept;
 
@@ -28,6 +27,7 @@ class Displayer {
     const Pose& past(size_t thing, long ticks) const noexcept;
     void displace(const frame::VisualMap& map, frame::TaskFrame& out) const noexcept;
 
+    const TaskPlan& plan_;
     size_t fingers_;
     int object_;  // -1: none
     double tick_;
@@ -40,10 +40,12 @@ class Displayer {
     std::vector<Pose> past_;  // a ring buffer of rows with one pose per thing
     size_t newest_ = 0;       // row
     size_t seen_ = 0;         // number of filled rows
-    const TaskPlan::PlannedState* planned_ = nullptr;
+    int state_ = -1;
     const TaskPlan::Looks* looks_ = nullptr;  // of the condition
     bool holds_ = false;
-    std::vector<Pose> held_;  // by finger
+    std::vector<Pose> held_;   // by finger
+    std::vector<Pose> ended_;  // by state, and finger: where it was displayed when the state ended
+    std::vector<char> has_ended_;  // by state, in this trial
 };
 
 }  // namespace dihaptic::task

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "task/run/clearance.h"
+#include "task/run/recorded.h"
 
 namespace dihaptic::task {
 namespace {
@@ -109,6 +110,8 @@ TaskDirector::TaskDirector(const TaskPlan& plan, uint64_t seed, double tick,
     }
     for (const TaskPlan::RuleMeasure& measure : plan.rule_measures)
         taken_.emplace_back(measure.measured.take);
+    in_frame_.resize(numbers_.quantities().values().size());
+    frame_handles_.reserve(plan.finger_radius.size());
     for (const LookBack& look_back : plan.look_backs) {
         Past& past = past_.emplace_back();
         past.values.reserve(look_back.count);
@@ -127,8 +130,10 @@ void TaskDirector::operator()(const frame::Frame& last, std::span<const frame::H
     motions_.add(last, handles);
     displayer_.see(last);
     // texts contain quantities between trials too
+    const std::span<const double> values = numbers_.quantities().values();
+    if (!taken_.empty()) std::ranges::copy(values, in_frame_.begin());
     numbers_.quantities().update(last, handles);
-    if (state_ >= 0) take_measures();
+    if (state_ >= 0 && !taken_.empty()) take_measures(last);
     direct(last, handles, now, commands);
     displayer_.order(now, commands.task);
     sounder_.order(state_ < 0 ? nullptr : &plan_.states[static_cast<size_t>(state_)],
@@ -293,8 +298,7 @@ void TaskDirector::enter(int state, double now, frame::Commands& commands) noexc
     for (const int i : trial().perturb) {
         if (cell.acts(i, state) && !cell.acts(i, state_)) began_[static_cast<size_t>(i)] = now;
     }
-    displayer_.enter(plan_.states[static_cast<size_t>(state)],
-                     cell.looks[static_cast<size_t>(state)], state_ < 0);
+    displayer_.enter(state, cell.looks[static_cast<size_t>(state)], state_ < 0);
     sounder_.enter(plan_.states[static_cast<size_t>(state)]);
     state_ = state;
     entered_ = now;
@@ -479,12 +483,14 @@ bool TaskDirector::is_done() noexcept {
     return trial().procedure >= 0 && procedures_[static_cast<size_t>(trial().procedure)].done();
 }
 
-/// As exits, measures see the last Frame and the present handles.
-void TaskDirector::take_measures() noexcept {
+/// Unlike exits, which see the present handles, measures see the last Frame alone, as the columns
+/// of the same names do.
+void TaskDirector::take_measures(const frame::Frame& last) noexcept {
+    handles_of(last, frame_handles_);
+    numbers_.quantities().read_frame(last, frame_handles_, in_frame_);
     for (size_t i = 0; i < taken_.size(); ++i) {
         const TaskPlan::Measured& measured = plan_.rule_measures[i].measured;
-        if ((measured.states >> state_ & 1u) != 0)
-            taken_[i].add(measured.in_tick(numbers_.values()));
+        if ((measured.states >> state_ & 1u) != 0) taken_[i].add(measured.in_tick(in_frame_));
     }
 }
 

@@ -113,7 +113,7 @@ class TaskDirector {
     bool is_done() noexcept;
     /// Applies the rules to the variables at the end of a trial.
     void follow_rules(int outcome, bool redo) noexcept;
-    void take_measures() noexcept;
+    void take_measures(const frame::Frame& last) noexcept;
     void look_back(size_t from, size_t to, bool counts) noexcept;
     /// Chooses the numbers of the starting trial, and resolves its formulas.
     void resolve() noexcept;
@@ -161,7 +161,9 @@ class TaskDirector {
     double ask_until_ = 0;  // time limit for the decision [s]
     ValueRing<char> keys_{kMostKeys};
     std::atomic<Click> clicked_{Click{}};
-    std::vector<Taken> taken_;  // by measure that rules name
+    std::vector<Taken> taken_;                  // by measure that rules name
+    std::vector<double> in_frame_;              // quantities in the last Frame
+    std::vector<frame::Handle> frame_handles_;  // its handles
     /// Values at the ends of the last trials, by look-back.
     struct Past {
         std::vector<double> values;  // a ring, filled from the beginning

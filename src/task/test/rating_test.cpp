@@ -67,6 +67,10 @@ TEST(Rating, IsTyped) {
     EXPECT_EQ(typed("2.5\r", numbers(0, 1e6, false)), 2.5);
     EXPECT_EQ(typed("2.5\r", numbers(0, 1e6)), 25);
     EXPECT_EQ(typed("-3\r", numbers(-5, 5)), -3);
+    EXPECT_EQ(typed("-3", numbers(-5, 5)), -3);
+    EXPECT_TRUE(std::isnan(typed("-3", numbers(-30, 5))));
+    EXPECT_EQ(typed("-12", numbers(-30, 30)), -12);
+    EXPECT_EQ(typed("15", numbers(12, 90)), 15);
     EXPECT_TRUE(std::isnan(typed("abc\r", numbers(0, 100))));
     EXPECT_EQ(typed("12345678901\r", numbers(0, 1e8)), 12345678);
     EXPECT_EQ(typed("72", numbers(1, 9)), 7);  // what comes later counts no more

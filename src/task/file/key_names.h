@@ -1,0 +1,19 @@
+// Keys by name, for programs and people that press them.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "task/file/rating.h"
+
+namespace dihaptic::task {
+
+/// The key of a name: "Enter", "Backspace" or one character. nullopt: there is no such key.
+inline std::optional<char> key_named(std::string_view name) {
+    if (name == "Enter") return Rating::kEnter;
+    if (name == "Backspace") return Rating::kBack;
+    if (name.size() != 1) return std::nullopt;
+    return name.front();
+}
+
+}  // namespace dihaptic::task
