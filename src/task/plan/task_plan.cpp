@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/plural.h"
 #include "base/unmeasured.h"
 #include "rows/procedure_row.h"
@@ -19,7 +22,13 @@
 namespace dihaptic::task {
 namespace {
 
-constexpr const char* kMoveAway = "Take the hands off the objects";
+/// What is shown while a finger is in the way of an object: how far it has to go.
+std::string move_away(const scene::Scene& scene) {
+    double most = 0;
+    for (const scene::Finger& finger : scene.fingers) most = std::max(most, reach_of(finger));
+    return fmt::format("Take the hands off the objects, {:.0f} mm away",
+                       std::ceil(1e3 * (most + kClearance)));
+}
 
 void check_lists(const Task& task, Diagnostics& diagnostics) {
     check_names(task.hands, "hands", diagnostics);
@@ -68,7 +77,7 @@ class Planner : Planning {
             plan.comparison = look_up(names_of(plan.task.draws), kComparisonInterval,
                                       plan.task.place, "draws", "not a draw", diagnostics);
         plan_formulas(plan, diagnostics);
-        plan.move_away = seen_.text(kMoveAway, plan.task.place, "message");
+        plan.move_away = seen_.text(move_away(scene), plan.task.place, "message");
         plan_sounds();
         plan_states(*this, bodies_, seen_);
         plan_cells(*this, bodies_, seen_);
