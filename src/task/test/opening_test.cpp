@@ -136,7 +136,8 @@ TEST(Opening, OfNoBlockMakesASessionWhatItWas) {
     session::Files files;
     const session::Plan plan = session::make_plan(files.request());
     EXPECT_EQ(plan.task->messages,
-              (std::vector<std::string>{"Take the hands off the objects, 13 mm away", "Go home", "Good"}));
+              (std::vector<std::string>{"Take the hands off the objects, 13 mm away", "Go home",
+                                        "Good"}));
     EXPECT_TRUE(plan.task->pages.empty());
     EXPECT_EQ(longest_opening(*plan.task), 0);
 }
