@@ -165,9 +165,11 @@ class Rehearsing {
     bool is_complete(const study::Member& member, size_t session) const {
         return session::has_session(folder(member, session) + "/" + kRehearsed);
     }
-    /// Why a person does not go on to a session, the one before being complete.
+    /// Why a person does not go on from one complete session to the next; empty if it is done or
+    /// may be.
     std::vector<std::string> unmet_needs(const study::Member& member, size_t session) const {
-        if (session == 0 || !is_complete(member, session - 1)) return {};
+        if (session == 0 || is_complete(member, session) || !is_complete(member, session - 1))
+            return {};
         return study::unmet_needs(study_.sessions[session],
                                   folder(member, session - 1) + "/" + kRehearsed);
     }

@@ -272,8 +272,6 @@ std::vector<AdaptationCurve::Block> AdaptationCurve::blocks() const {
 AdaptationCurve::Windows AdaptationCurve::windows() const {
     const std::vector<Stretch> parts = stretches();
     Windows out;
-    out.savings = savings(parts);
-    out.rebound = rebound(parts);
     const auto first = std::find_if(parts.begin(), parts.end(), is_perturbed);
     std::vector<double> baseline;
     for (auto part = parts.begin(); part != first; ++part) {
@@ -281,8 +279,12 @@ AdaptationCurve::Windows AdaptationCurve::windows() const {
         baseline.insert(baseline.end(), own.begin(), own.end());
     }
     out.baseline = window(baseline);
-    if (first == parts.end() || has_both_signs(*first)) return out;
-    out.early = window(first_of(learned_in(*first, TrialKind::perturbed, in_channels()), kFew));
+    const bool has_mean = first == parts.end() || !has_both_signs(*first);
+    if (has_mean) {
+        out.savings = savings(parts);
+        out.rebound = rebound(parts);
+    }
+    if (first == parts.end()) return out;
     auto last = first;
     for (auto part = first; part != parts.end(); ++part) {
         if (is_perturbed(*part) && alike(*part, *first)) {
@@ -291,9 +293,12 @@ AdaptationCurve::Windows AdaptationCurve::windows() const {
             break;
         }
     }
-    out.late = window(last_of(learned_in(*last, TrialKind::perturbed, in_channels()), kFew));
+    if (has_mean) {
+        out.early = window(first_of(learned_in(*first, TrialKind::perturbed, in_channels()), kFew));
+        out.late = window(last_of(learned_in(*last, TrialKind::perturbed, in_channels()), kFew));
+    }
     std::vector<double> catches;
-    for (auto part = first; part != last + 1; ++part) {
+    for (auto part = first; has_mean && part != last + 1; ++part) {
         const auto own = measured_kind(*part, TrialKind::catch_trial);
         catches.insert(catches.end(), own.begin(), own.end());
     }
@@ -325,7 +330,8 @@ std::string AdaptationCurve::mixed() const {
     const std::vector<Stretch> parts = stretches();
     const auto first = std::find_if(parts.begin(), parts.end(), is_perturbed);
     if (first == parts.end() || !has_both_signs(*first)) return "";
-    return "no means of " + first->block + ": its perturbation has both signs";
+    return "no early, late, catch, savings and rebound: the perturbation has both signs in " +
+           first->block;
 }
 
 void AdaptationCurve::Window::list(FigureLister& row, const std::string& name,

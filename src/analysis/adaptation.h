@@ -93,8 +93,8 @@ struct AdaptationCurve {
     Windows windows() const;
     /// The reason why learning is not measured, or only in part; empty if it is measured.
     std::string note() const;
-    /// Of a first perturbed block in which the perturbation has both signs: why its means are not
-    /// given, as they would be means of opposite learning. Otherwise empty.
+    /// Why a first perturbed block in which the perturbation has both signs has no means: they
+    /// would be means of opposite learning. Empty if it does not.
     std::string mixed() const;
     /// Lists the unit, the perturbation, and the windows with their intervals.
     void list_landmarks(FigureLister& row) const;

@@ -155,13 +155,16 @@ std::string session_folder(const study::StudyFile& study, const study::Member& m
 
 recording::InStudy place_in(const study::StudyFile& study, const study::Member& member,
                             size_t session) {
+    std::vector<recording::Fact> facts = member.facts;
+    if (study.allocation.concealed)  // groups may be the values of a fact
+        std::erase_if(facts, [&](const auto& fact) { return fact.name == study.allocation.fact; });
     return {study.title,
             static_cast<int>(versions_of(study).size()),
             study.shown_group(member.group),
             member.number,
             study.sessions[session].name,
             study.condition_of(session, member.group, member.number),
-            member.facts};
+            std::move(facts)};
 }
 
 std::vector<study::Visit> visits_of(const study::StudyFile& study, const study::Member& member) {

@@ -396,6 +396,16 @@ class Studies(unittest.TestCase):
         self.refused(dihaptic("check", self.study), "does not have the groups as its values",
                      "values: [gradual, abrupt]")
 
+    def test_a_fact_that_tells_a_concealed_group_is_in_no_recording(self):
+        self.write(STUDY.replace("values: [normal, corrected] }", "values: [gradual, abrupt] }, { name: lens }") +
+                   "allocation: { method: fact, fact: vision, concealed: yes }\n")
+        self.add("S01", *FACTS[:-1], "vision=abrupt", "--fact", "lens=2")
+        self.assertEqual(self.simulate("S01").returncode, 0)
+        (folder,) = glob.glob(self.folder + "/rehearsal/sessions/S01/familiar/*/")
+        session = pathlib.Path(folder, "session.yaml").read_text()
+        self.assertIn("name: lens", session)
+        self.assertNotIn("abrupt", session)
+
     def test_a_recording_that_cannot_be_read_is_not_passed_over(self):
         self.add("S01"), self.add("S02")
         self.assertEqual(self.simulate("S01").returncode, 0)

@@ -163,6 +163,33 @@ class Paradigms(unittest.TestCase):
 """)
         self.assertLess(session.trials.farthest_mm.max(), 400)
 
+    def test_turns_to_both_sides_have_no_mean(self):
+        """Random turns, after which the washout still has one."""
+        session = self.run_task("title: Random turns\n" + SPACE + "task:\n" + REGIONS + """
+  draws: [{ name: side, permutation: [-1, 1] }]
+  perturbations:
+    - { name: turned, visual: { moves: [proxies], about: start, axis: [0, 0, 1], angle_deg: 20 * side } }
+  states:
+""" + BACK + """
+    - name: reach
+      show: [target]
+      exits:
+        - { when: inside, region: target, shown: yes, hold_s: 0.1, outcome: reached }
+        - { when: time, after_s: 3, outcome: missed }
+      simulated_hand: [{ duration_s: 0.5, reach: target }]
+  reach: { from: start, to: target, during: reach, distance_mm: 50 }
+  blocks:
+    - { name: before, kind: baseline, repeats: 4 }
+    - { name: random, kind: perturbed, perturb: turned, repeats: 12 }
+    - { name: after, kind: washout, repeats: 4 }
+""")
+        self.assertEqual(dihaptic("report", str(session.folder)).returncode, 0)
+        (fits,) = dh.load(session.folder).table("fits").to_dict("records")
+        for window in ["early", "late", "catch", "savings", "rebound"]:
+            self.assertTrue(np.isnan(fits[window]), window)
+        self.assertEqual(fits["note"], "no early, late, catch, savings and rebound: the perturbation has both signs in random")
+        self.assertTrue(np.isfinite(fits["baseline"]) and np.isfinite(fits["washout_first"]), fits)
+
     def test_forces_are_compared_only_while_the_channel_acts(self):
         """A lead-in to a via point without a channel, then a reach in one (Howard, Ingram and Wolpert 2012)."""
         task = "title: Lead-in\n" + SPACE.replace("[0, 0, 120]", "[0, 0, 120], impedance: { stiffness_N_m: 150, damping_Ns_m: 15 }") + """

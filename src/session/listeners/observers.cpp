@@ -342,7 +342,8 @@ void Observers::request(const Json& asked) {
             end_ = true;
         } else {
             throw Refusal{
-                fmt::format("{}: {} is not understood. Valid keys are watch, key (one character), "
+                fmt::format("{}: {} is not understood. Valid keys are watch, key (one character, "
+                            "Enter or Backspace), "
                             "trigger (1 to 255), turn (knobs) and end (true).",
                             what, value.dump())};
         }
