@@ -16,6 +16,7 @@
 #include "analysis/lifts.h"
 #include "analysis/measures/measures.h"
 #include "analysis/perturbations.h"
+#include "analysis/plausibility.h"
 #include "analysis/trials.h"
 #include "base/figure.h"
 #include "base/number.h"
@@ -138,13 +139,14 @@ struct SessionReader::Pass {
         : info(of),
           names(names_of(of)),
           fingers(head.fingers),
-          bodies(head.bodies),
           object(object_of(info.object, head)),
           tick(head.tick),
           facts(facts_of(info.object, folder, head, reading.why_no_facts)),
           events(head, object, names),
           trace(object, tick),
-          fault(head.fingers, head.turning_fingers()) {
+          fault(head.fingers, head.turning_fingers()),
+          plausibility(of.moved_by.mover == recording::Mover::simulated_person, head.bodies,
+                       head.tick) {
         reading.figures.status_ticks.assign(kStatusBits, 0);
         reading.figures.tick = tick;
         if (has_trials(folder)) {
@@ -246,7 +248,7 @@ struct SessionReader::Pass {
         figures.duration = seconds(frame.time);
         figures.status |= frame.status;
         for_each_status(frame.status, [&](Status bit) { ++figures.ticks_with(bit); });
-        follow(frame);
+        plausibility.add(frame);
         // logs before version 0.3 have no balance
         if (std::isnan(frame.energy_imbalance)) return;
         figures.energy_imbalance += frame.energy_imbalance;
@@ -254,37 +256,11 @@ struct SessionReader::Pass {
         figures.angular_imbalance = std::max(figures.angular_imbalance, frame.angular_imbalance);
     }
 
-    /// How far the handles go from where they began, and driven bodies in a tick.
-    void follow(const frame::Frame& frame) {
-        SessionFigures& figures = reading.figures;
-        for (const frame::DriveFrame& drive : frame.task.drives) {
-            const auto body = static_cast<size_t>(drive.body);
-            const bool placed = std::ranges::any_of(
-                frame.task.placements, [&](const auto& of) { return of.body == drive.body; });
-            if (placed || body >= before.size() || frame.sequence != sequence + 1) continue;
-            const double way = (drive.X_WB.p - before[body]).norm();
-            if (!(way > figures.jumped)) continue;
-            figures.jumped = way;
-            figures.jumped_at = seconds(frame.time);
-            figures.jumped_body = bodies[body];
-        }
-        sequence = frame.sequence;
-        before.clear();
-        for (const frame::BodyFrame& body : frame.bodies) before.push_back(body.X_WB.p);
-        for (size_t i = 0; i < frame.fingers.size(); ++i) {
-            const Vec3& p_WH = frame.fingers[i].p_WH;
-            if (i == figures.began.size()) figures.began.push_back(p_WH);
-            const double distance = (p_WH - figures.began[i]).norm();
-            if (!(distance > figures.strayed)) continue;
-            figures.strayed = distance;
-            figures.strayed_at = seconds(frame.time);
-        }
-    }
-
     void end(const recording::LogHealth& log) {
         close_phase();
         end_trial();
         reading.figures.log = log;
+        reading.figures.implausible = plausibility.findings();
         reading.events = events.events();
         reading.fault = fault.table();
     }
@@ -292,9 +268,6 @@ struct SessionReader::Pass {
     recording::SessionInfo info;
     std::vector<std::string> names;  // names of the phases
     std::vector<std::string> fingers;
-    std::vector<std::string> bodies;
-    std::vector<Vec3> before;  // where the bodies were in the frame before [m]
-    int64_t sequence = -1;     // of that frame
     int object;
     double tick;
     Reading reading;
@@ -304,6 +277,7 @@ struct SessionReader::Pass {
     EventFinder events;
     GraspTrace trace;
     FaultRecord fault;
+    Plausibility plausibility;
     int trial = 0;
     int attempt = 0;
     int phase = -1;
@@ -497,26 +471,6 @@ const rows::PhaseRow* SessionFigures::phase(const std::string& name) const {
     return nullptr;
 }
 
-std::string SessionFigures::describe_jump() const {
-    constexpr double kJump = 0.01;  // in a tick of 1 ms: 10 m/s [m]
-    if (!(jumped > kJump)) return "";
-    return fmt::format(
-        "'{}' jumped by {:.3g} mm in one tick at {:.3f} s, when a drive moved it: displacements "
-        "count from where it was when the state began, so let 'along' begin at 0 then (with "
-        "time_in_state, not time_in_trial)",
-        jumped_body, 1e3 * jumped, jumped_at);
-}
-
-std::string SessionFigures::describe_straying() const {
-    constexpr double kArm = 0.7;  // reach of an arm [m]
-    if (!(strayed > kArm)) return "";
-    return fmt::format(
-        "the simulated hand was {:.2g} m from where it began, at {:.1f} s, which is further than "
-        "an arm reaches: simulated people cannot do this task, and their trials say nothing about "
-        "people",
-        strayed, strayed_at);
-}
-
 std::string SessionFigures::describe_imbalance() const {
     return fmt::format(
         "in {} of {} {}: by {:.2g} J in total, and by at most {:.2g} N*s and {:.2g} N*m*s for a "
@@ -527,14 +481,11 @@ std::string SessionFigures::describe_imbalance() const {
 
 namespace {
 
-/// Makes the session, and thus its report, state whether its objects moved inexplicably, and
-/// whether a simulated person did what no person can.
+/// Makes the session, and thus its report, state whether its objects moved inexplicably, and what
+/// else nobody can have meant.
 void note_nonsense(recording::SessionInfo& info, const SessionFigures& figures) {
     if (figures.ticks_with(kUnbalanced) > 0) add_note(info, figures.describe_imbalance());
-    const std::string strayed = figures.describe_straying();
-    if (!strayed.empty() && info.moved_by.mover == recording::Mover::simulated_person)
-        add_note(info, strayed);
-    if (const std::string jump = figures.describe_jump(); !jump.empty()) add_note(info, jump);
+    for (const std::string& what : figures.implausible) add_note(info, what);
 }
 
 /// Writes all tables except session.nwb. `conclude`: and the session's state, with which it is

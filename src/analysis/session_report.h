@@ -34,12 +34,7 @@ struct SessionFigures {
     double energy_imbalance = 0;
     double momentum_imbalance = 0;
     double angular_imbalance = 0;
-    std::vector<Vec3> began;  ///< where the handles were in the first tick [m]
-    double strayed = 0;       ///< largest distance of a handle from there [m]
-    double strayed_at = 0;    ///< and its time [s]
-    double jumped = 0;        ///< largest way of a driven body within a tick [m]
-    double jumped_at = 0;     ///< and its time [s]
-    std::string jumped_body;
+    std::vector<std::string> implausible;  ///< analysis/plausibility.h
 
     /// Whether a value was not a number, so that no figure can be trusted.
     bool diverged() const { return (status & kNotFinite) != 0; }
@@ -54,11 +49,6 @@ struct SessionFigures {
     const rows::PhaseRow* phase(const std::string& name) const;
     /// The figures behind kUnbalanced for the session.
     std::string describe_imbalance() const;
-    /// What is wrong with a simulated hand that went further than an arm reaches; empty if it did
-    /// not.
-    std::string describe_straying() const;
-    /// What is wrong with a drive that moves its body as fast as a bullet; empty if none does.
-    std::string describe_jump() const;
 
   private:
     static size_t place_of(Status bit) {

@@ -141,7 +141,7 @@ Person::Person(const Traits& traits, const Situation& situation)
       touch_(first_, sides_of(places_), frictions_of(situation.scene, first_), situation.tick),
       strains_(traits.visual_delay, situation.tick),
       known_(plan_->task.regions.size(), Vec3::Zero()),
-      left_(plan_->states.size()),
+      cursor_(plan_->states),
       rotations_(plan_->states.size(), RotationMemory(traits.rotation(), traits.generalisation)),
       gains_(plan_->states.size(), GainMemory(traits.gain())),
       forces_(plan_->states.size(), ForceMemory(traits.force(), traits.force_generalisation)),
@@ -331,7 +331,7 @@ void Person::follow_cues(const Sight& sight) noexcept {
     see_targets(sight);
     const bool new_attempt = sight.trial != trial_ || sight.attempt != attempt_;
     if (!new_attempt && sight.phase == phase_) return;
-    follow_held_cursor(sight, new_attempt);
+    cursor_.enter(sight.phase - 1, new_attempt, {now_ - traits_.visual_delay, felt_hand()});
     if (new_attempt) begin_attempt();
     trial_ = sight.trial;
     attempt_ = sight.attempt;
@@ -351,28 +351,24 @@ void Person::follow_cues(const Sight& sight) noexcept {
     wait_until_ = begins;
 }
 
-/// Whether the display shows the fingers where they were at an earlier moment.
-bool Person::holds_cursor(const Sight& sight) const noexcept {
-    return sight.phase > 0 && plan_->states[static_cast<size_t>(sight.phase - 1)].holds_cursor;
+/// Where the hand was felt when the current sight was true.
+const Vec3& Person::felt_hand() const noexcept {
+    return strains_.before(traits_.visual_delay).hand;
 }
 
-/// Call when a new state is seen, before it is acted on.
-void Person::follow_held_cursor(const Sight& sight, bool new_attempt) noexcept {
-    const Left now{now_ - traits_.visual_delay, strains_.before(traits_.visual_delay).hand};
-    const bool held =
-        !new_attempt && phase_ > 0 && plan_->states[static_cast<size_t>(phase_ - 1)].holds_cursor;
-    if (new_attempt) {
-        std::ranges::fill(left_, Left{});
-    } else if (phase_ > 0) {
-        left_[static_cast<size_t>(phase_ - 1)] = now;
-    }
-    if (!holds_cursor(sight)) return;
-    const int from = plan_->states[static_cast<size_t>(sight.phase - 1)].held_from;
-    if (from >= 0 && left_[static_cast<size_t>(from)].time >= 0) {
-        held_ = left_[static_cast<size_t>(from)];
-    } else if (!held) {
-        held_ = now;
-    }
+/// Where the hand is: seen, or felt while the display holds its cursor.
+const Vec3& Person::hand(const Sight& sight) const noexcept {
+    return cursor_.is_held() ? felt_hand() : sight.hand;
+}
+
+/// Where the hand was felt at the moment that the display shows.
+const Vec3& Person::felt_where_shown() const noexcept {
+    return cursor_.is_held() ? cursor_.shown().felt : felt_hand();
+}
+
+/// Whether the display shows the hand before its present reach.
+bool Person::shows_earlier_reach() const noexcept {
+    return cursor_.is_held() && cursor_.shown().time < reach_.begin;
 }
 
 /// Lets go, or moves the hand to its rest position: between trials objects are put back, and the
@@ -487,10 +483,8 @@ void Person::begin_step(const Sight& sight) noexcept {
     Aim way;
     if (!grip_.holds()) way.aperture = wanted - aperture;
     if (next.step.reach.index >= 0) {
-        const Vec3 seen =
-            look(target(sight, next), traits_.visual_noise, random_) -
-            look(holds_cursor(sight) ? strains_.before(traits_.visual_delay).hand : sight.hand,
-                 traits_.visual_noise, random_);
+        const Vec3 seen = look(target(sight, next), traits_.visual_noise, random_) -
+                          look(hand(sight), traits_.visual_noise, random_);
         way.centre = plan_reach(sight, seen);
     } else {
         way.centre = noisy(1, traits_.extent_noise) * numbers_.of(next.step.move);
@@ -559,8 +553,8 @@ Vec3 Person::plan_reach(const Sight& sight, const Vec3& displacement) noexcept {
     reach_ = {.going = true,
               .number = reach_.number + 1,
               .state = static_cast<size_t>(acting_ - 1),
-              .from = holds_cursor(sight) ? strains_.before(traits_.visual_delay).hand : sight.hand,
-              .felt_from = strains_.before(traits_.visual_delay).hand,
+              .from = hand(sight),
+              .felt_from = felt_hand(),
               .way = displacement,
               .along = made.normalized()};
     reach_.presses = -forces_[reach_.state].expected(reach_.along);
@@ -621,9 +615,7 @@ void Person::feel_strain() noexcept {
 /// Corrects part of a reach's error once its direction is seen, and judges the direction before the
 /// correction becomes visible.
 void Person::watch_reach(const Sight& sight) noexcept {
-    if (!reach_.going || reach_.seen || !sight.hand_shown) return;
-    const bool held = holds_cursor(sight);
-    if (held && held_.time < reach_.begin) return;  // it shows an earlier movement
+    if (!reach_.going || reach_.seen || !sight.hand_shown || shows_earlier_reach()) return;
     const Vec3 shown = sight.hand - reach_.from;
     const double length = reach_.way.norm();
     if (!reach_.mended && shown.norm() >= kGlance * length) {
@@ -631,7 +623,7 @@ void Person::watch_reach(const Sight& sight) noexcept {
         const Vec3 arm = look(shown, traits_.visual_noise, random_).normalized();
         const Vec3 missed = reach_.way - length * arm;
         const double left = std::max(kShortest, aim_.end() - now_);
-        if (doing_ == Doing::moving && traits_.online_correction > 0 && !held)
+        if (doing_ == Doing::moving && traits_.online_correction > 0 && !cursor_.is_held())
             aim_.add({traits_.online_correction * made_for(missed), 0, 0}, now_, left);
     }
     if (shown.norm() < kJudged * length) return;
@@ -642,8 +634,7 @@ void Person::watch_reach(const Sight& sight) noexcept {
         reach_.moved > 0;  // later pushes belong to the next state, for which this reach ends
     if (reach_.pushed) {
         // a pushed hand is seen where it is felt, with the expected rotation
-        const Vec3 felt =
-            (held ? held_.felt : strains_.before(traits_.visual_delay).hand) - reach_.felt_from;
+        const Vec3 felt = felt_where_shown() - reach_.felt_from;
         wanted = rotated(rotations_[reach_.state].expected(reach_.way.normalized()), felt);
     }
     reach_.error = rotation_between(wanted.normalized(), arm.normalized());
@@ -652,9 +643,7 @@ void Person::watch_reach(const Sight& sight) noexcept {
 /// Judges the extent of a reach whose first stroke has ended, and learns from it. A cursor that is
 /// held shows how far the hand had come by then, not where it ended.
 void Person::judge_extent(const Sight& sight) noexcept {
-    if (!reach_.going || reach_.ended || !sight.hand_shown) return;
-    const bool held = holds_cursor(sight);
-    if (held && held_.time < reach_.begin) return;
+    if (!reach_.going || reach_.ended || !sight.hand_shown || shows_earlier_reach()) return;
     reach_.ended = true;
     const double shown =
         look(sight.hand - reach_.from, traits_.visual_noise, random_).dot(reach_.way.normalized());
@@ -662,9 +651,8 @@ void Person::judge_extent(const Sight& sight) noexcept {
     if (shown < least) return;
     const Vec3 d = reach_.way.normalized();
     double wanted = reach_.way.norm();
-    if (reach_.pushed || held) {
-        const Vec3 felt =
-            (held ? held_.felt : strains_.before(traits_.visual_delay).hand) - reach_.felt_from;
+    if (reach_.pushed || cursor_.is_held()) {
+        const Vec3 felt = felt_where_shown() - reach_.felt_from;
         wanted = std::exp(gains_[reach_.state].expected(d)) * felt.norm();
         if (wanted < least) return;
     }
@@ -688,7 +676,7 @@ bool Person::correct(const Sight& sight) noexcept {
     if (now_ < aim_.end() + traits_.visual_delay + kSettled) return true;
     if (!sight.hand_shown) return false;  // an unseen hand is assumed to be at its goal
     judge_extent(sight);
-    if (holds_cursor(sight)) return false;  // it does not follow the hand
+    if (cursor_.is_held()) return false;  // it does not follow the hand
     const Vec3 missed = look(target(sight, step) - sight.hand, traits_.visual_noise, random_);
     if (missed.norm() < kGoodEnough) return false;
     // where the display turns movements by more than 70 degrees, each stroke leads further away

@@ -11,6 +11,7 @@
 #include "person/force_memory.h"
 #include "person/gain_memory.h"
 #include "person/grip.h"
+#include "person/held_cursor.h"
 #include "person/learned.h"
 #include "person/rotation_memory.h"
 #include "person/strain.h"
@@ -76,8 +77,10 @@ class Person final : public task::SeeingDriver {
     void watch_reach(const Sight& sight) noexcept;
     void end_reach() noexcept;
     bool correct(const Sight& sight) noexcept;
-    bool holds_cursor(const Sight& sight) const noexcept;
-    void follow_held_cursor(const Sight& sight, bool new_attempt) noexcept;
+    const Vec3& felt_hand() const noexcept;
+    const Vec3& hand(const Sight& sight) const noexcept;
+    const Vec3& felt_where_shown() const noexcept;
+    bool shows_earlier_reach() const noexcept;
     bool from_above(const Vec3& displacement) const noexcept;
     Vec3 made_for(const Vec3& displacement) const noexcept;
     void judge_extent(const Sight& sight) noexcept;
@@ -111,14 +114,8 @@ class Person final : public task::SeeingDriver {
     double felt_ = 0;          // force on a finger, smoothed like the stiffness that follows it [N]
     Past<Strain> strains_;     // delayed like sight, for comparison with it
     std::vector<Vec3> known_;  // where each region was last seen [m]
-    /// A moment at which the hand left a state.
-    struct Left {
-        double time = -1;          // [s]; negative: not in this attempt
-        Vec3 felt = Vec3::Zero();  // the hand [m]
-    };
-    std::vector<Left> left_;  // by state
-    Left held_;               // the moment at which the display shows a cursor that it holds
-    uint32_t seen_ = 0;       // regions that have been seen, one bit each
+    HeldCursor cursor_;
+    uint32_t seen_ = 0;  // regions that have been seen, one bit each
 
     // memory
     Learned before_;  // in earlier sessions

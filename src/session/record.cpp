@@ -27,11 +27,7 @@ std::vector<std::string> closing_notes(const Recorded& session, const Plan& plan
         out.push_back(fmt::format("{}: {}{}", grave ? "WARNING" : "note", what,
                                   row.remedy.empty() ? "" : fmt::format(": {}", row.remedy)));
     });
-    const std::string strayed = figures.describe_straying();
-    if (!strayed.empty() && plan.moved_by.mover == recording::Mover::simulated_person)
-        out.push_back("WARNING: " + strayed);
-    if (const std::string jump = figures.describe_jump(); !jump.empty())
-        out.push_back("WARNING: " + jump);
+    for (const std::string& what : figures.implausible) out.push_back("WARNING: " + what);
     if (session.timing.refusals.any()) {
         out.push_back("note: " +
                       servo::describe(session.timing.refusals, plan.settings.real_time_priority));

@@ -181,7 +181,7 @@ std::string AttemptMeasures::why_no_index() const {
         return fmt::format("it covered {:.0f} % of the line, less than {:.0f} %", 100 * share,
                            100 * kIndexShare);
     const Values ideals = while_in_channel(ideal_);
-    // the last tick lasts until the next one, which is no longer in the movement
+    // from the first of these ticks to the last
     const double lasted = (static_cast<double>(ideals.size()) - 1) * tick_;
     if (lasted < kIndexTime)
         return fmt::format("it lasted {:.0f} ms{}, less than {:.0f}", 1e3 * lasted,

@@ -64,7 +64,7 @@ Table facts(const SessionData& session) {
 }
 
 /// Number of attempts with each outcome, by block.
-Table outcomes(const SessionData& session) {
+Table outcome_table(const SessionData& session) {
     std::vector<std::string> blocks;
     std::vector<std::string> names;
     std::map<std::pair<std::string, std::string>, int> counts;
@@ -451,7 +451,7 @@ SessionPage session_page(const SessionData& session, const std::string& command,
     out.page.table(facts(session), "");
     out.page.problems("Changed since the session ended", session.changed);
     out.page.heading("Trials");
-    out.page.table(outcomes(session), "Attempts at trials by outcome. " + origin_of(session));
+    out.page.table(outcome_table(session), "Attempts at trials by outcome. " + origin_of(session));
     if (const Table all = perturbation_table(session.task); !all.rows.empty())
         out.page.table(
             all, "Perturbations; the column share in trials.csv states how much of each acts. " +

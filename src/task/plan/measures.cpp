@@ -354,9 +354,9 @@ std::vector<MovementPlan> movements_of(const TaskPlan& plan, const scene::Scene&
 }
 
 void add_movements(Table& list, const TaskPlan& plan, const scene::Scene& scene) {
-    const std::vector<MovementPlan> movements = movements_of(plan, scene);
     if ((needs_of(plan.task) & MeasureRow::movement) == 0) return;
     add_columns<MovementPlan>(list);
+    const std::vector<MovementPlan> movements = movements_of(plan, scene);
     for (size_t i = 0; i < movements.size(); ++i) add_cells(list.rows[i], movements[i]);
 }
 

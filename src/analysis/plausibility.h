@@ -1,0 +1,42 @@
+// Finds what no person and no experimenter can have meant: a simulated hand that goes further than
+// an arm reaches, and a driven body that jumps.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "frame/frame.h"
+
+namespace dihaptic::analysis {
+
+class Plausibility {
+  public:
+    /// `person_simulated`: whether a simulated person moves the hand. `tick` [s].
+    Plausibility(bool person_simulated, std::vector<std::string> bodies, double tick);
+
+    /// The next frame of the session.
+    void add(const frame::Frame& frame);
+    /// A sentence for each thing that is not plausible, with its figure and its time.
+    std::vector<std::string> findings() const;
+
+  private:
+    void follow_drives(const frame::Frame& frame);
+    void follow_hand(const frame::Frame& frame);
+
+    bool person_simulated_;
+    std::vector<std::string> bodies_;
+    double tick_;
+    std::vector<Vec3> began_;   // where the handles were in the first frame [m]
+    std::vector<Vec3> before_;  // where the bodies were in the frame before [m]
+    int64_t sequence_ = -1;     // of that frame
+    struct Largest {
+        double way = 0;   // [m]
+        double time = 0;  // [s]
+    };
+    Largest strayed_;  // from where a handle began
+    Largest jumped_;   // of a driven body within a tick
+    size_t jumper_ = 0;
+};
+
+}  // namespace dihaptic::analysis

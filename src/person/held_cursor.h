@@ -1,0 +1,56 @@
+// What a simulated person makes of a cursor that the display holds: it shows where the hand was at
+// an earlier moment, and what the hand has done since is only felt.
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "task/plan/task_plan.h"
+
+namespace dihaptic::person {
+
+/// Follows the states of an attempt.
+class HeldCursor {
+  public:
+    /// A moment, and where the hand was felt to be [s], [m].
+    struct Moment {
+        double time = -1;  ///< negative: not in this attempt
+        Vec3 felt = Vec3::Zero();
+    };
+
+    /// `states` must outlive it.
+    explicit HeldCursor(const std::vector<task::TaskPlan::PlannedState>& states)
+        : states_(states), left_(states.size()) {}
+
+    /// Call when a new state is seen. `state`: its index. `now`: its first moment.
+    void enter(int state, bool new_attempt, const Moment& now) noexcept {
+        const bool held = is_held() && !new_attempt;
+        if (new_attempt) {
+            std::ranges::fill(left_, Moment{});
+        } else if (state_ >= 0) {
+            left_[static_cast<size_t>(state_)] = now;
+        }
+        state_ = state;
+        if (!is_held()) return;
+        const int from = states_[static_cast<size_t>(state)].held_from;
+        if (from >= 0 && left_[static_cast<size_t>(from)].time >= 0) {
+            shown_ = left_[static_cast<size_t>(from)];
+        } else if (!held) {
+            shown_ = now;
+        }
+    }
+
+    bool is_held() const noexcept {
+        return state_ >= 0 && states_[static_cast<size_t>(state_)].holds_cursor;
+    }
+    /// The moment that a held cursor shows.
+    const Moment& shown() const noexcept { return shown_; }
+
+  private:
+    const std::vector<task::TaskPlan::PlannedState>& states_;
+    std::vector<Moment> left_;  // by state: when the hand left it
+    Moment shown_;
+    int state_ = -1;
+};
+
+}  // namespace dihaptic::person
