@@ -8,7 +8,9 @@
 namespace dihaptic::gui {
 namespace {
 
-enum Column { kFinger, kModel, kForce, kBar, kStatus, kColumns };
+struct DeviceColumn {
+    enum { finger, model, force, bar, status, count };
+};
 
 QString words(uint32_t status) {
     return status == 0 ? QObject::tr("well") : QString::fromStdString(dihaptic::words(status));
@@ -17,7 +19,7 @@ QString words(uint32_t status) {
 }  // namespace
 
 DevicePanel::DevicePanel(QWidget* parent)
-    : QWidget(parent), table_(new QTableWidget(0, kColumns)), loop_(new QLabel) {
+    : QWidget(parent), table_(new QTableWidget(0, DeviceColumn::count)), loop_(new QLabel) {
     table_->setHorizontalHeaderLabels(
         {tr("Finger"), tr("Device"), tr("Force / limit"), "", tr("Status")});
     table_->verticalHeader()->hide();
@@ -38,27 +40,27 @@ void DevicePanel::set_devices(const std::vector<Device>& devices) {
     table_->setRowCount(static_cast<int>(devices.size()));
     for (int i = 0; i < table_->rowCount(); ++i) {
         const Device& device = devices[static_cast<size_t>(i)];
-        table_->setItem(i, kFinger, new QTableWidgetItem(device.finger));
-        table_->setItem(i, kModel, new QTableWidgetItem(device.model));
-        table_->setItem(i, kStatus, new QTableWidgetItem(tr("at rest")));
+        table_->setItem(i, DeviceColumn::finger, new QTableWidgetItem(device.finger));
+        table_->setItem(i, DeviceColumn::model, new QTableWidgetItem(device.model));
+        table_->setItem(i, DeviceColumn::status, new QTableWidgetItem(tr("at rest")));
         auto* bar = new QProgressBar;
         bar->setRange(0, 1000);
         bar->setTextVisible(false);  // the end of the bar would cut through the figures
-        table_->setCellWidget(i, kBar, bar);
-        table_->setItem(i, kForce, new QTableWidgetItem);
+        table_->setCellWidget(i, DeviceColumn::bar, bar);
+        table_->setItem(i, DeviceColumn::force, new QTableWidgetItem);
         show_force(i, 0);
     }
     table_->resizeColumnsToContents();
-    table_->setColumnWidth(kForce, 100);
-    table_->setColumnWidth(kBar, 80);
+    table_->setColumnWidth(DeviceColumn::force, 100);
+    table_->setColumnWidth(DeviceColumn::bar, 80);
 }
 
 void DevicePanel::show_force(int device, double force) {
     const double most = devices_[static_cast<size_t>(device)].most_force;
     const bool limited = std::isfinite(most);
-    auto* bar = qobject_cast<QProgressBar*>(table_->cellWidget(device, kBar));
+    auto* bar = qobject_cast<QProgressBar*>(table_->cellWidget(device, DeviceColumn::bar));
     bar->setValue(limited ? static_cast<int>(1000 * std::min(1.0, force / most)) : 0);
-    table_->item(device, kForce)
+    table_->item(device, DeviceColumn::force)
         ->setText(limited ? QString("%1 / %2 N").arg(force, 0, 'f', 2).arg(most, 0, 'f', 1)
                           : QString("%1 N").arg(force, 0, 'f', 2));
 }
@@ -66,7 +68,7 @@ void DevicePanel::show_force(int device, double force) {
 void DevicePanel::rest(const QString& why) {
     for (int i = 0; i < table_->rowCount(); ++i) {
         show_force(i, 0);
-        table_->item(i, kStatus)->setText(why);
+        table_->item(i, DeviceColumn::status)->setText(why);
     }
 }
 
@@ -74,7 +76,7 @@ void DevicePanel::show_frame(const frame::Frame& frame) {
     for (size_t i = 0; i < devices_.size() && i < frame.fingers.size(); ++i) {
         const frame::FingerFrame& finger = frame.fingers[i];
         show_force(static_cast<int>(i), finger.f_sent_W.norm());
-        table_->item(static_cast<int>(i), kStatus)->setText(words(finger.status));
+        table_->item(static_cast<int>(i), DeviceColumn::status)->setText(words(finger.status));
     }
     if (frame.status & kOverrun) ++overruns_;
     if (frame.status & kUnbalanced) ++unbalanced_;

@@ -25,17 +25,8 @@
 namespace dihaptic::gui {
 namespace {
 
-enum Column {
-    started,
-    title,
-    participant,
-    moved_by,
-    state,
-    lasted,
-    trials,
-    lifts,
-    note,
-    folder_name
+struct SessionColumn {
+    enum { started, title, participant, moved_by, state, lasted, trials, lifts, note, folder_name };
 };
 
 constexpr const char* kNote = "note.txt";
@@ -159,10 +150,10 @@ void SessionsDialog::fill_one() {
                 QString::fromStdString(info.title), QString::fromStdString(info.participant.id),
                 QString::fromStdString(info.moved_by.name()), state, time, trials_in(path),
                 lifts_in(path), note_of(path), entry.fileName()});
-    item->setToolTip(Column::note, item->text(Column::note));
-    item->setToolTip(Column::state, changed);
+    item->setToolTip(SessionColumn::note, item->text(SessionColumn::note));
+    item->setToolTip(SessionColumn::state, changed);
     item->setData(0, Qt::UserRole, path);
-    for (const Column number : {Column::lasted, Column::trials, Column::lifts})
+    for (const int number : {SessionColumn::lasted, SessionColumn::trials, SessionColumn::lifts})
         item->setTextAlignment(number, Qt::AlignRight | Qt::AlignVCenter);
     if (list_->topLevelItemCount() == 1) list_->setCurrentItem(item);
     open_->setEnabled(true);
@@ -173,7 +164,8 @@ void SessionsDialog::fill_one() {
 void SessionsDialog::fit_columns() {
     for (int column = 0; column < list_->columnCount(); ++column)
         list_->resizeColumnToContents(column);
-    list_->setColumnWidth(Column::note, std::min(250, list_->columnWidth(Column::note)));
+    list_->setColumnWidth(SessionColumn::note,
+                          std::min(250, list_->columnWidth(SessionColumn::note)));
 }
 
 void SessionsDialog::write_note() {
@@ -186,15 +178,15 @@ void SessionsDialog::write_note() {
         check_replaceable(file);
         // read again, because the note may have changed since the list was made
         const std::string before = is_there(file) ? read_text_file(file) : "";
-        const auto note = ask_for_note(item->text(Column::folder_name),
+        const auto note = ask_for_note(item->text(SessionColumn::folder_name),
                                        QString::fromStdString(before).trimmed(), this);
         if (!note) return;
         write_file(note->trimmed().toStdString() + "\n", file);
     } catch (const Error& e) {
         QMessageBox::warning(this, tr("Note"), QString::fromStdString(e.problems().front().text()));
     }
-    item->setText(Column::note, note_of(session));
-    item->setToolTip(Column::note, item->text(Column::note));
+    item->setText(SessionColumn::note, note_of(session));
+    item->setToolTip(SessionColumn::note, item->text(SessionColumn::note));
     fit_columns();
 }
 

@@ -9,7 +9,7 @@
 namespace dihaptic::gui {
 namespace {
 
-constexpr double kLeast = 0.02;  // stretch that can be shown [s]
+constexpr double kShortestStretch = 0.02;  // stretch that can be shown [s]
 
 QColor colour_of(size_t row) {
     if (row == 0) return palette::kGrip;
@@ -26,7 +26,7 @@ TimeChart::TimeChart(QWidget* parent) : QWidget(parent) {
 
 void TimeChart::set_session(double begin, double end) {
     first_ = begin;
-    last_ = std::max(end, begin + kLeast);
+    last_ = std::max(end, begin + kShortestStretch);
     begin_ = first_;
     end_ = last_;
     update();
@@ -72,7 +72,7 @@ double TimeChart::time_at(double x) const {
 }
 
 void TimeChart::show_stretch(double begin, double end) {
-    const double span = std::clamp(end - begin, kLeast, last_ - first_);
+    const double span = std::clamp(end - begin, kShortestStretch, last_ - first_);
     begin_ = std::clamp(begin, first_, last_ - span);
     end_ = begin_ + span;
     update();

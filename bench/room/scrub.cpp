@@ -13,7 +13,7 @@ namespace dihaptic::bench {
 namespace {
 
 constexpr int kJumps = 500;
-constexpr int kTicks = 5000;
+constexpr int kScrubbedTicks = 5000;
 
 /// Duration of f() [s].
 template <class F>
@@ -40,7 +40,7 @@ ScrubFigures bench_scrub(const std::string& session, const measure::Progress& pr
     }
     std::vector<double> ticks;
     browser->at(browser->begin());
-    for (int i = 0; i < kTicks; ++i) {
+    for (int i = 0; i < kScrubbedTicks; ++i) {
         bool there = true;
         const double took = time_of([&] { there = browser->next() != nullptr; });
         if (!there) break;

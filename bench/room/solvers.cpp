@@ -19,7 +19,7 @@ using contact::Solver;
 
 /// Time of one call [us].
 template <class Call>
-double time_of(const Call& call) {
+double microseconds_of(const Call& call) {
     const auto begin = std::chrono::steady_clock::now();
     call();
     return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin)
@@ -96,7 +96,8 @@ class Measurement {
             const RecordedProblem& p = group_.problems[i];
             r = p.start;
             contact::SolveStats stats;
-            const double us = time_of([&] { solvers_.solve(solver, {}, p.problem, r, stats); });
+            const double us =
+                microseconds_of([&] { solvers_.solve(solver, {}, p.problem, r, stats); });
             if (!seen[i]) {
                 seen[i] = 1;
                 out.fallbacks += stats.fallback ? 1 : 0;
@@ -173,7 +174,7 @@ class Measurement {
         const double whole = std::numeric_limits<double>::infinity();
         const Times all = times(problems.size(), whole, [&](size_t i) {
             problems[i]->reset();
-            return time_of([&] { problems[i]->solve(solver, kBulletIterations); });
+            return microseconds_of([&] { problems[i]->solve(solver, kBulletIterations); });
         });
         std::vector<double> residuals;
         for (size_t i = 0; i < problems.size(); ++i) {

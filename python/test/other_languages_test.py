@@ -97,6 +97,7 @@ class OtherLanguages(unittest.TestCase):
         for name in names:
             np.testing.assert_allclose(np.loadtxt(here / f"{name}.txt"), self.session[name], rtol=1e-6, atol=1e-7, err_msg=name)
 
+    @soak.alone
     def test_octave_s_tables_are_python_s(self):
         said = self.octave("s = dihaptic_load('lifts'); disp(jsonencode({s.tables, s.table_units}))")
         tables, units = json.loads(next(line for line in said.splitlines() if line.startswith("[")))
@@ -110,6 +111,7 @@ class OtherLanguages(unittest.TestCase):
                 np.testing.assert_allclose(np.atleast_1d(found), table[column], err_msg=column)
         self.assertEqual(tables["trials"]["outcome"], list(self.session.trials.outcome))
 
+    @soak.alone
     def test_octave_s_tables_may_have_any_text(self):
         (pathlib.Path(self.folder.name) / "any.csv").write_text('id,what,x_mm\n007,"a ""b"", c\nd",1.5\n8,,\n')
         said = self.octave("[t, u] = dihaptic_table('any.csv'); disp(jsonencode({t, u}))")

@@ -12,7 +12,7 @@
 namespace dihaptic::analysis {
 namespace {
 
-constexpr size_t kFew = 8;
+constexpr size_t kFewTrials = 8;
 
 using Trial = AdaptationCurve::Trial;
 using rows::TrialFile;
@@ -122,8 +122,8 @@ Window savings(const std::vector<Stretch>& stretches) {
     for (auto later = first + 1; later != stretches.end(); ++later) {
         const bool same = std::abs(later->perturbation - first->perturbation) < kSame;
         if (same && between) {
-            return difference(first_of(later->compensation, kFew),
-                              first_of(first->compensation, kFew),
+            return difference(first_of(later->compensation, kFewTrials),
+                              first_of(first->compensation, kFewTrials),
                               std::copysign(1.0, first->perturbation));
         }
         between = between || !same;
@@ -142,7 +142,7 @@ Window rebound(const std::vector<Stretch>& stretches) {
         // without channels in the opposite field, its end is not measured: the clamp begins there
         const auto from = before.compensation.empty() ? first_of(clamp, kLast)
                                                       : last_of(before.compensation, kLast);
-        return difference(last_of(clamp, kFew), from, std::copysign(1.0, first));
+        return difference(last_of(clamp, kFewTrials), from, std::copysign(1.0, first));
     }
     return {};
 }
@@ -259,8 +259,8 @@ std::vector<AdaptationCurve::Block> AdaptationCurve::blocks() const {
         });
         Block& block = out.emplace_back();
         block.name = stretch.block;
-        block.first = window(first_of(own, kFew));
-        block.last = window(last_of(own, kFew));
+        block.first = window(first_of(own, kFewTrials));
+        block.last = window(last_of(own, kFewTrials));
         block.catch_trials = window(measured_kind(stretch, TrialKind::catch_trial));
         if (!stretch.clamp && !in_channels())
             block.inserted_clamps =
@@ -294,8 +294,10 @@ AdaptationCurve::Windows AdaptationCurve::windows() const {
         }
     }
     if (has_mean) {
-        out.early = window(first_of(learned_in(*first, TrialKind::perturbed, in_channels()), kFew));
-        out.late = window(last_of(learned_in(*last, TrialKind::perturbed, in_channels()), kFew));
+        out.early =
+            window(first_of(learned_in(*first, TrialKind::perturbed, in_channels()), kFewTrials));
+        out.late =
+            window(last_of(learned_in(*last, TrialKind::perturbed, in_channels()), kFewTrials));
     }
     std::vector<double> catches;
     for (auto part = first; has_mean && part != last + 1; ++part) {
@@ -305,13 +307,13 @@ AdaptationCurve::Windows AdaptationCurve::windows() const {
     out.catch_trials = window(catches);
     const auto clamp = std::find_if(first, parts.end(), [](const Stretch& s) { return s.clamp; });
     if (clamp != parts.end()) {
-        out.clamp_first = window(first_of(clamp->compensation, kFew));
-        out.clamp_last = window(last_of(clamp->compensation, kFew));
+        out.clamp_first = window(first_of(clamp->compensation, kFewTrials));
+        out.clamp_last = window(last_of(clamp->compensation, kFewTrials));
     }
     for (auto part = first; part != parts.end(); ++part) {
         const auto own = learned_in(*part, TrialKind::washout, in_channels());
         if (own.empty()) continue;
-        out.washout_first = window(first_of(own, kFew));
+        out.washout_first = window(first_of(own, kFewTrials));
         break;
     }
     return out;

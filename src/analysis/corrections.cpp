@@ -13,22 +13,22 @@
 namespace dihaptic::analysis {
 namespace {
 
-constexpr double kShortest = 0.3;  // of a trial that counts [s]
-constexpr double kLongest = 1;     // [s]
-constexpr double kWindow = 0.05;   // of the derivative [s]
-constexpr size_t kFewest = 3;      // trials
-constexpr double kErrors = 3;      // standard errors by which the means have to differ ...
-constexpr double kLasts = 0.02;    // ... for so long [s]
+constexpr double kShortestTrial = 0.3;      // of a trial that counts [s]
+constexpr double kLongestTrial = 1;         // [s]
+constexpr double kDerivativeWindow = 0.05;  // of the derivative [s]
+constexpr size_t kFewest = 3;               // trials
+constexpr double kErrors = 3;               // standard errors by which the means have to differ ...
+constexpr double kDifferenceLasts = 0.02;   // ... for so long [s]
 
 /// Mean and squared standard error of the velocities at a tick.
-struct Mean {
+struct MeanVelocity {
     double mean = 0;
     double variance = 0;
 };
 
-Mean mean_at(const std::vector<const Velocities*>& trials, size_t tick) {
+MeanVelocity mean_at(const std::vector<const Velocities*>& trials, size_t tick) {
     const auto n = static_cast<double>(trials.size());
-    Mean out;
+    MeanVelocity out;
     for (const Velocities* v : trials) out.mean += (*v)[tick] / n;
     for (const Velocities* v : trials) {
         const double off = (*v)[tick] - out.mean;
@@ -37,12 +37,12 @@ Mean mean_at(const std::vector<const Velocities*>& trials, size_t tick) {
     return out;
 }
 
-/// Number of ticks that nine tenths of the trials have, at least kShortest.
+/// Number of ticks that nine tenths of the trials have, at least kShortestTrial.
 size_t most_have(const std::vector<const Velocities*>& trials, double tick) {
     std::vector<size_t> lengths;
     for (const Velocities* v : trials) lengths.push_back(v->size());
     std::ranges::sort(lengths);
-    const auto least = static_cast<size_t>(std::llround(kShortest / tick));
+    const auto least = static_cast<size_t>(std::llround(kShortestTrial / tick));
     return lengths.empty() ? least : std::max(least, lengths[lengths.size() / 10]);
 }
 
@@ -87,8 +87,8 @@ Difference difference(const std::vector<const Velocities*>& trials,
                       const std::vector<const Velocities*>& matched, size_t ticks) {
     Difference out;
     for (size_t i = 0; i < ticks; ++i) {
-        const Mean with = mean_at(trials, i);
-        const Mean without = mean_at(matched, i);
+        const MeanVelocity with = mean_at(trials, i);
+        const MeanVelocity without = mean_at(matched, i);
         out.d.push_back(with.mean - without.mean);
         out.error.push_back(std::sqrt(with.variance + without.variance));
     }
@@ -99,7 +99,7 @@ Difference difference(const std::vector<const Velocities*>& trials,
 /// grows until it has fallen to half of its largest value. A later one, such as the way back after
 /// a jump that does not last, does not count.
 std::optional<size_t> first_peak(const Difference& of, double tick) {
-    const auto lasts = static_cast<size_t>(std::llround(kLasts / tick));
+    const auto lasts = static_cast<size_t>(std::llround(kDifferenceLasts / tick));
     size_t in_a_row = 0;
     double sign = 0;
     for (size_t i = 0; i < of.d.size(); ++i) {
@@ -118,7 +118,7 @@ std::optional<size_t> first_peak(const Difference& of, double tick) {
 
 void find_latency(const Difference& found, double tick, rows::CorrectionRow& row) {
     const double sign = found.d[*found.peak] > 0 ? 1 : -1;
-    std::vector<double> rise = savitzky_golay(found.d, tick, kWindow, 1);
+    std::vector<double> rise = savitzky_golay(found.d, tick, kDerivativeWindow, 1);
     for (double& a : rise) a *= sign;
     const auto last = rise.begin() + static_cast<std::ptrdiff_t>(*found.peak) + 1;
     const auto peak = static_cast<size_t>(std::max_element(rise.begin(), last) - rise.begin());
@@ -138,7 +138,7 @@ rows::CorrectionRow find_correction(const std::vector<const Velocities*>& trials
                                     const std::vector<const Velocities*>& matched, double tick) {
     rows::CorrectionRow row;
     const size_t ticks = std::min({most_have(trials, tick), most_have(matched, tick),
-                                   static_cast<size_t>(std::llround(kLongest / tick))});
+                                   static_cast<size_t>(std::llround(kLongestTrial / tick))});
     const auto with = long_enough(trials, ticks, row.left_out);
     const auto without = long_enough(matched, ticks, row.left_out);
     row.trials = static_cast<int>(with.size());
@@ -152,7 +152,7 @@ rows::CorrectionRow find_correction(const std::vector<const Velocities*>& trials
     found.peak = first_peak(found, tick);
     if (!found.peak) {
         row.why = fmt::format("the means never differ by {:g} standard errors for {:g} ms", kErrors,
-                              1e3 * kLasts);
+                              1e3 * kDifferenceLasts);
         return row;
     }
     row.velocity = found.d[*found.peak];
@@ -204,7 +204,8 @@ void CorrectionFinder::add(const frame::Frame& frame) {
     if (gap) trial.whole = false;  // the state may have begun in it
     if (frame.phase == phase_ && trial.velocities.empty()) now_ = &trial;
     if (frame.task.outcome >= 0) trial.ended = true;
-    if (now_ == nullptr || static_cast<double>(trial.velocities.size()) * tick_ >= kLongest) return;
+    if (now_ == nullptr || static_cast<double>(trial.velocities.size()) * tick_ >= kLongestTrial)
+        return;
     const double v = spec_.axis.dot(frame.fingers[finger_].v_WH);
     if (std::isfinite(v)) trial.velocities.push_back(v);
 }

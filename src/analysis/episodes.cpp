@@ -7,9 +7,7 @@
 namespace dihaptic::analysis {
 namespace {
 
-using Sample = GraspTrace::Sample;
-
-constexpr double kShortest = 0.02;  // [s]
+constexpr double kShortestEpisode = 0.02;  // [s]
 constexpr double kLettingGo =
     0.05;  // fingers that pressed within this time before a flight released the object [s]
 constexpr double kSlideSpeed = 0.001;  // speed below which the object creeps or rests [m/s]
@@ -22,7 +20,7 @@ struct State {
     bool operator==(const State&) const = default;
 };
 
-State state_of(const Sample& s, bool flies) {
+State state_of(const GraspTrace::Sample& s, bool flies) {
     if (!s.awake || !s.X_WB.p.allFinite()) return {};
     if (s.on_support) {
         if (!(s.v_sliding.norm() > kSlideSpeed)) return {};
@@ -41,8 +39,8 @@ struct Run {
 /// Stretches of one state that last long enough. Holds, or slides, that are separated only by
 /// shorter stretches count as one.
 std::vector<Run> runs_of(const GraspTrace& trace, bool flies) {
-    const std::vector<Sample>& samples = trace.samples();
-    const auto shortest = static_cast<size_t>(std::ceil(kShortest / trace.tick()));
+    const std::vector<GraspTrace::Sample>& samples = trace.samples();
+    const auto shortest = static_cast<size_t>(std::ceil(kShortestEpisode / trace.tick()));
     std::vector<Run> out;
     for (size_t first = 0; first < samples.size();) {
         const State state = state_of(samples[first], flies);
@@ -73,13 +71,13 @@ void measure_hold(const GraspTrace& trace, Episode& out) {
     }
     out.sag = trace.sag(out.range);
     if (out.fingers.size() < 2) return;
-    const auto line = [&](const Sample& s) {
+    const auto line = [&](const GraspTrace::Sample& s) {
         return Vec3(s.p_WP[out.fingers[1]] - s.p_WP[out.fingers[0]]);
     };
-    const Sample& start = trace.samples()[out.range.first];
+    const GraspTrace::Sample& start = trace.samples()[out.range.first];
     out.turn = out.hand_turn = 0;
     for (size_t i = out.range.first; i < out.range.last; ++i) {
-        const Sample& s = trace.samples()[i];
+        const GraspTrace::Sample& s = trace.samples()[i];
         const Vec3 a = line(start);
         const Vec3 b = line(s);
         const double turned = std::atan2(a.cross(b).norm(), a.dot(b));
@@ -90,13 +88,13 @@ void measure_hold(const GraspTrace& trace, Episode& out) {
 }
 
 void measure_slide(const GraspTrace& trace, const ObjectFacts& object, Episode& out) {
-    const std::vector<Sample>& samples = trace.samples();
+    const std::vector<GraspTrace::Sample>& samples = trace.samples();
     const double h = trace.tick();
     out.distance = 0;
     double work = 0;
     double closed_form = 0;
     for (size_t i = out.range.first + 1; i < out.range.last; ++i) {
-        const Sample& s = samples[i];
+        const GraspTrace::Sample& s = samples[i];
         // a step's force times the mean of the velocities before and after is the change of energy
         const Vec3 v = (samples[i - 1].v_sliding + s.v_sliding) / 2;
         out.distance += h * v.norm();
@@ -117,7 +115,7 @@ void measure_slide(const GraspTrace& trace, const ObjectFacts& object, Episode& 
 }
 
 void measure_flight(const GraspTrace& trace, const ObjectFacts& object, Episode& out) {
-    const std::vector<Sample>& samples = trace.samples();
+    const std::vector<GraspTrace::Sample>& samples = trace.samples();
     const double h = trace.tick();
     const size_t first = out.range.first;
     const Vec3 p0 = samples[first].X_WB.p;
@@ -134,12 +132,13 @@ void measure_flight(const GraspTrace& trace, const ObjectFacts& object, Episode&
         out.rise = std::max(out.rise, samples[i].X_WB.p.z() - let_go_at);
     }
     if (first == 0) return;
-    const Sample& release = samples[first - 1];
+    const GraspTrace::Sample& release = samples[first - 1];
     const size_t back = std::min(first, static_cast<size_t>(std::ceil(kLettingGo / h)));
     for (size_t finger = 0; finger < trace.fingers(); ++finger) {
-        const bool let_go = std::any_of(samples.begin() + static_cast<std::ptrdiff_t>(first - back),
-                                        samples.begin() + static_cast<std::ptrdiff_t>(first),
-                                        [&](const Sample& s) { return s.touching[finger] != 0; });
+        const bool let_go =
+            std::any_of(samples.begin() + static_cast<std::ptrdiff_t>(first - back),
+                        samples.begin() + static_cast<std::ptrdiff_t>(first),
+                        [&](const GraspTrace::Sample& s) { return s.touching[finger] != 0; });
         if (let_go) out.fingers.push_back(finger);
     }
     if (out.fingers.empty()) return;

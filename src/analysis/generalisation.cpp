@@ -15,7 +15,7 @@
 namespace dihaptic::analysis {
 namespace {
 
-struct Mean {
+struct RunningMean {
     double sum = 0;
     int count = 0;
     void add(double x) {
@@ -31,8 +31,8 @@ struct Direction {
     Vec3 along_W = Vec3::Zero();
     Vec3 axis_W = Vec3::UnitZ();  // of the angles
     bool trained = false;
-    Mean before;  // compensation in baseline trials and in probes before training [deg]
-    Mean probes;  // after it began
+    RunningMean before;  // compensation in baseline trials and in probes before training [deg]
+    RunningMean probes;  // after it began
 };
 
 /// Directions that differ by less are the same, whatever their conditions' names [deg].
@@ -40,7 +40,7 @@ constexpr double kSameDirection = 1;
 
 struct Round {
     std::map<std::string, Direction> directions;  // by key_of()
-    Mean baseline;                                // compensation [deg]
+    RunningMean baseline;                         // compensation [deg]
     bool trained = false;                         // whether a trial was perturbed so far
 };
 
@@ -107,7 +107,7 @@ double angle_from_trained(const Direction& direction, const Round& round) {
 /// Mean compensation of the probes, less the baseline of the same direction or, if it has none, of
 /// all.
 double compensation_of(const Direction& direction, const Round& round) {
-    const Mean& before = direction.before.count > 0 ? direction.before : round.baseline;
+    const RunningMean& before = direction.before.count > 0 ? direction.before : round.baseline;
     return direction.probes.value() - (before.count > 0 ? before.value() : 0);
 }
 
@@ -119,7 +119,7 @@ const char* baseline_of(const Direction& direction, const Round& round) {
 /// Results of a round, by rising angle; empty unless it has probes in untrained directions.
 std::vector<Generalisation> generalisation_of(const std::string& name, const Round& round) {
     std::vector<Generalisation> out;
-    Mean at_trained;
+    RunningMean at_trained;
     bool any = false;
     for (const auto& [key, direction] : round.directions) {
         if (direction.probes.count == 0) continue;

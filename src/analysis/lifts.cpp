@@ -11,7 +11,7 @@
 namespace dihaptic::analysis {
 namespace {
 
-constexpr double kWindow = 0.062;      // window of the rates [s]
+constexpr double kRateWindow = 0.062;  // window of the rates [s]
 constexpr double kQuiet = 0.1;         // quiet time at the start, before any event [s]
 constexpr double kLeastHeight = 0.01;  // least height of a lift [m]
 constexpr double kRising = 0.01;       // [m/s]
@@ -145,7 +145,7 @@ std::optional<size_t> load_onset(const Signals& signals, const Signal& load, siz
     size_t i = touched;
     while (i < load.size() && load[i] <= kLoaded) ++i;
     if (i == load.size()) return std::nullopt;
-    const Signal bend = savitzky_golay(load, signals.tick, kWindow, 2);
+    const Signal bend = savitzky_golay(load, signals.tick, kRateWindow, 2);
     while (i > touched && bend[i] > 0) --i;
     return i;
 }
@@ -247,7 +247,7 @@ class ByForce {
     ByForce(const GraspTrace& trace, const Signals& signals, Range high)
         : trace_(trace), signals_(signals), high_(high) {
         for (const Signal& force : signals.digit_grip)
-            rates_.push_back(savitzky_golay(force, signals.tick, kWindow, 1));
+            rates_.push_back(savitzky_golay(force, signals.tick, kRateWindow, 1));
     }
 
     Events find() const {
@@ -413,8 +413,8 @@ void find_peaks(rows::LiftRow& lift, const GraspTrace& trace, const Signals& sig
 
 /// Largest rates of the forces before lift-off, and their coupling.
 void find_rates(rows::LiftRow& lift, const Signals& signals, const Events& events, size_t touched) {
-    const Signal grip_rate = savitzky_golay(signals.grip, signals.tick, kWindow, 1);
-    const Signal load_rate = savitzky_golay(signals.load, signals.tick, kWindow, 1);
+    const Signal grip_rate = savitzky_golay(signals.grip, signals.tick, kRateWindow, 1);
+    const Signal load_rate = savitzky_golay(signals.load, signals.tick, kRateWindow, 1);
     const size_t end = events.lift_off + 1;
     const auto largest = [&](const Signal& rate) {
         const auto range = part(rate, {touched, end});

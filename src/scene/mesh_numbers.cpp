@@ -23,9 +23,9 @@ using Words = std::vector<std::string_view>;
 
 /// Reads a text line by line, without comments. In OBJ, a line may be continued by a
 /// backslash.
-class Lines {
+class WordLines {
   public:
-    Lines(std::string_view text, bool continues) : text_(text), continues_(continues) {}
+    WordLines(std::string_view text, bool continues) : text_(text), continues_(continues) {}
 
     /// False at the end of the text.
     bool next(Words& words) {
@@ -94,7 +94,7 @@ std::string has_too_few(size_t found, size_t wanted, int line) {
 /// The vertices of OBJ and STL, whose lines start with a word.
 std::string each_named(std::string_view text, std::string_view name, bool is_obj,
                        const Take& take) {
-    Lines lines(text, is_obj);
+    WordLines lines(text, is_obj);
     for (Words words; lines.next(words);) {
         if (words.empty() || words[0] != name) continue;
         if (words.size() < 4) return has_too_few(words.size() - 1, 3, lines.number());
@@ -107,7 +107,7 @@ std::string each_named(std::string_view text, std::string_view name, bool is_obj
 
 /// The vertices of OFF. The mesh reader reports a malformed header.
 std::string each_off(std::string_view text, const Take& take) {
-    Lines lines(text, false);
+    WordLines lines(text, false);
     Words words;
     if (!lines.next_filled(words)) return "";
     if (words[0].size() > 3 && words[0].starts_with("OFF")) {
@@ -162,7 +162,7 @@ void take_property(const Words& words, PlyHead& head) {
 
 PlyHead head_of(std::string_view text) {
     PlyHead head;
-    Lines lines(text, false);
+    WordLines lines(text, false);
     bool is_vertex = false;
     for (Words words; lines.next(words) && (words.empty() || words[0] != "end_header");) {
         if (words.size() < 3) continue;
@@ -183,7 +183,7 @@ std::string each_ply(std::string_view text, const Take& take) {
     const PlyHead head = head_of(text);
     const auto& [x, y, z] = head.xyz;
     if (head.format != "ascii" || head.has_lists || !x || !y || !z) return "";
-    Lines lines(text.substr(head.end), false);
+    WordLines lines(text.substr(head.end), false);
     const auto first = static_cast<int>(
         std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(head.end), '\n'));
     Words words;

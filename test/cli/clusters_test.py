@@ -112,6 +112,7 @@ class Slurm(InShards):
         self.assertEqual(before.items() - times_of(self.out).items(), set())
         self.assertEqual([name for name in os.listdir(self.out) if name.startswith("unfinished")], [])
 
+    @soak.alone
     def test_the_same_command_submits_the_missing_shards_only(self):
         self.assertEqual(self.by_slurm().returncode, 0)
         script = pathlib.Path(self.out, "slurm.sh")
@@ -132,6 +133,7 @@ class Slurm(InShards):
         self.assertIn("/4\"\n", script.read_text())  # of other shards
         self.assertEqual(self.submitted()[2:], ["4"])
 
+    @soak.alone
     def test_collect_names_all_while_none_has_ended(self):
         self.assertEqual(self.by_slurm(FAKE_REFUSE="1").returncode, 2)
         result = collect(self.out)
@@ -215,6 +217,7 @@ PATH={shlex.quote(self.slurm)}/inside:$PATH APPTAINER_CONTAINER={shlex.quote(con
         self.assertEqual(self.by_slurm().returncode, 0)
         self.assertNotIn("apptainer", script.read_text())  # it was not asked for this time
 
+    @soak.alone
     def test_without_sbatch_a_container_is_named_for_parallel(self):
         needs.for_this_test("parallel", "parallel")
         container = self.with_container()
@@ -311,6 +314,7 @@ class AtOnce(InShards):
         self.assertEqual(collect(self.out).returncode, 0)
         self.assertEqual(tables(self.out), self.unsharded_tables(self.experiment, 2))
 
+    @soak.alone
     def test_two_that_share_the_people_say_that_all_are_done(self):
         """The one that ends last has all people, whoever did them."""
         write_experiment(self.experiment, 20)

@@ -65,6 +65,7 @@ class Damage(unittest.TestCase):
         self.assertIn("50 ticks missing", self.read("session.yaml"))
         self.assertEqual(dihaptic("replay", self.folder).returncode, 1)
 
+    @soak.alone
     def test_a_log_that_was_cut_is_told_and_longer_tables_are_kept(self):
         os.truncate(self.folder + "raw.log", os.path.getsize(self.folder + "raw.log") * 78 // 100)
         lost = f"{TICKS - 100} ticks missing at the end, after 0.099 s: the session had {TICKS} ticks"
@@ -123,6 +124,7 @@ class Damage(unittest.TestCase):
                     again = dihaptic("recover", self.folder)  # it is mended now
                     self.assertEqual(again.stderr.count("warning"), 0, where + again.stderr)
 
+    @soak.alone
     def test_changed_inputs_are_named(self):
         with open(self.folder + "rig.yaml", "a") as rig:
             rig.write("# moved a little\n")
@@ -149,6 +151,7 @@ class Damage(unittest.TestCase):
         self.assertEqual(recovered.returncode, 0, recovered.stderr)
         self.assertIn(f"{TICKS} frames", recovered.stdout)
 
+    @soak.alone
     def test_replay_goes_to_100_percent(self):
         self.assertIn("100 %", dihaptic("replay", self.folder).stderr)
 

@@ -53,6 +53,7 @@ class Interruptions(unittest.TestCase):
             self.assertTrue(os.path.exists(folder + "session.nwb"))
             self.assertIn("state: interrupted", pathlib.Path(folder + "session.yaml").read_text())
 
+    @soak.alone
     def test_a_reader_that_goes_away_ends_in_order(self):
         with tempfile.TemporaryDirectory() as out:
             process = subprocess.Popen([PROGRAM, "run", "experiments/lift-block.yaml", "--out", out, *REAL_CLOCK],
@@ -103,6 +104,7 @@ class Interruptions(unittest.TestCase):
             process.communicate(timeout=patient(60))
             self.assertEqual(dihaptic("recover", folder).returncode, 0)
 
+    @soak.alone
     def test_ticks_that_overruns_left_out_are_told(self):
         with tempfile.TemporaryDirectory() as out:
             process = self.start(out, *REAL_CLOCK)
@@ -123,6 +125,7 @@ class Interruptions(unittest.TestCase):
     def frames_of(self, text):
         return int(text.split(" frames")[0].split()[-1])
 
+    @soak.alone
     def test_a_small_stack_is_enough(self):
         """The servo touches its stack in advance, up to what ulimit -s leaves of it."""
         with tempfile.TemporaryDirectory() as out:

@@ -129,6 +129,7 @@ task:
         self.assertIn("is complete: every trial is done", dihaptic("resume", session).stderr)
         self.assertNotIn("many", info.read_text())
 
+    @soak.alone
     def test_pictures_and_collections_take_files_only(self):
         for file in ["raw.log", "scene.yaml", "rig.yaml"]:
             for kind in ["pipe", "device", "folder", "loop", "empty", "gone"]:
@@ -154,6 +155,7 @@ task:
                 self.assertRegex(result.stdout + result.stderr, f"{file}|session.yaml|no session is complete")
                 self.assertNotIn("report this", result.stderr)
 
+    @soak.alone
     def test_a_killed_export_leaves_no_run_that_looks_whole(self):
         random.seed(3)
         start = time.monotonic()

@@ -16,6 +16,8 @@ import unittest
 
 from program import PROGRAM, dihaptic, wait_for_log
 
+import soak  # program.py says where it is
+
 STUDY = """title: Two days
 groups: [{ name: gradual, people: 2 }, { name: abrupt, people: 2 }]
 facts: [{ name: vision, values: [normal, corrected] }]
@@ -139,6 +141,7 @@ class Studies(unittest.TestCase):
             self.assertIn(line, text)
         self.assertRegex(self.participant("list").stdout, r"S03 +gradual +next: familiar\n")  # simulated ones do not count
 
+    @soak.alone
     def test_every_participant_and_session_has_a_seed_of_its_own(self):
         seeds = set()
         for id in ["S01", "S02"]:
@@ -178,6 +181,7 @@ class Studies(unittest.TestCase):
         self.assertIn("WARNING: day2 begins despite", result.stderr)
         self.assertIn(("simulate despite", "S01"), self.log())
 
+    @soak.alone
     def test_without_devices_nobody_takes_part(self):
         self.add("S01")
         self.refused(dihaptic("run", self.study, "--participant", "S01"), "no person can take part", "--simulate")
@@ -324,6 +328,7 @@ class Studies(unittest.TestCase):
             everywhere |= set(rows[0])
         self.assertEqual({v["name"] for v in description["variableMeasured"]}, everywhere)
 
+    @soak.alone
     def test_a_resumed_session_is_exported_with_all_its_parts(self):
         self.write("title: Lifts\ngroups: [{ name: a, people: 1 }]\nsessions: [{ name: day1, experiment: long.yaml }]\n")
         text = pathlib.Path("experiments/grip-and-lift.yaml").read_text().replace("../", os.getcwd() + "/")
@@ -361,6 +366,7 @@ class Studies(unittest.TestCase):
                 exported += sum(1 for e in csv.DictReader(events, delimiter="\t") if e["trial_type"] == "trial")
         self.assertGreaterEqual(exported, len(tables["trials"]))
 
+    @soak.alone
     def test_what_was_learned_slowly_is_there_on_the_next_day(self):
         text = pathlib.Path("experiments/rotation-reversal.yaml").read_text().replace("../", os.getcwd() + "/")
         for name, repeats in {"long": ["4", "60", "1", "2"], "brief": ["2", "6", "1", "2"]}.items():
@@ -385,6 +391,7 @@ class Studies(unittest.TestCase):
         self.assertLess(abs(sum(first["day1"]) / 4), 6)
         self.assertGreater(sum(first["day2"]) / 4, 10)
 
+    @soak.alone
     def test_groups_may_be_a_fact_of_the_person(self):
         self.write(STUDY.replace("values: [normal, corrected]", "values: [gradual, abrupt]") +
                    "allocation: { method: fact, fact: vision }\n")
@@ -466,6 +473,7 @@ class Studies(unittest.TestCase):
         self.refused(self.participant("add", "S03", *FACTS), "log.csv")
         self.assertNotIn("S03", self.participant("list").stdout)
 
+    @soak.alone
     def test_lost_versions_and_options_that_change_a_session_are_told(self):
         self.add("S01")
         for option in [["--set", "coupling.stiffness_N_m=100"], ["--seed", "5"], ["--age", "99"], ["--out", "x"]]:
@@ -475,6 +483,7 @@ class Studies(unittest.TestCase):
         self.refused(self.participant("add", "S02", *FACTS), "has no version, though there are participants")
         self.refused(self.participant("accept", "--why", "lost"), "has no version, though there are participants")
 
+    @soak.alone
     def test_twenty_people_who_are_added_at_once_have_twenty_places(self):
         self.write(STUDY.replace("people: 2", "people: 10"))
         self.add("S00")

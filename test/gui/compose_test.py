@@ -7,6 +7,8 @@ import unittest
 
 from window import SCENE, Window, patient
 
+import soak
+
 
 class Compose(Window):
     def text(self):
@@ -58,6 +60,7 @@ class Compose(Window):
         self.assertIn("# mine", self.text())
         self.quit()
 
+    @soak.alone
     def test_saves_under_another_name_and_goes_on_with_that(self):
         self.open()
         self.key("ctrl+e", "ctrl+Home", "Down", "End")
@@ -105,6 +108,7 @@ class Compose(Window):
         self.assertIn(" # picked", next(text for text in self.text().splitlines() if "name: block" in text))
         self.quit()
 
+    @soak.alone
     def test_offers_the_names_that_the_file_gives(self):
         self.open()
         self.key("ctrl+e", "ctrl+End")
@@ -183,6 +187,7 @@ class Compose(Window):
         self.wait("the turn", lambda: "  - name: block\n    rotation_deg: [0, 0, 22.9]\n" in self.text())  # 0.4 rad
         self.quit()
 
+    @soak.alone
     def test_what_it_cannot_move_is_said(self):
         text = SCENE.replace("bodies:\n", "bodies:\n  - { name: cap, shape: box, size_mm: [40, 40, 10], mass_g: 20, "
                              "position_mm: &top [0, 0, 45] }\n")
@@ -200,6 +205,7 @@ class Compose(Window):
         self.assertEqual(self.text(), text)
         self.quit()
 
+    @soak.alone
     def test_what_is_in_another_file_is_not_moved(self):
         text = pathlib.Path("experiments/first-trials.yaml").read_text().replace("../", str(pathlib.Path.cwd()) + "/")
         pathlib.Path(self.scene).write_text(text)
@@ -215,6 +221,7 @@ class Compose(Window):
         self.assertEqual(self.text(), text)
         self.quit()
 
+    @soak.alone
     def test_a_file_keeps_its_line_ends(self):
         content = b"\xef\xbb\xbf" + SCENE.replace("a table", "a\u00a0table").replace("\n", "\r\n").encode()
         pathlib.Path(self.scene).write_bytes(content)

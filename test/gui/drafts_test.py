@@ -6,6 +6,8 @@ import unittest
 
 from window import SCENE, Window
 
+import soak
+
 
 class Drafts(Window):
     def edit(self, text="# mine "):
@@ -34,6 +36,7 @@ class Drafts(Window):
         self.xdotool("windowraise", self.name, "windowfocus", self.name)
         return first, name
 
+    @soak.alone
     def test_nothing_beside_the_file_is_touched(self):
         theirs = pathlib.Path(self.folder.name, "theirs")
         theirs.write_text("theirs")
@@ -61,6 +64,7 @@ class Drafts(Window):
         self.wait("the draft's end", lambda: not self.drafts())
         self.quit()
 
+    @soak.alone
     def test_of_a_window_that_crashed_is_there_until_it_is_decided_about(self):
         self.open()
         self.edit()
@@ -79,6 +83,7 @@ class Drafts(Window):
         self.assertEqual(self.scene_text(), SCENE)
         self.quit()
 
+    @soak.alone
     def test_of_a_window_that_a_signal_ended_is_offered(self):
         self.open()
         self.edit()
@@ -102,6 +107,7 @@ class Drafts(Window):
         self.wait("the text", lambda: self.scene_text() == "# mine " + SCENE)
         self.quit()
 
+    @soak.alone
     def test_a_file_that_is_gone_keeps_its_text(self):
         self.open()
         self.key("ctrl+e")
@@ -134,6 +140,7 @@ class Drafts(Window):
         self.assertEqual(theirs.read_text(), "theirs")
         self.assertEqual(len(self.drafts()), 1)
 
+    @soak.alone
     def test_a_linked_file_is_written_where_it_is(self):
         os.mkdir(self.folder.name + "/real")
         real = pathlib.Path(self.folder.name, "real", "block.yaml")
@@ -171,6 +178,7 @@ class Drafts(Window):
         self.answer("^Overwrite", "Escape")
         self.assertEqual(self.scene_text(), "# second " + SCENE)
 
+    @soak.alone
     def test_pasting_what_is_not_there_does_nothing(self):
         """As after the start of an X server."""
         self.open()
@@ -194,6 +202,7 @@ class Drafts(Window):
         with self.ended("complete") as file:
             self.assertGreater(len(self.series(file, "solver")), 300)
 
+    @soak.alone
     def test_a_window_that_another_program_destroys_leaves_its_draft(self):
         self.open()
         self.edit()

@@ -7,6 +7,8 @@ import unittest
 
 from window import SCENE, Window
 
+import soak
+
 
 class Files(Window):
     def test_that_go_bad_leave_what_was_open_and_say_why(self):
@@ -35,6 +37,7 @@ class Files(Window):
             pass
         self.wait("the file as it is", lambda: "Other, " in title())
 
+    @soak.alone
     def test_that_changed_a_moment_ago_are_shown_as_they_run(self):
         """Of an experiment's scene nobody watches whether it changes."""
         file = self.folder.name + "/experiment.yaml"
@@ -49,6 +52,7 @@ class Files(Window):
         with self.ended("complete") as recording:
             self.assertAlmostEqual(self.series(recording, "block_position")[0, 2], 0.045, delta=0.001)
 
+    @soak.alone
     def test_are_not_opened_while_a_session_runs(self):
         self.open()
         self.start()
@@ -65,6 +69,7 @@ class Files(Window):
         self.wait("the dialog", lambda: self.key("ctrl+o")
                   or self.xdotool("search", "--onlyvisible", "--name", "^Open a scene"))
 
+    @soak.alone
     def test_that_take_long_can_be_cancelled(self):
         self.open()
         mesh = pathlib.Path(self.folder.name, "star.obj")

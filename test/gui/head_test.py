@@ -9,6 +9,8 @@ import unittest
 import numpy as np
 from window import PROGRAM, Window
 
+import soak
+
 LIBRARY = pathlib.Path(PROGRAM).resolve().parent / "src/outlets/fake_lsl.so"
 RIG = """
 devices: [{{ finger: thumb, backend: simulated }}, {{ finger: index, backend: simulated }}]
@@ -68,6 +70,7 @@ class Head(Window):
         self.quit()
         return seen
 
+    @soak.alone
     def test_sees_pictures_for_its_eyes_in_turn(self):
         left, right = self.resting((RESTS[0] - 30, *RESTS[1:])), self.resting((RESTS[0] + 30, *RESTS[1:]))
         self.assertGreater(np.abs(left.astype(int) - right).mean(), 0.5)

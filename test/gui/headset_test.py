@@ -9,6 +9,8 @@ import unittest
 
 from window import PROGRAM, SCREENSHOTS, Participants
 
+import soak
+
 RIG = """
 devices: [{ finger: index, backend: simulated }]
 headset: { position_mm: [10, 20, 30] }
@@ -100,6 +102,7 @@ class Headset(Participants):
             pass
         self.quit()
 
+    @soak.alone
     def test_that_is_not_there_leaves_the_window_as_it_is(self):
         self.environment["XR_RUNTIME_JSON"] = "/nowhere/manifest.json"
         self.open(self.experiment("visuomotor-rotation", self.in_a_headset))

@@ -8,6 +8,8 @@ import unittest
 
 import window
 
+import soak
+
 MENUS = "dihaptic::gui::OperatorWindow"
 
 
@@ -67,6 +69,7 @@ class Language(window.Window):
         self.dialog("^Eine Szene oder")
         self.screenshot("language-dialog")
 
+    @soak.alone
     def test_without_a_translation_it_is_english(self):
         self.environment.update(LANG="fr_FR.UTF-8", LANGUAGE="fr")
         self.open()

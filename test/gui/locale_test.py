@@ -12,6 +12,8 @@ import needs
 from locales import COMMAS, with_language
 from window import Participants, Window
 
+import soak
+
 #: All that a trial takes from draws, factors, variables and tables.
 EXPERIMENT = """title: Waits by chance
 scene: {scenes}/block-on-table.yaml
@@ -63,6 +65,7 @@ class Languages(Participants):
         self.window.wait()
         return rows
 
+    @soak.alone
     def test_have_the_same_trials(self):
         usual = self.trials("C")
         self.assertEqual(len(usual), 4)

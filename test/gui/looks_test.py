@@ -8,6 +8,8 @@ import numpy as np
 
 from window import Window
 
+import soak
+
 
 class Looks(Window):
     def test_has_a_participants_window_and_is_dark_and_remembers_it(self):
@@ -27,6 +29,7 @@ class Looks(Window):
         self.quit()
         self.assertIn("dark=true", (pathlib.Path(self.folder.name) / ".config/dihaptic/dihaptic.conf").read_text())
 
+    @soak.alone
     def test_draws_what_is_not_to_be_seen_in_the_world(self):
         scene = pathlib.Path("scenes/tools.yaml").read_text().replace("../meshes", os.getcwd() + "/meshes")
         pathlib.Path(self.scene).write_text(scene)
@@ -38,6 +41,7 @@ class Looks(Window):
         time.sleep(4)
         self.screenshot("layers")
 
+    @soak.alone
     def test_the_camera_moves_by_keys(self):
         self.open()
         self.xdotool("mousemove", "200", "300", "click", "1")  # the scene has the keyboard
@@ -60,6 +64,7 @@ class Looks(Window):
         self.assertLess(differs("Home"), 0.1)
         self.quit()
 
+    @soak.alone
     def test_draws_pictures_metals_and_meshes_with_colours(self):
         self.open("scenes/looks.yaml")
         self.key("F5")

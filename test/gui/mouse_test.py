@@ -148,6 +148,7 @@ class Mouse(Window):
         with self.ended("complete") as file:
             self.assertAlmostEqual(self.yaw(file), 0.64, delta=0.15)  # 80 pixels
 
+    @soak.alone
     def test_stays_while_the_pointer_goes_elsewhere_and_is_reported(self):
         self.open()
         self.lift(30)

@@ -5,6 +5,8 @@ import unittest
 
 from window import Participants
 
+import soak
+
 
 class Person(Participants):
     def choose(self, pace):
@@ -35,6 +37,7 @@ class Person(Participants):
             self.assertIn(line + "\n", info)
         self.replay()
 
+    @soak.alone
     def test_stands_still_in_a_pause_and_goes_tick_by_tick(self):
         self.open("experiments/first-trials.yaml")
         self.choose("in")

@@ -9,6 +9,8 @@ import unittest
 
 from window import PROGRAM, Window
 
+import soak
+
 
 class Player(Window):
     def record(self):
@@ -63,6 +65,7 @@ class Player(Window):
         self.wait("the player",
                   lambda: self.xdotool("search", "--onlyvisible", "--name", f"^{name} - Dihaptic$"))
 
+    @soak.alone
     def test_a_video_of_a_stretch_is_saved(self):
         folder = self.record()
         self.open(folder)
@@ -100,6 +103,7 @@ class Player(Window):
         subprocess.run([PROGRAM, "report", folder], check=True, capture_output=True)
         self.assertIn("coughed in the lift", pathlib.Path(folder, "report.html").read_text())
 
+    @soak.alone
     def test_shows_two_sessions_side_by_side_at_the_same_place_of_a_trial(self):
         starts = []
         for i in (1, 2):

@@ -6,6 +6,8 @@ import unittest
 
 from window import PROGRAM, Window
 
+import soak
+
 
 class Rigs(Window):
     def with_rig(self, text):
@@ -41,6 +43,7 @@ class Rigs(Window):
         self.assertIn("\ncalibration: rig-calibration.yaml\n", pathlib.Path(self.folder.name + "/rig.yaml").read_text())
         self.quit()
 
+    @soak.alone
     def test_have_displays_that_are_registered_in_the_window(self):
         self.with_rig(pathlib.Path("rigs/mirror-rig.yaml").read_text())
         mine = pathlib.Path(self.folder.name + "/rig-mirror-registration.yaml")
@@ -65,6 +68,7 @@ class Rigs(Window):
             f"  - {{finger: {finger}, backend: openhaptics, options: {{library: {library}, name: PHANToM {i}}}}}\n"
             for i, finger in [(1, "thumb"), (2, "index")]) + more)
 
+    @soak.alone
     def test_lead_a_person_through_a_calibration_who_gives_up(self):
         self.on_fakes(0)
         self.key("alt+s", "c")
@@ -80,6 +84,7 @@ class Rigs(Window):
         self.assertEqual(list(pathlib.Path(self.folder.name).glob("rig-calibration*")), [])
         self.quit()
 
+    @soak.alone
     def test_that_were_moved_since_their_calibration_are_warned_of(self):
         self.on_fakes(12)
         for answer, notes in [("Return", True), ("alt+s", False)]:

@@ -7,6 +7,8 @@ import unittest
 
 from window import Participants
 
+import soak
+
 
 class Trials(Participants):
     def focus(self, window):
@@ -41,6 +43,7 @@ class Trials(Participants):
             pass
         self.assertEqual(self.outcomes(), ["ready", "ready"])
 
+    @soak.alone
     def test_get_ratings_by_mouse_on_a_line(self):
         def rated(text):
             return text[:text.index("task:")] + """task:
@@ -101,6 +104,7 @@ class Trials(Participants):
         self.assertEqual([a for a in given if a != clicked[0]], [10, 20, 30, 40, 50])
         self.assertAlmostEqual(float(row["tlx"]), sum(given) / 6, places=6)
 
+    @soak.alone
     def test_that_were_not_finished_are_offered_before_new_ones(self):
         """Three reaches by mouse, of which one is skipped; the rest is done in a second session."""
         def short(text):

@@ -14,6 +14,7 @@ import numpy as np
 
 sys.path.append("test/cli")
 from program import PROGRAM, dihaptic, session_of
+import soak  # program.py says where it is
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(PROGRAM)), "python"))
 import dihaptic as dh  # noqa: E402
@@ -74,6 +75,7 @@ class FreeRotation(unittest.TestCase):
                     self.assertLess(abs(energy / energy[0] - 1).max(), 1e-4)
                     self.assertLess(abs(energy[:100].mean() / energy[-100:].mean() - 1), 1e-6)
 
+    @soak.alone
     def test_a_top_on_its_tip_precesses_steadily(self):
         radius, height, arm, tip, mass, tilt = 0.03, 0.01, 0.05, 0.002, 0.2, math.radians(20)
         disc, ball = math.pi * radius**2 * height, 4 / 3 * math.pi * tip**3
@@ -140,6 +142,7 @@ class RoundShapes(unittest.TestCase):
                             w.step(1)
                             self.assertLess(thing.position[0], 0)
 
+    @soak.alone
     def test_two_that_meet_at_fifty_metres_a_second_do_not_pass_through_each_other(self):
         for shape in (dict(shape="sphere", radius_mm=1), dict(shape="box", size_mm=[2, 2, 2]), dict(shape="capsule", radius_mm=1, length_mm=3),
                       dict(shape="cone", radius_mm=1, length_mm=3)):
@@ -153,6 +156,7 @@ class RoundShapes(unittest.TestCase):
                 w.step(20)
                 self.assertLess(w.bodies["a"].position[0], w.bodies["b"].position[0])
 
+    @soak.alone
     def test_seams_between_flush_boxes_are_not_felt(self):
         tiles = [dh.Part(name=f"tile{i}", shape="box", size_mm=[40, 200, 20], position_mm=[40 * i, 0, -10], fixed=True, friction=0.8)
                  for i in range(10)]
@@ -172,6 +176,7 @@ class RoundShapes(unittest.TestCase):
                     self.assertAlmostEqual(body.position[2], 0.02, delta=1e-5)
 
 
+    @soak.alone
     def test_a_cone_rolls_on_its_side_about_its_tip(self):
         for radius, height, rate in ((0.02, 0.06, 1), (0.03, 0.02, 2), (0.01, 0.1, 1)):
             for ground in (TABLE, PLANE):
@@ -189,6 +194,7 @@ class RoundShapes(unittest.TestCase):
                         there = (begin[0] * math.cos(2 * rate), begin[0] * math.sin(2 * rate), begin[2])
                         self.assertLess(np.linalg.norm(np.array(cone.position) - there), 5e-4 * height)
 
+    @soak.alone
     def test_a_tippe_top_turns_over_and_keeps_jelletts_invariant(self):
         # a ball with a smaller one inside, which counts twice
         radius, inner, off, spin = 0.02, 0.014, 0.005, 220
@@ -210,6 +216,7 @@ class RoundShapes(unittest.TestCase):
                 kept = momentum @ ((0, 0, 1) - centre * axis) / (1 + centre)
                 self.assertAlmostEqual(along * np.linalg.norm(top.angular_velocity) / kept, 1, delta=2e-3)
 
+    @soak.alone
     def test_eulers_disc_begins_as_its_equation_says(self):
         radius, thickness = 0.03, 0.0005
         for tilt in (0.15, 0.4, 0.8):
@@ -256,6 +263,7 @@ class Impacts(unittest.TestCase):
                 if gap >= 0.0005:
                     self.assertAlmostEqual(v[4], 1, delta=0.01)
 
+    @soak.alone
     def test_a_heavy_block_rests_on_a_light_one(self):
         for light_g, heavy_g in ((1, 1e3), (1, 1e5)):
             with self.subTest(light_g=light_g, heavy_g=heavy_g):
@@ -281,6 +289,7 @@ class Impacts(unittest.TestCase):
                     self.assertAlmostEqual(max(height), 0.1 * restitution**2, delta=2e-5)
                     self.assertLess(np.abs(w.bodies["box"].angular_velocity).max(), 1e-3)
 
+    @soak.alone
     def test_a_body_that_may_go_one_way_is_hit_obliquely(self):
         normal = np.array([math.cos(math.radians(35)), math.sin(math.radians(35)), 0])
         for solver in SOLVERS:
@@ -315,6 +324,7 @@ class Friction(unittest.TestCase):
                         self.assertAlmostEqual(block.position @ way, wanted, delta=1e-5)
                         self.assertLess(abs(np.cross(way, block.position)[2]), 1e-7)
 
+    @soak.alone
     def test_holds_up_to_its_limit_and_no_further(self):
         for solver in SOLVERS:
             for ratio in (0.95, 0.999, 1.001):
@@ -353,6 +363,7 @@ class Rest(unittest.TestCase):
                 w.step(50)
                 self.assertAlmostEqual(w.bodies["above"].position[2], 0.06 - G / 2 * 0.05**2, delta=3e-4)
 
+    @soak.alone
     def test_a_pan_rises_when_its_load_is_taken_away(self):
         w = world([dh.Part(name="pan", shape="box", size_mm=[100, 100, 20], mass_g=100, position_mm=[0, 0, 500]),
                    dh.Part(name="load", shape="box", size_mm=[40, 40, 40], mass_g=200, position_mm=[0, 0, 530])],
@@ -364,6 +375,7 @@ class Rest(unittest.TestCase):
             w.step(10000 if not load_at else 3000)
             self.assertAlmostEqual(w.bodies["pan"].position[2], 0.5 - mass * G / 200, delta=1e-6)
 
+    @soak.alone
     def test_small_cylinders_neither_roll_nor_sink(self):
         for solver in SOLVERS:
             for radius, length in ((7.5, 20), (0.5, 1.3)):
@@ -416,6 +428,7 @@ task:
                 for body, at in (("block", (0.05, 0, 0.02)), ("above", (0.06, 0.01, 0.06))):
                     self.assertLess(abs(session[body + ".position"][-2] - np.multiply(at, (side, side, 1))).max(), 1e-5)
 
+    @soak.alone
     def test_that_follow_the_time_in_a_state_begin_at_its_beginning(self):
         """What lies on the plate is carried along without a slip: it needs less than friction gives."""
         with tempfile.TemporaryDirectory() as name:
@@ -437,6 +450,7 @@ task:
 
 
 class Concave(unittest.TestCase):
+    @soak.alone
     def test_a_ring_lies_flat_on_a_table(self):
         """Its pieces have corners in line and faces that are hardly as thick as rounding."""
         with tempfile.TemporaryDirectory() as folder:

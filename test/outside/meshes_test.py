@@ -21,7 +21,7 @@ from program import PROGRAM, patient
 import soak  # program.py says where it is
 
 PROGRAM = os.path.abspath(PROGRAM)
-COUNT = soak.of(14, 300)  # of made meshes
+COUNT = soak.of(6, 300)  # of made meshes
 CUBE = made.box((-20, -20, -20), (20, 20, 20))
 
 
@@ -99,6 +99,7 @@ class Meshes(unittest.TestCase):
         data = b"".join(struct.pack("<3f", *p) for p in corners) + b"".join(struct.pack("<B3i", *f) for f in lists)
         return mark + b"".join(row.encode() + end for row in head) + data
 
+    @soak.alone
     def test_line_ends_and_marks_of_ply(self):
         for form in ("ascii", "binary_little_endian"):
             for end in (b"\n", b"\r\n", b"\r"):
@@ -112,6 +113,7 @@ class Meshes(unittest.TestCase):
             out += f"facet normal 0 0 0\nouter loop\n{corners}endloop\nendfacet\n"
         return out + "endsolid a cube\n"
 
+    @soak.alone
     def test_text_of_stl(self):
         text = self.stl_text()
         for name, changed in {"capitals": text.upper(), "old": text.replace("\n", "\r"), "padded": text + "\0" * 9,
@@ -128,6 +130,7 @@ class Meshes(unittest.TestCase):
         self.refused("short.stl", whole[:-20], "ends after 11 of the 12 triangles")
         self.refused("fewer.stl", whole[:80] + struct.pack("<I", 5) + whole[84:], "announces 5 triangles", "enough for 12")
 
+    @soak.alone
     def test_a_face_with_many_corners_some_of_them_in_line(self):
         outline = [(10, 0), (20, 0), (20, 10), (30, 10), (30, 20), (20, 20), (20, 30), (10, 30), (10, 20), (0, 20), (0, 10),
                    (10, 10)]
@@ -142,6 +145,7 @@ class Meshes(unittest.TestCase):
         island = made.box((-5, -5, -5), (5, 5, 5))
         self.felt("island.obj", made.obj(CUBE + made.turned(inner) + island), 57000)
 
+    @soak.alone
     def test_parts_that_touch_or_overlap_are_one(self):
         self.felt("touching.obj", made.obj(CUBE + made.box((20, -5, -5), (40, 5, 5))), 66000)
         self.felt("face.obj", made.obj(CUBE + made.box((20, -20, -20), (40, 20, 20))), 96000)
@@ -149,6 +153,7 @@ class Meshes(unittest.TestCase):
         overlap = made.obj(CUBE + made.box((10, -5, -5), (40, 5, 5)))
         self.felt("overlap.obj", overlap, 66000, ["overlap", "67000 cubic mm", "66000 cubic mm"])
 
+    @soak.alone
     def test_a_part_that_faces_inward_is_turned_around(self):
         self.felt("two.obj", made.obj(CUBE + made.turned(made.box((30, 0, 0), (40, 10, 10)))), 65000, ["1 of 2 shells"])
 
@@ -156,6 +161,7 @@ class Meshes(unittest.TestCase):
         faces = made.prism([(-20, -10), (20, 10), (20, -10), (-20, 10)], 10)
         self.refused("bow.obj", made.obj(faces), "the wrong way round", "cubic mm", "near (")
 
+    @soak.alone
     def test_triangles_without_area(self):
         a, b, c, d = CUBE[0]
         middle = tuple((p + q) / 2 for p, q in zip(a, b))
@@ -170,6 +176,7 @@ class Meshes(unittest.TestCase):
         cut = [[a, middle, d], [middle, b, d], [b, c, d]]
         self.refused("beside.stl", made.stl(made.triangles(cut + CUBE[1:])), "is 0.001 mm from another edge", "rounding")
 
+    @soak.alone
     def test_corners_that_differ_by_rounding(self):
         draw = made.random.Random(1)
         self.felt("rounded.stl", made.stl(made.triangles(CUBE), draw), 64000, ["are merged"])
@@ -177,6 +184,7 @@ class Meshes(unittest.TestCase):
         faces[0] = [tuple(c + 0.004 for c in faces[0][0]), *faces[0][1:]]
         self.refused("gap.stl", made.stl(faces), "is not closed", "from another edge", "rounding", ") mm is 0.")
 
+    @soak.alone
     def test_coordinates_with_few_decimals(self):
         inner = made.turned(made.box((-10, -10, -10), (10, 10, 10)))
         for number, faces in enumerate((CUBE, CUBE + inner, made.ring(20, 10, 20, 30))):
@@ -185,6 +193,7 @@ class Meshes(unittest.TestCase):
                 rounded = [[tuple(round(c, digits) for c in p) for p in face] for face in made.triangles(turned)]
                 self.felt("rounded.obj", made.obj(rounded), made.enclosed(rounded))
 
+    @soak.alone
     def test_cubes_that_share_an_edge(self):
         self.felt("edge.obj", made.obj(made.voxels({(0, 0, 0), (1, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1)})), 5000)
 
@@ -195,6 +204,7 @@ class Meshes(unittest.TestCase):
         self.refused("hole.stl", made.stl(made.triangles(CUBE)[:-1]), "is not closed: 3 of its edges", "the first from (-20",
                      "where one face has no neighbour")
 
+    @soak.alone
     def test_inches(self):
         faces = [[tuple(c / 25.4 for c in p) for p in face] for face in CUBE]
         self.felt("inch.obj", made.obj(faces), 64000, unit="inch")
@@ -206,6 +216,7 @@ class Meshes(unittest.TestCase):
         faces = [[(x + 50000, y + 30000, z + 20000) for x, y, z in face] for face in CUBE]
         self.felt("far.obj", made.obj(faces), 64000)
 
+    @soak.alone
     def test_far_from_the_origin_with_all_digits(self):
         """As maps have them: 5400 m away a step of single precision is half a millimetre."""
         cube = made.box((0, 0, 0), (40.3, 40.3, 40.3))
@@ -260,6 +271,7 @@ class Meshes(unittest.TestCase):
                     self.refused(f"cube.{ending}", text.format(*words).encode(), said)
             self.refused(f"short.{ending}", text.format("", *numbers[1:]).encode(), f"has 2 of the 3 numbers of a vertex in line {line}")
 
+    @soak.alone
     def test_comments_and_blank_lines(self):
         texts = {ending: text.format(*numbers) for ending, (text, numbers) in self.texts().items()}
         for comment in (" # corner 2", " #2", " # 1 2 3", "\t# a \\"):
@@ -270,6 +282,7 @@ class Meshes(unittest.TestCase):
         self.felt("cube.obj", ("# 3 \\\nusemtl red#1\n" + texts["obj"].replace(" ", " \\\n", 1)).encode(), 64000)
         self.felt("glued.off", texts["off"].replace("OFF\n", "OFF").encode(), 64000)
 
+    @soak.alone
     def test_decimal_commas_of_the_locale_change_nothing(self):
         self.felt("cube.obj", made.obj([[(x / 3, y / 3, z / 3) for x, y, z in f] for f in CUBE]), 64000 / 27,
                   locale="de_DE.UTF-8")

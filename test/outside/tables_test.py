@@ -14,6 +14,7 @@ import numpy as np
 
 sys.path.append("test/cli")
 from program import PROGRAM, dihaptic, session_of
+import soak  # program.py says where it is
 
 sys.path.append(os.path.join(os.path.dirname(os.path.abspath(PROGRAM)), "python"))
 import dihaptic as dh  # noqa: E402
@@ -132,11 +133,13 @@ class Movements(unittest.TestCase):
         self.assertIsNone(found)
         self.assertIn("movement.csv:2: error: has 14 values, but the first line names 7 columns. Do its numbers have decimal commas?", said)
 
+    @soak.alone
     def test_quotes_that_are_not_closed_are_told(self):
         found, said = self.hand(joined([HEAD, *ROWS]).replace("\n", '\n"', 1))
         self.assertIsNone(found)
         self.assertIn("movement.csv:2: error: has a quote", said)
 
+    @soak.alone
     def test_lost_markers_at_an_end_are_as_if_they_were_empty(self):
         count = len(ROWS)
         for name, span in (("start", (0, 12)), ("middle", (60, 72)), ("end", (count - 12, count)), ("long", (60, 90))):
@@ -148,6 +151,7 @@ class Movements(unittest.TestCase):
                     self.assertGreater(zeros[1].count("missing marker"), 1)
                     self.assertEqual(zeros[1].count("missing marker"), empty[1].count("missing marker"))
 
+    @soak.alone
     def test_that_begin_at_zero_are_kept(self):
         """As of a laboratory that counts positions from the first."""
         start = [float(x) for x in ROWS[0][1:]]
@@ -177,11 +181,13 @@ class Movements(unittest.TestCase):
         self.assertIsNone(found)
         self.assertIn("the unit of its positions is 'Inches'", said)
 
+    @soak.alone
     def test_exported_by_nexus(self):
         for name, text in (("alone", nexus(devices=False)), ("behind force plates", nexus()), ("with decimal commas", nexus(";"))):
             with self.subTest(name):
                 self.assert_moves_as(self.even, self.hand(text), 1e-3)
 
+    @soak.alone
     def test_exported_by_qualisys(self):
         for named in (True, False):
             with self.subTest(named=named):
@@ -309,15 +315,18 @@ class Sessions(unittest.TestCase):
         self.assertEqual(adaptation, self.adaptation)
         self.assertIn("trials.csv", result.stderr, "a change is reported")
 
+    @soak.alone
     def test_with_a_byte_order_mark_are_the_same(self):
         self.same("\ufeff" + self.saved([self.head, *self.rows]).replace("\n", "\r\n"))
 
     def test_with_a_column_that_numbers_the_rows_are_the_same(self):
         self.same(self.saved([["", *self.head], *([str(i), *row] for i, row in enumerate(self.rows))]))
 
+    @soak.alone
     def test_with_a_comma_at_the_end_of_each_line_are_the_same(self):
         self.same(self.saved([*row, ""] for row in [self.head, *self.rows]))
 
+    @soak.alone
     def test_with_whole_numbers_as_decimals_are_the_same(self):
         whole = [i for i, name in enumerate(self.head) if name in ("trial_num", "attempt", "session_num")]
         self.same(self.saved([self.head, *([cell + ".0" if i in whole else cell for i, cell in enumerate(row)] for row in self.rows)]))

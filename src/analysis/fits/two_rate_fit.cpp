@@ -214,8 +214,8 @@ std::vector<Vec4> lattice() {
 // retentions: if many points are good, the least minimum may not be near any of the best.
 constexpr size_t kScouts = 48;
 constexpr int kScoutSteps = 12;   // steps of each scout
-constexpr size_t kPolished = 12;  // best scouts, which continue for kSteps
-constexpr int kSteps = 400;
+constexpr size_t kPolished = 12;  // best scouts, which continue for kPolishingSteps
+constexpr int kPolishingSteps = 400;
 constexpr double kSamePlace = 1e-3;  // minima no further apart are the same
 
 /// Minima, the least first. Several are kept, because with a parameter held another may be the
@@ -239,7 +239,7 @@ std::vector<Found> minima(const Data& data) {
     found.insert(found.end(), of_each.begin(), of_each.end());
     for (Found& f : found) f = descend(data, Cube(), f.p, kScoutSteps);
     keep_best(kPolished);
-    for (Found& f : found) f = descend(data, Cube(), f.p, kSteps);
+    for (Found& f : found) f = descend(data, Cube(), f.p, kPolishingSteps);
     keep_best(kPolished);
     std::vector<Found> different;
     for (const Found& f : found) {
@@ -255,7 +255,8 @@ std::vector<Found> minima(const Data& data) {
 double profile(const Data& data, const std::vector<Found>& minima, int parameter, double v) {
     double least = std::numeric_limits<double>::max();
     for (const Found& minimum : minima)
-        least = std::min(least, descend(data, Cube(parameter, v), minimum.p, kSteps).squares);
+        least =
+            std::min(least, descend(data, Cube(parameter, v), minimum.p, kPolishingSteps).squares);
     return least;
 }
 
@@ -299,7 +300,7 @@ TwoRateFit fit_two_rate(std::span<const double> measured, std::span<const Adapta
 double squares_downhill(std::span<const double> measured, std::span<const AdaptationTrial> trials,
                         const TwoRate& start) {
     check_numbers(measured, trials);
-    return descend({measured, trials}, Cube(), parameters_of(start), kSteps).squares;
+    return descend({measured, trials}, Cube(), parameters_of(start), kPolishingSteps).squares;
 }
 
 }  // namespace dihaptic::analysis

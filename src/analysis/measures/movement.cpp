@@ -18,7 +18,7 @@ namespace {
 constexpr double kLeastPeak = 0.05;        // slower movement is tremor or noise [m/s]
 constexpr double kGripBefore = 0.2;        // time before a load step that gives the usual grip [s]
 constexpr double kLeastGripBefore = 0.05;  // [s]
-constexpr double kLasts = 0.01;            // time for which grip must stay above the threshold [s]
+constexpr double kGripLasts = 0.01;        // time for which grip must stay above the threshold [s]
 constexpr double kGripSpreads = 3;         // threshold in standard deviations
 constexpr double kLeastRise = 0.05;  // least threshold, because grip without noise has no SD [N]
 constexpr double kToMm2 = 1e6;
@@ -355,7 +355,7 @@ Values AttemptMeasures::grip_latency() const {
     for (size_t i = before; i < step; ++i) mean += all[i].grip / count;
     for (size_t i = before; i < step; ++i) square += std::pow(all[i].grip - mean, 2) / count;
     const double threshold = mean + std::max(kGripSpreads * std::sqrt(square), kLeastRise);
-    const auto lasts = static_cast<size_t>(std::round(kLasts / tick_));
+    const auto lasts = static_cast<size_t>(std::round(kGripLasts / tick_));
     size_t above = 0;
     for (size_t i = step; i < all.size() && all[i].phase == all[step].phase; ++i) {
         above = all[i].grip > threshold ? above + 1 : 0;

@@ -9,7 +9,7 @@
 namespace dihaptic::analysis {
 namespace {
 
-constexpr double kLongest = 60;       // longest session that is drawn completely [s]
+constexpr double kLongestDrawn = 60;  // longest session that is drawn completely [s]
 constexpr double kBeside = 0.3;       // time drawn before and after a lift [s]
 constexpr size_t kMostPoints = 1500;  // most points on a curve over time
 
@@ -41,7 +41,7 @@ void thin(Series& series) {
 
 std::optional<CourseCharts::Excerpt> CourseCharts::excerpt_of(const SessionData& session,
                                                               const recording::LogHead& head) {
-    if (session.info.ticks * head.tick <= kLongest) return Excerpt{0, kLongest};
+    if (session.info.ticks * head.tick <= kLongestDrawn) return Excerpt{0, kLongestDrawn};
     if (!session.lifts) return std::nullopt;
     size_t i = 0;
     while (i < session.lifts->size() && !(*session.lifts)[i].complete()) ++i;

@@ -13,12 +13,13 @@
 namespace dihaptic::analysis {
 namespace {
 
-using Json = nlohmann::json;
+using PageJson = nlohmann::json;
 
 /// Values that are not finite become null.
-Json numbers(const std::vector<double>& values) {
-    Json out = Json::array();
-    for (const double value : values) out.push_back(std::isfinite(value) ? Json(value) : Json());
+PageJson numbers(const std::vector<double>& values) {
+    PageJson out = PageJson::array();
+    for (const double value : values)
+        out.push_back(std::isfinite(value) ? PageJson(value) : PageJson());
     return out;
 }
 
@@ -87,8 +88,8 @@ void Page::chart(Chart chart) {
         text(chart.title + ": no values were measured.");
         return;
     }
-    Json json{{"title", chart.title}, {"x_label", chart.x_label}, {"y_label", chart.y_label}};
-    json["series"] = Json::array();
+    PageJson json{{"title", chart.title}, {"x_label", chart.x_label}, {"y_label", chart.y_label}};
+    json["series"] = PageJson::array();
     for (const Series& s : chart.series) {
         json["series"].push_back({{"name", s.name},
                                   {"drawn", std::string(enum_name(s.drawn))},
@@ -98,11 +99,11 @@ void Page::chart(Chart chart) {
                                   {"high", numbers(s.high)},
                                   {"colour", s.colour}});
     }
-    json["marks"] = Json::array();
+    json["marks"] = PageJson::array();
     for (const Mark& mark : chart.marks)
         json["marks"].push_back({{"x", mark.x}, {"text", mark.text}});
     // a name from a file may be invalid UTF-8: it is shown with a replacement character
-    const std::string data = json.dump(-1, ' ', false, Json::error_handler_t::replace);
+    const std::string data = json.dump(-1, ' ', false, PageJson::error_handler_t::replace);
     body_ += fmt::format(
         "<figure><div class=\"chart\" data-chart=\"{}\"></div><div class=\"legend\"></div>"
         "<figcaption class=\"caption\">{}</figcaption></figure>\n",

@@ -52,9 +52,9 @@ std::string reason(std::string text) {
 }
 
 /// The lines received through a socket.
-class Lines {
+class LineReader {
   public:
-    explicit Lines(const std::string& path) : socket_(unix_socket(SOCK_STREAM)) {
+    explicit LineReader(const std::string& path) : socket_(unix_socket(SOCK_STREAM)) {
         const auto address = UnixAddress::of_file(path);
         if (!address) throw refused(path, "is too long a path");
         if (!socket_ || !address->connect(socket_))
@@ -105,7 +105,7 @@ struct Variable {
 
 struct TrialController::Parts {
     std::string path;
-    Lines lines;
+    LineReader lines;
     std::vector<std::string> messages;
     int first_message = 0;  // index in the plan's list
     std::vector<std::string> outcomes;
