@@ -8,10 +8,14 @@ import sys
 import tempfile
 import unittest
 
+sys.path.append("test")
+import soak  # noqa: E402
+
 TUTORIALS = sorted(pathlib.Path("docs/tutorials").absolute().glob("*.py"))
 
 
 class Tutorials(unittest.TestCase):
+    @soak.alone
     def test_each_runs_from_an_empty_folder(self):
         self.assertGreaterEqual(len(TUTORIALS), 4)
         for file in TUTORIALS:

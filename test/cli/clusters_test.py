@@ -188,6 +188,7 @@ PATH={shlex.quote(self.slurm)}/inside:$PATH APPTAINER_CONTAINER={shlex.quote(con
         apptainer.chmod(0o755)
         return container
 
+    @soak.alone
     def test_a_container_does_the_shards(self):
         container = self.with_container()
         result = self.by_slurm("--container", os.path.relpath(container))

@@ -94,7 +94,7 @@ task:
             for kind in ["pipe", "device", "folder", "loop", "large", "empty", "gone", "cut"]:
                 if (file, kind) in [("shown.csv", "cut"), ("raw.log", "large"), ("session.nwb", "large")]:
                     continue
-                for name in commands or ["recover"]:
+                for name in soak.of(commands[:1], commands) or ["recover"]:
                     session = self.copy()
                     self.replace(session + "/" + file, kind)
                     (command,) = [command for command in self.commands(session) if command[0] == name]

@@ -40,6 +40,7 @@ class Compose(Window):
         self.assertIn(", typed\n", self.text())
         self.assertEqual(self.drafts(), [])
 
+    @soak.alone
     def test_marks_the_line_of_a_mistake_and_starts_what_was_saved(self):
         self.open()
         self.key("ctrl+e", "ctrl+End", "Return")

@@ -127,6 +127,7 @@ class Drafts(Window):
         self.wait("the file", lambda: self.scene_text() == "# again " + SCENE)
         self.quit()
 
+    @soak.alone
     def test_a_link_that_takes_the_files_place_is_not_followed(self):
         theirs = pathlib.Path(self.folder.name, "theirs")
         theirs.write_text("theirs")
