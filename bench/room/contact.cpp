@@ -1,10 +1,10 @@
 #include "bench/contact.h"
 
 #include <algorithm>
-#include <chrono>
 #include <filesystem>
 
 #include "bench/contact_file.h"
+#include "bench/duration.h"
 #include "bench/siconos.h"
 #include "contact/solver.h"
 
@@ -35,10 +35,10 @@ ContactFigures measure(const contact::DelassusProblem& problem, contact::Solver 
     contact::SolveDetail detail;
     Eigen::VectorXd r;
     out.us = best_time([&] {
-        const auto begin = std::chrono::steady_clock::now();
-        r = contact::solve(solver, {polygon, {}, contact::kUnbounded}, problem, stats, &detail);
-        return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin)
-            .count();
+        return 1e6 * duration_of([&] {
+                   r = contact::solve(solver, {polygon, {}, contact::kUnbounded}, problem, stats,
+                                      &detail);
+               });
     });
     out.residual = contact::natural_map_residual(problem, r);
     out.iterations = stats.iterations;

@@ -3,9 +3,8 @@
 #include <btBulletDynamicsCommon.h>
 #include <fmt/format.h>
 
-#include <chrono>
-
 #include "bench/bench_log.h"
+#include "bench/duration.h"
 #include "bench/simulator.h"
 
 namespace dihaptic::bench {
@@ -120,9 +119,7 @@ double measure_bullet(const measure::BenchSetup& setup, const HandleTrace& trace
     times.reserve(trace.size());
     for (const auto& handles : trace) {
         world.drive(handles);
-        const auto begin = std::chrono::steady_clock::now();
-        world.step();
-        times.add(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+        times.add(duration_of([&] { world.step(); }));
     }
     return times.quantile(0.5);
 }

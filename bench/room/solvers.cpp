@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "bench/bullet_problem.h"
+#include "bench/duration.h"
 #include "bench/solver_problems.h"
 #include "contact/solver.h"
 
@@ -16,15 +16,6 @@ namespace {
 
 using contact::Impulse;
 using contact::Solver;
-
-/// Time of one call [us].
-template <class Call>
-double microseconds_of(const Call& call) {
-    const auto begin = std::chrono::steady_clock::now();
-    call();
-    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - begin)
-        .count();
-}
 
 double quantile(std::vector<double> values, double share) {
     if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
@@ -97,7 +88,7 @@ class Measurement {
             r = p.start;
             contact::SolveStats stats;
             const double us =
-                microseconds_of([&] { solvers_.solve(solver, {}, p.problem, r, stats); });
+                1e6 * duration_of([&] { solvers_.solve(solver, {}, p.problem, r, stats); });
             if (!seen[i]) {
                 seen[i] = 1;
                 out.fallbacks += stats.fallback ? 1 : 0;
@@ -174,7 +165,7 @@ class Measurement {
         const double whole = std::numeric_limits<double>::infinity();
         const Times all = times(problems.size(), whole, [&](size_t i) {
             problems[i]->reset();
-            return microseconds_of([&] { problems[i]->solve(solver, kBulletIterations); });
+            return 1e6 * duration_of([&] { problems[i]->solve(solver, kBulletIterations); });
         });
         std::vector<double> residuals;
         for (size_t i = 0; i < problems.size(); ++i) {

@@ -8,6 +8,7 @@
 
 #include "base/field_reader.h"
 #include "bench/bench_log.h"
+#include "bench/duration.h"
 #include "task/expression/expression.h"
 #include "task/plan/trials.h"
 #include "task/run/task_director.h"
@@ -148,16 +149,16 @@ double measure_expressions() {
     volatile double kept = 0;
     for (int batch = 0; batch < 200; ++batch) {
         double sum = 0;
-        const auto begin = std::chrono::steady_clock::now();
-        for (int i = 0; i < kTicks; ++i) {
-            frame.grip_force = i % 5;
-            quantities.set(task::Quantities::kTimeInState, i * 1e-3);
-            quantities.update(frame, handles);
-            for (const task::Expression& expression : all) sum += expression(quantities.values());
-        }
-        const std::chrono::duration<double, std::micro> taken =
-            std::chrono::steady_clock::now() - begin;
-        us.push_back(taken.count() / kTicks);
+        const double taken = duration_of([&] {
+            for (int i = 0; i < kTicks; ++i) {
+                frame.grip_force = i % 5;
+                quantities.set(task::Quantities::kTimeInState, i * 1e-3);
+                quantities.update(frame, handles);
+                for (const task::Expression& expression : all)
+                    sum += expression(quantities.values());
+            }
+        });
+        us.push_back(1e6 * taken / kTicks);
         kept = kept + sum;
     }
     return median_of(us);

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 
+#include "bench/duration.h"
 #include "view/offscreen.h"
 #include "view/scene_view.h"
 
@@ -64,13 +64,12 @@ ViewFigures bench_view(int frames, const measure::Progress& progress) {
                 progress(fmt::format("{}x{}", width, height),
                          0.5 * static_cast<double>(out.sizes.size()) + 0.5 * i / frames);
             for (size_t k = 0; k < drawn.size(); ++k) {
-                const auto begin = std::chrono::steady_clock::now();
-                drawn[k]->draw(frame_at(scene, i), camera, width, height);
-                offscreen.wait();
-                const std::chrono::duration<double, std::milli> took =
-                    std::chrono::steady_clock::now() - begin;
+                const double took = duration_of([&] {
+                    drawn[k]->draw(frame_at(scene, i), camera, width, height);
+                    offscreen.wait();
+                });
                 // the first picture makes resources used by the others
-                if (i > 0) times[k].push_back(took.count());
+                if (i > 0) times[k].push_back(1e3 * took);
             }
         }
         out.renderer = offscreen.renderer();

@@ -12,7 +12,7 @@
 namespace dihaptic {
 namespace {
 
-constexpr size_t kMostCellsOfALine = 10'000;
+constexpr size_t kMostCellsInLine = 10'000;
 constexpr std::array kSeparators{std::pair{',', "commas"}, std::pair{';', "semicolons"},
                                  std::pair{'\t', "tabs"}};
 
@@ -131,9 +131,9 @@ std::vector<std::string> GivenTable::split(std::string_view line) const {
         }
         const size_t end = std::min(line.find(separator_), line.size());
         cell += trimmed(line.substr(0, end));
-        if (cells.size() > kMostCellsOfALine)
+        if (cells.size() > kMostCellsInLine)
             throw Error(place(), "",
-                        fmt::format("this line has more than {} cells", kMostCellsOfALine),
+                        fmt::format("this line has more than {} cells", kMostCellsInLine),
                         "Check that it is the right file.");
         if (end == line.size()) return cells;
         line.remove_prefix(end + 1);

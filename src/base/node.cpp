@@ -270,7 +270,7 @@ bool reads_otherwise(std::string_view text) {
 }
 
 /// Whether YAML 1.1 reads the same number as this program: not of 010, 1e3, 1_000.
-bool is_number_of_yaml(std::string_view word) {
+bool is_yaml_number(std::string_view word) {
     if (!finite_number(word)) return false;
     if (word[0] == '+' || word[0] == '-') word.remove_prefix(1);
     const auto is_digit = [&](size_t i) {
@@ -297,7 +297,7 @@ void emit(const Node& node, YAML::Emitter& out) {
             out << YAML::Null;
             break;
         case Node::Kind::scalar:
-            if (node.plain && (is_truth(node.scalar) || is_number_of_yaml(node.scalar))) {
+            if (node.plain && (is_truth(node.scalar) || is_yaml_number(node.scalar))) {
                 out << node.scalar;
             } else {
                 emit_text(node.scalar, out);

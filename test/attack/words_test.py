@@ -98,7 +98,7 @@ class Words(unittest.TestCase):
     def test_what_gets_in_comes_out(self):
         """A participant of any words: of session.yaml, trials.csv, reports and resumed sessions."""
         chosen = random.Random(2)
-        for n in range(soak.of(3, 60)):
+        for n in range(soak.of(6, 60)):
             word = self.random_word(chosen) + "1"
             with self.subTest(n=n, word=word), tempfile.TemporaryDirectory() as out:
                 result = dihaptic("run", "experiments/first-trials.yaml", "--simulate", f"--participant={word}", "--out", out)

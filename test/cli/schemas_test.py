@@ -284,12 +284,12 @@ class Schemas(unittest.TestCase):
         refused = 0
         for kind, files in self.files.items():
             schema = self.schemas[kind]
-            roots = [nonsense(schema, chance.choice(list(files.values())), chance) for _ in range(soak.of(80, 2000))]
+            roots = [nonsense(schema, chance.choice(list(files.values())), chance) for _ in range(soak.of(150, 2000))]
             for root, usable in zip(roots, self.usable(kind, roots)):
                 problems = schema.problems(root)
                 refused += problems != []
                 self.assertFalse(problems and usable, f"{problems}\n{json.dumps(root)[:3000]}")
-        self.assertGreater(refused, soak.of(150, 4000))
+        self.assertGreater(refused, soak.of(300, 4000))
 
 
 if __name__ == "__main__":

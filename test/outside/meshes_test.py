@@ -21,7 +21,7 @@ from program import PROGRAM, patient
 import soak  # program.py says where it is
 
 PROGRAM = os.path.abspath(PROGRAM)
-COUNT = soak.of(6, 300)  # of made meshes
+COUNT = soak.of(14, 300)  # of made meshes
 CUBE = made.box((-20, -20, -20), (20, 20, 20))
 
 
