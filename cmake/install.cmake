@@ -2,6 +2,14 @@
 # src/base/installed.h finds these folders from the program's own.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
+# CMake leaves folders to the umask, whatever permissions it is given for them.
+install(CODE [[
+    execute_process(COMMAND sh -c umask OUTPUT_VARIABLE mask OUTPUT_STRIP_TRAILING_WHITESPACE)
+    if(NOT mask MATCHES "[02][02]$")
+        message(WARNING "The umask is ${mask}: nobody else can enter the folders that are made now. If others are to use this "
+            "installation, remove it, and install it again after `umask 022`.")
+    endif()
+]])
 set(companions dihaptic-host)
 foreach(companion dihaptic-decompose dihaptic-gui dihaptic-mesh)
     if(TARGET ${companion})

@@ -17,7 +17,8 @@ SOURCE = pathlib.Path.cwd()
 class Installed(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
+        # a home of somebody with a name: blanks and letters beyond ASCII in every path
+        cls.folder = tempfile.TemporaryDirectory(prefix="Renée Müller ")
         cls.prefix = pathlib.Path(cls.folder.name, "usr")
         cls.work = pathlib.Path(cls.folder.name, "work")
         cls.work.mkdir()
@@ -79,7 +80,7 @@ print(program())
 print(dh.shipped("scenes/block-on-table.yaml"))
 print(len(dh.run("experiments/lift-block.yaml", out="by-python").lifts))
 """)
-        self.assertEqual(said.split(), [f"{self.prefix}/bin/dihaptic", f"{self.prefix}/share/dihaptic/scenes/block-on-table.yaml",
+        self.assertEqual(said.splitlines(), [f"{self.prefix}/bin/dihaptic", f"{self.prefix}/share/dihaptic/scenes/block-on-table.yaml",
                                         "1"])
 
     def test_octave_reads_a_session(self):

@@ -1,0 +1,92 @@
+"""Building and installing where others do: a clone of Windows, an Anaconda, root's umask, an archive, a path with blanks.
+
+docs/outside.md has the sources. Usage: outside/installing_test.py PROGRAM, from the project's folder.
+"""
+import os
+import pathlib
+import re
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.append("test")
+import needs
+
+BUILD = pathlib.Path(sys.argv.pop(1)).resolve().parent
+SOURCE = pathlib.Path.cwd()
+#: Inputs of tests that have line ends of their own.
+OWN_LINE_ENDS = re.compile(r"src/[^/]+/fuzz/[^/]+_corpus/")
+
+
+def run(*words, **options):
+    return subprocess.run(words, check=True, capture_output=True, text=True, **options).stdout
+
+
+def is_clone():
+    return subprocess.run(["git", "rev-parse", "--is-inside-work-tree"], capture_output=True).returncode == 0
+
+
+class Installing(unittest.TestCase):
+    def setUp(self):
+        self.here = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+
+    def test_a_clone_by_git_for_windows_has_the_line_ends_of_linux(self):
+        if not is_clone():
+            needs.skip("a folder that is not a clone cannot be cloned")
+        # what git does there without being asked
+        run("git", "-c", "core.autocrlf=true", "-c", "core.eol=crlf", "clone", "--quiet", SOURCE, self.here / "clone")
+        names = run("git", "ls-files", "-z", cwd=self.here / "clone").split("\0")[:-1]
+        self.assertGreater(len(names), 1000)
+        foreign = []
+        for name in names:
+            data = (self.here / "clone" / name).read_bytes()
+            if b"\r\n" in data and b"\0" not in data and not OWN_LINE_ENDS.match(name):
+                foreign.append(name)
+        self.assertEqual(foreign, [])
+        self.assertIn("./dev demo", run(self.here / "clone/dev", "help"))
+
+    def test_an_archive_in_a_folder_with_blanks_takes_its_libraries_from_debian_whatever_the_path_says(self):
+        if not is_clone():
+            needs.skip("a folder that is not a clone cannot be archived")
+        source = self.here / "Renée Müller (2)"
+        source.mkdir()
+        archive = subprocess.run(["git", "archive", "HEAD"], check=True, capture_output=True).stdout
+        subprocess.run(["tar", "x", "-C", source], input=archive, check=True)
+        # an Anaconda with libraries of its own, and a pkg-config that knows no other
+        conda = self.here / "conda"
+        for name in ("fmt", "yaml-cpp"):
+            config = conda / f"lib/cmake/{name}/{name}-config.cmake"
+            config.parent.mkdir(parents=True)
+            config.write_text(f'message(FATAL_ERROR "the {name} of Anaconda")\n')
+        (conda / "bin").mkdir()
+        for name in ("pkg-config", "h5cc", "qmake6", "python3"):
+            (conda / "bin" / name).write_text("#!/bin/sh\nexit 1\n")
+            (conda / "bin" / name).chmod(0o755)
+        with_conda = {"cwd": source, "env": dict(os.environ, PATH=f"{conda}/bin:{os.environ['PATH']}")}
+        done = subprocess.run(["cmake", "--preset", "release", "-DDIHAPTIC_PARTS="], capture_output=True, text=True, **with_conda)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
+        self.assertNotIn(str(conda), (source / "build/release/CMakeCache.txt").read_text())
+        run("cmake", "--build", "--preset", "release", "--target", "dihaptic_base", **with_conda)
+        skipped = subprocess.run([source / "test/format_test.sh"], cwd=source, capture_output=True, text=True)
+        self.assertEqual(skipped.returncode, 77, skipped.stdout + skipped.stderr)
+
+    def test_a_umask_that_closes_the_installed_folders_to_others_is_told(self):
+        def installed(mask):
+            folder = self.here / f"usr-{mask:o}"
+            done = subprocess.run(["cmake", "--install", BUILD, "--prefix", folder], check=True, capture_output=True, text=True,
+                                  preexec_fn=lambda: os.umask(mask))
+            closed = [p for p in folder.rglob("*") if (stat.S_IMODE(p.stat().st_mode) & (0o055 if p.is_dir() else 0o044)) not in (0o055, 0o044)]
+            return done.stderr, closed
+
+        for mask in (0o022, 0o002):
+            self.assertEqual(installed(mask), ("", []))
+        for mask in (0o077, 0o027):
+            said, closed = installed(mask)
+            self.assertRegex(" ".join(said.split()), f"The umask is 00{mask:o}: nobody else .* after `umask 022`")
+            self.assertTrue(closed and all(path.is_dir() for path in closed), closed)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=1)
