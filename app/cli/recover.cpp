@@ -34,6 +34,7 @@ void add_recover(CLI::App& app) {
             fmt::print("{}\n", line);
         if (figures.log.left_out > 0)
             fmt::print("{}\n", recording::describe_left_out(figures.log.left_out, figures.tick));
+        fmt::print("{}\n", figures.convergence.describe());
         fmt::print("written: {}, trials.csv, phases.csv, episodes.csv, events.csv{}\n",
                    folder.nwb(), is_there(folder.file("lifts.csv")) ? ", lifts.csv" : "");
         if (recovery.had_ended)

@@ -176,6 +176,7 @@ void print_summary(const session::Recorded& session, const session::Plan& plan) 
         print_phases(figures);
     }
     for (const std::string& note : session.notes) fmt::print("{}\n", note);
+    fmt::print("{}\n", figures.convergence.describe());
     const servo::Timing& timing = session.timing;
     const double speed = session.simulated / session.elapsed;
     fmt::print(

@@ -1,9 +1,12 @@
 #include "device_panel.h"
 
+#include <fmt/format.h>
+
 #include <QHeaderView>
 #include <QProgressBar>
 #include <QVBoxLayout>
 #include <cmath>
+#include <utility>
 
 namespace dihaptic::gui {
 namespace {
@@ -34,7 +37,7 @@ DevicePanel::DevicePanel(QWidget* parent)
 
 void DevicePanel::set_devices(const std::vector<Device>& devices) {
     devices_ = devices;
-    overruns_ = unbalanced_ = 0;
+    overruns_ = unbalanced_ = missed_ = 0;
     lateness_ = tick_ = 0;
     loop_->clear();
     table_->setRowCount(static_cast<int>(devices.size()));
@@ -80,6 +83,7 @@ void DevicePanel::show_frame(const frame::Frame& frame) {
     }
     if (frame.status & kOverrun) ++overruns_;
     if (frame.status & kUnbalanced) ++unbalanced_;
+    if (frame.status & kSolverMissed) ++missed_;
     // slow averages, because figures of single ticks would flicker
     const auto follow = [](double& value, double now) {
         if (std::isfinite(now)) value += 0.05 * (now - value);
@@ -94,10 +98,17 @@ void DevicePanel::show_frame(const frame::Frame& frame) {
             .arg((frame.status & kForceOff) != 0 ? tr("Force is off.") : "") +
         (unbalanced_ > 0
              ? tr("\nEnergy or momentum unbalanced in %1 of the frames shown.").arg(unbalanced_)
+             : QString()) +
+        (missed_ > 0
+             ? tr("\nContact solver missed its tolerance in %1 of the frames shown.").arg(missed_)
              : QString()));
-    const StatusRow& why = describe(kUnbalanced);
-    const std::string text = std::string(why.what) + ": " + std::string(why.remedy);
-    loop_->setToolTip(unbalanced_ > 0 ? QString::fromStdString(text) : QString());
+    QStringList why;
+    for (const auto& [seen, bit] :
+         {std::pair{unbalanced_, kUnbalanced}, {missed_, kSolverMissed}}) {
+        const StatusRow& row = describe(bit);
+        if (seen > 0) why << QString::fromStdString(fmt::format("{}: {}", row.what, row.remedy));
+    }
+    loop_->setToolTip(why.join('\n'));
 }
 
 }  // namespace dihaptic::gui

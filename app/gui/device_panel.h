@@ -33,6 +33,7 @@ class DevicePanel : public QWidget {
     std::vector<Device> devices_;
     int overruns_ = 0;
     int unbalanced_ = 0;
+    int missed_ = 0;
     double lateness_ = 0;
     double tick_ = 0;
 };

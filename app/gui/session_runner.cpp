@@ -132,6 +132,7 @@ SessionEnd SessionRunner::run(Session& session, const session::RunOptions& optio
             },
             std::move(session.devices));
         for (const std::string& note : recorded.notes) end.messages += QString::fromStdString(note);
+        end.messages += QString::fromStdString(recorded.figures.convergence.describe());
         end.good = recorded.good();
     } catch (const std::exception& e) {
         end.messages += QString::fromStdString(e.what());

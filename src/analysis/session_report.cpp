@@ -248,12 +248,28 @@ struct SessionReader::Pass {
         figures.duration = seconds(frame.time);
         figures.status |= frame.status;
         for_each_status(frame.status, [&](Status bit) { ++figures.ticks_with(bit); });
+        note_convergence(frame);
         plausibility.add(frame);
         // logs before version 0.3 have no balance
         if (std::isnan(frame.energy_imbalance)) return;
         figures.energy_imbalance += frame.energy_imbalance;
         figures.momentum_imbalance = std::max(figures.momentum_imbalance, frame.momentum_imbalance);
         figures.angular_imbalance = std::max(figures.angular_imbalance, frame.angular_imbalance);
+    }
+
+    void note_convergence(const frame::Frame& frame) {
+        recording::Convergence& all = reading.figures.convergence;
+        ++all.ticks;
+        if ((frame.status & kSolverMissed) != 0) {
+            ++all.missed;
+            all.longest_run = std::max(all.longest_run, ++missed_in_a_row);
+        } else {
+            missed_in_a_row = 0;
+        }
+        const double residual = frame.solver_held_residual;
+        if (std::isnan(residual) || (all.held_residual && residual <= *all.held_residual)) return;
+        all.held_residual = residual;
+        all.held_residual_time = seconds(frame.time);
     }
 
     void end(const recording::LogHealth& log) {
@@ -282,6 +298,7 @@ struct SessionReader::Pass {
     int attempt = 0;
     int phase = -1;
     size_t first = 0;  // first sample of the phase
+    int missed_in_a_row = 0;
 };
 
 SessionReader::SessionReader(const recording::SessionFolder& folder,
@@ -481,9 +498,10 @@ std::string SessionFigures::describe_imbalance() const {
 
 namespace {
 
-/// Makes the session, and thus its report, state whether its objects moved inexplicably, and what
-/// else nobody can have meant.
-void note_nonsense(recording::SessionInfo& info, const SessionFigures& figures) {
+/// Makes the session, and thus its report, state how closely its contacts were solved, whether its
+/// objects moved inexplicably, and what else nobody can have meant.
+void note_quality(recording::SessionInfo& info, const SessionFigures& figures) {
+    info.convergence = figures.convergence;
     if (figures.ticks_with(kUnbalanced) > 0) add_note(info, figures.describe_imbalance());
     for (const std::string& what : figures.implausible) add_note(info, what);
 }
@@ -567,7 +585,7 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     for (const std::string& what : damage) add_note(info, what);
     for (const std::string& what : recording::describe_version(figures.log)) add_note(info, what);
     if (!reading.why_no_facts.empty()) add_note(info, reading.why_no_facts);
-    note_nonsense(info, figures);
+    note_quality(info, figures);
     if (info.ticks == 0) info.ticks = static_cast<int>(figures.log.last_tick + 1);
 
     recording::NwbContent content = content_of(reading, info, folder);
@@ -594,7 +612,7 @@ SessionFigures finish_tables(const recording::SessionFolder& folder, recording::
     whole.last_tick = info.ticks - 1;
     reader.pass_->end(whole);
     const Reading& reading = reader.pass_->reading;
-    note_nonsense(info, reading.figures);
+    note_quality(info, reading.figures);
     return write_tables(folder, info, reading, content_of(reading, info, folder),
                         events_of(reading, folder, info));
 }

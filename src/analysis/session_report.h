@@ -12,6 +12,7 @@
 #include "analysis/episodes.h"
 #include "base/table.h"
 #include "frame/frame.h"
+#include "recording/convergence.h"
 #include "recording/log_health.h"
 #include "recording/raw_log.h"
 #include "recording/session.h"
@@ -35,6 +36,7 @@ struct SessionFigures {
     double momentum_imbalance = 0;
     double angular_imbalance = 0;
     std::vector<std::string> implausible;  ///< analysis/plausibility.h
+    recording::Convergence convergence;
 
     /// Whether a value was not a number, so that no figure can be trusted.
     bool diverged() const { return (status & kNotFinite) != 0; }

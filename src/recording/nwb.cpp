@@ -371,11 +371,10 @@ void write_general(hid_t file, const SessionInfo& info, const std::string& sessi
     write_dataset(general, "session_id", session);
     write_dataset(general, "experiment_description", info.title);
     write_study(general, info.study);
-    if (!info.notes.empty()) {
-        std::string notes;
-        for (const std::string& note : info.notes) notes += note + "\n";
-        write_dataset(general, "notes", notes);
-    }
+    std::string notes;
+    for (const std::string& note : info.notes) notes += note + "\n";
+    if (info.convergence) notes += info.convergence->describe() + "\n";
+    if (!notes.empty()) write_dataset(general, "notes", notes);
     const Id subject = create_group(general, "subject");
     mark(subject, "Subject");
     write_dataset(subject, "subject_id",

@@ -18,6 +18,7 @@
 
 #include "base/descriptor.h"
 #include "base/field.h"
+#include "recording/convergence.h"
 #include "recording/setup.h"
 
 namespace dihaptic::recording {
@@ -103,7 +104,9 @@ struct SessionInfo : Setup {
     std::string resumes;                 ///< folder of the session that this one resumes
     std::vector<std::string> notes;  ///< warnings given at the start, and findings of the recovery
     std::string finished;            ///< how the session ended, in words
-    std::vector<TableSeal> tables;   ///< once the session has ended (recording/seal.h)
+    std::optional<Convergence>
+        convergence;                ///< once the session has ended; none before version 0.3
+    std::vector<TableSeal> tables;  ///< once the session has ended (recording/seal.h)
     std::string seal;  ///< checksum of this file's own data, once the session has ended
 
     template <class Visitor>
@@ -121,6 +124,7 @@ struct SessionInfo : Setup {
         Setup::visit(v);
         v("notes", notes);
         v("finished", finished);
+        v("convergence", convergence);
         v("tables", tables);
         v("seal", seal);
     }

@@ -49,6 +49,7 @@ Table facts(const SessionData& session) {
     for (const recording::DeviceRecord& device : info.devices)
         row("device of " + device.finger, device.model);
     row("end", info.finished);
+    if (info.convergence) row("contact", info.convergence->describe());
     for (const std::string& note : info.notes) row("note", note);
     const std::string written = session.folder.file("note.txt");
     try {

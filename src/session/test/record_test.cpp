@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "recording/raw_log.h"
 #include "session/test/reaches.h"
 
 namespace dihaptic::session::record_test {
@@ -61,6 +62,53 @@ TEST(Record, TellsOfAFaultFirst) {
     EXPECT_EQ(recorded.notes.front(), "WARNING: " + recorded.fault);
     for (size_t i = 1; i < recorded.notes.size(); ++i)
         EXPECT_TRUE(recorded.notes[i].starts_with("note: in ")) << recorded.notes[i];
+}
+
+/// The figures of a session's convergence, counted from its log.
+recording::Convergence convergence_in(const std::string& log) {
+    recording::RawLogReader reader(log);
+    recording::Convergence out;
+    int in_a_row = 0;
+    while (const frame::Frame* frame = reader.next()) {
+        ++out.ticks;
+        const bool missed = (frame->status & kSolverMissed) != 0;
+        in_a_row = missed ? in_a_row + 1 : 0;
+        out.missed += missed;
+        out.longest_run = std::max(out.longest_run, in_a_row);
+        if (frame->solver_held_residual > out.held_residual.value_or(-1)) {
+            out.held_residual = frame->solver_held_residual;
+            out.held_residual_time = seconds(frame->time);
+        }
+    }
+    return out;
+}
+
+/// A recorded lift of a block, by this contact solver.
+Recorded lift_with(const std::string& solver, const std::string& out) {
+    Request request;
+    request.file = "experiments/lift-block.yaml";
+    request.set = {"dynamics.solver=" + solver};
+    RunOptions options;
+    options.out = out;
+    return record(make_plan(request), options, kGoOn);
+}
+
+TEST(Record, SaysOfEverySessionHowCloselyItsContactsWereSolved) {
+    for (const std::string solver : {"newton", "sequential_impulse"}) {
+        const testing::TemporaryFolder folder;
+        const Recorded recorded = lift_with(solver, folder.path());
+        const auto made = recording::SessionFolder::open(recorded.folder);
+        const recording::Convergence counted = convergence_in(made.raw_log());
+        EXPECT_EQ(counted.missed == 0, solver == "newton");
+        const recording::Convergence& said = made.read_info().convergence.value();
+        EXPECT_EQ(said.ticks, counted.ticks);
+        EXPECT_EQ(said.missed, counted.missed);
+        EXPECT_EQ(said.longest_run, counted.longest_run);
+        EXPECT_EQ(said.held_residual, counted.held_residual);
+        EXPECT_EQ(said.held_residual_time, counted.held_residual_time);
+        EXPECT_EQ(recorded.figures.convergence.describe(), counted.describe());
+        EXPECT_NE(testing::read_file(made.nwb()).find(counted.describe()), std::string::npos);
+    }
 }
 
 TEST(Record, TellsOfWhatDoesNotBalanceWhereverTheSessionIsReadAgain) {
