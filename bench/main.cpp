@@ -11,6 +11,7 @@
 #include "bench/heap.h"
 #include "bench/jitter.h"
 #include "bench/mechanics.h"
+#include "bench/public_tests.h"
 #include "bench/scale.h"
 #include "bench/scrub.h"
 #include "bench/solvers.h"
@@ -52,6 +53,40 @@ void add_settings(CLI::App& command, BenchOptions& options) {
     add_json(command, options.json);
 }
 
+/// Figures of each of our solvers, or of the one given, and of the peers; prints them as rows.
+template <class Figures>
+void print_all_solvers(const std::string& bench, const CLI::App& command,
+                       const BenchOptions& options,
+                       Figures (*ours)(const frame::DynamicsSettings&, const measure::Progress&),
+                       Figures (*of_peer)(const bench::Simulator&, const measure::Progress&)) {
+    std::vector<contact::Solver> solvers{options.solver};
+    std::vector<bench::Simulator> peers;
+    if (command.count("--solver") == 0) {
+        solvers.clear();
+        for (int i = 0; i < contact::kSolvers; ++i)
+            solvers.push_back(static_cast<contact::Solver>(i));
+        peers = bench::peer_simulators();
+    }
+    std::vector<Figures> figures;
+    {
+        ProgressLine line("bench " + bench);
+        const auto say = [&](std::string_view name) {
+            const auto done = static_cast<double>(figures.size());
+            const auto all = static_cast<double>(solvers.size() + peers.size());
+            return [&line, name, done, all](const std::string& what, double share) {
+                line.show((done + share) / all, fmt::format("{}, {}", name, what));
+            };
+        };
+        for (const contact::Solver solver : solvers) {
+            frame::DynamicsSettings settings;
+            settings.solver = solver;
+            figures.push_back(ours(settings, say(enum_name(solver))));
+        }
+        for (const bench::Simulator& peer : peers) figures.push_back(of_peer(peer, say(peer.name)));
+    }
+    print_rows("solvers", figures, options.json);
+}
+
 void add_friction(CLI::App& app) {
     auto* command = app.add_subcommand(
         "friction", "Inclines, a stack, a house of cards, an arch, and a held block's creep");
@@ -60,33 +95,21 @@ void add_friction(CLI::App& app) {
     add_json(*command, options->json);
     command->footer("\nExample:\n  dihaptic-bench friction");
     command->callback([command, options] {
-        std::vector<contact::Solver> solvers{options->solver};
-        std::vector<bench::Simulator> peers;
-        if (command->count("--solver") == 0) {
-            solvers.clear();
-            for (int i = 0; i < contact::kSolvers; ++i)
-                solvers.push_back(static_cast<contact::Solver>(i));
-            peers = bench::peer_simulators();
-        }
-        std::vector<bench::FrictionFigures> figures;
-        {
-            ProgressLine line("bench friction");
-            const auto say = [&](std::string_view name) {
-                const auto done = static_cast<double>(figures.size());
-                const auto all = static_cast<double>(solvers.size() + peers.size());
-                return [&line, name, done, all](const std::string& what, double share) {
-                    line.show((done + share) / all, fmt::format("{}, {}", name, what));
-                };
-            };
-            for (const contact::Solver solver : solvers) {
-                frame::DynamicsSettings settings;
-                settings.solver = solver;
-                figures.push_back(bench::bench_friction(settings, say(enum_name(solver))));
-            }
-            for (const bench::Simulator& peer : peers)
-                figures.push_back(bench::bench_peer_friction(peer, say(peer.name)));
-        }
-        print_rows("solvers", figures, options->json);
+        print_all_solvers("friction", *command, *options, &bench::bench_friction,
+                          &bench::bench_peer_friction);
+    });
+}
+
+void add_public(CLI::App& app) {
+    auto* command = app.add_subcommand(
+        "public", "Tests of holding that users of other simulators have published");
+    auto options = std::make_shared<BenchOptions>();
+    add_choice(*command, "--solver", options->solver, "only this one; otherwise all, and peers");
+    add_json(*command, options->json);
+    command->footer("\nExample:\n  dihaptic-bench public");
+    command->callback([command, options] {
+        print_all_solvers("public", *command, *options, &bench::bench_public,
+                          &bench::bench_peer_public);
     });
 }
 
@@ -372,6 +395,7 @@ int main(int argc, char** argv) {
         "\nExample:\n  dihaptic-bench scale --json > scale.json\n\nEach command has its own --help"
         "own. dihaptic bench grasp measures how calmly a block is held.");
     cli::add_friction(app);
+    cli::add_public(app);
     cli::add_scale(app);
     cli::add_heap(app);
     cli::add_contact(app);

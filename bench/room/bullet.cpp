@@ -80,8 +80,9 @@ void run(const Trial& trial, int steps, const Watch& watch) {
     for (const auto& hinge : hinges) world.addConstraint(hinge.get(), true);
     std::vector<Pose> X_WB(bodies.size());
     for (int i = 0; i < steps; ++i) {
-        for (const Trial::Push& push : trial.pushes)
+        trial.push(i, [&](const Trial::Push& push) {
             bodies[push.body].body->applyCentralForce(to_bullet(push.force_W));
+        });
         world.stepSimulation(kStep, 0);
         for (size_t b = 0; b < bodies.size(); ++b)
             X_WB[b] = from_bullet(bodies[b].body->getWorldTransform()) * bodies[b].X_MB;

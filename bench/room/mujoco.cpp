@@ -55,10 +55,13 @@ std::string geometry(const scene::Body& body, size_t index) {
         case scene::ShapeKind::mesh:
             return fmt::format("<geom type='mesh' mesh='mesh{}' friction='{}'/>", index,
                                body.friction);
+        case scene::ShapeKind::capsule:
+            return fmt::format("<geom type='capsule' size='{} {}' friction='{}'/>",
+                               body.shape.radius, body.shape.length / 2, body.friction);
         case scene::ShapeKind::plane:
             return fmt::format("<geom type='plane' size='1 1 1' friction='{}'/>", body.friction);
         default:
-            throw Error("MuJoCo gets only boxes, meshes and planes", "Use only these.");
+            throw Error("MuJoCo gets only boxes, capsules, meshes and planes", "Use only these.");
     }
 }
 
@@ -156,11 +159,13 @@ void run(const Choice& choice, const Trial& trial, int steps, const Watch& watch
     std::vector<int> index;  // of MuJoCo's bodies, by the scene's order
     for (size_t b = 0; b < trial.scene.bodies.size(); ++b)
         index.push_back(mj_name2id(model.get(), mjOBJ_BODY, number_text(b).c_str()));
-    for (const Trial::Push& push : trial.pushes)
-        std::copy_n(push.force_W.data(), 3, data->xfrc_applied + 6 * index[push.body]);
     std::vector<Pose> X_WB(trial.scene.bodies.size());
     for (int i = 0; i < steps; ++i) {
         const double before = data->time;
+        std::fill_n(data->xfrc_applied, 6 * model->nbody, 0.0);
+        trial.push(i, [&](const Trial::Push& push) {
+            mju_addTo3(data->xfrc_applied + 6 * index[push.body], push.force_W.data());
+        });
         mj_step(model.get(), data.get());
         if (data->time <= before) {  // MuJoCo met a bad number, and restarted
             for (Pose& X : X_WB) X.p.setConstant(std::numeric_limits<double>::infinity());
@@ -190,7 +195,7 @@ Simulator simulator(const std::string& name, const Choice& choice) {
 std::vector<Simulator> mujoco_simulators() {
     // settings for small, hard objects, which make contacts stiffer or reduce the creep of friction
     const std::string stiff = "solref='0.005 1'";
-    return {simulator("mujoco", {}),
+    return {simulator("mujoco", {}), simulator("mujoco_recipe", {"impratio='10'", ""}),
             simulator("mujoco_stiff", {"impratio='100' tolerance='1e-12'", stiff}),
             simulator("mujoco_noslip", {"noslip_iterations='10'", stiff})};
 }

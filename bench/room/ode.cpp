@@ -18,7 +18,7 @@ namespace {
 
 using Step = int (*)(dWorldID, dReal);
 
-struct Delete {
+struct DeleteOde {
     void operator()(dxWorld* world) const { dWorldDestroy(world); }
 };
 
@@ -36,7 +36,7 @@ dBodyID make_body(dWorldID world, const scene::Body& body, const scene::Solid& s
 }
 
 void run(Step step, const Trial& trial, int steps, const Watch& watch) {
-    const std::unique_ptr<dxWorld, Delete> world(dWorldCreate());
+    const std::unique_ptr<dxWorld, DeleteOde> world(dWorldCreate());
     const Vec3& g = trial.scene.gravity;
     dWorldSetGravity(world.get(), g.x(), g.y(), g.z());
     std::vector<dBodyID> bodies;

@@ -12,8 +12,9 @@ Simulator world_simulator(frame::DynamicsSettings settings) {
                 world.activate();
                 std::vector<Pose> X_WB(trial.scene.bodies.size());
                 for (int i = 0; i < steps; ++i) {
-                    for (const Trial::Push& push : trial.pushes)
+                    trial.push(i, [&](const Trial::Push& push) {
                         world.apply({static_cast<int>(push.body)}, push.force_W, Vec3::Zero());
+                    });
                     world.step(kStep);
                     for (size_t b = 0; b < X_WB.size(); ++b) X_WB[b] = world.states()[b].X_WB;
                     if (!watch(X_WB)) return;

@@ -14,14 +14,23 @@ namespace dihaptic::bench {
 
 constexpr double kStep = 1e-3;  // [s]
 
-/// A scene, and constant forces in it.
+/// A scene, and forces in it, each constant from one of its steps on.
 struct Trial {
     struct Push {
         size_t body = 0;
         Vec3 force_W = Vec3::Zero();  ///< at the centre of mass [N]
+        int from = 0;                 ///< the first step with this force
     };
     scene::Scene scene;
     std::vector<Push> pushes;
+
+    /// Calls apply(push) for each force in a step, of which the first is 0.
+    template <class Apply>
+    void push(int step, const Apply& apply) const {
+        for (const Push& one : pushes) {
+            if (step >= one.from) apply(one);
+        }
+    }
 };
 
 /// Gets the poses X_WB of all bodies after each step; returns false to end the run. If a
