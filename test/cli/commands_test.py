@@ -9,7 +9,9 @@ import re
 import tempfile
 import unittest
 
-from program import dihaptic
+from program import PROGRAM, dihaptic
+
+import needs  # program.py says where it is
 
 
 def commands(of=()):
@@ -69,6 +71,7 @@ class Commands(unittest.TestCase):
             self.assertNotIn("report this", result.stderr, arguments)
 
     def test_a_window_needs_a_screen(self):
+        needs.part_for_this_test("window", PROGRAM)
         nowhere = {name: value for name, value in os.environ.items()
                    if name not in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")}
         result = dihaptic("gui", env=nowhere)

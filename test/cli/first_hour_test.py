@@ -153,6 +153,7 @@ class Readme(FirstHour):
 
     def look_at_window(self, command):
         """The window shows the study, and is closed."""
+        needs.part_for_this_test("window", PROGRAM)
         self.open_a_display()
         with open(self.folder / "log", "w+") as log:
             window = subprocess.Popen(command.split(), cwd=self.study, env=self.environment, stdout=log, stderr=log)

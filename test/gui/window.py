@@ -27,6 +27,7 @@ needs.program("Xvfb", "xvfb")
 needs.program("xdotool", "xdotool")
 
 PROGRAM = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/dihaptic"
+needs.part("window", PROGRAM)
 SCREENSHOTS = sys.argv.pop(1) if len(sys.argv) > 1 else "build/release/screenshots"
 SCENE = pathlib.Path("scenes/block-on-table.yaml").read_text()
 

@@ -72,6 +72,35 @@ class Installing(unittest.TestCase):
         skipped = subprocess.run([source / "test/format_test.sh"], cwd=source, capture_output=True, text=True)
         self.assertEqual(skipped.returncode, 77, skipped.stdout + skipped.stderr)
 
+    def of_dev(self, command, path=""):
+        """What a function of ./dev prints."""
+        return subprocess.run(["bash", "-c", f"source ./dev help >/dev/null; {command}"], capture_output=True, text=True,
+                              env=dict(os.environ, PATH=f"{path}:{os.environ['PATH']}"))
+
+    def test_a_package_that_another_one_provides_is_installed(self):
+        self.assertEqual(self.of_dev("is_installed awk").returncode, 0)  # mawk, gawk and busybox provide it
+        self.assertEqual(self.of_dev("is_installed dpkg").returncode, 0)
+        for name in ("no-such-package", "aw", "wk", "libfm"):
+            self.assertEqual(self.of_dev(f"is_installed {name}").returncode, 1, name)
+
+    def test_a_part_that_is_not_built_is_named_with_the_package_that_it_lacks(self):
+        dpkg = self.here / "dpkg-query"
+        dpkg.write_text("#!/bin/sh\ncase $* in *qt6-svg-dev*) exit 1;; *Provides*) exit 0;; *) echo install ok installed;; esac\n")
+        dpkg.chmod(0o755)
+        parts = self.of_dev("parts", self.here)
+        self.assertEqual(parts.stdout, "meshes;python;benches;tests;")
+        self.assertEqual(parts.stderr, "not built: window, because qt6-svg-dev is not installed\n")
+        # the demo does not ask for it
+        self.assertEqual(self.of_dev("targets=dihaptic parts", self.here).stderr, "")
+
+    def test_tests_of_a_part_that_was_not_built_are_skipped_and_say_so(self):
+        for parts, code in (("meshes;tests", 77), ("window;tests", 0)):
+            (self.here / "CMakeCache.txt").write_text(f"DIHAPTIC_PARTS:STRING={parts}\n")
+            done = subprocess.run([sys.executable, "-c", "import needs, sys; needs.part('window', sys.argv[1])", self.here / "dihaptic"],
+                                  cwd="test", capture_output=True, text=True)
+            self.assertEqual(done.returncode, code, done.stderr)
+            self.assertEqual(done.stdout != "", code == 77)
+
     def test_a_umask_that_closes_the_installed_folders_to_others_is_told(self):
         def installed(mask):
             folder = self.here / f"usr-{mask:o}"

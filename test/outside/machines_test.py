@@ -89,6 +89,7 @@ class Machines(unittest.TestCase):
         self.assertNotIn("free some space", result.stderr)
 
     def test_without_a_screen_the_window_says_so_and_the_rest_works(self):
+        needs.part_for_this_test("window", PROGRAM)
         result = dihaptic("gui", self.scene)
         self.assertEqual(result.returncode, 2, result.stderr)
         self.assertIn("there is no screen", result.stderr)

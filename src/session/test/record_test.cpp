@@ -100,7 +100,7 @@ TEST(Record, SaysOfEverySessionHowCloselyItsContactsWereSolved) {
         const auto made = recording::SessionFolder::open(recorded.folder);
         const recording::Convergence counted = convergence_in(made.raw_log());
         EXPECT_EQ(counted.missed == 0, solver == "newton");
-        const recording::Convergence& said = made.read_info().convergence.value();
+        const recording::Convergence said = made.read_info().convergence.value();
         EXPECT_EQ(said.ticks, counted.ticks);
         EXPECT_EQ(said.missed, counted.missed);
         EXPECT_EQ(said.longest_run, counted.longest_run);
