@@ -2,6 +2,7 @@
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -95,7 +96,7 @@ print(len(dh.run("experiments/lift-block.yaml", out="by-python").lifts))
         for words, some in [(["re"], {"replay", "recover", "report"}), (["run", "--s"], {"--simulate", "--solver", "--seed"}),
                             (["run", "mine"], {"mine-too.yaml"})]:
             (self.work / "mine-too.yaml").touch()
-            said = self.run_here("bash", "-ec", f"source {SOURCE}/packaging/completion/dihaptic; COMP_WORDS=(dihaptic $*); "
+            said = self.run_here("bash", "-ec", f"source {shlex.quote(str(SOURCE))}/packaging/completion/dihaptic; COMP_WORDS=(dihaptic $*); "
                                  "COMP_CWORD=$#; _dihaptic; printf '%s\\n' ${COMPREPLY[@]}", "bash", *words)
             self.assertLessEqual(some, set(said.split()))
             self.assertTrue(all(word.startswith(words[-1]) for word in said.split()))
@@ -106,7 +107,7 @@ print(len(dh.run("experiments/lift-block.yaml", out="by-python").lifts))
         for name in ("scene", "rig", "experiment"):
             first = (self.work / f"mine/{name}.yaml").read_text().splitlines()[0]
             schema = self.prefix / f"share/dihaptic/schema/{name}.json"
-            self.assertEqual(first, f"# yaml-language-server: $schema={schema}")
+            self.assertEqual(first, f"# yaml-language-server: $schema={schema.as_uri()}")
             self.assertEqual(schema.read_text(), self.run_here("dihaptic", "schema", name))
             self.run_here("dihaptic", "check", f"mine/{name}.yaml")
 

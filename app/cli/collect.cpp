@@ -245,6 +245,44 @@ void print_left_out(const Found& found) {
     }
 }
 
+/// How closely the contacts of all sessions were solved.
+class Contacts {
+  public:
+    void add(const recording::SessionInfo& info) {
+        ++sessions_;
+        if (!info.convergence) return;  // none before version 0.3
+        const recording::Convergence& one = *info.convergence;
+        ++known_;
+        ticks_ += one.ticks;
+        missed_ += one.missed;
+        missing_ += one.missed > 0;
+        longest_run_ = std::max(longest_run_, one.longest_run);
+        held_residual_ = std::max(held_residual_, one.held_residual.value_or(0));
+    }
+    std::string describe() const {
+        if (known_ == 0) return "no session says how closely its contacts were solved";
+        const std::string of = counted(known_, "session");
+        return fmt::format(
+            "the contact solver {}; its largest residual at touched objects was "
+            "{:.1g}{}",
+            missed_ == 0
+                ? fmt::format("was within its tolerance in all of {} of {}",
+                              counted(ticks_, "tick"), of)
+                : fmt::format("missed its tolerance in {} of {}, in {} of {}, in at "
+                              "most {} in a row",
+                              missed_, counted(ticks_, "tick"), missing_, of, longest_run_),
+            held_residual_,
+            known_ == sessions_ ? ""
+                                : fmt::format("; {} of {} do not say it", sessions_ - known_,
+                                              counted(sessions_, "session")));
+    }
+
+  private:
+    int64_t sessions_ = 0, known_ = 0, missing_ = 0, ticks_ = 0, missed_ = 0;
+    int longest_run_ = 0;
+    double held_residual_ = 0;
+};
+
 /// The collected tables. Each row starts with seed, group and id, and ends with the mover of the
 /// hand.
 class Collection {
@@ -258,10 +296,10 @@ class Collection {
         const Node* group = person.find("group");
         front_ = {key.seed, group == nullptr ? "" : group->scalar, key.id};
         for (const TextTable& table : tables_of(session)) append(table);
-        append(text_of(
-            recording::marked(person_table(person),
-                              recording::SessionFolder::open_tables(session).read_info().moved_by),
-            "people.csv"));
+        const recording::SessionInfo info =
+            recording::SessionFolder::open_tables(session).read_info();
+        append(text_of(recording::marked(person_table(person), info.moved_by), "people.csv"));
+        contacts_.add(info);
     }
 
     /// Returns the names of the written files.
@@ -274,6 +312,7 @@ class Collection {
         return out;
     }
     size_t rows(const std::string& name) const { return tables_.at(name).rows.size(); }
+    const Contacts& contacts() const { return contacts_; }
 
   private:
     /// Each trait has a column, even if some people lack it: people moved by Python may belong to
@@ -319,6 +358,7 @@ class Collection {
     std::vector<std::string> traits_;  // columns of people.csv
     std::vector<std::string> front_;
     std::map<std::string, TextTable> tables_;
+    Contacts contacts_;
 };
 
 void collect(const CollectOptions& options) {
@@ -348,6 +388,7 @@ void collect(const CollectOptions& options) {
         names += (names.empty() ? "" : ", ") + name;
     fmt::print("{}, {}: in {}: {}\n", counted(static_cast<int64_t>(people.size()), "session"),
                counted(static_cast<int64_t>(collection.rows("trials.csv")), "attempt"), out, names);
+    fmt::print("{}\n", collection.contacts().describe());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "base/companion.h"
+#include "base/shell_word.h"
 #include "command.h"
 #include "common/steady_output.h"
 #include "common/stop_signals.h"
@@ -54,9 +55,9 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "{}: {} s so far, {} s at most\n", what, seconds, most);
     });
     cli::typed = "dihaptic";
-    for (int i = 1; i < argc; ++i) cli::typed += std::string(" ") + argv[i];
+    for (int i = 1; i < argc; ++i) cli::typed += " " + shell_word(argv[i]);
     if (argc <= 1) {
-        cli::say_what_to_do(argc == 1 ? argv[0] : "dihaptic");
+        cli::say_what_to_do(argc == 1 ? shell_file(argv[0]) : "dihaptic");
         return cli::kBadInput;  // a script with an empty command has done nothing
     }
 

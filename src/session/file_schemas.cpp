@@ -66,10 +66,34 @@ const FileSchema& file_schema(const std::string& name) {
                 fmt::format("Known: {}.", listed(names)));
 }
 
+namespace {
+
+/// The path as editors read it: they take a blank for its end.
+std::string as_address(const std::string& path) {
+    constexpr std::string_view kPlain = "/._~-";
+    const auto is_plain = [&](char c) {
+        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+               kPlain.find(c) != std::string_view::npos;
+    };
+    if (std::ranges::all_of(path, is_plain)) return path;
+    std::string out = "file://";
+    for (const char c : path) {
+        if (is_plain(c)) {
+            out += c;
+        } else {
+            out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+        }
+    }
+    return out;
+}
+
+}  // namespace
+
 std::string schema_line(const std::string& name) {
     const std::string file = fmt::format("schema/{}.json", name);
     const std::string found = in_or_above_program({file, "share/dihaptic/" + file});
-    return found.empty() ? "" : fmt::format("# yaml-language-server: $schema={}\n", found);
+    return found.empty() ? ""
+                         : fmt::format("# yaml-language-server: $schema={}\n", as_address(found));
 }
 
 }  // namespace dihaptic::session

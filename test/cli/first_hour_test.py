@@ -6,6 +6,7 @@ import csv
 import os
 import pathlib
 import re
+import shlex
 import signal
 import subprocess
 import tempfile
@@ -38,9 +39,9 @@ class WithoutArguments(FirstHour):
             self.assertEqual(result.returncode, 2)  # a script whose command is empty has not succeeded
             self.assertEqual(result.stdout, "")
             self.assertLess(result.stderr.count("\n"), 12)
-            commands = re.findall(r"^  (/\S+) (.+?)   ", result.stderr, re.MULTILINE)
-            self.assertEqual([program for program, _ in commands], [str(HERE)] * len(commands))
-            arguments = [words.split() for _, words in commands]
+            commands = [shlex.split(words) for words in re.findall(r"^  (\S.+?)   ", result.stderr, re.MULTILINE)]
+            self.assertEqual([words[0] for words in commands], [str(HERE)] * len(commands))
+            arguments = [words[1:] for words in commands]
             self.assertEqual([words[0] for words in arguments], ["run", "gui", "new", "doctor", "--help"])
             for words in arguments:
                 known = [word for word in words if not word.endswith(".yaml") and word != "NAME"]
@@ -68,7 +69,9 @@ class NewStudy(FirstHour):
         self.assertIn("next: cd wrist", result.stdout)
 
     def test_says_how_the_shell_finds_the_program(self):
-        command = f'export PATH="{HERE.parent}:$PATH"'
+        folder = str(HERE.parent)
+        quoted = shlex.quote(folder)
+        command = f'export PATH="{folder}:$PATH"' if quoted == folder else f'export PATH={quoted}:"$PATH"'
         self.assertIn(command, self.new("one", env=dict(os.environ, PATH="/usr/bin")).stdout)
         self.assertIn(command, self.new("two", env={}).stdout)
         found = dict(os.environ, PATH=f"/usr/bin:{HERE.parent}")

@@ -307,7 +307,7 @@ class Seals(unittest.TestCase):
         moved = study.parent / "it's; touch PWNED"
         study.rename(moved)
         shutil.rmtree(moved / "sim-002")
-        rewritten(moved / "rehearsal.yaml", lambda text: re.sub(r"command: .*? rehearse ", "command: /bin/evil rehearse ", text, count=1))
+        rewritten(moved / "rehearsal.yaml", lambda text: re.sub(r'command: ("?).*? rehearse ', r"command: \1/bin/evil rehearse ", text, count=1))
         result = self.collect(moved, out)
         self.assertEqual(result.returncode, 1, result.stderr)
         (typed,) = re.findall("working on them: (.*)", result.stdout)
