@@ -262,19 +262,21 @@ class Contacts {
     std::string describe() const {
         if (known_ == 0) return "no session says how closely its contacts were solved";
         const std::string of = counted(known_, "session");
-        return fmt::format(
-            "the contact solver {}; its largest residual at touched objects was "
-            "{:.1g}{}",
+        std::string out =
             missed_ == 0
-                ? fmt::format("was within its tolerance in all of {} of {}",
+                ? fmt::format("the contact solver was within its tolerance in all {} of {}",
                               counted(ticks_, "tick"), of)
-                : fmt::format("missed its tolerance in {} of {}, in {} of {}, in at "
-                              "most {} in a row",
-                              missed_, counted(ticks_, "tick"), missing_, of, longest_run_),
-            held_residual_,
-            known_ == sessions_ ? ""
-                                : fmt::format("; {} of {} do not say it", sessions_ - known_,
-                                              counted(sessions_, "session")));
+                : fmt::format(
+                      "the contact solver missed its tolerance in {} of {}, in {} of {}, "
+                      "in at most {} in a row",
+                      missed_, counted(ticks_, "tick"), missing_, of, longest_run_);
+        if (held_residual_ > 0)
+            out +=
+                fmt::format("; its largest residual at touched objects was {:.1g}", held_residual_);
+        if (known_ < sessions_)
+            out += fmt::format("; {} of {} do not say it", sessions_ - known_,
+                               counted(sessions_, "session"));
+        return out;
     }
 
   private:

@@ -1,9 +1,12 @@
 // Tests that one call makes a whole session, and says once how it ended.
 #include "session/record.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 
+#include "contact/solver.h"
 #include "recording/raw_log.h"
 #include "session/test/reaches.h"
 
@@ -107,6 +110,8 @@ TEST(Record, SaysOfEverySessionHowCloselyItsContactsWereSolved) {
         EXPECT_EQ(said.held_residual, counted.held_residual);
         EXPECT_EQ(said.held_residual_time, counted.held_residual_time);
         EXPECT_EQ(recorded.figures.convergence.describe(), counted.describe());
+        EXPECT_NE(counted.describe().find(fmt::format(" {:.0e} ", contact::kTolerance)),
+                  std::string::npos);
         EXPECT_NE(testing::read_file(made.nwb()).find(counted.describe()), std::string::npos);
     }
 }
