@@ -80,7 +80,7 @@ class Installing(unittest.TestCase):
     def test_a_package_that_another_one_provides_is_installed(self):
         self.assertEqual(self.of_dev("is_installed awk").returncode, 0)  # mawk, gawk and busybox provide it
         self.assertEqual(self.of_dev("is_installed dpkg").returncode, 0)
-        for name in ("no-such-package", "aw", "wk", "libfm"):
+        for name in ("no-such-package", "aw", "wk", "libfm", "a.k"):
             self.assertEqual(self.of_dev(f"is_installed {name}").returncode, 1, name)
 
     def test_a_part_that_is_not_built_is_named_with_the_package_that_it_lacks(self):
@@ -92,6 +92,11 @@ class Installing(unittest.TestCase):
         self.assertEqual(parts.stderr, "not built: window, because qt6-svg-dev is not installed\n")
         # the demo does not ask for it
         self.assertEqual(self.of_dev("targets=dihaptic parts", self.here).stderr, "")
+
+    def test_a_part_that_does_not_exist_is_refused(self):
+        done = subprocess.run(["cmake", "-S", SOURCE, "-B", self.here, "-DDIHAPTIC_PARTS=tests;windwo"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("'windwo' is not a part", " ".join(done.stderr.split()))
 
     def test_tests_of_a_part_that_was_not_built_are_skipped_and_say_so(self):
         for parts, code in (("meshes;tests", 77), ("window;tests", 0)):
