@@ -80,9 +80,13 @@ Checked check_file(const std::string& file, Diagnostics& diagnostics, const std:
     try {
         const task::FileKind kind = task::kind_of(file);
         switch (kind) {
-            case task::FileKind::rig:
-                rig::read_rig(file, diagnostics);
+            case task::FileKind::rig: {
+                // an experiment's plan reads them over those of its scene
+                const rig::Rig checked = rig::read_rig(file, diagnostics);
+                frame::Settings settings;
+                read_given_fields(settings, checked.settings, diagnostics);
                 return {"rig", {}};
+            }
             case task::FileKind::scene:
             case task::FileKind::experiment: {
                 Request request;

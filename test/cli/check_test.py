@@ -40,6 +40,18 @@ class Commands(unittest.TestCase):
             self.assertIn(folder + ": error: is a folder. Name a file in it.", result.stdout)
             self.assertTrue(result.stdout.replace("\n", "").isprintable())
 
+    def test_the_settings_of_a_rig_are_checked_with_it(self):
+        rig = pathlib.Path("rigs/premium-pair.yaml").read_text().split("\nsettings:")[0]
+        with tempfile.TemporaryDirectory() as folder:
+            file = pathlib.Path(folder, "rig.yaml")
+            for settings, said in [("{ safety: { max_force_N: 3 } }", None), ("{ safety: { max_force_N: -5 } }", "must be positive"),
+                                   ("{ safety: { force_N: 0.5 } }", "force_N: is not known here"), ("word", "is not a list of keys"),
+                                   ("{ safety: { max_force_N: many } }", "max_force_N")]:
+                file.write_text(f"{rig}\nsettings: {settings}\n")
+                result = dihaptic("check", str(file))
+                self.assertEqual(result.returncode, 2 if said else 0, result.stdout)
+                self.assertIn(said or "", result.stdout + result.stderr)
+
     def test_a_damaged_mesh_ends_in_a_message(self):
         head = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
         faces = "element face 4\nproperty list uchar int vertex_indices\nend_header\n"
