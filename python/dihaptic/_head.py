@@ -1,16 +1,14 @@
-"""Reads a session's description of itself: session.yaml, and the head of raw.log (src/recording/chunk.h) or its copy in
-session.nwb."""
+"""Reads a session's description of itself: session.yaml, and the head of raw.log (src/recording/chunk.h)."""
 
 from __future__ import annotations
 
+import shlex
 import struct
 import zlib
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, TypeVar
 
-import h5py
-import numpy as np
 import yaml
 
 from .errors import error
@@ -26,6 +24,15 @@ _VERSIONS = {
 _MOST_HEAD = 1 << 24  # bytes
 #: The remedy for a damaged file that the program wrote.
 _BACKUP = "Restore it from a backup."
+#: The last line of session.yaml, without which it is cut off.
+_END = "...\n"
+#: More lists and keys within each other than any file of the program has. The parser, written in C, does not survive a
+#: hundred thousand of them.
+_MOST_NESTED = 200
+#: What is wrong with a part of a file that is not of this kind.
+_WRONG: dict[type, str] = {dict: "has no keys", list: "is not a list of items with keys", str: "is not a single value"}
+#: A kind of part: keys with values, a list of such, or a single value.
+_Part = TypeVar("_Part", dict[str, Any], list[Any], str)
 
 
 @dataclass(frozen=True)
@@ -39,8 +46,10 @@ class Head:
 def read_yaml(text: str, file: Path, remedy: str = _BACKUP) -> dict[str, Any]:
     """A mapping, whose values are texts, lists and mappings. Raises Error, with `remedy`."""
     try:
+        if _is_nested_deeply(text):
+            raise error(f"has more than {_MOST_NESTED} lists or keys within each other", remedy, file=str(file))
         read = yaml.load(text, _LOADER)
-    except (yaml.YAMLError, RecursionError) as why:
+    except yaml.YAMLError as why:
         raise error(f"cannot be read: {why}", remedy, file=str(file)) from None
     if not isinstance(read or {}, dict):
         raise error("has no keys", remedy, file=str(file))
@@ -48,12 +57,31 @@ def read_yaml(text: str, file: Path, remedy: str = _BACKUP) -> dict[str, Any]:
 
 
 def read_info(file: Path, remedy: str = _BACKUP) -> dict[str, Any]:
-    """The content of session.yaml, or of another file of keys. Raises Error, with `remedy`."""
-    try:
-        text = file.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as why:
-        raise error(f"cannot be read: {why}", remedy, file=str(file)) from None
-    return read_yaml(text, file, remedy)
+    """The content of a file of keys. Raises Error, with `remedy`."""
+    return read_yaml(_text_of_file(file, remedy), file, remedy)
+
+
+def read_session_info(folder: Path) -> dict[str, Any]:
+    """The content of session.yaml. Raises Error, also when the file is cut off, since its end has the seals."""
+    file = folder / "session.yaml"
+    text = _text_of_file(file, _BACKUP)
+    if not text.endswith(_END):
+        remedy = f"{_BACKUP} From raw.log it is rebuilt by dihaptic recover {shlex.quote(str(folder))}"
+        raise error("is cut off: it does not end with '...'", remedy, file=str(file))
+    return read_yaml(text, file)
+
+
+def part_of(
+    document: dict[str, Any], key: str, kind: type[_Part], file: Path, remedy: str = _BACKUP, of: str = ""
+) -> _Part:
+    """A part of a file's content, empty if there is none; `of`: the key in front of it. Raises Error when it is of
+    another kind."""
+    part = document.get(key)
+    if part is None or part == "":
+        return kind()
+    if not isinstance(part, kind) or (kind is list and not all(isinstance(item, dict) for item in part)):
+        raise error(_WRONG[kind], remedy, file=str(file), key=of + key)
+    return part
 
 
 def read_head(file: Path) -> Head:
@@ -70,25 +98,23 @@ def read_head(file: Path) -> Head:
     return Head(float(head["tick_s"]), in_order)
 
 
-def head_of_nwb(file: h5py.File) -> Head | None:
-    """The head from session.nwb, which is smaller to copy; None if an older version made the file, without a head."""
-    if "scratch/items" not in file:
-        return None
-    table = file["scratch/items"]
-    items: dict[str, list[str]] = {"fingers": [], "turns": [], "bodies": [], "joints": []}
-    for of, name in zip(table["list"][...], table["name"][...]):
-        items[_text(of)].append(_text(name))
-    sequence = file["acquisition/sequence"]
-    if "timestamps" in sequence:
-        tick = float(np.median(np.diff(sequence["timestamps"][...])))
-    else:
-        tick = 1 / float(sequence["starting_time"].attrs["rate"])
-    return Head(round(tick, 9), items)  # ticks are whole nanoseconds, rates have 24 bits
+def _text_of_file(file: Path, remedy: str) -> str:
+    try:
+        return file.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as why:
+        raise error(f"cannot be read: {why}", remedy, file=str(file)) from None
 
 
-def _text(value: str | bytes) -> str:
-    """A text from HDF5, which h5py returns as bytes since its version 3."""
-    return value.decode("utf-8") if isinstance(value, bytes) else value
+def _is_nested_deeply(text: str) -> bool:
+    depth = 0
+    for event in yaml.parse(text, _LOADER):
+        if isinstance(event, yaml.CollectionStartEvent):
+            depth += 1
+            if depth > _MOST_NESTED:
+                return True
+        elif isinstance(event, yaml.CollectionEndEvent):
+            depth -= 1
+    return False
 
 
 def _text_of_head(log: BinaryIO, file: Path) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pandas as pd
@@ -20,7 +21,7 @@ class Rehearsal(Collected):
     """
 
     def __init__(self, folder: str | Path) -> None:
-        self.folder = Path(folder)
+        self.folder = Path(os.path.abspath(folder))  # still the same when the program changes its own
 
     def __repr__(self) -> str:
         return f"<Rehearsal {self.folder}: {len(self.sessions)} people>"

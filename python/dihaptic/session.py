@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import warnings
 from collections.abc import Iterator
 from functools import cached_property
@@ -13,7 +14,8 @@ import numpy as np
 import pandas as pd
 
 from . import vocabulary
-from ._head import Head, head_of_nwb, read_head, read_info
+from ._head import Head, read_head, read_session_info
+from ._nwb import head_of_nwb, open_nwb, reading
 from ._remedy import needs_program
 from ._seals import broken_seals
 from .errors import Error, NotThere, error
@@ -58,8 +60,8 @@ class Session:
     """
 
     def __init__(self, folder: str | Path) -> None:
-        path = Path(folder)
-        self.folder = path if path.is_dir() else path.parent
+        path = Path(os.path.abspath(folder))  # still the same folder when the program changes its own
+        self.folder = path.parent if path.is_file() else path
         if not (self.folder / "session.yaml").is_file():
             raise error(
                 "is not a session: it has no session.yaml",
@@ -83,7 +85,7 @@ class Session:
         >>> dh.load(lift_session).info["state"]
         'complete'
         """
-        return read_info(self.folder / "session.yaml")
+        return read_session_info(self.folder)
 
     @property
     def fingers(self) -> list[str]:
@@ -111,7 +113,8 @@ class Session:
         if log.exists():
             return read_head(log)
         # it may not have been copied, as the largest file
-        return head_of_nwb(self._file) or read_head(log)
+        with reading(self.folder):
+            return head_of_nwb(self._file) or read_head(log)
 
     # Tables
 
@@ -134,19 +137,19 @@ class Session:
         >>> dh.load(lift_session).table("lifts").lift.item()
         'complete'
         """
-        file = self.folder / f"{name}.csv"
-        if not file.is_file():
+        if name not in self.tables:
             raise NotThere(name, "is not a table of this session", self.tables, "Session.tables lists them.")
+        file = f"{name}.csv"
         self._tell_changes(file)
-        return read_table(file)
+        return read_table(self.folder / file)
 
-    def _tell_changes(self, file: Path) -> None:
-        """Warns of a table that changed since the session ended."""
+    def _tell_changes(self, file: str) -> None:
+        """Warns of a file that changed since the session ended, or of which this cannot be known."""
         try:
-            info = self.info
-        except Error:  # other readers refuse it
-            return
-        for what in broken_seals(self.folder, info, file.name):
+            faults = broken_seals(self.folder, self.info, file)
+        except Error as why:
+            faults = [f"whether {file} has changed since the session ended is not known: {why}"]
+        for what in faults:
             warnings.warn(what, stacklevel=3)
 
     @cached_property
@@ -179,7 +182,8 @@ class Session:
     @cached_property
     def t(self) -> Array:
         """Times of all ticks, since activation [s]: one for each row of a quantity of the whole tick."""
-        return self._times(self._series("sequence"))
+        with reading(self.folder):
+            return self._times(self._series("sequence"))
 
     def __getitem__(self, name: str) -> Any:
         """A quantity as a numpy array, or a list such as "contacts" as a pandas table.
@@ -187,13 +191,12 @@ class Session:
         Reads it from the disk; keep the result rather than request it twice. Raises NotThere.
         """
         if name in vocabulary.lists():
-            return self._list(name)
+            with reading(self.folder):
+                return self._list(name)
         series, component = self._find(name)
-        try:
+        with reading(self.folder):
             data = self._series(series)["data"]
             values: Array = data[...] if component is None else data[:, component]
-        except (OSError, KeyError, RuntimeError) as why:
-            raise _damaged(self.folder, why) from None
         return values
 
     def exact(self, name: str) -> Array:
@@ -308,25 +311,8 @@ class Session:
 
     @cached_property
     def _file(self) -> h5py.File:
-        file = self.folder / "session.nwb"
-        if not file.is_file():
-            raise error(
-                "has no session.nwb: the session is still running, or was killed",
-                "If it is not running, make its files: dihaptic.recover(), or dihaptic recover.",
-                file=str(self.folder),
-            )
-        try:
-            opened = h5py.File(file, "r")
-            leads_out = _what_leads_out(opened)
-        except (OSError, RuntimeError) as why:
-            raise _damaged(self.folder, why) from None
-        if leads_out:
-            opened.close()
-            raise error(
-                f"has {leads_out[0]} in another file, which HDF5 would read without asking",
-                "No session of Dihaptic has that: check its source. 'dihaptic recover' rebuilds it.",
-                file=str(file),
-            )
+        opened = open_nwb(self.folder)
+        self._tell_changes("session.nwb")
         return opened
 
     @property
@@ -334,7 +320,8 @@ class Session:
         return self._head.items
 
     def _has(self, series: str) -> bool:
-        return f"acquisition/{series}" in self._file
+        with reading(self.folder):
+            return f"acquisition/{series}" in self._file
 
     def _series(self, name: str) -> Any:
         return self._file[f"acquisition/{name}"]
@@ -377,34 +364,6 @@ class Session:
         table = pd.DataFrame(rows, columns=columns[: rows.shape[1]])
         table.insert(0, "time", self._times(series))
         return table
-
-
-def _what_leads_out(file: h5py.File) -> list[str]:
-    """Names with content in another file: links, data sets with external raw data, virtual data sets."""
-    out = []
-
-    def look(group: h5py.Group) -> None:
-        for name in group:
-            link = group.get(name, getlink=True)
-            if isinstance(link, h5py.ExternalLink):
-                out.append(f"{group.name}/{name}")
-            elif isinstance(link, h5py.HardLink):
-                item = group[name]
-                if isinstance(item, h5py.Group):
-                    look(item)
-                elif isinstance(item, h5py.Dataset) and (item.external or item.is_virtual):
-                    out.append(item.name)
-
-    look(file)
-    return out
-
-
-def _damaged(folder: Path, why: Exception) -> Error:
-    return error(
-        f"session.nwb is damaged: {why}",
-        "Rebuild it from raw.log: dihaptic.recover(), or dihaptic recover.",
-        file=str(folder),
-    )
 
 
 def _group_of(list_name: str) -> str:

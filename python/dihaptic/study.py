@@ -4,17 +4,18 @@ from __future__ import annotations
 
 import csv
 import io
+import os
 import re
 import zlib
 from collections.abc import Iterator
 from datetime import datetime
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
 import pandas as pd
 
-from ._head import read_info
+from ._head import part_of, read_info
 from ._seals import broken_seals
 from .errors import Error, NotThere, error
 from .session import Session
@@ -30,10 +31,6 @@ _CHECK = "dihaptic check names the mistake."
 _ROSTER = "Restore the file: log.csv says who was added."
 #: The remedy for a damaged session.yaml.
 _AWAY = "Restore the file, or move the folder away."
-#: What is wrong with a part of a file that is not of this kind.
-_WRONG: dict[type, str] = {dict: "has no keys", list: "is not a list of items with keys", str: "is not a single value"}
-#: A kind of part: keys with values, a list of such, or a single value.
-_Part = TypeVar("_Part", dict[str, Any], list[Any], str)
 
 
 class Study(Collected):
@@ -59,7 +56,7 @@ class Study(Collected):
     """
 
     def __init__(self, file: str | Path, *, rehearsed: str | Path = "") -> None:
-        self.file = Path(file)
+        self.file = Path(os.path.abspath(file))  # still the same when the program changes its folder
         spec = read_info(self.file, f"Name a study's file. {_CHECK}")
         for key in ("title", "groups", "sessions"):
             if not spec.get(key):
@@ -70,16 +67,16 @@ class Study(Collected):
                 f"Name the folder of the rehearsal. Without one, type {command_of('rehearse', self.file)}.",
                 file=str(rehearsed),
             )
-        self.title = _part(spec, "title", str, self.file, _CHECK)
+        self.title = part_of(spec, "title", str, self.file, _CHECK)
         self.groups = _names(spec, "groups", self.file)
-        self.folder = Path(rehearsed) if rehearsed else self.file.parent
+        self.folder = Path(os.path.abspath(rehearsed)) if rehearsed else self.file.parent
         self._rehearsed = bool(rehearsed)
         self._sessions = _names(spec, "sessions", self.file)
         self._facts = _names(spec, "facts", self.file)
         self._enough = _enough(spec, self.file)
-        allocation = _part(spec, "allocation", dict, self.file, _CHECK)
-        concealed = _part(allocation, "concealed", str, self.file, _CHECK, "allocation.") in ("yes", "true")
-        seed = _part(allocation, "seed", str, self.file, _CHECK, "allocation.") or "1"
+        allocation = part_of(spec, "allocation", dict, self.file, _CHECK)
+        concealed = part_of(allocation, "concealed", str, self.file, _CHECK, "allocation.") in ("yes", "true")
+        seed = part_of(allocation, "seed", str, self.file, _CHECK, "allocation.") or "1"
         codes = {name: _code_of(name, seed) for name in self.groups}
         #: What stands for a group that participants.yaml names, or has the code of.
         self._shown = {name: codes[name] if concealed else name for name in self.groups}
@@ -253,21 +250,11 @@ class Study(Collected):
         return error(what, (remedy + there).strip(), key=who)
 
 
-def _part(document: dict[str, Any], key: str, kind: type[_Part], file: Path, remedy: str, of: str = "") -> _Part:
-    """A part of a file, or an empty one if it is not there. `of`: the keys that lead to it. Raises Error."""
-    part = document.get(key, "")
-    if part == "":
-        return kind()
-    if not isinstance(part, kind) or (kind is list and not all(isinstance(item, dict) for item in part)):
-        raise error(_WRONG[kind], remedy, file=str(file), key=of + key)
-    return part
-
-
 def _items(
     document: dict[str, Any], key: str, name: str, file: Path, remedy: str, of: str = ""
 ) -> list[dict[str, Any]]:
     """The items of a list, each of which has a name, which may become a part of a path. Raises Error."""
-    items = _part(document, key, list, file, remedy, of)
+    items = part_of(document, key, list, file, remedy, of)
     for item in items:
         if not re.fullmatch("[A-Za-z0-9_-]+", str(item.get(name, ""))):
             raise error(f"has an item whose {name} is {item.get(name, '')!r}", remedy, file=str(file), key=of + key)
@@ -288,15 +275,15 @@ def _check_members(members: list[dict[str, Any]], file: Path) -> None:
             raise error("is there twice", _ROSTER, file=str(file), key=who)
         there.add(who.lower())
         for key in _BEFORE_FACTS + _AFTER_FACTS:
-            _part(member, key, str, file, _ROSTER, f"{who}.")
+            part_of(member, key, str, file, _ROSTER, f"{who}.")
         for fact in _items(member, "facts", "name", file, _ROSTER, f"{who}."):
-            _part(fact, "value", str, file, _ROSTER, f"{who}.{fact['name']}.")
+            part_of(fact, "value", str, file, _ROSTER, f"{who}.{fact['name']}.")
 
 
 def _enough(study: dict[str, Any], file: Path) -> float:
     """The share of its trials from which on an interrupted session counts. Raises Error."""
-    resuming = _part(study, "resuming", dict, file, _CHECK)
-    text = _part(resuming, "complete", str, file, _CHECK, "resuming.") or "1"
+    resuming = part_of(study, "resuming", dict, file, _CHECK)
+    text = part_of(resuming, "complete", str, file, _CHECK, "resuming.") or "1"
     try:
         share = float(text)
     except ValueError:
@@ -317,15 +304,15 @@ def _recording(path: Path, participant: str, study_session: str) -> tuple[float,
     another session."""
     session = Session(path)
     file = session.folder / "session.yaml"
-    recorded = _part(session.info, "participant", dict, file, _AWAY).get("id", "")
+    recorded = part_of(session.info, "participant", dict, file, _AWAY).get("id", "")
     if recorded not in (participant, f"sim-{participant}"):
         what = f"is '{recorded}', not {participant}"
         raise error(what, "Move the folder to where it belongs.", file=str(path), key="participant")
-    place = _part(session.info, "in_study", dict, file, _AWAY).get("session")
+    place = part_of(session.info, "in_study", dict, file, _AWAY).get("session")
     if place != study_session:
         what = f"is {place} of a study, not {study_session}" if place else "is missing: it was recorded outside the study"
         raise error(what, "Move the folder to where it belongs.", file=str(path), key="in_study")
-    started = _part(session.info, "started", str, file, _AWAY)
+    started = part_of(session.info, "started", str, file, _AWAY)
     try:
         seconds = datetime.fromisoformat(started).timestamp()
     except ValueError:

@@ -13,8 +13,8 @@ import pandas as pd
 from ._facts import facts
 from .errors import NotThere, error
 
-#: Columns with yes and no.
-_YES = {"yes": True, "no": False}
+#: The program writes yes and no; R, pandas and spreadsheets save a logical value in their own words.
+_YES = {"yes": True, "no": False, "true": True, "false": False}
 
 
 def read_table(file: str | Path) -> pd.DataFrame:
@@ -51,12 +51,22 @@ def parse_table(source: Path | TextIO, name: str) -> pd.DataFrame:
     texts = dict.fromkeys(facts()["text_columns"], str)
     table = pd.read_csv(source, keep_default_na=False, na_values=[""], dtype=texts)
     if "simulated" in table:
-        table["simulated"] = table["simulated"].map(_YES)
+        table["simulated"] = _logical(table["simulated"], name)
     units = {column: _unit_of(column) for column in table}
     table.attrs["units"] = {column: unit for column, unit in units.items() if unit}
     known = facts()["columns"].get(name, [])
     table.attrs["meanings"] = {c: meaning for c, meaning in known if c in table}
     return table
+
+
+def _logical(column: pd.Series, name: str) -> pd.Series:
+    words = column.astype(str).str.lower()
+    wrong = column[column.notna() & ~words.isin(list(_YES))]
+    if len(wrong):
+        line = int(wrong.index[0]) + 2  # after the header
+        what = f"is '{wrong.iloc[0]}', which is neither yes nor no"
+        raise error(what, "Correct this line, or make the table anew.", file=name, line=line, key=str(column.name))
+    return words.map(_YES)
 
 
 class Collected(ABC):

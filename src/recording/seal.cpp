@@ -120,6 +120,9 @@ void seal(const SessionFolder& folder, SessionInfo& info) {
             tables.push_back(seal_of(folder, file));
         }
     }
+    constexpr const char* kNwb = "session.nwb";
+    if (is_there(folder.file(kNwb)))
+        tables.push_back({kNwb, info.ticks, folder.input(kNwb).checksum});
     info.tables = std::move(tables);
     info.seal = seal_of(info);
 }

@@ -1,9 +1,10 @@
-// Detects whether the tables of a session, or its description in session.yaml, changed after it
-// ended. Each chunk of raw.log has a checksum, but a rehearsal keeps no log, only tables. Tables
-// are therefore sealed in session.yaml:
+// Detects whether the tables of a session, its session.nwb, or its description in session.yaml
+// changed after it ended. Each chunk of raw.log has a checksum, but a rehearsal keeps no log, and
+// who analyses a session often has no log either. The files are therefore sealed in session.yaml:
 //
 //   tables:                        for each table, its rows and a checksum of its bytes
 //     - { file: trials.csv, rows: 24, checksum: 0a1b2c3d }
+//     - { file: session.nwb, rows: 9000, checksum: 5c6d7e8f }     its rows are the ticks
 //   seal: 4e5f6a7b                 a checksum of session.yaml's own data (identity, participant,
 //                                  seed, program, state, ticks, inputs) and of the list above
 //
@@ -25,9 +26,10 @@ std::vector<std::string> tables_from_log();
 /// The sealed tables that were made before the first tick, or while the session ran.
 std::vector<std::string> other_tables();
 
-/// Seals the current state of a session's tables. Tables that were made before its first tick or
-/// while it ran, and that are already in `info.tables`, keep their seal, because they cannot be
-/// made again.
+/// Seals the current state of a session's tables, and of its session.nwb, which readers of that
+/// file compare: the program itself reads raw.log instead. Tables that were made before its first
+/// tick or while it ran, and that are already in `info.tables`, keep their seal, because they
+/// cannot be made again.
 void seal(const SessionFolder& folder, SessionInfo& info);
 
 /// Whether the session has seals. A running session has none, nor has one recorded by an older

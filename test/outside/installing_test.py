@@ -5,6 +5,7 @@ docs/outside.md has the sources. Usage: outside/installing_test.py PROGRAM, from
 import os
 import pathlib
 import re
+import shutil
 import stat
 import subprocess
 import sys
@@ -97,6 +98,57 @@ class Installing(unittest.TestCase):
         done = subprocess.run(["cmake", "-S", SOURCE, "-B", self.here, "-DDIHAPTIC_PARTS=tests;windwo"], capture_output=True, text=True)
         self.assertEqual(done.returncode, 1)
         self.assertIn("'windwo' is not a part", " ".join(done.stderr.split()))
+
+    def test_a_sanitizer_that_does_not_exist_is_refused(self):
+        done = subprocess.run(["cmake", "-S", SOURCE, "-B", self.here, "-DDIHAPTIC_SANITIZE=adress"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("'adress' is not a list such as address,undefined", " ".join(done.stderr.split()))
+
+    def test_what_other_software_puts_into_the_environment_is_left_out_and_named(self):
+        env = dict(os.environ, CMAKE_PREFIX_PATH="/opt/ros/humble", CXXFLAGS="-I/opt/conda/include", CPATH="")
+        done = subprocess.run(["bash", "-c", "source ./dev help >/dev/null; echo ${CMAKE_PREFIX_PATH-none} ${CXXFLAGS-none}"],
+                              capture_output=True, text=True, env=env)
+        self.assertEqual(done.stdout, "none none\n")
+        self.assertEqual(len(done.stderr.splitlines()), 2, done.stderr)
+        self.assertIn("without CMAKE_PREFIX_PATH=/opt/ros/humble, which the environment has", done.stderr)
+
+    def test_a_preset_is_one_with_which_one_can_build(self):
+        presets = self.of_dev("presets").stdout.split()
+        self.assertEqual(presets[0], "release")
+        for name in presets:
+            self.assertEqual(self.of_dev(f"check_preset {name}").returncode, 0, name)
+        for name in ("base", "clang", "soak", "release-fast", "relaese", "", "."):
+            done = self.of_dev(f"check_preset '{name}'")
+            self.assertEqual(done.returncode, 2, name)
+            self.assertIn(f"there is no preset '{name}', but: release peers dev", done.stderr)
+
+    def on_path(self, **programs):
+        """A folder with these programs, each a line of shell, and with what ./dev needs itself."""
+        folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
+        for name in ("awk", "bash", "cat", "dirname", "grep", "nproc", "paste", "sed"):
+            (folder / name).symlink_to(shutil.which(name))
+        for name, line in programs.items():
+            program = folder / name.replace("_", "-")
+            program.write_text(f"#!/bin/sh\n{line}\n")
+            program.chmod(0o755)
+        return folder
+
+    def install(self, **programs):
+        return subprocess.run(["bash", "-c", "source ./dev help >/dev/null; install_packages libfoo-dev"], capture_output=True,
+                              text=True, env=dict(os.environ, PATH=str(self.on_path(**programs))))
+
+    def test_packages_that_cannot_be_installed_are_named_with_a_remedy(self):
+        other = self.install()
+        self.assertEqual(other.returncode, 1)
+        self.assertIn("this is not a Debian", other.stderr)
+        by_hand = "apt-get install --no-install-recommends libfoo-dev"
+        for programs, why in ((dict(dpkg_query="exit 1"), "there is no "),
+                              (dict(dpkg_query="exit 1", sudo="exec \"$@\"", apt_get="exit 100"), "could not be installed")):
+            done = self.install(**programs)
+            self.assertEqual(done.returncode, 1, programs)
+            self.assertIn(why, done.stderr)
+            self.assertIn(by_hand, done.stderr)
+        self.assertEqual(self.install(dpkg_query="echo install ok installed").stderr, "")
 
     def test_tests_of_a_part_that_was_not_built_are_skipped_and_say_so(self):
         for parts, code in (("meshes;tests", 77), ("window;tests", 0)):

@@ -1,0 +1,95 @@
+"""Opens session.nwb, and says of a damaged one that it is damaged, in whichever call this is found."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Iterator
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+from ._head import Head
+from .errors import Error, error
+
+#: What h5py raises on reading a damaged file, depending on which of its bytes are damaged.
+_DAMAGE = (ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError)
+
+
+@contextlib.contextmanager
+def reading(folder: Path) -> Iterator[None]:
+    """Raises Error when what is read from session.nwb in this context is damaged."""
+    try:
+        yield
+    except Error:
+        raise
+    except _DAMAGE as why:
+        raise error(
+            f"session.nwb is damaged: {why}",
+            "Rebuild it from raw.log: dihaptic.recover(), or dihaptic recover.",
+            file=str(folder),
+        ) from None
+
+
+def open_nwb(folder: Path) -> h5py.File:
+    """A session's session.nwb. Raises Error when there is none, or when it is damaged or leads into another file."""
+    file = folder / "session.nwb"
+    if not file.is_file():
+        raise error(
+            "has no session.nwb: the session is still running, or was killed",
+            "If it is not running, make its files: dihaptic.recover(), or dihaptic recover.",
+            file=str(folder),
+        )
+    with reading(folder):
+        opened = h5py.File(file, "r")
+        leads_out = _what_leads_out(opened)
+    if leads_out:
+        opened.close()
+        raise error(
+            f"has {leads_out[0]} in another file, which HDF5 would read without asking",
+            "No session of Dihaptic has that: check its source. 'dihaptic recover' rebuilds it.",
+            file=str(file),
+        )
+    return opened
+
+
+def head_of_nwb(file: h5py.File) -> Head | None:
+    """The log's head from its copy in session.nwb, which is smaller to send than raw.log; None if an older version made
+    the file, without a head."""
+    if "scratch/items" not in file:
+        return None
+    table = file["scratch/items"]
+    items: dict[str, list[str]] = {"fingers": [], "turns": [], "bodies": [], "joints": []}
+    for of, name in zip(table["list"][...], table["name"][...]):
+        items[_text(of)].append(_text(name))
+    sequence = file["acquisition/sequence"]
+    if "timestamps" in sequence:
+        tick = float(np.median(np.diff(sequence["timestamps"][...])))
+    else:
+        tick = 1 / float(sequence["starting_time"].attrs["rate"])
+    return Head(round(tick, 9), items)  # ticks are whole nanoseconds, rates have 24 bits
+
+
+def _text(value: str | bytes) -> str:
+    """A text from HDF5, which h5py returns as bytes since its version 3."""
+    return value.decode("utf-8") if isinstance(value, bytes) else value
+
+
+def _what_leads_out(file: h5py.File) -> list[str]:
+    """Names with content in another file: links, data sets with external raw data, virtual data sets."""
+    out = []
+
+    def look(group: h5py.Group) -> None:
+        for name in group:
+            link = group.get(name, getlink=True)
+            if isinstance(link, h5py.ExternalLink):
+                out.append(f"{group.name}/{name}")
+            elif isinstance(link, h5py.HardLink):
+                item = group[name]
+                if isinstance(item, h5py.Group):
+                    look(item)
+                elif isinstance(item, h5py.Dataset) and (item.external or item.is_virtual):
+                    out.append(item.name)
+
+    look(file)
+    return out
