@@ -94,12 +94,11 @@ void write_slurm_script(const std::string& folder, const Asked& asked) {
     write_file(
         fmt::format(
             "{3}"
-            "# A rehearsal in {0} shards, each a task of a Slurm array. All of them:\n"
-            "#   sbatch slurm.sh\n"
-            "# The third alone:\n"
-            "#   sbatch --array=3 slurm.sh\n"
-            "# Whoever is complete is not done again. What your cluster asks for besides, such\n"
-            "# as an account, a partition or a time, may be added below as lines #SBATCH.\n"
+            "# A rehearsal in {0} shards, each of which is a task of a Slurm array.\n"
+            "# To submit all of them:         sbatch slurm.sh\n"
+            "# To submit only the third one:  sbatch --array=3 slurm.sh\n"
+            "# People who are complete are not done again. If your cluster requires an account, a\n"
+            "# partition or a time limit, add it below, in lines that begin with #SBATCH.\n"
             "#SBATCH --job-name=dihaptic\n"
             "#SBATCH --array=1-{0}\n"
             "#SBATCH --ntasks=1\n"
@@ -127,16 +126,23 @@ std::optional<std::string> submit(const std::string& folder, const Asked& asked,
     const int status = pclose(pipe);
     if (status != 0) {
         const bool none = WIFEXITED(status) && WEXITSTATUS(status) == kNotFound;
-        print({{Severity::error,
-                {slurm_script(folder), 0},
-                "",
-                none ? "is written, but this machine has no sbatch to submit it"
-                     : "is refused by sbatch, whose reason is printed above",
-                none ? "Type the first command on a machine with sbatch, or the second one to do "
-                       "without it."
-                     : "Solve this problem, then type this."}});
-        fmt::print(stderr, "{}\n", by_sbatch(folder, asked, shards));
-        if (none) fmt::print(stderr, "{}\n", by_hand(asked, shards));
+        const std::string again = by_sbatch(folder, asked, shards);
+        if (none) {
+            fmt::print(stderr,
+                       "not submitted: this machine has no sbatch. On one that has it, type\n"
+                       "{}\n"
+                       "or, to do it here without Slurm,\n"
+                       "{}\n"
+                       "next, when it has ended: dihaptic collect {}\n",
+                       again, by_hand(asked, shards), shell_file(folder));
+        } else {
+            print({{Severity::error,
+                    {slurm_script(folder), 0},
+                    "",
+                    "is refused by sbatch, whose reason is printed above",
+                    "Solve this problem, then type this."}});
+            fmt::print(stderr, "{}\n", again);
+        }
         exit_code = kBadInput;
         return std::nullopt;
     }

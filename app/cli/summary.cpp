@@ -147,12 +147,12 @@ void print_trials(const Table& trials) {
 
 void print_phases(const analysis::SessionFigures& figures) {
     const bool turns = !figures.phases.empty() && !std::isnan(figures.phases.front().peak_torque);
-    fmt::print("\n{:10s} {:>7s} {:>7s}  {:>9s} {:>9s} {:>9s}  {:>10s} {:>10s}  {:>8s}  {:>9s}{}\n",
-               "phase", "from s", "to s", "grip N", "peak N", "load N", "finger N", "peak N",
-               "slip mm", "weight", turns ? "  torque mN m" : "");
+    fmt::print("\n{:10s} {:>7s} {:>7s}  {:>9s} {:>10s} {:>9s}  {:>10s} {:>10s}  {:>8s}  {:>9s}{}\n",
+               "phase", "from s", "to s", "grip N", "its peak N", "load N", "finger N",
+               "its peak N", "slip mm", "weight", turns ? "  torque mN m" : "");
     for (const rows::PhaseRow& p : figures.phases) {
         fmt::print(
-            "{:10s} {:7.2f} {:7.2f}  {:>9s} {:>9s} {:>9s}  {:>10s} {:>10s}  {:>8s}  {:>9s}{}\n",
+            "{:10s} {:7.2f} {:7.2f}  {:>9s} {:>10s} {:>9s}  {:>10s} {:>10s}  {:>8s}  {:>9s}{}\n",
             p.name, p.start, p.end, number(p.mean_grip, 3), number(p.peak_grip, 3),
             number(p.mean_load, 3), number(p.mean_force, 3), number(p.peak_force, 3),
             number(p.slip * 1e3, 4), number(p.weight_felt, 4),

@@ -134,6 +134,10 @@ Json JsonSchema::word() {
     return one_of_these({"string", "number"}, "must be a single word or text");
 }
 
+Json JsonSchema::reference(const std::string& definition) {
+    return {{"$ref", "#/definitions/" + definition}};
+}
+
 Json JsonSchema::whole(const Json& keys, const std::string& heading) const {
     Json out{{"$schema", "http://json-schema.org/draft-07/schema#"}, {"title", heading}};
     out.update(keys);
@@ -196,8 +200,10 @@ Json JsonSchema::part_of(const std::string& name, std::string_view word) const {
     return known == parts_.end() ? Json{{"type", {"object", "null"}}} : known->second();
 }
 
-void SchemaLister::add(std::string_view name, const Field& field, const Node& preset,
+void SchemaLister::add(std::string_view name, const Field& field, const Node& written,
                        const std::function<Json(double si)>& schema) {
+    const bool has_default = !written.entries.empty() && !field.is_required;
+    const Node preset = has_default ? written.entries.front().value : Node{};
     std::vector<std::string> names;
     Json best;
     const auto add_key = [&](const std::string& key, double si) {
@@ -229,6 +235,14 @@ void SchemaLister::keep_one_default(size_t units, const Json& best) {
         if (kept || schema.value("default", Json()) != best) schema.erase("default");
         kept = kept || schema.contains("default");
     }
+}
+
+Json SchemaLister::one_of(std::vector<std::string> words) {
+    return {{"type", "string"}, {"enum", std::move(words)}};
+}
+
+Json SchemaLister::list_of(Json items) {
+    return {{"type", "array"}, {"items", std::move(items)}};
 }
 
 Json SchemaLister::of(double, const Field& field, double si, const std::string&) {

@@ -110,8 +110,9 @@ class JsonSchema {
         const auto [name, is_new] = names_.try_emplace(typeid(Struct), path);
         const std::string at = name->second;
         if (is_new) definitions_[at] = object(value, at);
-        return {{"$ref", "#/definitions/" + at}};
+        return reference(at);
     }
+    static Json reference(const std::string& definition);
     Json part_of(const std::string& name, std::string_view word) const;
 
     std::map<std::pair<std::string, std::string>, std::function<Json()>>
@@ -132,10 +133,7 @@ class SchemaLister {
     void operator()(std::string_view name, T& value, Field field = {}) {
         FieldWriter writer;
         writer(name, value, field);
-        const Node written = writer.take();
-        const bool has_default = !written.entries.empty() && !field.is_required;
-        const Node preset = has_default ? written.entries.front().value : Node{};
-        add(name, field, preset,
+        add(name, field, writer.take(),
             [&](double si) { return of(value, field, si, std::string(name)); });
     }
     bool is_list(std::string_view) {
@@ -147,8 +145,11 @@ class SchemaLister {
     SchemaKeys take() { return std::move(found_); }
 
   private:
-    void add(std::string_view name, const Field& field, const Node& preset,
+    /// `written`: the key with its default, or without one.
+    void add(std::string_view name, const Field& field, const Node& written,
              const std::function<Json(double si)>& schema);
+    static Json one_of(std::vector<std::string> words);
+    static Json list_of(Json items);
     void keep_one_default(size_t units, const Json& best);
 
     /// `si`: the key's unit in SI units.
@@ -169,7 +170,7 @@ class SchemaLister {
     template <NamedEnum E>
     static Json of(const E& value, const Field&, double, const std::string&) {
         const auto names = enum_names(value);
-        return {{"type", "string"}, {"enum", std::vector<std::string>(names.begin(), names.end())}};
+        return one_of({names.begin(), names.end()});
     }
     template <class Struct>
     requires Described<Struct, SchemaLister> Json of(const Struct& value, const Field&, double,
@@ -179,7 +180,7 @@ class SchemaLister {
     template <class Struct>
     requires Described<Struct, SchemaLister> Json of(const std::vector<Struct>&, const Field&,
                                                      double, const std::string& name) {
-        return {{"type", "array"}, {"items", schema_.refer(Struct{}, path_ + "." + name)}};
+        return list_of(schema_.refer(Struct{}, path_ + "." + name));
     }
     template <class T>
     Json of(const std::optional<T>& value, const Field& field, double si, const std::string& name) {

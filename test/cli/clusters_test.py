@@ -153,10 +153,11 @@ class Slurm(InShards):
         needs.for_this_test("parallel", "parallel")
         result = self.rehearse("--slurm", "3", "--people", "5", env=dict(os.environ, PATH=self.tools()))
         self.assertEqual(result.returncode, 2)
-        self.assertIn("slurm.sh: error: is written, but this machine has no sbatch to submit it", result.stderr)
         self.assertIn('--shard "$SLURM_ARRAY_TASK_ID/3"', pathlib.Path(self.out, "slurm.sh").read_text())
-        sbatch, parallel = result.stderr.splitlines()[-2:]
+        why, sbatch, _, parallel, after = result.stderr.splitlines()[-5:]
+        self.assertEqual(why, "not submitted: this machine has no sbatch. On one that has it, type")
         self.assertEqual(sbatch, f"sbatch '{self.out}/slurm.sh'")
+        self.assertEqual(after, f"next, when it has ended: dihaptic collect '{self.out}'")
         result = subprocess.run(parallel, shell=True, capture_output=True, text=True, cwd="/")
         self.assertEqual(result.returncode, 0, result.stderr)
         result = collect(self.out)
