@@ -15,6 +15,13 @@ namespace {
 
 constexpr int kMostStaggeredIterations = 200;
 constexpr size_t kFewPairs = 10;
+/// A problem with so few contacts that misses within its bound is given this many times as much
+/// work, unless the tick has already taken more than a little: an object that a finger is about to
+/// touch needs it once in several hundred thousand solves, the parts of a stirred heap in many.
+constexpr size_t kFewContacts = 12;
+constexpr int kMoreForFew = 15;
+constexpr int64_t kLittleWork = 20'000;  // visits: about half a millisecond
+constexpr size_t kExactWhenBounded = 2;  // of the methods in hand_over() for bounded work
 constexpr int kLastSweeps = 2000;
 constexpr int kConeSweeps = 200;  // to bring an answer back into the cone
 /// Bounds as a fallback: pairs of projections times contacts squared, and sweeps times contacts.
@@ -72,7 +79,12 @@ class Solve {
         out_of_work_ = !sweeps && !system_.work().affords(visits(kFewestSteps * kVisitsPerStep));
         const bool exact =
             !sweeps && !out_of_work_ && affords(kFewestSteps, settings) && system_.prepare_newton();
-        hand_on(hand_over(solver, exact, bounded), exact, settings, detail);
+        const std::array routes = hand_over(solver, exact, bounded);
+        if (exact && bounded && contacts_ <= kFewContacts) {
+            hand_on(std::span(routes).first(kExactWhenBounded), exact, settings, detail);
+            if (system_.work().spent() < kLittleWork) settings.work *= kMoreForFew;
+        }
+        hand_on(routes, exact, settings, detail);
         if (out_of_work_) stats_.route = Route::out_of_work;
         stats_.ended = out_of_work_ || (bounded && stats_.route == Route::sequential_impulse);
         if (!exact) stats_.fallback = !sweeps;
@@ -86,14 +98,13 @@ class Solve {
     /// Tries one method after another; if the tick's work runs out, sweeps end the solve.
     void hand_on(std::span<const Route> routes, bool exact, const SolveSettings& settings,
                  SolveDetail* detail) {
-        bool first = true;
         for (const Route route : routes) {
             if (route == Route::none || outcome_.converged) return;
             if (route == Route::coarse_polygon && System::D != 3) continue;
             if (exact && !may_step()) break;
-            ask(route, first, settings, detail);
-            if (first && exact) stats_.fallback = !outcome_.converged;
-            first = false;
+            ask(route, first_, settings, detail);
+            if (first_ && exact) stats_.fallback = !outcome_.converged;
+            first_ = false;
         }
         if (outcome_.converged || may_step()) return;
         stats_.fallback = out_of_work_ = true;
@@ -239,6 +250,7 @@ class Solve {
     size_t contacts_;  // at least 1
     SolveStats& stats_;
     Outcome outcome_;
+    bool first_ = true;         // whether no method has been tried yet
     int counted_ = 0;           // share of the allowed work
     bool out_of_work_ = false;  // whether the tick's work is used up
 };

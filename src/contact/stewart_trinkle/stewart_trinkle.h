@@ -17,6 +17,7 @@
 // well.
 #pragma once
 
+#include <array>
 #include <numbers>
 
 #include "contact/anderson.h"
@@ -26,6 +27,21 @@
 #include "contact/stewart_trinkle/lemke.h"
 
 namespace dihaptic::contact {
+
+/// Starts of Newton's method on a polygon. Each turn of the polygons is a solve, so that none may
+/// take long: twelve short starts from random impulses in place of four with caution, which would
+/// leave less work for Lemke's method.
+constexpr auto kPolygonStarts = [] {
+    using From = NewtonStart::From;
+    std::array<NewtonStart, 14> out{};
+    out[0] = kNewtonStarts[0];
+    out[1] = kNewtonStarts[1];
+    for (size_t i = 2; i < out.size(); ++i) {
+        const bool full = i % 2 == 1;
+        out[i] = {From::scattered, full ? 1e-3 : 1e-2, 100, 20, 40, true, full ? 0 : 4, 2};
+    }
+    return out;
+}();
 
 struct StewartTrinkleOutcome : Outcome {
     Route route = Route::none;
@@ -235,7 +251,7 @@ class StewartTrinkle {
 
     /// Solves by Newton's method, to `enough` at least.
     void newton_once(std::span<Vec> r, double enough, StewartTrinkleOutcome& out) {
-        auto starts = kNewtonStarts;
+        auto starts = kPolygonStarts;
         if (enough > 0) {  // from the answer with slightly different polygons
             starts[0].rho = std::clamp(residual_, 1e-7, starts[0].rho);
             starts[0].sweeps = 0;
