@@ -80,10 +80,7 @@ class Solve {
         const bool exact =
             !sweeps && !out_of_work_ && affords(kFewestSteps, settings) && system_.prepare_newton();
         const std::array routes = hand_over(solver, exact, bounded);
-        if (exact && bounded && contacts_ <= kFewContacts) {
-            hand_on(std::span(routes).first(kExactWhenBounded), exact, settings, detail);
-            if (system_.work().spent() < kLittleWork) settings.work *= kMoreForFew;
-        }
+        if (exact && bounded) try_if_few(routes, settings, detail);
         hand_on(routes, exact, settings, detail);
         if (out_of_work_) stats_.route = Route::out_of_work;
         stats_.ended = out_of_work_ || (bounded && stats_.route == Route::sequential_impulse);
@@ -93,6 +90,13 @@ class Solve {
         // Stewart and Trinkle's own answer solves another problem than Coulomb's
         const bool own = solver == Solver::stewart_trinkle && !stats_.fallback;
         stats_.missed = !own && !(residual.judged() <= kTolerance);
+    }
+
+    /// Tries the exact methods on a small problem, and allows them more work for a second time.
+    void try_if_few(std::span<const Route> routes, SolveSettings& settings, SolveDetail* detail) {
+        if (contacts_ > kFewContacts) return;
+        hand_on(routes.first(kExactWhenBounded), true, settings, detail);
+        if (system_.work().spent() < kLittleWork) settings.work *= kMoreForFew;
     }
 
     /// Tries one method after another; if the tick's work runs out, sweeps end the solve.
