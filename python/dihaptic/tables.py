@@ -61,10 +61,11 @@ def parse_table(source: Path | TextIO, name: str) -> pd.DataFrame:
 
 def _logical(column: pd.Series, name: str) -> pd.Series:
     words = column.astype(str).str.lower()
-    wrong = column[column.notna() & ~words.isin(list(_YES))]
-    if len(wrong):
-        line = int(wrong.index[0]) + 2  # after the header
-        what = f"is '{wrong.iloc[0]}', which is neither yes nor no"
+    wrong = (column.notna() & ~words.isin(list(_YES))).to_numpy()
+    if wrong.any():
+        row = int(wrong.argmax())
+        line = row + 2  # after the header
+        what = f"is '{column.iloc[row]}', which is neither yes nor no"
         raise error(what, "Correct this line, or make the table anew.", file=name, line=line, key=str(column.name))
     return words.map(_YES)
 

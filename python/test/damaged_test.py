@@ -138,6 +138,10 @@ class Damaged(unittest.TestCase):
         table.write_text("trial_num,simulated\n1,yes\n2,maybe\n")
         with self.assertRaisesRegex(dh.Error, "saved.csv:3: error: simulated: is 'maybe', which is neither yes nor no"):
             dh.read_table(table)
+        # a first cell without a heading is taken for the row's name
+        table.write_text("name,simulated\na,b,maybe\nc,d,yes\n")
+        with self.assertRaisesRegex(dh.Error, "neither yes nor no"):
+            dh.read_table(table)
 
 
 if __name__ == "__main__":

@@ -150,6 +150,18 @@ class Installing(unittest.TestCase):
             self.assertIn(by_hand, done.stderr)
         self.assertEqual(self.install(dpkg_query="echo install ok installed").stderr, "")
 
+    @unittest.skipIf(os.geteuid(), "root alone can be somebody else")
+    def test_who_has_no_sudo_is_told_so(self):
+        here = self.here / "dev"
+        shutil.copy("dev", here)
+        self.here.chmod(0o755)
+        tools = self.on_path(dpkg_query="exit 1", apt_get="exit 0")
+        tools.chmod(0o755)
+        done = subprocess.run([shutil.which("bash"), "-c", "source ./dev help >/dev/null; install_packages libfoo-dev"], cwd=self.here,
+                              capture_output=True, text=True, env=dict(os.environ, PATH=str(tools)), user=65534, group=65534)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("there is no sudo. Let the computer's administrator type\n    apt-get install", done.stderr)
+
     def test_tests_of_a_part_that_was_not_built_are_skipped_and_say_so(self):
         for parts, code in (("meshes;tests", 77), ("window;tests", 0)):
             (self.here / "CMakeCache.txt").write_text(f"DIHAPTIC_PARTS:STRING={parts}\n")
