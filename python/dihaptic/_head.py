@@ -5,7 +5,7 @@ from __future__ import annotations
 import shlex
 import struct
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, BinaryIO, TypeVar
 
@@ -41,6 +41,7 @@ class Head:
 
     tick: float  #: [s]
     items: dict[str, list[str]]  #: for each list whose items have names: these names, in order
+    identity: str = field(default="", compare=False)  #: of the session, which session.yaml has too; empty: not known
 
 
 def read_yaml(text: str, file: Path, remedy: str = _BACKUP) -> dict[str, Any]:
@@ -95,7 +96,7 @@ def read_head(file: Path) -> Head:
     turning = [device["finger"] for device in head.get("devices", []) if device.get("orientation") == "yes"]
     items = {name: list(head.get(name) or []) for name in ("fingers", "bodies", "joints")}
     in_order = {"fingers": items["fingers"], "turns": turning, "bodies": items["bodies"], "joints": items["joints"]}
-    return Head(float(head["tick_s"]), in_order)
+    return Head(float(head["tick_s"]), in_order, str(head.get("identity", "")))
 
 
 def _text_of_file(file: Path, remedy: str) -> str:

@@ -111,10 +111,25 @@ class Session:
     def _head(self) -> Head:
         log = self.folder / "raw.log"
         if log.exists():
-            return read_head(log)
+            head = read_head(log)
+            self._check_log(head)
+            return head
         # it may not have been copied, as the largest file
         with reading(self.folder):
             return head_of_nwb(self._file) or read_head(log)
+
+    def _check_log(self, head: Head) -> None:
+        """Raises Error when raw.log belongs to another session. Sessions of earlier versions have no identity."""
+        try:
+            own = self.info.get("identity", "")
+        except Error:  # each reader of a table or quantity warns of this
+            return
+        if own and head.identity and own != head.identity:
+            raise error(
+                "belongs to a different session from the session.yaml beside it",
+                "Restore this session's own log, or the session.yaml that belongs to the log.",
+                file=str(self.folder / "raw.log"),
+            )
 
     # Tables
 

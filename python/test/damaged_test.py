@@ -115,6 +115,14 @@ class Damaged(unittest.TestCase):
             with self.subTest(name), self.assertRaises(dh.NotThere):
                 dh.load(folder).table(name)
 
+    def test_the_log_of_another_session_is_refused(self):
+        other = dh.run("experiments/lift-block.yaml", out=self.folder.name, progress=False)
+        folder = self.copy()
+        shutil.copy(other.folder / "raw.log", folder)
+        for call in (lambda session: session.tick, lambda session: session.keys(), lambda session: session.between(0, 1)):
+            with self.assertRaisesRegex(dh.Error, "raw.log: error: belongs to a different session"):
+                call(dh.load(folder))
+
     def test_a_misspelt_folder_in_a_session_is_not_that_session(self):
         with self.assertRaisesRegex(dh.Error, "seesion2: error: is not a session"):
             dh.load(self.good.folder / "seesion2")
