@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import math
+import os
 import shlex
+import stat
 import struct
 import zlib
 from dataclasses import dataclass, field
@@ -11,7 +14,7 @@ from typing import Any, BinaryIO, TypeVar
 
 import yaml
 
-from .errors import error
+from .errors import Error, error
 
 #: Every value is a text, exactly as in the file.
 _LOADER = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
@@ -22,6 +25,8 @@ _VERSIONS = {
     b"DIHAPTIC LOG 1\n": struct.Struct("<4sII"),
 }
 _MOST_HEAD = 1 << 24  # bytes
+#: The largest file of keys that the program reads (src/base/text_file.h) [bytes].
+MOST_YAML = 16_000_000
 #: The remedy for a damaged file that the program wrote.
 _BACKUP = "Restore it from a backup."
 #: The last line of session.yaml, without which it is cut off.
@@ -42,6 +47,34 @@ class Head:
     tick: float  #: [s]
     items: dict[str, list[str]]  #: for each list whose items have names: these names, in order
     identity: str = field(default="", compare=False)  #: of the session, which session.yaml has too; empty: not known
+
+
+def why_unreadable(file: Path, most: float = math.inf) -> str:
+    """Why a file cannot be read: it is not there, is larger than `most` [bytes], or is not a regular file: a pipe or a
+    device keeps its reader waiting, or reading, for ever. Empty: it can be read."""
+    try:
+        status = os.stat(file)
+        if not stat.S_ISREG(status.st_mode):
+            return "it is a folder" if stat.S_ISDIR(status.st_mode) else "it is not a regular file"
+        if status.st_size > most:
+            return f"it has {status.st_size / 1e6:.0f} MB, and at most {most / 1e6:.0f} MB are read"
+        os.close(os.open(file, os.O_RDONLY))
+    except (OSError, ValueError) as why:  # a ValueError: no file can have this name
+        return getattr(why, "strerror", None) or str(why)
+    return ""
+
+
+def most_of_recording(ticks: int) -> float:
+    """A size that neither raw.log nor session.nwb reaches, whose ticks take some hundred bytes each [bytes]."""
+    return 1e9 + 1e5 * ticks
+
+
+def is_yes(document: dict[str, Any], key: str, file: Path, remedy: str = _BACKUP, of: str = "") -> bool:
+    """A logical value: the program writes yes and no, and other software saves them as true and false. Raises Error."""
+    word = part_of(document, key, str, file, remedy, of) or "no"
+    if word not in ("yes", "true", "no", "false"):
+        raise error(f"must be yes or no, but is '{word}'", remedy, file=str(file), key=of + key)
+    return word in ("yes", "true")
 
 
 def read_yaml(text: str, file: Path, remedy: str = _BACKUP) -> dict[str, Any]:
@@ -88,22 +121,43 @@ def part_of(
 def read_head(file: Path) -> Head:
     """The head of a raw.log. Raises Error."""
     try:
+        if why := why_unreadable(file):
+            raise OSError(why)
         with file.open("rb") as log:
             text = _text_of_head(log, file)
-    except OSError as why:
-        raise error(f"cannot be read: {why}", "Copy it from the recording computer.", file=str(file)) from None
+    except (OSError, UnicodeDecodeError) as fault:
+        raise error(f"cannot be read: {fault}", "Copy it from the recording computer.", file=str(file)) from None
     head = read_yaml(text, file)
-    turning = [device["finger"] for device in head.get("devices", []) if device.get("orientation") == "yes"]
-    items = {name: list(head.get(name) or []) for name in ("fingers", "bodies", "joints")}
+    try:
+        devices = part_of(head, "devices", list, file)
+        turning = [device["finger"] for device in devices if is_yes(device, "orientation", file)]
+        items = {name: list(head.get(name) or []) for name in ("fingers", "bodies", "joints")}
+        if not all(isinstance(name, str) for names in (turning, *items.values()) for name in names):
+            raise ValueError("a name is not a single value")
+        tick = tick_of(head["tick_s"])
+    except (KeyError, TypeError, ValueError) as fault:
+        if isinstance(fault, Error):
+            raise
+        raise error(f"has a damaged head: {fault}", _BACKUP, file=str(file)) from None
     in_order = {"fingers": items["fingers"], "turns": turning, "bodies": items["bodies"], "joints": items["joints"]}
-    return Head(float(head["tick_s"]), in_order, str(head.get("identity", "")))
+    return Head(tick, in_order, str(head.get("identity", "")))
+
+
+def tick_of(value: Any) -> float:
+    """The time from one tick to the next [s]. Raises ValueError or TypeError when it cannot be one."""
+    tick = float(value)
+    if not 0 < tick < math.inf:
+        raise ValueError(f"the tick is {value} s")
+    return tick
 
 
 def _text_of_file(file: Path, remedy: str) -> str:
+    if why := why_unreadable(file, MOST_YAML):
+        raise error(f"cannot be read: {why}", remedy, file=str(file))
     try:
         return file.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as why:
-        raise error(f"cannot be read: {why}", remedy, file=str(file)) from None
+    except (OSError, UnicodeDecodeError) as fault:
+        raise error(f"cannot be read: {fault}", remedy, file=str(file)) from None
 
 
 def _is_nested_deeply(text: str) -> bool:

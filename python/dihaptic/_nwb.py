@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import contextlib
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
 import h5py
 import numpy as np
 
-from ._head import Head
+from ._head import Head, read_session_info, tick_of, why_unreadable
 from .errors import Error, error
 
 #: What h5py raises on reading a damaged file, depending on which of its bytes are damaged.
 _DAMAGE = (ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError)
+
+#: More names than any session.nwb has: some hundred.
+_MOST_LINKS = 100_000
 
 
 @contextlib.contextmanager
@@ -34,12 +38,10 @@ def reading(folder: Path) -> Iterator[None]:
 def open_nwb(folder: Path) -> h5py.File:
     """A session's session.nwb. Raises Error when there is none, or when it is damaged or leads into another file."""
     file = folder / "session.nwb"
-    if not file.is_file():
-        raise error(
-            "has no session.nwb: the session is still running, or was killed",
-            "If it is not running, make its files: dihaptic.recover(), or dihaptic recover.",
-            file=str(folder),
-        )
+    if not os.path.lexists(file):
+        raise _without_nwb(folder)
+    if why := why_unreadable(file):
+        raise error(f"cannot be read: {why}", "Copy it from the recording computer.", file=str(file))
     with reading(folder):
         opened = h5py.File(file, "r")
         leads_out = _what_leads_out(opened)
@@ -51,6 +53,26 @@ def open_nwb(folder: Path) -> h5py.File:
             file=str(file),
         )
     return opened
+
+
+def _without_nwb(folder: Path) -> Error:
+    """Why a session has no session.nwb."""
+    try:
+        state = read_session_info(folder).get("state", "")
+    except Error:
+        state = ""
+    if state not in ("", "running") and not os.path.lexists(folder / "raw.log"):
+        return error(
+            "has neither session.nwb nor raw.log, only tables: a rehearsal keeps no recordings",
+            "With --keep-recordings, dihaptic rehearse keeps them; those of a real session are to be copied here.",
+            file=str(folder),
+        )
+    what = "the session is still running, or was killed" if state in ("", "running") else "it has been removed"
+    return error(
+        f"has no session.nwb: {what}",
+        "If it is not running, make its files: dihaptic.recover(), or dihaptic recover.",
+        file=str(folder),
+    )
 
 
 def head_of_nwb(file: h5py.File) -> Head | None:
@@ -67,7 +89,7 @@ def head_of_nwb(file: h5py.File) -> Head | None:
         tick = float(np.median(np.diff(sequence["timestamps"][...])))
     else:
         tick = 1 / float(sequence["starting_time"].attrs["rate"])
-    return Head(round(tick, 9), items)  # ticks are whole nanoseconds, rates have 24 bits
+    return Head(tick_of(round(tick, 9)), items)  # ticks are whole nanoseconds, rates have 24 bits
 
 
 def _text(value: str | bytes) -> str:
@@ -76,20 +98,32 @@ def _text(value: str | bytes) -> str:
 
 
 def _what_leads_out(file: h5py.File) -> list[str]:
-    """Names with content in another file: links, data sets with external raw data, virtual data sets."""
-    out = []
+    """Names with content in another file: links, data sets with external raw data, virtual data sets.
 
-    def look(group: h5py.Group) -> None:
+    Looks at each group once, because links can make countless paths of a few groups. Raises ValueError when there are
+    far too many links."""
+    out = []
+    groups = [file["/"]]
+    seen = {h5py.h5o.get_info(groups[0].id).addr}
+    links = 0
+    while groups:
+        group = groups.pop()
         for name in group:
+            links += 1
+            if links > _MOST_LINKS:
+                raise ValueError(f"it has more than {_MOST_LINKS} names")
             link = group.get(name, getlink=True)
             if isinstance(link, h5py.ExternalLink):
                 out.append(f"{group.name}/{name}")
-            elif isinstance(link, h5py.HardLink):
-                item = group[name]
-                if isinstance(item, h5py.Group):
-                    look(item)
-                elif isinstance(item, h5py.Dataset) and (item.external or item.is_virtual):
-                    out.append(item.name)
-
-    look(file)
+            if not isinstance(link, h5py.HardLink):
+                continue
+            item = group[name]
+            address = h5py.h5o.get_info(item.id).addr
+            if address in seen:
+                continue
+            seen.add(address)
+            if isinstance(item, h5py.Group):
+                groups.append(item)
+            elif isinstance(item, h5py.Dataset) and (item.external or item.is_virtual):
+                out.append(item.name)
     return out

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 #: Moments of a lift, and the columns of lifts.csv with their times.
 _LIFT_MOMENTS = ["touch", "load_onset", "lift_off", "replacement", "release", "first_slip"]
+#: The remedy for a damaged table.
+_RESTORE = "Restore the table, or rebuild it from raw.log: dihaptic recover."
 #: Quantities with the same colour everywhere.
 _COLOURS: dict[str, str] = facts()["colours"]
 #: Colours for all others, distinct with any kind of colour vision (Okabe and Ito, 2008).
@@ -90,10 +92,7 @@ def _moments(session: Session, align: str, by: str | None) -> list[tuple[str, fl
     """The group and the time of each lift or trial in which the moment happened [s]."""
     trials = session.trials
     if align in _LIFT_MOMENTS:
-        table = session.lifts
-        keys = ["trial_num", "attempt"] if "attempt" in trials else ["trial_num"]
-        more = trials[[*keys, *trials.columns.difference(table.columns)]]
-        table = table.merge(more, on=keys, how="left")
+        table = _with_trials(session, session.lifts, trials)
         column = f"{align}_s"
     else:
         table, column = trials, align
@@ -113,6 +112,20 @@ def _moments(session: Session, align: str, by: str | None) -> list[tuple[str, fl
     return found
 
 
+def _with_trials(session: Session, lifts: pd.DataFrame, trials: pd.DataFrame) -> pd.DataFrame:
+    """The lifts, with the columns of their trials. Raises Error when a table is damaged."""
+    keys = ["trial_num", "attempt"] if "attempt" in trials else ["trial_num"]
+    for name, table in (("trials", trials), ("lifts", lifts)):
+        for key in keys:
+            if key not in table or not pd.api.types.is_integer_dtype(table[key]):
+                what = f"has no whole number of each row in its column {key}"
+                raise error(what, _RESTORE, file=str(session.folder / f"{name}.csv"))
+    if trials.duplicated(keys).any():
+        raise error("has an attempt twice", _RESTORE, file=str(session.folder / "trials.csv"))
+    more = trials[[*keys, *trials.columns.difference(lifts.columns)]]
+    return lifts.merge(more, on=keys, how="left")
+
+
 def _aligned(
     axes: Axes,
     session: Session,
@@ -121,6 +134,8 @@ def _aligned(
     before: float,
     after: float,
 ) -> None:
+    if not np.isfinite([before, after]).all():
+        raise error(f"from -{before} to {after} s is no interval", "Give finite times.", key="before, after")
     ticks = np.arange(-round(before / session.tick), round(after / session.tick) + 1)
     groups = sorted({group for group, _ in moments})
     for name, label, values in _curves(session, names):

@@ -14,12 +14,12 @@ import numpy as np
 import pandas as pd
 
 from . import vocabulary
-from ._head import Head, read_head, read_session_info
+from ._head import MOST_YAML, Head, most_of_recording, read_head, read_session_info, why_unreadable
 from ._nwb import head_of_nwb, open_nwb, reading
 from ._remedy import needs_program
-from ._seals import broken_seals
-from .errors import Error, NotThere, error
-from .tables import read_table
+from ._seals import faults, gone_tables
+from .errors import Error, NotThere, Problem, error
+from .tables import read_table, tables_in
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -61,30 +61,42 @@ class Session:
 
     def __init__(self, folder: str | Path) -> None:
         path = Path(os.path.abspath(folder))  # still the same folder when the program changes its own
-        self.folder = path.parent if path.is_file() else path
-        if not (self.folder / "session.yaml").is_file():
-            raise error(
-                "is not a session: it has no session.yaml",
-                "Name a folder made by dihaptic.",
-                file=str(folder),
-            )
+        self.folder = path.parent if os.path.isfile(path) else path
+        file = self.folder / "session.yaml"
+        try:
+            os.lstat(file)
+        except (FileNotFoundError, NotADirectoryError):
+            remedy = "Name a folder made by dihaptic."
+            raise error("is not a session: it has no session.yaml", remedy, file=str(folder)) from None
+        except (OSError, ValueError):
+            pass  # the next one names the reason
+        if why := why_unreadable(file, MOST_YAML):
+            remedy = "Name a folder made by dihaptic, and mend its permissions if they are wrong."
+            raise error(f"cannot be opened: {why}", remedy, file=str(file))
 
     def __reduce__(self) -> tuple[Any, ...]:
         return Session, (self.folder,)
 
     def __repr__(self) -> str:
-        return f"<Session {self.folder.name}: {self.info.get('title', '')}, {self.info.get('state', '')}>"
+        return f"<Session {self.folder.name}: {self._info.get('title', '')}, {self._info.get('state', '')}>"
 
     # Contents
 
     @cached_property
     def info(self) -> dict[str, Any]:
-        """The content of session.yaml: participant, time, inputs, and end.
+        """The content of session.yaml: participant, time, inputs, and end. Raises Error when the file is damaged, and
+        warns of one that has lost keys, or was changed since the session ended.
 
         >>> import dihaptic as dh
         >>> dh.load(lift_session).info["state"]
         'complete'
         """
+        info = self._info
+        self._tell_changes("", stacklevel=4)  # cached_property is between
+        return info
+
+    @cached_property
+    def _info(self) -> dict[str, Any]:
         return read_session_info(self.folder)
 
     @property
@@ -110,7 +122,7 @@ class Session:
     @cached_property
     def _head(self) -> Head:
         log = self.folder / "raw.log"
-        if log.exists():
+        if os.path.exists(log):
             head = read_head(log)
             self._check_log(head)
             return head
@@ -121,7 +133,7 @@ class Session:
     def _check_log(self, head: Head) -> None:
         """Raises Error when raw.log belongs to another session. Sessions of earlier versions have no identity."""
         try:
-            own = self.info.get("identity", "")
+            own = self._info.get("identity", "")
         except Error:  # each reader of a table or quantity warns of this
             return
         if own and head.identity and own != head.identity:
@@ -135,13 +147,22 @@ class Session:
 
     @property
     def tables(self) -> list[str]:
-        """Names of the tables in the session's folder, without their .csv.
+        """Names of the tables in the session's folder, without their .csv. Warns of each that has been removed since the
+        session ended.
 
         >>> import dihaptic as dh
         >>> "lifts" in dh.load(lift_session).tables
         True
         """
-        return sorted(path.stem for path in self.folder.glob("*.csv"))
+        for gone in self._gone_tables().values():
+            warnings.warn(gone.text(), stacklevel=2)
+        return tables_in(self.folder)
+
+    def _gone_tables(self) -> dict[str, Problem]:
+        try:
+            return gone_tables(self.folder, self._info)
+        except Error:  # each reader of a table or quantity warns of this
+            return {}
 
     def table(self, name: str) -> pd.DataFrame:
         """A table by its name, with its units in `attrs`. Raises NotThere.
@@ -152,20 +173,24 @@ class Session:
         >>> dh.load(lift_session).table("lifts").lift.item()
         'complete'
         """
-        if name not in self.tables:
-            raise NotThere(name, "is not a table of this session", self.tables, "Session.tables lists them.")
+        tables = tables_in(self.folder)
+        if name not in tables:
+            if gone := self._gone_tables().get(name):
+                raise NotThere(name, gone.what, [], gone.remedy)
+            raise NotThere(name, "is not a table of this session", tables, "Session.tables lists them.")
         file = f"{name}.csv"
         self._tell_changes(file)
         return read_table(self.folder / file)
 
-    def _tell_changes(self, file: str) -> None:
-        """Warns of a file that changed since the session ended, or of which this cannot be known."""
+    def _tell_changes(self, file: str, stacklevel: int = 3) -> None:
+        """Warns of session.yaml, and of a file, that changed since the session ended, or of which this cannot be
+        known."""
         try:
-            faults = broken_seals(self.folder, self.info, file)
+            found = faults(self.folder, self._info, file)
         except Error as why:
-            faults = [f"whether {file} has changed since the session ended is not known: {why}"]
-        for what in faults:
-            warnings.warn(what, stacklevel=3)
+            found = [f"whether {file or 'session.yaml'} has changed since the session ended is not known: {why}"]
+        for what in found:
+            warnings.warn(what, stacklevel=stacklevel)
 
     @cached_property
     def trials(self) -> pd.DataFrame:
@@ -198,7 +223,10 @@ class Session:
     def t(self) -> Array:
         """Times of all ticks, since activation [s]: one for each row of a quantity of the whole tick."""
         with reading(self.folder):
-            return self._times(self._series("sequence"))
+            times = self._times(self._series("sequence"))
+            if times.ndim != 1 or not (np.diff(times) > 0).all():
+                raise ValueError("its times do not increase")
+            return times
 
     def __getitem__(self, name: str) -> Any:
         """A quantity as a numpy array, or a list such as "contacts" as a pandas table.
@@ -211,6 +239,9 @@ class Session:
         series, component = self._find(name)
         with reading(self.folder):
             data = self._series(series)["data"]
+            ticks, components = len(self._series("sequence")["data"]), self._place_of(name).quantity.components
+            if data.shape != ((ticks, len(components)) if components else (ticks,)):
+                raise ValueError(f"{series} has the shape {data.shape} in a session of {ticks} ticks")
             values: Array = data[...] if component is None else data[:, component]
         return values
 
@@ -226,11 +257,14 @@ class Session:
         """
         try:
             from . import _native
-        except ImportError as why:
-            raise ImportError(needs_program("Session.exact", why)) from None
+        except ImportError as missing:
+            raise ImportError(needs_program("Session.exact", missing)) from None
 
         place = self._place_of(name)
-        values = _native.log_values(str(self.folder / "raw.log"), place.of, place.item, place.quantity.name)
+        log = self.folder / "raw.log"
+        if why := why_unreadable(log, most_of_recording(len(self.t))):
+            raise error(f"cannot be read: {why}", "Copy it from the recording computer.", file=str(log))
+        values = _native.log_values(str(log), place.of, place.item, place.quantity.name)
         out = np.array(values)
         if len(out) != len(self.t):
             raise error(
@@ -298,13 +332,16 @@ class Session:
         return self._place_of(name).quantity.unit
 
     def between(self, begin: float, end: float) -> slice:
-        """The ticks from `begin` to before `end` [s], as a slice for the session's arrays.
+        """The ticks from `begin` to before `end` [s], as a slice for the session's arrays. Raises Error when one is not a
+        number, such as the time of something that did not happen.
 
         >>> import dihaptic as dh
         >>> session = dh.load(lift_session)
         >>> len(session["grip_force"][session.between(1.0, 1.5)])
         500
         """
+        if np.isnan(begin) or np.isnan(end):
+            raise error(f"from {begin} to {end} s is no interval", "Leave out what did not happen.", key="between")
         half = self.tick / 2
         return slice(*(int(i) for i in np.searchsorted(self.t, [begin - half, end - half])))
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ._head import part_of, read_info
+from ._head import MOST_YAML, is_yes, part_of, read_info, why_unreadable
 from ._seals import broken_seals
 from .errors import Error, NotThere, error
 from .session import Session
@@ -23,12 +23,17 @@ from .tables import Collected, command_of, parse_table
 
 _BEFORE_FACTS = ["id", "group", "number", "age", "sex", "handedness"]
 _AFTER_FACTS = ["added", "version", "withdrawn"]
+#: Keys that each participant has, at the end; the last one is there even if the person has not withdrawn.
+_LAST = ["added", "data_deleted"]
 #: A folder in which the program is still making a session (src/session/unfinished_folder.h).
 _UNFINISHED = "unfinished-"
 #: The remedy for a mistake in a study's file.
 _CHECK = "dihaptic check names the mistake."
 #: The remedy for a damaged participants.yaml.
 _ROSTER = "Restore the file: log.csv says who was added."
+_REHEARSED = "Restore the file, or rehearse again into another folder."
+#: No log.csv is larger [bytes].
+_MOST_LOG = 200_000_000
 #: The remedy for a damaged session.yaml.
 _AWAY = "Restore the file, or move the folder away."
 
@@ -61,7 +66,7 @@ class Study(Collected):
         for key in ("title", "groups", "sessions"):
             if not spec.get(key):
                 raise error(f"is not a study: it has no {key}", "Name a study's file.", file=str(self.file))
-        if rehearsed and not Path(rehearsed).is_dir():
+        if rehearsed and not os.path.isdir(rehearsed):
             raise error(
                 "is not a folder",
                 f"Name the folder of the rehearsal. Without one, type {command_of('rehearse', self.file)}.",
@@ -75,7 +80,7 @@ class Study(Collected):
         self._facts = _names(spec, "facts", self.file)
         self._enough = _enough(spec, self.file)
         allocation = part_of(spec, "allocation", dict, self.file, _CHECK)
-        concealed = part_of(allocation, "concealed", str, self.file, _CHECK, "allocation.") in ("yes", "true")
+        concealed = is_yes(allocation, "concealed", self.file, _CHECK, "allocation.")
         seed = part_of(allocation, "seed", str, self.file, _CHECK, "allocation.") or "1"
         codes = {name: _code_of(name, seed) for name in self.groups}
         #: What stands for a group that participants.yaml names, or has the code of.
@@ -195,7 +200,11 @@ class Study(Collected):
     def _members(self) -> list[dict[str, Any]]:
         """The participants in participants.yaml, with the groups as they may be shown. Raises Error."""
         file = self.folder / "participants.yaml"
-        if not file.exists():
+        known = self._known()
+        if not os.path.lexists(file):
+            if known:
+                what = f"is gone, and {', '.join(known)} had been added"
+                raise error(what, _ROSTER if not self._rehearsed else _REHEARSED, file=str(file))
             return []
         roster = read_info(file)
         if (roster.get("study") or self.title) != self.title:
@@ -203,6 +212,9 @@ class Study(Collected):
             raise error(what, "Give each study a folder of its own.", file=str(file), key="study")
         members = _items(roster, "participants", "id", file, _ROSTER)
         _check_members(members, file)
+        if lost := [who for who in known if who not in {member["id"] for member in members}]:
+            what = f"lacks {', '.join(lost)}, who had been added"
+            raise error(what, _ROSTER if not self._rehearsed else _REHEARSED, file=str(file))
         for member in members:
             group = member.get("group", "")
             if group not in self._shown:
@@ -211,6 +223,28 @@ class Study(Collected):
                 raise error(what, remedy, file=str(file), key=member["id"])
             member["group"] = self._shown[group]
         return members
+
+    def _known(self) -> list[str]:
+        """Who has been added according to log.csv or, in a rehearsal, to the names of the folders. Raises Error."""
+        if self._rehearsed:
+            try:
+                return sorted(name for name in os.listdir(self.folder / "sessions") if re.fullmatch(r"sim-\d+", name))
+            except FileNotFoundError:
+                return []
+            except OSError as why:
+                remedy = "Mend its permissions."
+                raise error(f"cannot be read: {why.strerror}", remedy, file=str(self.folder / "sessions")) from None
+        file = self.folder / "log.csv"
+        if not os.path.lexists(file):
+            return []
+        try:
+            if fault := why_unreadable(file, _MOST_LOG):
+                raise OSError(fault)
+            with file.open(encoding="utf-8", newline="") as log:
+                added = [row.get("participant") or "" for row in csv.DictReader(log) if row.get("action") == "add"]
+        except (OSError, UnicodeDecodeError, csv.Error) as why:
+            raise error(f"cannot be read: {why}", "Restore it from a backup.", file=str(file)) from None
+        return sorted({who for who in added if who})
 
     def _recordings(self, participant: str, study_session: str) -> Iterator[Session]:
         """The recordings of a session, in the order of their start. Raises Error when one cannot be read, because the
@@ -274,6 +308,9 @@ def _check_members(members: list[dict[str, Any]], file: Path) -> None:
         if who.lower() in there:
             raise error("is there twice", _ROSTER, file=str(file), key=who)
         there.add(who.lower())
+        for key in _LAST:
+            if key not in member:
+                raise error("is missing: the file was cut off", _ROSTER, file=str(file), key=f"{who}.{key}")
         for key in _BEFORE_FACTS + _AFTER_FACTS:
             part_of(member, key, str, file, _ROSTER, f"{who}.")
         for fact in _items(member, "facts", "name", file, _ROSTER, f"{who}."):
@@ -345,6 +382,9 @@ def _share_told(session: Session) -> float:
     if broken_seals(folder, session.info, "trials.csv"):
         return 0
     task = read_info(folder / "task.yaml")
+    for name in ("trial-list.csv", "trials.csv"):
+        if why_unreadable(folder / name, _MOST_LOG):
+            return 0
     with (folder / "trial-list.csv").open(encoding="utf-8", newline="") as file:
         left = {row["trial_num"] for row in csv.DictReader(file)}
         trials = len(left)
@@ -354,8 +394,8 @@ def _share_told(session: Session) -> float:
     most = 1 if task.get("redo") == "never" else int(task.get("most_attempts", 3))
     for trial, attempt, outcome in attempts:
         end = exits.get(outcome, {})
-        if end.get("ends_session") == "yes":
+        if is_yes(end, "ends_session", folder / "task.yaml"):
             return 1
-        if outcome != "interrupted" and (end.get("redo") != "yes" or attempt >= most):
+        if outcome != "interrupted" and (not is_yes(end, "redo", folder / "task.yaml") or attempt >= most):
             left.discard(trial)
     return 1 - len(left) / trials if trials else 0

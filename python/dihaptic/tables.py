@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 import shlex
 from abc import ABC, abstractmethod
@@ -11,10 +12,13 @@ from typing import TextIO
 import pandas as pd
 
 from ._facts import facts
-from .errors import NotThere, error
+from ._head import why_unreadable
+from .errors import Error, NotThere, error
 
 #: The program writes yes and no; R, pandas and spreadsheets save a logical value in their own words.
 _YES = {"yes": True, "no": False, "true": True, "false": False}
+#: The largest table that is read [bytes]: in memory it takes several times as much.
+_MOST_TABLE = 2e9
 
 
 def read_table(file: str | Path) -> pd.DataFrame:
@@ -32,6 +36,8 @@ def read_table(file: str | Path) -> pd.DataFrame:
     'peak of the mean over digits, from touch to lowering'
     """
     path = Path(file)
+    if unreadable := why_unreadable(path, _MOST_TABLE):
+        raise error(f"cannot be read as a table: {unreadable}", "Name a CSV file.", file=str(path))
     try:
         table = parse_table(path, path.name)
         if len(table) and not isinstance(table.index, pd.RangeIndex):
@@ -39,7 +45,9 @@ def read_table(file: str | Path) -> pd.DataFrame:
             # header, it refuses this row as it does later ones
             pd.read_csv(path, header=None)
         return table
-    except (OSError, pd.errors.EmptyDataError, pd.errors.ParserError, UnicodeDecodeError) as why:
+    except (OSError, MemoryError, OverflowError, ValueError) as why:  # those of pandas' reader are ValueErrors
+        if isinstance(why, Error):
+            raise
         if longer := re.search(r"Expected \d+ fields in line (\d+)", str(why)):
             remedy = "Correct this line, or make the table anew."
             raise error("has more cells than the header", remedy, file=str(path), line=int(longer[1])) from None
@@ -70,6 +78,16 @@ def _logical(column: pd.Series, name: str) -> pd.Series:
     return words.map(_YES)
 
 
+def tables_in(folder: Path) -> list[str]:
+    """Names of the tables in a folder, without .csv; none if there is no folder. Raises Error."""
+    try:
+        return sorted(name[: -len(".csv")] for name in os.listdir(folder) if name.endswith(".csv") and name != ".csv")
+    except FileNotFoundError:
+        return []
+    except OSError as why:
+        raise error(f"cannot be read: {why.strerror}", "Mend its permissions.", file=str(folder)) from None
+
+
 class Collected(ABC):
     """The tables of many sessions, joined by `dihaptic collect`."""
 
@@ -85,7 +103,7 @@ class Collected(ABC):
     @property
     def tables(self) -> list[str]:
         """Names of the collected tables, without .csv."""
-        return sorted(path.stem for path in self._tables_folder.glob("*.csv"))
+        return tables_in(self._tables_folder)
 
     def table(self, name: str) -> pd.DataFrame:
         """A table of all people by its name, with its units in `attrs`. Raises Error when the tables have not been

@@ -1,5 +1,6 @@
 """A damaged session is never read silently: each call gives what was recorded, warns, or raises dihaptic.Error."""
 
+import contextlib
 import os
 import pathlib
 import random
@@ -8,9 +9,14 @@ import tempfile
 import unittest
 import warnings
 
+import h5py
+import matplotlib
 import numpy as np
+import yaml
 
-import dihaptic as dh
+matplotlib.use("Agg")
+
+import dihaptic as dh  # noqa: E402
 
 
 def everything(session):
@@ -150,6 +156,246 @@ class Damaged(unittest.TestCase):
         table.write_text("name,simulated\na,b,maybe\nc,d,yes\n")
         with self.assertRaisesRegex(dh.Error, "neither yes nor no"):
             dh.read_table(table)
+
+    def said_of(self, call):
+        """The warnings of a call, in one text."""
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            call()
+        return "\n".join(str(each.message) for each in said)
+
+    def edit(self, file, old, new):
+        text = file.read_text()
+        self.assertIn(old, text)
+        file.write_text(text.replace(old, new, 1))
+
+    # session.yaml
+
+    def test_what_describes_the_session_warns_when_it_lost_keys_or_was_changed(self):
+        whole = (self.good.folder / "session.yaml").read_text()
+        folder = self.copy()
+        file = folder / "session.yaml"
+        for old, new, said in (
+            ("experiment: ", "experience: ", "session.yaml: warning: has lost keys: experiment. Rebuild it"),
+            ("clock: virtual\nseed: 1\n", "", "has lost keys: clock, seed"),
+            ("ticks: 31032", "ticks: 31031", "session.yaml: warning: seal: does not match"),
+            ("seal: ", "sole: ", "seal: does not match"),
+            ("tables:", "tables: [1]\nolder:", "whether session.yaml has changed since the session ended is not known"),
+            (whole[whole.index("tables:"):], "...\n", "session.yaml: warning: has no seals .* is not known. Rebuild it"),
+        ):
+            with self.subTest(said):
+                self.edit(file, old, new)
+                self.assertRegex(self.said_of(lambda: dh.load(folder).info), said)
+                self.assertEqual(self.said_of(lambda: repr(dh.load(folder))), "")
+                self.assertRegex(self.said_of(lambda: dh.load(folder).trials), said.replace("session.yaml has", "trials.csv has"))
+                file.write_text(whole)
+        self.edit(file, whole[whole.index("tables:"):], "...\n")
+        self.edit(file, "program: dihaptic 0.2", "program: dihaptic 0.1")
+        self.assertEqual(self.said_of(lambda: dh.load(folder).info), "", "version 0.1 wrote no seals")
+
+    def test_every_end_that_is_cut_off_and_mended_is_told(self):
+        folder = self.copy()
+        file = folder / "session.yaml"
+        lines = file.read_text().splitlines(keepends=True)
+        for kept in range(len(lines) - 1):
+            file.write_text("".join(lines[:kept]) + "...\n")
+            try:
+                said = self.said_of(lambda: dh.load(folder).info)
+            except dh.Error:
+                continue
+            self.assertTrue(said, f"{kept} of {len(lines)} lines")
+
+    def test_yes_and_no_may_be_saved_as_true_and_false(self):
+        folder = self.copy()
+        file = folder / "session.yaml"
+        again = yaml.safe_dump(yaml.safe_load(file.read_text()), sort_keys=False)
+        self.assertIn("interrupted: false", again)
+        file.write_text(again + "...\n")
+        self.assertFalse(self.assert_is_told(folder, "another software's words"))
+
+    # Tables
+
+    def test_a_table_that_is_gone_or_was_no_table_is_told(self):
+        folder = self.copy()
+        for name in ("lifts.csv", "trial-list.csv"):
+            (folder / name).unlink()
+        said = self.said_of(lambda: dh.load(folder).tables)
+        self.assertRegex(said, "lifts.csv: warning: is gone: it had 5 rows when the session ended. Rebuild it from raw.log")
+        self.assertRegex(said, "trial-list.csv: warning: is gone: it is an input of the session. Restore the recorded version")
+        with self.assertRaisesRegex(dh.NotThere, "lifts: is gone: it had 5 rows .* dihaptic recover"):
+            dh.load(folder).lifts  # noqa: B018
+        (folder / "fault.csv").write_text("a\n1\n")
+        (folder / "mine.csv").write_text("a\n1\n")
+        self.assertRegex(self.said_of(lambda: dh.load(folder).table("fault")), "did not exist when the session ended")
+        self.assertEqual(self.said_of(lambda: dh.load(folder).table("mine")), "")
+
+    def test_an_input_that_was_changed_is_told(self):
+        folder = self.copy()
+        (folder / "trial-list.csv").write_text((folder / "trial-list.csv").read_text().replace("1", "2"))
+        said = self.said_of(lambda: dh.load(folder).table("trial-list"))
+        self.assertIn("trial-list.csv: warning: has changed since the session was recorded. Restore the recorded version", said)
+
+    def test_a_damaged_table_is_no_picture(self):
+        for name, change, said in (
+            ("trials.csv", lambda text: text.replace("trial_num", "number", 1), "trials.csv: error: has no whole number"),
+            ("lifts.csv", lambda text: text.replace("attempt", "try", 1), "lifts.csv: error: has no whole number"),
+            ("lifts.csv", lambda text: text.replace("\n1,", "\none,", 1), "lifts.csv: error: has no whole number"),
+            ("trials.csv", lambda text: text + text.splitlines()[-1] + "\n", "trials.csv: error: has an attempt twice"),
+            ("lifts.csv", lambda text: text.replace("lift_off_s", "lift_off", 1), "is not a moment for alignment"),
+            ("trials.csv", lambda text: "", "cannot be read as a table"),
+        ):
+            with self.subTest(name, said=said), warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                folder = self.copy()
+                (folder / name).write_text(change((folder / name).read_text()))
+                with self.assertRaisesRegex(dh.Error, said):
+                    dh.load(folder).plot("grip_force", align="lift_off")
+
+    # What is no file, or far too large
+
+    def test_what_is_no_file_is_refused_at_once(self):
+        calls = {
+            "session.yaml": dh.load,
+            "raw.log": lambda folder: dh.load(folder).tick,
+            "session.nwb": lambda folder: dh.load(folder)["grip_force"],
+            "trials.csv": lambda folder: dh.load(folder).trials,
+            "trial-list.csv": lambda folder: dh.load(folder).table("trial-list"),
+        }
+        for name, call in calls.items():
+            for make in (os.mkfifo, lambda file: os.symlink("/dev/zero", file), os.mkdir):
+                folder = self.copy(name)
+                make(folder / name)
+                with self.subTest(name, make=make), warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    with self.assertRaisesRegex(dh.Error, "it is not a regular file|it is a folder"):
+                        call(folder)
+        with self.assertRaisesRegex(dh.Error, "cannot be read as a table: it is not a regular file"):
+            dh.read_table("/dev/zero")
+
+    def test_what_is_far_too_large_is_refused_at_once(self):
+        large = 4 * 10**12
+        for name, call in (
+            ("session.yaml", dh.load),
+            ("trials.csv", lambda folder: dh.load(folder).trials),
+            ("raw.log", lambda folder: dh.load(folder).exact("grip_force")),
+        ):
+            with self.subTest(name), warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                folder = self.copy()
+                os.truncate(folder / name, large)
+                with self.assertRaisesRegex(dh.Error, "it has 4000000 MB, and at most [0-9]+ MB are read"):
+                    call(folder)
+        os.truncate(folder / "session.nwb", large)
+        said = self.said_of(lambda: dh.load(folder)["grip_force"])
+        self.assertIn("session.nwb: warning: cannot be compared with its checksum: it has 4000000 MB", said)
+
+    def test_a_folder_that_cannot_be_opened_is_an_error(self):
+        for name in ("a" * 300, "a\0b", "a/" * 3000):
+            with self.subTest(name[:5]):
+                with self.assertRaisesRegex(dh.Error, "cannot be opened|is not a session"):
+                    dh.load(name)
+                with self.assertRaisesRegex(dh.Error, "cannot be read"):
+                    dh.read_table(name)
+                with self.assertRaisesRegex(dh.Error, "cannot be read"):
+                    dh.Study(name)
+                with self.assertRaisesRegex(dh.Error, "cannot be read"):
+                    dh.Rehearsal(name)
+
+    @unittest.skipUnless(os.geteuid() == 0, "only root can become somebody else")
+    def test_a_folder_without_permission_is_an_error(self):
+        folder = self.copy()
+        os.chmod(self.folder.name, 0o755)
+        os.chmod(folder.parent, 0o755)
+        with contextlib.ExitStack() as back:
+            back.callback(os.chmod, folder, 0o755)
+            os.chmod(folder, 0o700)
+            os.seteuid(65534)
+            back.callback(os.seteuid, 0)
+            with self.assertRaisesRegex(dh.Error, "cannot be opened: .*Permission denied.* mend its permissions"):
+                dh.load(folder)
+            os.seteuid(0)
+            os.chmod(folder, 0o711)
+            os.seteuid(65534)
+            with self.assertRaisesRegex(dh.Error, "cannot be read: Permission denied. Mend its permissions"):
+                dh.load(folder).tables  # noqa: B018
+
+    # session.nwb
+
+    def with_nwb(self, change):
+        """A copy without its log, whose session.nwb is changed."""
+        folder = self.copy("raw.log")
+        with h5py.File(folder / "session.nwb", "a") as nwb:
+            change(nwb)
+        return dh.load(folder)
+
+    def test_links_that_make_countless_paths_are_followed_once(self):
+        def nest(nwb):
+            at = nwb.create_group("scratch/deep")
+            for _ in range(60):
+                below = at.create_group("a")
+                at["b"] = below
+                at = below
+            at["up"] = nwb["/"]
+
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            self.assertEqual(len(self.with_nwb(nest)["grip_force"]), len(self.good.t))
+
+            def many(nwb):
+                group = nwb.create_group("scratch/many")
+                for n in range(100_001):
+                    group[str(n)] = h5py.SoftLink("/")
+
+            with self.assertRaisesRegex(dh.Error, "session.nwb is damaged: it has more than 100000 names"):
+                self.with_nwb(many)["grip_force"]
+
+    def test_a_record_without_what_belongs_to_it_is_an_error(self):
+        def replace(name, values):
+            def change(nwb):
+                del nwb[f"acquisition/{name}"]
+                if values is not None:
+                    nwb[f"acquisition/{name}"] = values
+
+            return change
+
+        ticks = len(self.good.t)
+        for change in (
+            replace("grip_force/data", np.zeros(ticks - 1)),
+            replace("grip_force/data", np.zeros((ticks, 3))),
+            replace("grip_force/data", 3.0),
+            replace("grip_force/data", None),
+            replace("sequence/data", None),
+            lambda nwb: nwb["acquisition/sequence/starting_time"].attrs.__setitem__("rate", 0.0),
+            lambda nwb: nwb["acquisition/sequence/starting_time"].attrs.__setitem__("rate", -1.0),
+            lambda nwb: nwb["acquisition/sequence/starting_time"].attrs.__setitem__("rate", np.nan),
+            lambda nwb: nwb.__setitem__("acquisition/sequence/timestamps", np.zeros(ticks)),
+            lambda nwb: nwb.__setitem__("acquisition/sequence/timestamps", np.zeros((ticks, 2))),
+        ):
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                session = self.with_nwb(change)
+                for call in (lambda: session.plot("grip_force"), lambda: session.plot("grip_force", align="lift_off")):
+                    with self.assertRaisesRegex(dh.Error, "session.nwb is damaged"):
+                        call()
+                with contextlib.suppress(dh.Error):
+                    session.between(0, 1)
+                with contextlib.suppress(dh.Error):
+                    session.exact("grip_force")
+
+    def test_times_that_are_none_are_refused(self):
+        with self.assertRaisesRegex(dh.Error, "from nan to 1 s is no interval"):
+            self.good.between(np.nan, 1)
+        with self.assertRaisesRegex(dh.Error, "is no interval"):
+            self.good.plot("grip_force", align="lift_off", before=np.inf)
+
+    def test_a_session_that_kept_tables_alone_says_so(self):
+        folder = self.copy("raw.log", "session.nwb")
+        for call in (lambda session: session["grip_force"], lambda session: session.t, lambda session: session.fingers):
+            with self.assertRaisesRegex(dh.Error, "only tables: a rehearsal keeps no recordings. With --keep-recordings, "):
+                call(dh.load(folder))
+        folder = self.copy("session.nwb")
+        with self.assertRaisesRegex(dh.Error, "has no session.nwb: it has been removed. .*dihaptic recover"):
+            dh.load(folder)["grip_force"]
 
 
 if __name__ == "__main__":

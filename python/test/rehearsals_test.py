@@ -88,6 +88,28 @@ class Rehearsals(unittest.TestCase):
         self.assertTrue(study.trials.simulated.all())
         self.assertFalse(list(study.folder.glob("*/raw.log")) + list(study.folder.glob("*/session.nwb")))
 
+    def test_what_is_no_rehearsal_is_not_opened(self):
+        for folder, said in (
+            (self.folder / "none", "none: error: cannot be read: No such file or directory. Name the folder"),
+            (__file__, "cannot be read: Not a directory"),
+            (self.folder, "is not a rehearsal: it has neither rehearsal.yaml nor people. Name the folder"),
+        ):
+            with self.subTest(said), self.assertRaisesRegex(dh.Error, said):
+                dh.Rehearsal(folder)
+        study = self.rehearse(2, person=Every)
+        (study.folder / "rehearsal.yaml").unlink()
+        (study.folder / "sim-002/person.yaml").unlink()
+        self.assertEqual([path.name for path in dh.Rehearsal(study.folder).sessions], ["sim-001", "sim-002"])
+
+    def test_a_person_s_session_says_that_it_has_tables_alone(self):
+        for person in (None, Every):
+            session = dh.load(self.rehearse(1, out=f"of {person}", person=person).sessions[0])
+            self.assertGreater(len(session.trials), 0)
+            with self.assertRaisesRegex(dh.Error, "only tables: a rehearsal keeps no recordings. With --keep-recordings"):
+                session["grip_force"]
+        session = dh.load(self.rehearse(1, out="kept", person=Every, keep_recordings=True).sessions[0])
+        self.assertEqual(len(session["grip_force"]), len(session.t))
+
     def test_tables_are_the_same_however_many_work_at_them(self):
         one = self.rehearse(4, out="one", person=Every)
         many = self.rehearse(4, out="many", person=Every, jobs=3)

@@ -1,5 +1,6 @@
 """A study is read as a whole: its people, recordings and tables, like `dihaptic participant` and `collect` see them."""
 
+import os
 import pathlib
 import pickle
 import re
@@ -148,7 +149,7 @@ class Studies(Case):
         self.assert_refused("S01: is not one of the simulated people", lambda: self.rehearsed.session("S01", "day1"))
 
     def test_before_the_first_participant_there_is_nobody_and_nothing(self):
-        for name in ("participants.yaml", "sessions"):
+        for name in ("participants.yaml", "log.csv", "sessions"):
             shutil.move(self.folder / name, self.folder / f"no {name}")
         self.assertEqual(self.study.participants.columns.tolist()[:2], ["id", "group"])
         self.assertEqual((len(self.study.participants), len(self.study.sessions)), (0, 0))
@@ -283,11 +284,41 @@ class Studies(Case):
             ("value: normal", "value: [normal]", "S01.vision.value: is not a single value"),
             ("id: S02", "id: S01", "S01: is there twice. Restore the file: log.csv says who was added."),
             ("id: S02", "id: s01", "s01: is there twice"),
+            ("id: S02", "id: S09", "lacks S02, who had been added. Restore the file: log.csv says who was added."),
+            ("data_deleted:", "data_there:", "S01.data_deleted: is missing: the file was cut off. Restore the file"),
         ):
             with self.subTest(said):
                 edit(roster, old, new)
                 self.assert_refused("participants.yaml: error: " + re.escape(said), lambda: self.study.participants)
                 roster.write_text(whole)
+
+    def test_a_list_of_participants_that_was_cut_or_removed_is_an_error(self):
+        for study in (self.study, self.rehearsed):
+            roster = study.folder / "participants.yaml"
+            lines = roster.read_text().splitlines(keepends=True)
+            for kept in range(len(lines)):
+                roster.write_text("".join(lines[:kept]))
+                with self.subTest(roster, kept=kept):
+                    self.assert_refused("participants.yaml: error: ", lambda: study.participants)
+            roster.unlink()
+            said = "participants.yaml: error: is gone, and (S01, S02|sim-001, sim-002).* had been added. Restore the file"
+            self.assert_refused(said, lambda: study.participants)
+            self.assert_refused("is gone", lambda: study.sessions)
+
+    def test_what_is_no_file_is_refused_at_once(self):
+        for name in ("participants.yaml", "log.csv"):
+            os.rename(self.folder / name, self.folder / "kept")
+            os.mkfifo(self.folder / name)
+            self.assert_refused(f"{name}: error: cannot be read: it is not a regular file", lambda: self.study.sessions)
+            os.replace(self.folder / "kept", self.folder / name)
+        os.mkfifo(self.folder / "pipe.yaml")
+        self.assert_refused("pipe.yaml: error: cannot be read: it is not a regular file",
+                            lambda: dh.Study(self.folder / "pipe.yaml"))  # fmt: skip
+        recording = self.press("yy")
+        for name in ("trial-list.csv", "trials.csv", "task.yaml"):
+            os.unlink(recording / name)
+            os.mkfifo(recording / name)
+            self.assertFalse(self.study.sessions.complete.iloc[-1])
 
     def test_an_interrupted_session_counts_if_its_files_tell_enough_of_its_trials(self):
         broken = self.press("yy")
@@ -323,6 +354,7 @@ class Studies(Case):
             ("resuming: 1", "resuming: has no keys"),
             ("allocation: 3", "allocation: has no keys"),
             ("allocation: { concealed: [yes] }", "allocation.concealed: is not a single value"),
+            ("allocation: { concealed: on }", "allocation.concealed: must be yes or no, but is 'on'"),
         ):
             with self.subTest(more):
                 self.file.write_text(f"{whole}{more}\n")
@@ -384,6 +416,12 @@ class ConcealedGroups(Case):
         edit(self.file, "concealed: yes", "concealed: no")
         self.assertEqual(dh.Study(self.file).participants.group.tolist(), ["light", "heavy"])
 
+    def test_may_be_concealed_in_other_words(self):
+        for word, hidden in (("true", True), ("false", False), ("no", False), ("yes", True)):
+            text = (self.made / "two-days.yaml").read_text().replace("concealed: yes", f"concealed: {word}")
+            self.file.write_text(text)
+            self.assertEqual(dh.Study(self.file).participants.group[0].startswith("arm"), hidden, word)
+
     def test_have_them_even_if_the_file_has_names(self):
         code = self.study.participants.group[0]
         edit(self.folder / "participants.yaml", f"group: {code}", "group: light")
@@ -399,6 +437,9 @@ class Files(unittest.TestCase):
 
     def test_a_rehearsal_tells_how_it_is_collected(self):
         with tempfile.TemporaryDirectory(suffix=" of mine") as folder:
+            with self.assertRaisesRegex(dh.Error, "is not a rehearsal: it has neither rehearsal.yaml nor people"):
+                dh.Rehearsal(folder)
+            pathlib.Path(folder, "rehearsal.yaml").touch()
             with self.assertRaises(dh.Error) as told:
                 dh.Rehearsal(folder).people  # noqa: B018
             self.assertEqual(str(told.exception), f"{folder}: error: has no tables yet. Type dihaptic collect '{folder}'.")
