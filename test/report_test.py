@@ -124,6 +124,19 @@ class Reports(unittest.TestCase):
             late = [float(r["mean"]) for r in csv.DictReader(file)][200:220]
         self.assertGreater(sum(late) / len(late), 15)
 
+    def test_figures_are_drawn_if_they_are_asked_for(self):
+        parent = tempfile.TemporaryDirectory()
+        self.addCleanup(parent.cleanup)
+        people = pathlib.Path(parent.name, "people with a blank")
+        dihaptic("rehearse", "experiments/fitts-law.yaml", "--people", "2", "--jobs", "2", "--out", str(people))
+        refused = subprocess.run([PROGRAM, "report", people, "--figures"], capture_output=True, text=True)
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("has tables of 0 of 2 people. Type dihaptic collect", refused.stderr)
+        dihaptic("collect", str(people))
+        self.assertIn("measures-by-", dihaptic("report", str(people), "--figures"))
+        for kind in ("svg", "pdf", "png", "csv", "py"):
+            self.assertTrue(list((people / "figures").glob(f"measures-by-*.{kind}")), kind)
+
     def test_it_reads_on_paper(self):
         session = next(s for s in self.sessions if "lift-block" in s)
         dihaptic("report", session)

@@ -8,14 +8,17 @@ import sys
 from pathlib import Path
 
 _FOLDER = Path(__file__).parent
-#: The libraries that reading requires, with their names in Debian and in pip.
-_LIBRARIES = {"numpy": "numpy", "pandas": "pandas", "h5py": "h5py", "yaml": "pyyaml"}
+#: The libraries that reading and figures require, with their names in pip.
+_LIBRARIES = {
+    "numpy": "numpy", "pandas": "pandas", "h5py": "h5py", "yaml": "pyyaml", "matplotlib": "matplotlib", "scipy": "scipy",
+}  # fmt: skip
 
 
 def explain(why: ImportError) -> str:
     """The remedy if the package cannot even read."""
-    if why.name in _LIBRARIES:
-        return f"dihaptic needs {why.name}: {_how_to_install(why.name)}."
+    library = str(why.name).split(".")[0]
+    if library in _LIBRARIES:
+        return f"dihaptic needs {library}: {_how_to_install(library)}."
     if why.name == "facts":
         return (
             "dihaptic has not been built here. Run ./dev build in its folder, then "

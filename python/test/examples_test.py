@@ -15,11 +15,12 @@ matplotlib.use("Agg")
 import small_study  # noqa: E402
 
 import dihaptic  # noqa: E402
+import dihaptic.figures  # noqa: E402
 
 
 def modules():
-    names = [name for _, name, _ in pkgutil.iter_modules(dihaptic.__path__) if not name.startswith("_")]
-    return [importlib.import_module(f"dihaptic.{name}") for name in names]
+    names = [name for _, name, _ in pkgutil.walk_packages(dihaptic.__path__, "dihaptic.") if "._" not in name]
+    return [importlib.import_module(name) for name in names]
 
 
 class Examples(unittest.TestCase):
@@ -50,6 +51,9 @@ class Examples(unittest.TestCase):
             thing = getattr(dihaptic, name)
             with self.subTest(name):
                 self.assertIn(">>>", inspect.getdoc(thing) or "")
+        for name in dihaptic.figures.__all__:  # some show what a session of one lift does not have
+            with self.subTest(name):
+                self.assertTrue(inspect.getdoc(getattr(dihaptic.figures, name)))
 
     def test_each_public_method_says_what_it_does(self):
         for name in dihaptic.__all__:

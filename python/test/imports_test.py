@@ -71,6 +71,13 @@ class Imports(unittest.TestCase):
                 self.assertEqual(code, 1)
                 self.assertEqual(self.last_line(said), f"ImportError: dihaptic needs {name}: sudo apt install python3-{name}.")
 
+    def test_figures_without_a_library(self):
+        for name in ("matplotlib", "scipy"):
+            with self.subTest(name):
+                code, said = python(f"import sys; sys.modules['{name}'] = None; import dihaptic.figures", PACKAGE)
+                self.assertEqual(code, 1)
+                self.assertEqual(self.last_line(said), f"ImportError: dihaptic needs {name}: sudo apt install python3-{name}.")
+
     def test_types_are_strict(self):
         if importlib.util.find_spec("mypy") is None:
             needs.skip("mypy is not installed; it is in the Debian package mypy")

@@ -91,6 +91,12 @@ class Reader(unittest.TestCase):
         said = self.read("import dihaptic as dh; print(dh.Rehearsal('study').trials.ppid.nunique())", self.here)
         self.assertEqual(said, "2\n")
 
+    def test_draws_figures_of_a_rehearsal(self):
+        dh.rehearse("experiments/fitts-law.yaml", 2, out=self.here / "fitts", progress=False)
+        said = self.read("from dihaptic import figures; print(len(figures.draw('fitts')) > 0)", self.here)
+        self.assertEqual(said, "True\n")
+        self.assertTrue(list((self.here / "fitts/figures").glob("*.pdf")))
+
     def test_says_of_all_else_what_it_takes(self):
         said = self.read("import dihaptic as dh; print(dh.__version__, dh.__file__); dh.run('lift.yaml')", self.here, code=1)
         self.assertIn(str(self.here / "python/lib"), said)

@@ -1,0 +1,62 @@
+"""Draws a session, a rehearsal or a study as figures for a paper.
+
+    from dihaptic import figures
+
+    figures.draw("rehearsals/grip-and-lift_1")       # all figures that its experiment calls for, into figures/
+
+Each figure is saved as SVG, PDF and PNG, with the points that are drawn (CSV), and with a script of a few lines, which
+draws it anew from the tables and can be changed for a paper. Each kind of figure is a pair of functions: one makes a table
+of points, in which a row is what is drawn, and the other one draws such a table. `python3 -m dihaptic.figures FOLDER` does
+what draw() does. Figures need matplotlib and SciPy.
+"""
+
+try:
+    import matplotlib  # noqa: F401
+    import scipy  # noqa: F401
+except ImportError as _why:
+    from .._remedy import explain
+
+    raise ImportError(explain(_why)) from None
+
+from .conditions import draw_conditions, means_by_condition
+from .data import Data, Measure, read
+from .drawing import draw
+from .learning import (
+    draw_generalisation,
+    draw_learning_curve,
+    draw_learning_windows,
+    draw_measures_over_trials,
+    generalisation_curve,
+    learning_curve,
+    learning_windows,
+    measures_over_trials,
+)
+from .lifts import (
+    draw_grip_against_load,
+    draw_lift_curves,
+    draw_lift_phases,
+    draw_successive_lifts,
+    grip_against_load,
+    lift_curves,
+    lift_phases,
+    successive_lifts,
+)
+from .paths import (
+    channel_forces,
+    draw_channel_forces,
+    draw_reach_paths,
+    draw_speed_profiles,
+    reach_paths,
+    speed_profiles,
+)
+from .saving import Plan, save
+from .style import COLOURS, canvas
+
+__all__ = [
+    "COLOURS", "Data", "Measure", "Plan", "canvas", "channel_forces", "draw", "draw_channel_forces",
+    "draw_conditions", "draw_generalisation", "draw_grip_against_load", "draw_learning_curve",
+    "draw_learning_windows", "draw_lift_curves", "draw_lift_phases", "draw_measures_over_trials",
+    "draw_reach_paths", "draw_speed_profiles", "draw_successive_lifts", "generalisation_curve",
+    "grip_against_load", "learning_curve", "learning_windows", "lift_curves", "lift_phases", "means_by_condition",
+    "measures_over_trials", "reach_paths", "read", "save", "speed_profiles", "successive_lifts",
+]  # fmt: skip

@@ -1,0 +1,287 @@
+"""Measures by condition: people as dots that are joined, their mean, and its interval."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from scipy import stats
+
+from ..errors import error
+from .data import ASIDE, Data
+from .saving import Plan
+from .style import COLOURS, MARKERS, WIDTHS, canvas, corner, fit_names, legend_above, styled, wrapped
+from .words import counted, label, level, words_of
+
+#: Most panels of a figure, and most levels that colours tell apart.
+_MOST_PANELS = 9
+_MOST_COLOURS = 7
+#: Figures of lifts.csv that a study of grip reports (Johansson and Westling 1984).
+LIFT_MEASURES = [
+    "peak_grip_N", "peak_grip_rate_N_s", "peak_load_rate_N_s", "static_grip_N", "static_ratio", "safety_margin", "loading_s",
+]  # fmt: skip
+
+
+def counting_trials(data: Data, table: str = "trials") -> pd.DataFrame:
+    """The last attempt at each trial, practice and catch trials left out; of "lifts", each with its trial's design.
+
+    >>> from dihaptic import figures
+    >>> len(counting_trials(figures.read(lift_session), "lifts"))
+    1
+    """
+    trials = data.table("trials")
+    if table != "trials":
+        other = data.table(table)
+        columns = [str(column) for column in trials]
+        # what describes a trial comes from trials.csv, even if the other table has a measure of the same name
+        design = columns[: columns.index("attempt" if "attempt" in columns else "trial_num") + 1]
+        keys = [key for key in ("person", "group", "session", "trial_num", "attempt") if key in design and key in other]
+        new = [column for column in other if column not in design]
+        attrs = {"units": {**other.attrs.get("units", {}), **trials.attrs.get("units", {})}}
+        trials = trials[design].merge(other[[*keys, *new]], on=keys, how="inner")
+        trials.attrs = attrs
+    attrs = trials.attrs
+    last = [key for key in ("person", "group", "session", "trial_num") if key in trials]
+    trials = trials.drop_duplicates(last, keep="last")
+    trials = trials[~trials["kind"].isin(ASIDE)] if "kind" in trials else trials
+    trials.attrs = attrs
+    return trials
+
+
+def means_by_condition(
+    data: Data, *, measures: list[str], x: str, colour: str = "", panel: str = "", table: str = "trials"
+) -> pd.DataFrame:
+    """Means of measures in each condition: of each person, and over people.
+
+    `x`, `colour` and `panel` are columns of trials.csv. A row has the measure, the levels, and `of`: "person", whose mean
+    over n trials is `value`; or "mean", that over n people, with its 95 % interval from `low` to `high` (Student's t). Of
+    one person, the dots are trials, and the mean is over them. Practice, catch trials and all but the last attempt at a
+    trial are left out. Raises NotThere, or Error when no trial has a value.
+
+    >>> from dihaptic import figures
+    >>> points = means_by_condition(figures.read(lift_session), measures=["peak_grip_N"], x="trial_num", table="lifts")
+    >>> points[["measure", "of", "n"]].values.tolist()
+    [['peak_grip_N', 'person', 1], ['peak_grip_N', 'mean', 1]]
+    """
+    trials = counting_trials(data, table)
+    by = [name for name in (x, colour, panel) if name]
+    units = trials.attrs.get("units", {})
+    single = len(data.people) == 1
+    parts = []
+    for measure in measures:
+        data.measure(measure, table)
+        known = trials[trials[measure].notna()]
+        if single:
+            each = known[["person", *by, measure]].rename(columns={measure: "value"})
+            each["n"] = 1
+        else:
+            each = known.groupby([*by, "person"], dropna=False, sort=True)[measure].agg(value="mean", n="count").reset_index()
+        each["of"] = "person"
+        mean = each.groupby(by, dropna=False, sort=True)["value"].agg(value="mean", n="count", sd="std").reset_index()
+        half = stats.t.ppf(0.975, mean["n"].clip(lower=2) - 1) * mean["sd"] / np.sqrt(mean["n"])
+        mean["low"], mean["high"], mean["of"] = mean["value"] - half, mean["value"] + half, "mean"
+        both = pd.concat([each, mean.drop(columns="sd")], ignore_index=True)
+        both.insert(0, "measure", measure)
+        parts.append(both)
+    columns = ["measure", *by, "of", "person", "n", "value", "low", "high"]
+    out = pd.concat(parts, ignore_index=True).reindex(columns=columns)
+    if out.empty:
+        raise error("has no value in a trial that counts", "Name a measure of this task.", key=", ".join(measures))
+    out.attrs["units"] = {name: unit for name, unit in units.items() if name in [*measures, *by]}
+    return out
+
+
+@styled
+def draw_conditions(
+    points: pd.DataFrame, *, x: str, colour: str = "", panel: str = "", size: str = "one column", height_mm: float = 60,
+    order: dict[str, list[str]] | None = None, mark: str = "",
+) -> Figure:  # fmt: skip
+    """Draws means_by_condition(): a panel for each measure and each level of `panel`, and a colour for each of `colour`.
+
+    `order` has the levels of those columns that are words, in order; `mark` is a word for the
+    figure's corner, such as "simulated".
+
+    >>> from dihaptic import figures
+    >>> data = figures.read(lift_session)
+    >>> points = figures.means_by_condition(data, measures=["peak_grip_N"], x="trial_num", table="lifts")
+    >>> [axes.get_ylabel() for axes in draw_conditions(points, x="trial_num").axes]
+    ['peak grip [N]']
+    """
+    units = points.attrs.get("units", {})
+    measures = list(dict.fromkeys(points["measure"]))
+    order = order or {}
+    panels = list(_places(points[panel], order.get(panel))) if panel else [None]
+    rows, columns = _grid(len(measures), len(panels), size)
+    figure, all_axes = canvas(size, height_mm * rows, rows, columns)
+    places = _places(points[x], order.get(x))
+    colours = list(_places(points[colour], order.get(colour))) if colour else [None]
+    cells = [(measure, part) for measure in measures for part in panels]
+    for axes, (measure, part) in zip(all_axes, cells):
+        own = points[points["measure"] == measure]
+        if panel:
+            own = own[own[panel] == part]
+        for i, value in enumerate(colours):
+            shown = own if value is None else own[own[colour] == value]
+            shown = shown[shown[x].notna()]
+            _dots_and_mean(axes, shown, x, places, i, len(colours), level(value, units.get(colour, "")))
+        _label(axes, places, label(x, units.get(x, "")), label(measure, units.get(measure, "")), WIDTHS[size] / columns)
+        if panel:
+            axes.set_title(level(part, units.get(panel, "")))
+    _share_limits(all_axes, cells)
+    for axes in all_axes[len(cells) :]:
+        axes.set_visible(False)
+    if colour:
+        handles, names = all_axes[0].get_legend_handles_labels()
+        legend_above(figure, handles, names, words_of(colour, units.get(colour, "")))
+    corner(figure, mark)
+    return figure
+
+
+def _grid(measures: int, panels: int, size: str) -> tuple[int, int]:
+    """Rows and columns of panels: panels of a measure side by side, or measures, where there is one panel each."""
+    if panels > 1:
+        return measures, panels
+    columns = min(measures, 3 if size == "two columns" else 1)
+    return -(-measures // columns), columns
+
+
+def _places(levels: pd.Series, order: list[str] | None) -> dict[Any, float]:
+    """The place of each level on the axis: numbers are their own places."""
+    values = list(levels.dropna().unique())
+    if all(isinstance(value, (int, float, np.number)) for value in values):
+        return {value: float(value) for value in sorted(values)}
+    known = [value for value in order or [] if value in values]
+    rest = sorted((value for value in values if value not in known), key=str)
+    return {value: float(i) for i, value in enumerate([*known, *rest])}
+
+
+def _dots_and_mean(
+    axes: Axes, shown: pd.DataFrame, x: str, places: dict[Any, float], i: int, colours: int, name: str
+) -> None:
+    """People as faint dots joined over x, and their mean with its interval."""
+    step = min(np.diff(sorted(places.values()))) if len(places) > 1 else 1.0
+    aside = (i - (colours - 1) / 2) * 0.12 * step
+    hue, marker = COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)]
+    people = shown[shown["of"] == "person"]
+    for _, own in people.groupby("person"):
+        own = own.sort_values(x, key=lambda levels: levels.map(places))
+        at = [places[value] + aside for value in own[x]]
+        joined = len(own) == own[x].nunique()  # the trials of one person are not
+        axes.plot(at, own["value"], color=hue, alpha=0.35, linewidth=0.6 if joined else 0, marker=".", markersize=3)
+    mean = shown[shown["of"] == "mean"].assign(at=lambda rows: [places[value] + aside for value in rows[x]]).sort_values("at")
+    low, high = (mean["value"] - mean["low"]).fillna(0), (mean["high"] - mean["value"]).fillna(0)
+    axes.errorbar(mean["at"], mean["value"], [low, high], color=hue, marker=marker, capsize=2, elinewidth=1, label=name, zorder=3)
+
+
+def _label(axes: Axes, places: dict[Any, float], xlabel: str, ylabel: str, width_mm: float) -> None:
+    """Labels of a panel that is so wide."""
+    words = any(isinstance(value, str) for value in places)
+    if words or len(places) <= 6:
+        axes.set_xticks(list(places.values()), [level(value) for value in places])
+    if words:
+        fit_names(axes, width_mm)
+    axes.set_xlabel(wrapped(xlabel, 34))
+    axes.set_ylabel(wrapped(ylabel, 24))
+    axes.margins(x=0.12 if len(places) > 1 else 0.5, y=0.08)
+
+
+def _share_limits(all_axes: list[Axes], cells: list[tuple[str, Any]]) -> None:
+    """Gives all panels of one measure the same limits."""
+    for measure in {measure for measure, _ in cells}:
+        own = [axes for axes, (of, _) in zip(all_axes, cells) if of == measure]
+        low, high = min(axes.get_ylim()[0] for axes in own), max(axes.get_ylim()[1] for axes in own)
+        for axes in own:
+            axes.set_ylim(low, high)
+
+
+# Which figures a design calls for
+
+
+def plans(data: Data) -> Iterator[Plan]:
+    """A figure of the task's measures by condition, and one of its lifts'."""
+    axes_of = _axes_of_design(data) if "condition" in data.table("trials") else {}
+    if not axes_of:
+        return
+    own = [measure.column for measure in data.measures]
+    if own:
+        yield from _plans_of(data, "trials", own, "measures", axes_of)
+    if data.has("lifts"):
+        lifts = data.table("lifts")
+        known = [m for m in LIFT_MEASURES if m in lifts and lifts[m].notna().any()]
+        if known:
+            yield from _plans_of(data, "lifts", known, "lifts", axes_of)
+
+
+def _axes_of_design(data: Data) -> dict[str, str]:
+    """Which column of trials.csv goes to x, to colour and to panels: numeric factors to x, few levels to colours."""
+    trials = data.table("trials")
+    trials = trials[~trials["kind"].isin(ASIDE)] if "kind" in trials else trials
+    factors = [name for name in data.factors if trials[name].nunique() > 1]
+    if not factors:
+        return _axes_of_names(trials)
+    levels = {name: int(trials[name].nunique()) for name in [*factors, "group"]}
+    numeric = [name for name in factors if pd.api.types.is_numeric_dtype(trials[name])]
+    x = max(numeric or factors, key=lambda name: levels[name])
+    rest = sorted((name for name in factors if name != x), key=lambda name: levels[name])
+    if levels["group"] > 1:
+        rest.insert(0, "group")
+    rest = [name for name in rest if levels[name] <= _MOST_COLOURS]
+    out = {"x": x}
+    if rest:
+        out["colour"] = rest[0]
+    if len(rest) > 1 and levels[rest[1]] <= 4:
+        out["panel"] = rest[1]
+    return out
+
+
+def _axes_of_names(trials: pd.DataFrame) -> dict[str, str]:
+    """The same of a design without factors: conditions, and perturbations that are crossed with them; or blocks."""
+    if trials["condition"].nunique() > 1:
+        crossed = trials.groupby("condition")["perturbation"].nunique().max() > 1
+        several = trials["group"].nunique() > 1
+        colour = "group" if several else "perturbation" if crossed and trials["perturbation"].nunique() <= _MOST_COLOURS else ""
+        return {"x": "condition", **({"colour": colour} if colour else {})}
+    if trials["block"].nunique() > 1:
+        return {"x": "block", **({"colour": "group"} if trials["group"].nunique() > 1 else {})}
+    return {}
+
+
+def _plans_of(data: Data, table: str, measures: list[str], name: str, design: dict[str, str]) -> Iterator[Plan]:
+    trials = counting_trials(data, table)
+    # a questionnaire, say, may be asked in one condition alone
+    measures = [name for name in measures if trials.loc[trials[name].notna(), design["x"]].nunique() > 1]
+    trials = trials[trials[measures].notna().any(axis=1)]
+    if not measures or trials.empty:
+        return
+    people = trials["person"].nunique()
+    units = data.table("trials").attrs.get("units", {})
+    panels = trials[design["panel"]].nunique() if "panel" in design else 1
+    each = max(1, _MOST_PANELS // panels) if panels > 1 else 6
+    for first in range(0, len(measures), each):
+        some = measures[first : first + each]
+        by = " and ".join(words_of(column, units.get(column, "")) for column in design.values())
+        number = f"-{first // each + 1}" if len(measures) > each else ""
+        dots = "Dots are trials" if people == 1 else "Dots are people's means over trials, joined over conditions"
+        over = "trials" if people == 1 else "people"
+        rest = [words_of(name, units.get(name, "")) for name in data.factors if name not in design.values()]
+        order = {name: data.levels(name) for name in design.values() if not pd.api.types.is_numeric_dtype(trials[name])}
+        yield Plan(
+            name=f"{name}-by-{'-'.join(design.values())}{number}".replace("_", "-"),
+            title=f"{'Lifts' if table == 'lifts' else 'Measures'} by {by}",
+            caption=f"{dots}; marks are means over {over} with 95 % intervals. {counted(people, 'person', 'people')}, "
+            f"{counted(len(trials), 'trial')}; practice, catch trials and repeated attempts are left out."
+            + (f" Averaged over {' and '.join(rest)}." if rest else ""),
+            points=means_by_condition,
+            points_options={"measures": some, **design, "table": table},
+            drawing=draw_conditions,
+            drawing_options={
+                **design,
+                "size": "two columns" if max(len(some), panels) > 1 else "one column",
+                **({"order": order} if order else {}),
+                **({"mark": data.mark} if data.mark else {}),
+            },
+        )

@@ -1,0 +1,130 @@
+"""The style of all figures: sizes of a journal's columns, type, colours."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Callable
+from functools import wraps
+from typing import Any, TypeVar
+
+import matplotlib
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from ..errors import NotThere
+
+#: Colours that can be told apart with any kind of colour vision (Okabe and Ito, 2008), in the order of their use.
+COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
+#: The mark of each colour, so that figures can be read in black and white.
+MARKERS = ["o", "s", "^", "D", "v", "P", "X"]
+#: Widths of a figure [mm].
+WIDTHS = {"one column": 89.0, "two columns": 183.0}
+#: Colour of what is not data: reference lines, names of blocks.
+QUIET = "#767676"
+
+_RC = {
+    "font.family": ["sans-serif"],
+    "font.sans-serif": ["DejaVu Sans", "Verdana", "Arial", "Helvetica"],
+    "font.size": 7.0,
+    "axes.titlesize": 8.0,
+    "axes.labelsize": 8.0,
+    "xtick.labelsize": 7.0,
+    "ytick.labelsize": 7.0,
+    "legend.fontsize": 7.0,
+    "figure.titlesize": 9.0,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.linewidth": 0.6,
+    "axes.axisbelow": True,
+    "axes.titlelocation": "left",
+    "xtick.major.width": 0.6,
+    "ytick.major.width": 0.6,
+    "lines.linewidth": 1.2,
+    "lines.markersize": 3.5,
+    "legend.frameon": False,
+    "legend.handlelength": 1.4,
+    "axes.formatter.useoffset": False,
+    "savefig.dpi": 300,
+    "svg.fonttype": "none",  # text stays text: it can be searched and edited
+    "svg.hashsalt": "dihaptic",  # the same figure gives the same file
+    "pdf.fonttype": 42,
+    "figure.facecolor": "none",
+    "axes.facecolor": "none",
+    "savefig.facecolor": "white",
+}
+
+_Function = TypeVar("_Function", bound=Callable[..., Any])
+
+
+def styled(function: _Function) -> _Function:
+    """Calls the function in the style of this package, whatever the caller's own style is."""
+
+    @wraps(function)
+    def call(*arguments: Any, **options: Any) -> Any:
+        with matplotlib.rc_context():
+            matplotlib.rcdefaults()
+            matplotlib.rcParams.update(_RC)
+            return function(*arguments, **options)
+
+    return call  # type: ignore[return-value]
+
+
+def canvas(
+    size: str = "one column", height_mm: float = 65, rows: int = 1, columns: int = 1, **options: Any
+) -> tuple[Figure, list[Axes]]:
+    """An empty figure in the style of this package, and its panels from the upper left to the lower right.
+
+    `size`: "one column" (89 mm wide) or "two columns" (183 mm); `options` go to matplotlib's Figure.subplots(), such as
+    sharey=True. Raises NotThere for another size.
+
+    >>> from dihaptic import figures
+    >>> figure, (axes,) = figures.canvas("two columns", height_mm=50)
+    >>> [round(25.4 * inches) for inches in figure.get_size_inches()]
+    [183, 50]
+    """
+    if size not in WIDTHS:
+        raise NotThere(size, "is not a size of figures", list(WIDTHS), "Sizes are " + " and ".join(WIDTHS) + ".")
+    with matplotlib.rc_context():
+        matplotlib.rcdefaults()
+        matplotlib.rcParams.update(_RC)
+        figure = Figure(figsize=(WIDTHS[size] / 25.4, height_mm / 25.4), layout="constrained")
+        panels = figure.subplots(rows, columns, squeeze=False, **options)
+    return figure, list(panels.flat)
+
+
+def wrapped(text: str, letters: int) -> str:
+    """A label in lines of at most so many letters, as far as its words allow."""
+    return "\n".join(textwrap.wrap(text, letters, break_long_words=False, break_on_hyphens=False))
+
+
+def fit_names(axes: Axes, width_mm: float) -> None:
+    """Writes the names below a panel of this width in lines, or upright where a word does not fit."""
+    names = [text.get_text() for text in axes.get_xticklabels()]
+    # a letter of 7 points is about 1.4 mm wide; about 14 mm of a panel's width are to the left of it
+    letters = int((width_mm - 14) / max(1, len(names)) / 1.5)
+    if max(len(word) for name in names for word in name.split() or [""]) > letters:
+        axes.tick_params(axis="x", labelrotation=90)
+    else:
+        axes.set_xticks(axes.get_xticks(), [wrapped(name, letters) for name in names])
+
+
+def legend_above(figure: Figure, handles: list[Any], names: list[str], title: str = "") -> None:
+    """A legend above all panels, which leave room for it; to be called when the panels are complete."""
+    # the width of a name is about 0.6 of its height for each letter; the line before it takes about 4 letters
+    width = figure.get_figwidth() * 72 / 7 / 0.6
+    columns = max(1, min(len(names), int(width / (max(map(len, names)) + 6))))
+    lines = -(-len(names) // columns) + (1 if title else 0)
+    share = (lines * 7 * 1.45 + 6) / (figure.get_figheight() * 72)
+    figure.get_layout_engine().set(rect=(0, 0, 1, 1 - share))
+    figure.legend(handles, names, loc="upper center", ncols=columns, title=title or None, borderaxespad=0.2)
+
+
+def corner(figure: Figure, mark: str) -> None:
+    """A short mark in the lower right corner, such as "simulated"; panels leave room for it."""
+    if not mark:
+        return
+    share = 7 / (figure.get_figheight() * 72)
+    engine = figure.get_layout_engine()
+    left, bottom, width, height = engine.get()["rect"]
+    engine.set(rect=(left, bottom + share, width, height - share))
+    figure.text(0.995, 0.1 * share, mark, ha="right", va="bottom", fontsize=5, color=QUIET)

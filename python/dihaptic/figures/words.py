@@ -1,0 +1,79 @@
+"""Names of columns, conditions and numbers in the words of a figure."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+#: Columns whose name says less than a reader needs.
+_WORDS = {
+    "hand_angle": "direction error of the hand",
+    "shown_angle": "direction error as shown",
+    "hand_extent": "extent of the hand",
+    "shown_extent": "extent as shown",
+    "reach_time": "time of reach",
+    "grip_load_r": "correlation of grip and load",
+    "grip_load_lag": "lag of grip behind load",
+    "static_ratio": "static ratio of grip and load",
+    "tlx": "workload (TLX)",
+}
+
+
+def split(column: str, unit: str) -> str:
+    """A column's name without the unit at its end: "peak_grip_rate" of "peak_grip_rate_N_s"."""
+    ends = {"N*s/m": "Ns_m", "m/s^2": "m_s2", "N*m": "Nm", "N/m^2": "Pa", "kg/m^3": "kg_m3", "N*m/rad": "Nm_rad"}
+    for end in (ends.get(unit, ""), unit.replace("/", "_").replace("*", "")):
+        if end and column.endswith("_" + end):
+            return column[: -len(end) - 1]
+    return column
+
+
+def words_of(column: str, unit: str = "") -> str:
+    """A column in words, without its unit: "peak grip rate" for peak_grip_rate_N_s."""
+    name = split(column, unit)
+    return _WORDS.get(name, name.replace("_", " "))
+
+
+def label(column: str, unit: str = "") -> str:
+    """A column in words, with its unit: "peak grip rate [N/s]" for peak_grip_rate_N_s.
+
+    >>> label("peak_grip_rate_N_s", "N/s")
+    'peak grip rate [N/s]'
+    """
+    words = words_of(column, unit)
+    return f"{words} [{in_print(unit)}]" if unit and unit != "1" else words
+
+
+def in_print(unit: str) -> str:
+    """A unit as a journal prints it."""
+    return unit.replace("deg", "°").replace("um", "µm").replace("^2", "²").replace("^3", "³").replace("*", "\u00a0")
+
+
+def level(value: Any, unit: str = "") -> str:
+    """A level of a factor: "80 g" for 80 with the unit g; a word as it is."""
+    if isinstance(value, str):
+        return value.replace("_", " ")
+    if value is None or (isinstance(value, float) and math.isnan(value)):
+        return "none"
+    text = f"{value:g}"
+    return f"{text} {in_print(unit)}" if unit and unit != "1" else text
+
+
+def number(value: float) -> str:
+    """A number with three digits, as a text would give it.
+
+    >>> number(0.08843), number(15.0), number(1234.5)
+    ('0.0884', '15', '1230')
+    """
+    if not math.isfinite(value):
+        return "-"
+    if value == 0:
+        return "0"
+    digits = 2 - math.floor(math.log10(abs(value)))
+    rounded = round(value, digits)
+    return f"{rounded:.{max(0, digits)}f}".rstrip("0").rstrip(".") if digits > 0 else f"{rounded:.0f}"
+
+
+def counted(number: int, thing: str, things: str = "") -> str:
+    """ "one person", "4 people": a number with its noun."""
+    return f"{number} {thing}" if number == 1 else f"{number} {things or thing + 's'}"
