@@ -208,6 +208,7 @@ class Files(unittest.TestCase):
         self.assertNotIn("--help", str(refused.exception))
 
     def test_tables_that_are_not_there_yet_say_how_they_come(self):
+        (self.here / "rehearsal.yaml").touch()
         study = dh.Rehearsal(self.here)
         with self.assertRaisesRegex(dh.Error, "has no tables yet. Type dihaptic collect"):
             study.trials

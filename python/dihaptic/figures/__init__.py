@@ -49,14 +49,28 @@ from .paths import (
     reach_paths,
     speed_profiles,
 )
+from .psychophysics import (
+    answers_by_level,
+    draw_answers,
+    draw_procedure_courses,
+    draw_psychometric_functions,
+    draw_thresholds,
+    procedure_courses,
+    psychometric_functions,
+    thresholds_by_procedure,
+)
 from .saving import Plan, save
+from .statistics import write_analyses
 from .style import COLOURS, canvas
 
 __all__ = [
-    "COLOURS", "Data", "Measure", "Plan", "canvas", "channel_forces", "draw", "draw_channel_forces",
-    "draw_conditions", "draw_generalisation", "draw_grip_against_load", "draw_learning_curve",
-    "draw_learning_windows", "draw_lift_curves", "draw_lift_phases", "draw_measures_over_trials",
-    "draw_reach_paths", "draw_speed_profiles", "draw_successive_lifts", "generalisation_curve",
-    "grip_against_load", "learning_curve", "learning_windows", "lift_curves", "lift_phases", "means_by_condition",
-    "measures_over_trials", "reach_paths", "read", "save", "speed_profiles", "successive_lifts",
+    "COLOURS", "Data", "Measure", "Plan", "answers_by_level", "canvas", "channel_forces", "draw",
+    "draw_answers", "draw_channel_forces", "draw_conditions", "draw_generalisation", "draw_grip_against_load",
+    "draw_learning_curve", "draw_learning_windows", "draw_lift_curves", "draw_lift_phases",
+    "draw_measures_over_trials", "draw_procedure_courses", "draw_psychometric_functions", "draw_reach_paths",
+    "draw_speed_profiles", "draw_successive_lifts", "draw_thresholds", "generalisation_curve",
+    "grip_against_load", "learning_curve", "learning_windows", "lift_curves", "lift_phases",
+    "means_by_condition", "measures_over_trials", "procedure_courses", "psychometric_functions",
+    "reach_paths", "read", "save", "speed_profiles", "successive_lifts", "thresholds_by_procedure",
+    "write_analyses",
 ]  # fmt: skip

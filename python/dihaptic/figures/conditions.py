@@ -11,7 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from scipy import stats
 
-from ..errors import error
+from ..errors import NotThere, error
 from .data import ASIDE, Data
 from .saving import Plan
 from .style import COLOURS, MARKERS, WIDTHS, canvas, corner, fit_names, legend_above, styled, wrapped
@@ -52,6 +52,13 @@ def counting_trials(data: Data, table: str = "trials") -> pd.DataFrame:
     return trials
 
 
+def check_column(table: pd.DataFrame, name: str) -> None:
+    """Raises NotThere when the table has no such column."""
+    if name not in table:
+        columns = [str(column) for column in table]
+        raise NotThere(name, "is not a column of these trials", columns, f"Columns: {', '.join(columns)}.")
+
+
 def means_by_condition(
     data: Data, *, measures: list[str], x: str, colour: str = "", panel: str = "", table: str = "trials"
 ) -> pd.DataFrame:
@@ -69,11 +76,15 @@ def means_by_condition(
     """
     trials = counting_trials(data, table)
     by = [name for name in (x, colour, panel) if name]
+    for name in by:
+        check_column(trials, name)
     units = trials.attrs.get("units", {})
     single = len(data.people) == 1
     parts = []
     for measure in measures:
-        data.measure(measure, table)
+        check_column(trials, measure)
+        if not pd.api.types.is_numeric_dtype(trials[measure]):
+            raise error("has words, of which there is no mean", "Name a column of numbers.", key=measure)
         known = trials[trials[measure].notna()]
         if single:
             each = known[["person", *by, measure]].rename(columns={measure: "value"})
@@ -91,6 +102,12 @@ def means_by_condition(
     out = pd.concat(parts, ignore_index=True).reindex(columns=columns)
     if out.empty:
         raise error("has no value in a trial that counts", "Name a measure of this task.", key=", ".join(measures))
+    # words in the order of the task, in which they are then drawn
+    for name in reversed(by):
+        place = {value: i for i, value in enumerate(data.levels(name) if name in data.table("trials") else [])}
+        out = out.sort_values(name, key=lambda levels: levels.map(place), kind="stable")
+    out = out.sort_values("measure", key=lambda names: names.map({m: i for i, m in enumerate(measures)}), kind="stable")
+    out = out.reset_index(drop=True)
     out.attrs["units"] = {name: unit for name, unit in units.items() if name in [*measures, *by]}
     return out
 
@@ -112,6 +129,14 @@ def draw_conditions(
     ['peak grip [N]']
     """
     units = points.attrs.get("units", {})
+    for name in (x, colour, panel):
+        if name:
+            check_column(points, name)
+    means = points[points["of"] == "mean"]
+    if means.empty:
+        raise error("there is no mean to draw", "Draw a table of means_by_condition() with its rows of means.")
+    if means.duplicated(["measure", *(name for name in (x, colour, panel) if name)]).any():
+        raise error("there are several means at one place", "Name as colour or panel what tells them apart.", key=x)
     measures = list(dict.fromkeys(points["measure"]))
     order = order or {}
     panels = list(_places(points[panel], order.get(panel))) if panel else [None]
@@ -155,7 +180,7 @@ def _places(levels: pd.Series, order: list[str] | None) -> dict[Any, float]:
     if all(isinstance(value, (int, float, np.number)) for value in values):
         return {value: float(value) for value in sorted(values)}
     known = [value for value in order or [] if value in values]
-    rest = sorted((value for value in values if value not in known), key=str)
+    rest = [value for value in values if value not in known]
     return {value: float(i) for i, value in enumerate([*known, *rest])}
 
 
@@ -174,7 +199,8 @@ def _dots_and_mean(
         axes.plot(at, own["value"], color=hue, alpha=0.35, linewidth=0.6 if joined else 0, marker=".", markersize=3)
     mean = shown[shown["of"] == "mean"].assign(at=lambda rows: [places[value] + aside for value in rows[x]]).sort_values("at")
     low, high = (mean["value"] - mean["low"]).fillna(0), (mean["high"] - mean["value"]).fillna(0)
-    axes.errorbar(mean["at"], mean["value"], [low, high], color=hue, marker=marker, capsize=2, elinewidth=1, label=name, zorder=3)
+    reach = np.array([low, high])
+    axes.errorbar(mean["at"], mean["value"], reach, color=hue, marker=marker, capsize=2, elinewidth=1, label=name, zorder=3)
 
 
 def _label(axes: Axes, places: dict[Any, float], xlabel: str, ylabel: str, width_mm: float) -> None:

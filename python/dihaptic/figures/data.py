@@ -45,16 +45,17 @@ class Measure:
         return label(self.column, self.unit)
 
 
-def read(path: str | Path) -> Data:
+def read(path: str | Path, people: list[str] | None = None) -> Data:
     """The tables of a session's folder, of a rehearsal's, of a study's file, or of a folder that contains sessions.
 
-    A rehearsal and a study are read from their collected tables (dihaptic collect). Raises Error when there is nothing.
+    `people` names those who count, in all figures and means; the default is everybody. A rehearsal and a study are read
+    from their collected tables (dihaptic collect). Raises Error when there is nothing, and NotThere for a person's name.
 
     >>> from dihaptic import figures
     >>> figures.read(lift_session)
     <Data of one session: Two fingers lift a block>
     """
-    return Data(path)
+    return Data(path, people)
 
 
 class Data:
@@ -68,8 +69,9 @@ class Data:
     (['person', 'group'], False)
     """
 
-    def __init__(self, path: str | Path) -> None:
+    def __init__(self, path: str | Path, people: list[str] | None = None) -> None:
         self.path = Path(os.path.abspath(path))
+        self._only: list[str] | None = None
         self._collected: Collected | None = None
         if self.path.is_file() and self.path.suffix in (".yaml", ".yml") and self.path.name != "session.yaml":
             self._collected = study = Study(self.path)
@@ -95,6 +97,14 @@ class Data:
                 "Name a folder with the sessions of one of them.",
                 file=str(path),
             )
+
+        if people is not None:
+            for name in people:
+                if name not in self.people:
+                    raise NotThere(name, "is not a person of these sessions", self.people, "Data.people lists them.")
+            self.__dict__.pop("_cache")
+            self._only = list(people)
+            self.sessions = [session for session in self.sessions if _person_of(session) in self._only] or self.sessions
 
     def _check_collected(self) -> None:
         """Raises Error when the joined tables of a rehearsal are missing, or older than its people."""
@@ -154,7 +164,11 @@ class Data:
         """A table of all people, by its name; units and meanings of its columns are in `attrs`. Raises NotThere, Error."""
         cache: dict[str, pd.DataFrame] = self.__dict__.setdefault("_cache", {})
         if name not in cache:
-            cache[name] = self._read(name)
+            table = self._read(name)
+            if self._only is not None:
+                attrs, table = table.attrs, table[table["person"].isin(self._only)].reset_index(drop=True)
+                table.attrs = attrs
+            cache[name] = table
         return cache[name].copy()
 
     def _read(self, name: str) -> pd.DataFrame:
@@ -173,7 +187,7 @@ class Data:
             if name not in session.tables:
                 continue
             table = session.table(name)
-            person = str(session.info.get("participant", {}).get("id", "") or session.folder.name)
+            person = _person_of(session)
             group = str((session.info.get("in_study") or {}).get("group", "") or "")
             part = _marked(table, pd.Series(person, index=table.index), pd.Series(group, index=table.index))
             part.insert(2, "session", session.folder.name)
@@ -269,6 +283,11 @@ class Data:
         info = self.sessions[0].info
         who = ("simulated " if self.is_simulated else "") + ("person" if len(self.people) == 1 else "people")
         return f"{len(self.people)} {who}; {info.get('program', '')}, seed {info.get('seed', '')}; {self.path.name}"
+
+
+def _person_of(session: Session) -> str:
+    """A session's participant; a session without a name counts as a person of its own."""
+    return str((session.info.get("participant") or {}).get("id", "") or session.folder.name)
 
 
 def _marked(table: pd.DataFrame, person: pd.Series, group: pd.Series) -> pd.DataFrame:

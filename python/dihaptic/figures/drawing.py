@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import sys
+import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from ..errors import Error
-from . import conditions, learning, lifts, paths
+from . import conditions, learning, lifts, paths, psychophysics
 from .data import Data, read
-from .saving import Plan, save
+from .saving import Plan, is_changed, save, write
+from .statistics import write_analyses
 
 #: Each kind of figure: a module with `plans(data)`, in the order in which figures are listed.
-KINDS = [conditions, lifts, learning, paths]
+KINDS = [conditions, lifts, learning, paths, psychophysics]
 
 
 def plans(data: Data) -> Iterator[Plan]:
@@ -25,7 +27,8 @@ def draw(path: str | Path, out: str | Path | None = None, *, progress: Callable[
     """Draws all figures that the experiment of these sessions calls for, and returns the scripts that draw each anew.
 
     `path` is a session's folder, a rehearsal's, a study's file, or a folder with sessions of one experiment; `out` is the
-    folder for the figures, by default `figures` beside the tables. Raises Error.
+    folder for the figures, by default `figures` beside the tables. Their captions are in captions.txt. A figure whose
+    script you have changed is left as it is, with a warning. Raises Error.
 
     >>> from dihaptic import figures
     >>> all(script.suffix == ".py" for script in figures.draw(lift_session))
@@ -34,15 +37,24 @@ def draw(path: str | Path, out: str | Path | None = None, *, progress: Callable[
     data = read(path)
     folder = Path(out) if out is not None else data.folder / "figures"
     folder = folder.absolute()
-    scripts = []
+    scripts, captions = [], []
     for plan in plans(data):
+        script = folder / f"{plan.name}.py"
+        text = plan.script(data, folder).encode()
+        scripts.append(script)
+        captions.append(f"{plan.name}: {plan.title}. {plan.caption}\n")
+        if script.exists() and is_changed(script):
+            kept = f"{script.name} has been changed, so its figure is left as it is; remove the script to have it drawn anew"
+            warnings.warn(kept, stacklevel=2)
+            continue
         if progress is not None:
             progress(plan.title)
         points, figure = plan.make(data)
         save(figure, folder / plan.name, points)
-        script = folder / f"{plan.name}.py"
-        script.write_text(plan.script(data, folder), encoding="utf-8")
-        scripts.append(script)
+        write(script, text)
+    if captions:
+        write(folder / "captions.txt", "\n".join(captions).encode())
+    write_analyses(data, folder)
     return scripts
 
 
@@ -55,6 +67,7 @@ def main(words: list[str]) -> int:
             "Example:\n  python3 -m dihaptic.figures rehearsals/grip-and-lift_1"
         )
         return 0 if words and words[0] in ("-h", "--help") else 2
+    warnings.formatwarning = lambda message, *_: f"{message}\n"  # for somebody who has typed a command
     try:
         scripts = draw(*words, progress=lambda title: print(title, file=sys.stderr))
     except Error as why:

@@ -565,7 +565,8 @@ def _dots(axes: Axes, own: pd.DataFrame, windows: list[str], i: int, levels: int
             joined = 0.0 if one["is_difference"].any() else 0.5
             axes.plot(one["at"] - 0.06 / levels, one["value"], color=hue, alpha=0.35, lw=joined, marker="o", ms=2, mew=0)
     low, high = (mean["value"] - mean["low"]).fillna(0), (mean["high"] - mean["value"]).fillna(0)
-    axes.errorbar(mean["at"], mean["value"], [low, high], color=hue, marker=marker, ls="", capsize=2, elinewidth=1, zorder=3)
+    reach = np.array([low, high])
+    axes.errorbar(mean["at"], mean["value"], reach, color=hue, marker=marker, ls="", capsize=2, elinewidth=1, zorder=3)
 
 
 # Generalisation
@@ -607,7 +608,7 @@ def draw_generalisation(points: pd.DataFrame, *, size: str = "one column", heigh
         low, high = (mean["value"] - mean["low"]).fillna(0), (mean["high"] - mean["value"]).fillna(0)
         if len(mean):
             at = mean["angle_deg"]
-            axes.errorbar(at, mean["value"], [low, high], color=hue, marker=marker, capsize=2, elinewidth=1, zorder=3)
+            axes.errorbar(at, mean["value"], np.array([low, high]), color=hue, marker=marker, capsize=2, elinewidth=1, zorder=3)
     axes.axhline(0, color=QUIET, linewidth=0.4, zorder=1)
     axes.axvline(0, color=QUIET, linewidth=0.6, linestyle=":", zorder=1)
     reach = max(45.0, float(points["angle_deg"].abs().max()))

@@ -613,9 +613,10 @@ def draw_lift_phases(
             hue, marker = COLOURS[i], MARKERS[i]
             beside = place[case] + 0.18 + 0.04 * (np.arange(len(dots)) % 4)  # dots at the same place stay countable
             here.plot(1000 * dots["value"], beside, ".", color=hue, alpha=0.45, markersize=4, markeredgewidth=0)
+            value, low, high = 1000 * middle[["value", "low", "high"]].to_numpy().T
+            height = [place[case] - 0.1] * len(middle)
             here.errorbar(
-                1000 * middle["value"], [place[case] - 0.1] * len(middle), fmt=marker, color=hue, elinewidth=1.2, markersize=4,
-                xerr=[1000 * (middle["value"] - middle["low"]), 1000 * (middle["high"] - middle["value"])],
+                value, height, fmt=marker, color=hue, elinewidth=1.2, markersize=4, xerr=np.array([value - low, high - value])
             )  # fmt: skip
         here.set_title(phase)
         here.set_xlabel("duration [ms]")

@@ -30,6 +30,8 @@ _FREQUENT = 0.05
 _ALL = "all of these"  # kind of a fit to the answers of several procedures
 _OUTSIDE = "outside of the levels"  # beginning of the note on a threshold that is a guess
 _LINES: list[Any] = ["-", (0, (5, 1.5)), (0, (1.5, 1)), (0, (6, 1.5, 1.5, 1.5)), (0, (3, 1)), (0, (1, 2)), (0, (8, 2))]
+#: Steps of round numbers on an axis.
+_STEPS = [1, 2, 2.5, 5, 10]
 _PANEL = ["procedure", "kind", "quantity", "unit", "logarithmic", "yes"]
 
 
@@ -190,6 +192,12 @@ def _person_keys(table: pd.DataFrame) -> list[str]:
     return [column for column in ("person", "group", "session", "study_session") if column in table]
 
 
+def _is_single(data: Data) -> bool:
+    """Whether all trials are those of one session of one person."""
+    trials = data.table("trials")
+    return len(trials[_person_keys(trials)].drop_duplicates()) == 1
+
+
 def _of_sitting(table: pd.DataFrame, procedure: _Procedure) -> pd.DataFrame:
     table = table.assign(group=table["group"].fillna(""))
     if procedure.sitting and "study_session" in table:
@@ -229,8 +237,9 @@ def _chosen(data: Data, procedures: list[str] | None) -> list[_Procedure]:
     if procedures is None:
         return known
     for name in procedures:
-        if name not in [each.title for each in known]:
-            raise NotThere(name, "is not a procedure of these trials", [each.title for each in known], "procedures.csv lists them.")
+        titles = [each.title for each in known]
+        if name not in titles:
+            raise NotThere(name, "is not a procedure of these trials", titles, "procedures.csv lists them.")
     return [each for each in known if each.title in procedures]
 
 
@@ -262,9 +271,10 @@ def psychometric_functions(data: Data, *, procedures: list[str] | None = None) -
 
     A row has its procedure, and `of`: "level", at which n answers had the share `value` of yes, with Wilson's 95 %
     interval; "curve", a point of a person's function; "threshold", at `level`, where the function's value is `value`, with
-    its 95 % interval of levels from `low` to `high`; "mean" of n people's thresholds, with its interval of levels; "chance", the share of
-    guesses; "standard", its level. Levels have the unit `unit`, and are never logarithms; the mean is the geometric one
-    where `logarithmic`. Shares at levels are those of one person. Thresholds outside of the levels shown are left out.
+    its 95 % interval of levels from `low` to `high`; "mean" of n people's thresholds, with its interval of levels;
+    "chance", the share of guesses; "standard", its level. Levels have the unit `unit`, and are never logarithms; the mean
+    is the geometric one where `logarithmic`. Shares at levels are those of one person. Thresholds outside of the levels
+    shown are left out.
     `procedures`: names, by default all. Raises NotThere, or Error when there are no answers.
 
     >>> from dihaptic import figures
@@ -274,29 +284,32 @@ def psychometric_functions(data: Data, *, procedures: list[str] | None = None) -
     dihaptic.errors.Error: ...has no trials of a procedure. Name a session whose task has procedures.
     """
     rows: list[dict[str, Any]] = []
+    single = _is_single(data)
     for procedure in _chosen(data, procedures):
         answers = _answers(data, procedure)
         if answers.empty:
             continue
         head = procedure.panel()
         fits = _fits(data, procedure)
-        single = answers.groupby(_person_keys(answers)).ngroups == 1
         if not single and fits.empty:
             continue
         if single:
             rows += [{**head, "group": answers["group"].iloc[0], **row} for row in _shares(answers, procedure)]
         rows += [{**head, **row} for row in _curves(answers, fits, procedure)]
-        thresholds = [row for row in rows if row["procedure"] == procedure.title and row["of"] == "threshold"]
-        if not single and thresholds:
-            table = pd.DataFrame(thresholds)
-            for group, own in table.groupby("group", sort=False):
-                mean = _mean(own.groupby("person")["level"].mean(), procedure.logarithmic)
-                rows.append({**head, "group": group, "of": "mean", **mean, "level": mean["value"], "value": own["value"].mean()})
+        if not single:
+            rows += [{**head, **row} for row in _mean_thresholds(fits, procedure)]
         if procedure.guess > 0 and not procedure.guess_is_lapse:
             rows.append({**head, "group": "", "of": "chance", "value": procedure.guess})
         if np.isfinite(procedure.standard):
             rows.append({**head, "group": "", "of": "standard", "level": procedure.standard})
     return _finished(rows, _FUNCTION, procedures)
+
+
+def _mean_thresholds(fits: pd.DataFrame, procedure: _Procedure) -> Iterator[dict[str, Any]]:
+    """The mean threshold of each group's people, at their mean probability of yes."""
+    for group, own in fits[~fits["outside"].astype(bool)].groupby("group", sort=False):
+        mean = _mean(own.groupby("person")["threshold_share"].mean(), procedure.logarithmic)
+        yield {"group": group, "of": "mean", **mean, "level": mean["value"], "value": own["threshold_probability"].mean()}
 
 
 def _shares(answers: pd.DataFrame, procedure: _Procedure) -> Iterator[dict[str, Any]]:
@@ -362,30 +375,39 @@ def draw_psychometric_functions(
     `height_mm` is that of a row of panels; `mark` is a word for the figure's corner, such as "simulated".
 
     >>> import pandas as pd
-    >>> common = {"procedure": "finger", "kind": "constant", "quantity": "width", "unit": "mm", "logarithmic": False, "yes": "wider"}
-    >>> shares = [{**common, "group": "", "of": "level", "n": 20, "level": 50 + i, "value": i / 4} for i in range(5)]
+    >>> common = {"procedure": "finger", "kind": "constant", "quantity": "width", "unit": "mm", "logarithmic": False}
+    >>> common |= {"yes": "wider", "group": "", "of": "level", "n": 20}
+    >>> shares = [{**common, "level": 50 + i, "value": i / 4} for i in range(5)]
     >>> figure = draw_psychometric_functions(pd.DataFrame(shares))
     >>> figure.axes[0].get_xlabel(), figure.axes[0].get_ylabel()
     ('width [mm]', 'share of "wider"')
     """
     points = points.reindex(columns=list(dict.fromkeys([*_FUNCTION, *points.columns])))
     groups = _groups(points[points["of"].isin(["level", "curve", "threshold", "mean"])])
-    several = bool((points["of"] == "mean").any()) or not bool((points["of"] == "level").any())
+    several = not bool((points["of"] == "level").any())
     figure, panels = _panels(points, size, height_mm)
     largest = points.loc[points["of"] == "level", "n"].max()
+    shares = pd.concat([points["value"], points.loc[points["of"] == "level", "low"]])
+    lowest = 0.5 if shares.min() >= 0.48 else 0  # a forced choice has no less
     for axes, own in panels:
         _quiet_lines(axes, own)
         for i, group in enumerate(groups):
-            _function(axes, own[own["group"].fillna("") == group], i, several, largest)
-        axes.set_ylim(-0.04, 1.04)
-        axes.set_yticks([0, 0.25, 0.5, 0.75, 1], ["0", "0.25", "0.5", "0.75", "1"])
-    _level_axes(panels, "x", points)
+            dark = "black" if len(groups) == 1 else COLOURS[i % len(COLOURS)]
+            _function(axes, own[own["group"].fillna("") == group], i, several, largest, dark)
+        axes.set_ylim(lowest - 0.04, 1.04)
+        axes.set_yticks(*_ticks_of_shares(lowest))
+    _level_axes(panels, "x")
     answers = list(dict.fromkeys(points["yes"]))
     _label_all(panels, x=None, y=f'share of "{answers[0]}"' if len(answers) == 1 else "share of yes", size=size)
     handles, names = _legend_of_functions(points, groups, several)
     legend_above(figure, handles, names)
     corner(figure, mark)
     return figure
+
+
+def _ticks_of_shares(lowest: float) -> tuple[list[float], list[str]]:
+    ticks = [0, 0.25, 0.5, 0.75, 1] if lowest == 0 else [0.5, 0.6, 0.7, 0.8, 0.9, 1]
+    return ticks, [f"{tick:g}" for tick in ticks]
 
 
 def _groups(points: pd.DataFrame) -> list[str]:
@@ -400,14 +422,14 @@ def _quiet_lines(axes: Axes, own: pd.DataFrame) -> None:
         axes.axvline(value, color=QUIET, linewidth=0.6, linestyle="--", zorder=0)
 
 
-def _function(axes: Axes, own: pd.DataFrame, i: int, several: bool, largest: float) -> None:
+def _function(axes: Axes, own: pd.DataFrame, i: int, several: bool, largest: float, dark: str) -> None:
     """One group's or person's function: shares at levels, curves, thresholds."""
     hue, marker = COLOURS[i % len(COLOURS)], MARKERS[i % len(MARKERS)]
     shares = own[own["of"] == "level"]
-    with_interval = shares[shares["low"].notna()]
-    axes.vlines(with_interval["level"], with_interval["low"], with_interval["high"], color=hue, alpha=0.5, linewidth=0.7, zorder=1)
+    known = shares[shares["low"].notna()]
+    axes.vlines(known["level"], known["low"], known["high"], color=hue, alpha=0.5, linewidth=0.7, zorder=1)
     axes.scatter(
-        shares["level"], shares["value"], s=4 + 44 * shares["n"] / largest, marker="o", facecolor="white", edgecolor=hue,
+        shares["level"], shares["value"], s=4 + 44 * shares["n"] / max(10, largest), marker="o", facecolor="white", edgecolor=hue,
         linewidth=0.9, zorder=2, clip_on=False,
     )  # fmt: skip
     for _, curve in own[own["of"] == "curve"].groupby("person", sort=False):
@@ -419,44 +441,43 @@ def _function(axes: Axes, own: pd.DataFrame, i: int, several: bool, largest: flo
     if several:
         axes.plot(thresholds["level"], thresholds["value"], linewidth=0, marker=".", markersize=3.5, color=hue, alpha=0.6)
     for row in own[own["of"] == ("mean" if several else "threshold")].itertuples():
-        # an interval that ends beyond the panel must not widen it
-        limits = axes.dataLim.frozen()
         if np.isfinite(row.low) and np.isfinite(row.high):
-            axes.hlines(row.value, row.low, row.high, color="black", linewidth=1.4, zorder=4)
+            axes.hlines(row.value, row.low, row.high, color=dark, linewidth=1.4, zorder=4)
         axes.plot(row.level, row.value, marker=marker, markersize=5, markerfacecolor=hue, markeredgecolor="black", zorder=5)
-        axes.dataLim.set(limits)
-        axes.update_datalim([(row.level, row.value)])
+
+
+def _group_marks(groups: list[str], marked: bool = True) -> list[tuple[str, Line2D]]:
+    """Names and lines of groups in a legend; none for a single one."""
+    if len(groups) == 1:
+        return []
+    return [
+        (
+            level(group) or "no group",
+            Line2D([], [], color=COLOURS[i % 7], linestyle=_LINES[i % 7], marker=MARKERS[i % 7] if marked else ""),
+        )
+        for i, group in enumerate(groups)
+    ]
 
 
 def _legend_of_functions(points: pd.DataFrame, groups: list[str], several: bool) -> tuple[list[Any], list[str]]:
     kinds = set(points["of"])
-    handles: list[Any] = []
-    names = []
-
-    def add(name: str, **style: Any) -> None:
-        handles.append(Line2D([], [], **style))
-        names.append(name)
-
-    if len(groups) > 1:
-        for i, group in enumerate(groups):
-            add(level(group) or "no group", color=COLOURS[i % 7], linestyle=_LINES[i % 7], marker=MARKERS[i % 7])
-    hue = COLOURS[0] if len(groups) == 1 else QUIET
+    out = _group_marks(groups)
+    hue, dark = (COLOURS[0], "black") if len(groups) == 1 else (QUIET, QUIET)
     if "level" in kinds:
-        add("share of answers", color=hue, linewidth=0, marker="o", markerfacecolor="white")
+        out.append(("share of answers", Line2D([], [], color=hue, linewidth=0, marker="o", markerfacecolor="white")))
     if "curve" in kinds:
-        add("function of a person" if several else "fitted function", color=hue, linewidth=0.6 if several else 1.2)
-    if "mean" in kinds or ("threshold" in kinds and not several):
-        has_interval = points.loc[points["of"] == ("mean" if several else "threshold"), "low"].notna().any()
-        name = "mean threshold" if several else "threshold"
-        add(
-            name + (", 95 % interval" if has_interval else ""), color="black", marker=MARKERS[0] if len(groups) == 1 else "",
-            markerfacecolor=hue, markersize=5, linewidth=1.4 if has_interval else 0,
-        )  # fmt: skip
-    if "chance" in kinds:
-        add("chance", color=QUIET, linewidth=0.6, linestyle=":")
-    if "standard" in kinds:
-        add("standard", color=QUIET, linewidth=0.6, linestyle="--")
-    return handles, names
+        name, width = ("function of a person", 0.6) if several else ("fitted function", 1.2)
+        out.append((name, Line2D([], [], color=hue, linewidth=width)))
+    of, name = ("mean", "mean threshold") if several else ("threshold", "threshold")
+    if of in kinds:
+        known = bool(points.loc[points["of"] == of, "low"].notna().any())
+        mark = {"marker": MARKERS[0], "markersize": 5, "markerfacecolor": hue, "markeredgecolor": "black"}
+        line = Line2D([], [], color=dark, linewidth=1.4 * known, **mark)
+        out.append((name + ", 95 % interval" * known, line))
+    for of, dashes in (("chance", ":"), ("standard", "--")):
+        if of in kinds:
+            out.append((of, Line2D([], [], color=QUIET, linewidth=0.6, linestyle=dashes)))
+    return [handle for _, handle in out], [name for name, _ in out]
 
 
 # Panels of procedures
@@ -483,26 +504,36 @@ def _columns(panels: int, size: str) -> int:
     return 1 if size == "one column" else {1: 1, 2: 2, 4: 2}.get(panels, 3)
 
 
-def _level_axes(panels: list[tuple[Axes, pd.DataFrame]], axis: str, points: pd.DataFrame) -> None:
+def _level_axes(panels: list[tuple[Axes, pd.DataFrame]], axis: str) -> None:
     """The axes of levels: those of one quantity have the same limits; logarithmic, if its levels are."""
-    keys = [tuple(own[["quantity", "unit", "logarithmic"]].iloc[0]) for _, own in panels]
+    keys = [tuple(own[["quantity", "unit", "logarithmic"]].fillna("").iloc[0]) for _, own in panels]
     for key in dict.fromkeys(keys):
-        some = [axes for (axes, _), other in zip(panels, keys) if other == key]
-        if key[2]:
-            for axes in some:
+        some = [(axes, own) for (axes, own), other in zip(panels, keys) if other == key]
+        logarithmic = bool(key[2]) and all(bool((own["level"].dropna() > 0).all()) for _, own in some)
+        shown = pd.concat([_extent(own, logarithmic) for _, own in some])
+        low, high = (float(shown.min()), float(shown.max())) if len(shown) else (0.0, 1.0)
+        # a panel of one level has a width, too
+        margin = 0.07 * (high - low) or 0.1 * (abs(high) or 1)
+        limits = [10**end if logarithmic else end for end in (low - margin, high + margin)]
+        for axes, _ in some:
+            if logarithmic:
                 axes.set(**{f"{axis}scale": "log"})
-        for axes in some:
-            axes.relim() if axis == "y" else None
-            axes.autoscale_view()
-        get, put = f"get_{axis}lim", f"set_{axis}lim"
-        low = min(getattr(axes, get)()[0] for axes in some)
-        high = max(getattr(axes, get)()[1] for axes in some)
-        for axes in some:
-            getattr(axes, put)(low, high)
-            if key[2]:
-                _log_ticks(getattr(axes, f"{axis}axis"), low, high)
+            axes.set(**{f"{axis}lim": limits})
+            if logarithmic:
+                _log_ticks(getattr(axes, f"{axis}axis"), *limits)
             else:
-                getattr(axes, f"{axis}axis").set_major_locator(MaxNLocator(5))
+                getattr(axes, f"{axis}axis").set_major_locator(MaxNLocator(5, steps=_STEPS))
+
+
+def _extent(own: pd.DataFrame, logarithmic: bool) -> pd.Series:
+    """What an axis of levels, or of their logarithms, has to show: an interval may end far from all levels."""
+    levels = own["level"].dropna().astype(float)
+    mean = own[own["of"] == "mean"]
+    ends = pd.concat([mean["low"], mean["high"]]).dropna().astype(float) if "low" in own else pd.Series(dtype=float)
+    if logarithmic:
+        levels, ends = np.log10(levels), np.log10(ends[ends > 0])
+    room = 0.25 * (levels.max() - levels.min())
+    return pd.concat([levels, ends.clip(levels.min() - room, levels.max() + room)])
 
 
 def _log_ticks(axis: Any, low: float, high: float) -> None:
@@ -514,7 +545,7 @@ def _log_ticks(axis: Any, low: float, high: float) -> None:
         if len(ticks) >= 3:
             break
     if len(ticks) < 2:
-        ticks = [float(tick) for tick in MaxNLocator(4).tick_values(low, high) if low <= tick <= high]
+        ticks = [float(tick) for tick in MaxNLocator(4, steps=_STEPS).tick_values(low, high) if low <= tick <= high]
     axis.set_major_locator(FixedLocator(ticks))
     axis.set_minor_locator(NullLocator())
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
@@ -576,15 +607,17 @@ def thresholds_by_procedure(
         logarithmic = procedure.logarithmic and measure != "weber_fraction"
         if logarithmic:
             fits = fits[fits[measure] > 0]
-        head = {"measure": measure, "quantity": procedure.quantity, "unit": procedure.unit, "procedure": procedure.title}
+        head: dict[str, Any] = {"measure": measure, "quantity": procedure.quantity, "unit": procedure.unit}
+        head["procedure"] = procedure.title
         if measure == "weber_fraction":
             head |= {"quantity": "Weber fraction", "unit": ""}
         head["logarithmic"] = logarithmic
         each = fits.groupby(["group", "person"], sort=False)[measure].agg(["mean", "count"]).reset_index()
         for row in each.to_dict("records"):
-            rows.append({**head, "group": row["group"], "of": "person", "person": row["person"], "n": row["count"], "value": row["mean"]})
-        for group, own in each.groupby("group", sort=False):
-            rows.append({**head, "group": group, "of": "mean", **_mean(own["mean"], logarithmic)})
+            own = {"group": row["group"], "person": row["person"], "n": row["count"], "value": row["mean"]}
+            rows.append({**head, "of": "person", **own})
+        for group, people in each.groupby("group", sort=False):
+            rows.append({**head, "group": group, "of": "mean", **_mean(people["mean"], logarithmic)})
     return _finished(rows, _THRESHOLD, procedures)
 
 
@@ -623,8 +656,8 @@ def draw_thresholds(points: pd.DataFrame, *, size: str = "one column", height_mm
         what = {"threshold_share": "threshold: ", "mean_of_reversals": "mean of reversals: "}.get(own["measure"].iloc[0], "")
         axes.set_ylabel(wrapped(what + _quantity(own), 30))
     if len(groups) > 1:
-        marks = [Line2D([], [], color=COLOURS[i % 7], marker=MARKERS[i % 7]) for i in range(len(groups))]
-        legend_above(figure, marks, [level(group) or "no group" for group in groups])
+        marks = _group_marks(groups)
+        legend_above(figure, [handle for _, handle in marks], [name for name, _ in marks])
     corner(figure, mark)
     return figure
 
@@ -643,7 +676,9 @@ def _people_and_mean(axes: Axes, own: pd.DataFrame, names: list[str], i: int, gr
     mean = own[own["of"] == "mean"]
     at = mean["procedure"].map(places) + 0.3 * step
     errors = [(mean["value"] - mean["low"]).fillna(0), (mean["high"] - mean["value"]).fillna(0)]
-    axes.errorbar(at, mean["value"], errors, color=hue, marker=marker, markersize=5, capsize=2, linestyle="", elinewidth=1.2, zorder=3)
+    axes.errorbar(
+        at, mean["value"], errors, color=hue, marker=marker, markersize=5, capsize=2, linestyle="", elinewidth=1.2, zorder=3
+    )  # fmt: skip
 
 
 # Courses of procedures
@@ -656,9 +691,9 @@ def procedure_courses(data: Data, *, procedures: list[str] | None = None) -> pd.
 
     A row has its procedure, and `of`: "answer", with its number from 1, its trial, its level and whether it was yes;
     "reversal" of a staircase that counts, at the last answer before the direction changed; "mean" level of n people at an
-    answer, as long as all of them answer (the geometric mean, where `logarithmic`); "threshold", of the fitted function
-    or, of several people, the mean of theirs; those outside of the levels shown are left out. Procedures with constant
-    levels have no course. Raises NotThere, or Error when there are no answers.
+    answer, as long as all of them answer, three times at least (the geometric mean, where `logarithmic`); "threshold", of
+    the fitted function or, of several people, the mean of theirs; those outside of the levels shown are left out.
+    Procedures with constant levels have no course. Raises NotThere, or Error when there are no answers.
 
     >>> from dihaptic import figures
     >>> procedure_courses(figures.read(lift_session))
@@ -674,7 +709,6 @@ def procedure_courses(data: Data, *, procedures: list[str] | None = None) -> pd.
         head = procedure.panel()
         sessions = answers.groupby("person")["session"].nunique() if "session" in answers else pd.Series([1])
         keys = _person_keys(answers)
-        several = answers.groupby(keys).ngroups > 1
         for _, own in answers.groupby(keys, sort=False):
             person = own["person"].iloc[0]
             person = f"{person}, {own['session'].iloc[0]}" if sessions.max() > 1 else person
@@ -686,7 +720,7 @@ def procedure_courses(data: Data, *, procedures: list[str] | None = None) -> pd.
         fits = _fits(data, procedure)
         fits = fits[~fits["outside"].astype(bool)]
         for group, own in answers.groupby("group", sort=False):
-            if several:
+            if not _is_single(data):
                 rows += [{**head, "group": group, "of": "mean", **row} for row in _mean_course(own, procedure.logarithmic)]
             thresholds = fits[fits["group"] == group]
             if len(thresholds):
@@ -714,7 +748,7 @@ def _mean_course(answers: pd.DataFrame, logarithmic: bool) -> Iterator[dict[str,
     """The mean level of all people at each answer, up to the last one that all gave."""
     keys = _person_keys(answers)
     last = answers.groupby(keys)["answer"].max().min()
-    if answers.groupby(keys).ngroups < 2:
+    if answers.groupby(keys).ngroups < 2 or last < 3:
         return
     for number, own in answers[answers["answer"] <= last].groupby("answer"):
         mean = _mean(own["level"], logarithmic)
@@ -729,7 +763,8 @@ def draw_procedure_courses(points: pd.DataFrame, *, size: str = "one column", he
 
     >>> import pandas as pd
     >>> row = {"procedure": "up", "kind": "staircase", "quantity": "width", "unit": "mm", "logarithmic": False, "yes": "wider"}
-    >>> answers = [{**row, "group": "", "of": "answer", "person": "p", "answer": i, "level": 9 - i, "said_yes": True} for i in (1, 2)]
+    >>> row |= {"group": "", "of": "answer", "person": "p", "said_yes": True}
+    >>> answers = [{**row, "answer": i, "level": 9 - i} for i in (1, 2)]
     >>> draw_procedure_courses(pd.DataFrame(answers)).axes[0].get_ylabel()
     'width [mm]'
     """
@@ -740,11 +775,11 @@ def draw_procedure_courses(points: pd.DataFrame, *, size: str = "one column", he
     for axes, own in panels:
         for i, group in enumerate(groups):
             _course(axes, own[own["group"].fillna("") == group], i, several)
-        axes.xaxis.set_major_locator(MaxNLocator(5, integer=True))
+        axes.xaxis.set_major_locator(MaxNLocator(5, integer=True, steps=[1, 2, 5, 10]))
     last = points["answer"].max()
     for axes, _ in panels:
         axes.set_xlim(1 - 0.04 * last, last + 0.04 * last)
-    _level_axes(panels, "y", points)
+    _level_axes(panels, "y")
     _label_all(panels, x="answer", y=None, size=size)
     legend_above(figure, *_legend_of_courses(points, groups, several))
     corner(figure, mark)
@@ -756,7 +791,8 @@ def _course(axes: Axes, own: pd.DataFrame, i: int, several: bool) -> None:
     hue = COLOURS[i % len(COLOURS)]
     answers = own[own["of"] == "answer"]
     for _, each in answers.groupby("person", sort=False):
-        axes.plot(each["answer"], each["level"], color=hue, linewidth=0.5 if several else 0.7, alpha=0.4 if several else 0.8, zorder=1)
+        line = {"linewidth": 0.5, "alpha": 0.4} if several else {"linewidth": 0.7, "alpha": 0.8}
+        axes.plot(each["answer"], each["level"], color=hue, zorder=1, **line)
     if not several and len(answers):
         for said, face in ((True, hue), (False, "white")):
             some = answers[answers["said_yes"].map(_is_yes) == said]
@@ -777,12 +813,8 @@ def _course(axes: Axes, own: pd.DataFrame, i: int, several: bool) -> None:
 
 def _legend_of_courses(points: pd.DataFrame, groups: list[str], several: bool) -> tuple[list[Any], list[str]]:
     hue = COLOURS[0] if len(groups) == 1 else QUIET
-    out: list[tuple[str, Line2D]] = []
+    out = _group_marks(groups, marked=False)
     kinds = set(points["of"])
-    if len(groups) > 1:
-        out += [
-            (level(group) or "no group", Line2D([], [], color=COLOURS[i % 7], linestyle=_LINES[i % 7])) for i, group in enumerate(groups)
-        ]  # fmt: skip
     if several:
         out.append(("person", Line2D([], [], color=hue, linewidth=0.5, alpha=0.6)))
         if "mean" in kinds:
@@ -793,7 +825,8 @@ def _legend_of_courses(points: pd.DataFrame, groups: list[str], several: bool) -
         out.append((yes, Line2D([], [], color=hue, marker="o", linewidth=0)))
         out.append((no, Line2D([], [], color=hue, marker="o", linewidth=0, markerfacecolor="white")))
     if "reversal" in kinds and not several:
-        out.append(("reversal", Line2D([], [], color=COLOURS[1], marker="o", linewidth=0, markersize=6.5, markerfacecolor="none")))
+        ring = {"marker": "o", "linewidth": 0, "markersize": 6.5, "markerfacecolor": "none"}
+        out.append(("reversal", Line2D([], [], color=COLOURS[1], **ring)))
     if "threshold" in kinds:
         out.append(("mean threshold" if several else "threshold", Line2D([], [], color="black", linewidth=0.8, linestyle="--")))
     return [handle for _, handle in out], [name for name, _ in out]
@@ -875,7 +908,9 @@ def _name_of(values: tuple[Any, ...], columns: list[str], units: dict[str, str])
 def _series(own: pd.DataFrame, columns: list[str], data: Data) -> list[str]:
     """The name of the series that each trial belongs to."""
     units = own.attrs.get("units", {}) or data.table("trials").attrs.get("units", {})
-    return [_name_of(values, columns, units) for values in own[columns].itertuples(index=False, name=None)] if columns else [""] * len(own)
+    if not columns:
+        return [""] * len(own)
+    return [_name_of(values, columns, units) for values in own[columns].itertuples(index=False, name=None)]
 
 
 def _order_of_series(own: pd.DataFrame, columns: list[str], data: Data) -> list[str]:
@@ -891,7 +926,8 @@ def _order_of_series(own: pd.DataFrame, columns: list[str], data: Data) -> list[
 
 @styled
 def draw_answers(
-    points: pd.DataFrame, *, xlabel: str, ylabel: str, title: str = "", size: str = "one column", height_mm: float = 65, mark: str = ""
+    points: pd.DataFrame, *, xlabel: str, ylabel: str, title: str = "", size: str = "one column", height_mm: float = 65,
+    mark: str = "",
 ) -> Figure:  # fmt: skip
     """Draws answers_by_level(): shares over levels, a colour for each series.
 
@@ -918,7 +954,7 @@ def draw_answers(
     axes.set_xlim(levels[0] - 0.4 * step, levels[-1] + 0.4 * step)
     axes.set_ylim(-0.05, 1.05)
     axes.set_xlabel(wrapped(xlabel, 40))
-    axes.set_ylabel(wrapped(ylabel, 38))
+    axes.set_ylabel(wrapped(ylabel, 32))
     if len(names) > 1:
         handles = [
             Line2D([], [], color=COLOURS[i % 7], marker=MARKERS[i % 7], linestyle=_LINES[i % 7]) for i in range(len(names))
@@ -962,9 +998,11 @@ def plans(data: Data) -> Iterator[Plan]:
 
 def _parted(name: str, procedures: list[_Procedure]) -> Iterator[tuple[str, list[_Procedure]]]:
     """Names of figures, with the procedures of each: no more than there is place for."""
-    for first in range(0, len(procedures), _MOST_PANELS):
-        number = f"-{first // _MOST_PANELS + 1}" if len(procedures) > _MOST_PANELS else ""
-        yield name + number, procedures[first : first + _MOST_PANELS]
+    figures = -(-len(procedures) // _MOST_PANELS)
+    each = -(-len(procedures) // max(1, figures))  # about as many in each
+    for first in range(0, len(procedures), max(1, each)):
+        number = f"-{first // each + 1}" if figures > 1 else ""
+        yield name + number, procedures[first : first + each]
 
 
 def _count(data: Data, procedures: list[_Procedure]) -> str:
@@ -979,7 +1017,8 @@ def _outside(data: Data, procedures: list[_Procedure]) -> str:
     outside = sum(int(fits["outside"].sum()) for fits in (_fits(data, each) for each in procedures))
     if not outside:
         return ""
-    return f" {counted(outside, 'threshold lies', 'thresholds lie')} outside the levels shown, and {'is' if outside == 1 else 'are'} left out."
+    verb = "is" if outside == 1 else "are"
+    return f" {counted(outside, 'threshold lies', 'thresholds lie')} outside the levels shown, and {verb} left out."
 
 
 def _options(data: Data, panels: int) -> dict[str, Any]:
@@ -987,28 +1026,39 @@ def _options(data: Data, panels: int) -> dict[str, Any]:
 
 
 def _plans_of_functions(data: Data, procedures: list[_Procedure]) -> Iterator[Plan]:
-    people = {each.title: _answers(data, each).groupby("person").ngroups for each in procedures}
-    single = max(people.values()) == 1 and len(data.sessions) == 1
+    single = _is_single(data)
     drawn = procedures if single else [each for each in procedures if len(_fits(data, each))]
     for name, some in _parted("psychometric-functions", drawn):
-        fitted = any(len(_fits(data, each)) for each in some)
-        if single:
-            what = "The share of answers at each level; the area of a circle is proportional to their number"
-            what += f", and a line is Wilson's 95 % interval from {_LEAST_ANSWERS} answers on." if _has_intervals(data, some) else "."
-            what += " Curves are the fitted functions (maximum likelihood), marks their thresholds with 95 % profile intervals." * fitted
-            what += " No function was fitted: the session has no report." * (not data.has("thresholds"))
-        else:
-            what = "Thin curves are the functions fitted to each person's answers, dots their thresholds; marks are means of thresholds"
-            what += " with 95 % intervals (Student's t)."
         yield Plan(
             name=name,
             title="Psychometric functions",
-            caption=f"{what} {_count(data, some)}.{_outside(data, some)}",
+            caption=f"{_what_of_one(data, some) if single else _OF_SEVERAL} {_count(data, some)}.{_outside(data, some)}",
             points=psychometric_functions,
             points_options={"procedures": [each.title for each in some]},
             drawing=draw_psychometric_functions,
             drawing_options=_options(data, len(some)),
         )
+
+
+_OF_SEVERAL = (
+    "Thin curves are the functions fitted to each person's answers (maximum likelihood), over the levels that the person was "
+    "shown; dots are their thresholds, and marks are means of thresholds with 95 % intervals (Student's t), "
+    "which are cut where they would leave the panel."
+)
+
+
+def _what_of_one(data: Data, procedures: list[_Procedure]) -> str:
+    """What one person's psychometric functions show."""
+    out = "The share of answers at each level; the area of a circle grows with their number"
+    if _has_intervals(data, procedures):
+        out += f", and a line is Wilson's 95 % interval from {_LEAST_ANSWERS} answers on"
+    out += "."
+    if any(len(_fits(data, each)) for each in procedures):
+        out += " Curves are the fitted functions (maximum likelihood), marks their thresholds with 95 % profile intervals,"
+        out += " which are cut where they would leave the panel."
+    elif not data.has("thresholds"):
+        out += " No function is drawn: the session has no report yet."
+    return out
 
 
 def _has_intervals(data: Data, procedures: list[_Procedure]) -> bool:
@@ -1025,13 +1075,18 @@ def _plans_of_thresholds(data: Data, procedures: list[_Procedure]) -> Iterator[P
             each for each in procedures
             if measure in inside[each.title] and (~inside[each.title]["outside"] & inside[each.title][measure].notna()).any()
         ]  # fmt: skip
+        most = [inside[each.title][~inside[each.title]["outside"]]["person"].nunique() for each in drawn]
+        if max(most, default=0) < 2:
+            continue  # a dot and its own mean show nothing
         for part, some in _parted(name, drawn):
-            quantities = len({(each.quantity, each.unit, each.logarithmic) for each in some}) if measure == "threshold_share" else 1
+            kinds = {(each.quantity, each.unit, each.logarithmic) for each in some}
+            quantities = len(kinds) if measure == "threshold_share" else 1
+            joined = ", joined over procedures" * (len(some) > 1 and len(data.table("thresholds")["group"].unique()) == 1)
             geometric = " (geometric where the axis is logarithmic)" * any(each.logarithmic for each in some)
             yield Plan(
                 name=part,
                 title=f"{title} by procedure",
-                caption=f"Dots are people, joined over procedures; marks are means{geometric} with 95 % intervals (Student's t). "
+                caption=f"Dots are people{joined}; marks are means{geometric} with 95 % intervals (Student's t). "
                 f"{_count(data, some)}.{_outside(data, procedures)}",
                 points=thresholds_by_procedure,
                 points_options={"measure": measure, "procedures": [each.title for each in some]},
@@ -1043,7 +1098,7 @@ def _plans_of_thresholds(data: Data, procedures: list[_Procedure]) -> Iterator[P
 def _plans_of_courses(data: Data, procedures: list[_Procedure]) -> Iterator[Plan]:
     adaptive = [each for each in procedures if each.kind not in (_ALL, "constant")]
     for name, some in _parted("procedure-courses", adaptive):
-        single = all(_answers(data, each).groupby("person").ngroups == 1 for each in some)
+        single = _is_single(data)
         fits = any((~_fits(data, each)["outside"].astype(bool)).any() for each in some)
         if single:
             what = f"Levels in the order of answers; filled: yes{_meaning(some)}, hollow: no."
@@ -1085,33 +1140,36 @@ def _plan_of_answers(data: Data) -> Iterator[Plan]:
         return
     series, averaged = _series_of(data, counting, x)
     side = _side_column(counting, frequent)
-    answer, other = frequent
+    answer, other = sorted(frequent, key=lambda name: "left" not in name.split()) if side else frequent
     unit = data.table("trials").attrs.get("units", {}).get(x, "")
-    what = f'share of "{answer}"'
-    if side:
-        answer, other = sorted(frequent, key=lambda name: "left" not in name.split())
-        what = "share of answers that name the comparison"
-    people = counting["person"].nunique()
-    dots = "Dots are people's shares, joined over levels; marks are means over people with 95 % intervals (Student's t)."
-    rest = len(trials) - len(counting)
-    sided = f" An answer names the comparison if it names the side on which that was ({words_of(side)} in the trials)." if side else ""
+    options = {"x": x, "answer": answer, "other": other}
+    what = 'share of "comparison"' if side else f'share of "{answer}"'
     yield Plan(
         name=f"answers-by-{x}".replace("_", "-"),
         title=f"Answers by {words_of(x, unit)}",
-        caption=(dots if people > 1 else "Shares of trials with Wilson's 95 % intervals.")
-        + f" {counted(people, 'person', 'people')}, {counted(len(counting), 'trial')}; practice, catch trials and repeated attempts "
-        f"are left out.{sided}"
-        + (f" Averaged over {' and '.join(averaged)}." if averaged else "")
-        + (f" {counted(rest, 'trial')} with other outcomes or without a level {'is' if rest == 1 else 'are'} left out." if rest else ""),
+        caption=_caption_of_answers(counting, len(trials) - len(counting), averaged, side),
         points=answers_by_level,
-        points_options={
-            "x": x, "answer": answer, "other": other, **({"series": series} if series else {}), **({"side": side} if side else {}),
-        },
+        points_options={**options, **({"series": series} if series else {}), **({"side": side} if side else {})},
         drawing=draw_answers,
-        drawing_options={
-            "xlabel": label(x, unit), "ylabel": what, "size": "one column", **({"mark": data.mark} if data.mark else {}),
-        },
-    )  # fmt: skip
+        drawing_options={"xlabel": label(x, unit), "ylabel": what, **_options(data, 1)},
+    )
+
+
+def _caption_of_answers(counting: pd.DataFrame, rest: int, averaged: list[str], side: str) -> str:
+    """What the figure of answers shows: of these trials, and without the rest."""
+    people = counting["person"].nunique()
+    out = "Shares of trials with Wilson's 95 % intervals."
+    if people > 1:
+        out = "Dots are people's shares, joined over levels; marks are means over people with 95 % intervals (Student's t)."
+    if side:
+        out += f" An answer names the comparison if it names the side on which that was (column {side} of trials.csv)."
+    if averaged:
+        out += f" Averaged over {' and '.join(averaged)}."
+    out += " Dotted: half of the answers."
+    out += f" {counted(people, 'person', 'people')}, {counted(len(counting), 'trial')}"
+    out += "; practice, catch trials and repeated attempts"
+    out += f", and {counted(rest, 'trial')} with other outcomes," if rest else ""
+    return f"{out} are left out."
 
 
 def _exits(of: Any) -> Iterator[dict[str, Any]]:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import textwrap
+import zlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -11,6 +13,7 @@ from typing import Any
 import pandas as pd
 from matplotlib.figure import Figure
 
+from ..errors import error
 from .data import Data
 from .style import styled
 
@@ -52,16 +55,21 @@ class Plan:
         source = f'here / "{up.as_posix()}"' if not up.is_absolute() else repr(str(up))
         if data.path.is_file():
             source = f'here / "{(up / data.path.name).as_posix()}"' if not up.is_absolute() else repr(str(data.path))
-        return f'''"""{self.title}: draws {self.name}.svg, .pdf and .png, and writes {self.name}.csv."""
+        caption = textwrap.fill(self.caption, 120)
+        text = f'''"""{self.title}: draws {self.name}.svg, .pdf and .png, and writes {self.name}.csv.
+
+{caption}
+"""
 
 from pathlib import Path
 
 from dihaptic import figures
 
 here = Path(__file__).resolve().parent
+# The folder of the sessions. To draw some of the people: figures.read(..., people=["sim-001", "sim-002"])
 data = figures.read({source})
 
-# A pandas table with a row for each point that is drawn; leave out rows or add columns here.
+# A pandas table with a row for each point, mean and interval that is drawn.
 points = {_call(self.points, "data", self.points_options)}
 
 # size: "one column" (89 mm) or "two columns" (183 mm) of a journal
@@ -70,6 +78,18 @@ figure = {_call(self.drawing, "points", self.drawing_options)}
 
 figures.save(figure, here / "{self.name}", points)
 '''
+        return text + _signed(text)
+
+
+def _signed(text: str) -> str:
+    """The last line of a script, by which a script that somebody has changed is known."""
+    return f"# Checksum {zlib.crc32(text.encode()):08x}: a script that was changed is not written anew.\n"
+
+
+def is_changed(script: Path) -> bool:
+    """Whether somebody has changed a script that Plan.script() made."""
+    lines = script.read_text(encoding="utf-8", errors="replace").splitlines(keepends=True)
+    return not lines or lines[-1] != _signed("".join(lines[:-1]))
 
 
 def _call(function: Callable[..., Any], first: str, options: dict[str, Any]) -> str:
@@ -83,31 +103,43 @@ def _call(function: Callable[..., Any], first: str, options: dict[str, Any]) -> 
 def save(figure: Figure, file: str | Path, points: pd.DataFrame | None = None) -> list[Path]:
     """Saves a figure as FILE.svg, FILE.pdf and FILE.png (300 dots per inch), and its points as FILE.csv.
 
-    Returns the files. The same figure always gives the same SVG, to the byte.
+    Of a FILE that ends in one of these, that one alone is saved. Returns the files. The same figure always gives the same
+    SVG, to the byte. Raises Error when a file cannot be written.
 
     >>> from dihaptic import figures
     >>> figure, (axes,) = figures.canvas()
     >>> lines = axes.plot([1, 2], [3, 4])
     >>> [path.name for path in figures.save(figure, f"{folder}/curve")]
     ['curve.svg', 'curve.pdf', 'curve.png']
+    >>> [path.name for path in figures.save(figure, f"{folder}/curve.pdf")]
+    ['curve.pdf']
     """
     base = Path(file)
-    base.parent.mkdir(parents=True, exist_ok=True)
+    kinds: tuple[str, ...] = FORMATS
+    if base.suffix[1:] in FORMATS:
+        base, kinds = base.with_suffix(""), (base.suffix[1:],)
+    # neither the date nor the version of a library is in a file
+    metadata: dict[str, dict[str, Any]] = {
+        "svg": {"Date": None, "Creator": None},
+        "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
+        "png": {"Software": None},
+    }
     written = []
-    for kind in FORMATS:
-        # neither the date nor the version of a library is in a file
-        metadata: dict[str, Any] = {
-            "svg": {"Date": None, "Creator": None},
-            "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
-            "png": {"Software": None},
-        }[kind]
+    for kind in kinds:
         whole = io.BytesIO()
-        figure.savefig(whole, format=kind, metadata=metadata, **({"transparent": True} if kind == "svg" else {}))
-        path = base.with_name(f"{base.name}.{kind}")
-        path.write_bytes(whole.getvalue())
-        written.append(path)
+        figure.savefig(whole, format=kind, metadata=metadata[kind], **({"transparent": True} if kind == "svg" else {}))
+        written.append(write(base.with_name(f"{base.name}.{kind}"), whole.getvalue()))
     if points is not None:
-        path = base.with_name(f"{base.name}.csv")
-        path.write_text(points.to_csv(index=False), encoding="utf-8")
-        written.append(path)
+        written.append(write(base.with_name(f"{base.name}.csv"), points.to_csv(index=False).encode()))
     return written
+
+
+def write(file: Path, content: bytes) -> Path:
+    """Writes a file, and the folder that it is in. Raises Error."""
+    try:
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(content)
+    except OSError as why:
+        remedy = "Name another folder for the figures, in which you may write."
+        raise error(f"cannot be written: {why.strerror}", remedy, file=str(file)) from None
+    return file

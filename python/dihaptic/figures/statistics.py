@@ -1,0 +1,450 @@
+"""Writes the analysis of an experiment as two scripts that need nothing of this package: mixed models, in Python and in R."""
+
+from __future__ import annotations
+
+import json
+import keyword
+import os
+import re
+import warnings
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pandas as pd
+
+from ..rehearsal import Rehearsal
+from .data import ASIDE, Data
+from .saving import is_changed, write
+from .saving import _signed as signed
+
+#: Figures of lifts.csv that are analysed, where the task does not measure the same.
+_OF_LIFTS = ["peak_grip_rate_N_s", "static_grip_N", "safety_margin"]
+#: What tells the sessions of a study apart.
+_OF_STUDY = ["study_session", "study_condition"]
+#: Trials of a block that show its late compensation, as in fits.csv; kinds that are not among them.
+_LATE = 8
+_PROBES = ["catch", "visual_clamp"]
+#: Words of R that cannot be the name of a column in a formula.
+_R_WORDS = {
+    "if", "else", "repeat", "while", "function", "for", "next", "break", "in", "TRUE", "FALSE", "NULL", "Inf", "NaN", "NA",
+}  # fmt: skip
+#: Names that patsy gives a meaning of its own.
+_PATSY_WORDS = {"C", "Q", "I", "T", "center", "standardize", "Treatment", "Sum", "Diff", "Poly", "Helmert"}
+_WIDTH = 118
+
+
+def write_analyses(data: Data, folder: str | Path) -> list[Path]:
+    """Writes `analysis.py` (statsmodels) and `analysis.R` (lme4) into the folder, and returns them. One that you have
+    changed is left as it is, with a warning.
+
+    Each is a script of its own: it reads the CSV tables by relative paths, fits a mixed model (REML) of each measure, and
+    prints estimates with 95 % intervals (Wald), the numbers of people and of trials. Fixed effects are the factors of the
+    design, numbers centred, words compared with the first one; each person has an intercept of their own. For learning,
+    the measure is the late compensation, by group and by round. For a folder of sessions, whose tables are not joined,
+    the joined ones are written beside the scripts. Returns [] for one person, or for a design without factors.
+
+    >>> from dihaptic import figures
+    >>> figures.write_analyses(figures.read(lift_session), folder)
+    []
+    """
+    if len(data.people) < 2:
+        return []
+    design = _of_learning(data) if data.has("adaptation") and data.has("fits") else _of_attempts(data)
+    if design is None:
+        return []
+    into = Path(folder)
+    into.mkdir(parents=True, exist_ok=True)
+    written = []
+    for language, text in ((".py", _python(data, design, into)), (".R", _r(data, design, into))):
+        path = into / f"analysis{language}"
+        written.append(path)
+        if path.exists() and is_changed(path):
+            kept = f"{path.name} has been changed, and is left as it is; remove it to have it written anew"
+            warnings.warn(kept, stacklevel=2)
+            continue
+        write(path, (text + signed(text)).encode())
+    if _joined(data):
+        return written
+    for name in design.tables:
+        path = into / f"analysis-{name}.csv"
+        write(path, data.table(name).to_csv(index=False).encode())
+        written.append(path)
+    return written
+
+
+@dataclass
+class _Design:
+    """What is fitted: the model of each measure, and what its factors are."""
+
+    tables: list[str]
+    models: dict[str, list[str]]  #: a measure's factors
+    numbers: dict[str, str] = field(default_factory=dict)  #: a numeric factor's unit
+    words: dict[str, list[str]] = field(default_factory=dict)  #: levels in order
+    of_lifts: list[str] = field(default_factory=list)  #: measures from lifts.csv
+    late: dict[str, str] = field(default_factory=dict)  #: the block of each round that shows its late compensation
+    unit: str = ""
+
+
+def _of_attempts(data: Data) -> _Design | None:
+    """The models of measures, and of lifts, over the last attempt at each trial."""
+    trials = data.table("trials")
+    if "attempt" not in trials:
+        return None
+    design = _Design(["trials"], {})
+    own = [measure.column for measure in data.measures]
+    if data.has("lifts"):
+        lifts = data.table("lifts")
+        design.of_lifts = [name for name in _OF_LIFTS if name in lifts and name not in trials and lifts[name].notna().any()]
+        keys = [key for key in ("person", *_sitting(trials), "trial_num", "attempt") if key in lifts]
+        trials = trials.merge(lifts[[*keys, *design.of_lifts]], on=keys, how="left")
+        design.tables += ["lifts"] if design.of_lifts else []
+    trials = trials.drop_duplicates(["person", *_sitting(trials), "trial_num"], keep="last")
+    trials = trials[~trials["kind"].isin(ASIDE)]
+    factors = data.factors or (["condition"] if trials["condition"].nunique() > 1 else [])
+    _name_factors(data, trials, [*factors, "group", *_OF_STUDY], design)
+    for measure in [*own, *design.of_lifts]:
+        effects = _effects(trials, measure, design)
+        if effects:
+            design.models[measure] = effects
+    return design if design.models else None
+
+
+def _of_learning(data: Data) -> _Design | None:
+    """The model of the late compensation over the last trials of the perturbed blocks, by group and by round."""
+    table, fits = data.table("adaptation"), data.table("fits")
+    if "late" not in fits or fits["late"].notna().sum() == 0:
+        return None
+    unit = str(fits.loc[fits["late"].notna(), "unit"].mode().iloc[0])
+    table, fits = table[table["unit"] == unit].copy(), fits[fits["unit"] == unit].copy()
+    for each in (table, fits):
+        each["round"] = each["round"].fillna("").astype(str)
+    late = _late_blocks(table, fits)
+    design = _Design(["adaptation"], {}, late=late, unit=unit)
+    table = table[(table["block"] == table["round"].map(late)) & ~table["kind"].isin(_PROBES)]
+    table = table[table["compensation"].notna()].groupby(["person", *_sitting(table), "round"], sort=False).tail(_LATE)
+    _name_factors(data, table, ["group", "round", *_OF_STUDY], design)
+    effects = _effects(table, "compensation", design)
+    if not effects:
+        return None
+    design.models = {"compensation": effects}
+    return design
+
+
+def _late_blocks(table: pd.DataFrame, fits: pd.DataFrame) -> dict[str, str]:
+    """The block of each round whose last trials have the means that fits.csv gives as late; rounds without one left out."""
+    out = {}
+    by = ["person", *_sitting(table)]
+    for name, own in table[~table["kind"].isin(_PROBES) & table["compensation"].notna()].groupby("round", sort=False):
+        late = fits[fits["round"] == name].set_index(by)["late"].dropna()
+        for block, trials in own.groupby("block", sort=False):
+            last = trials.groupby(by).tail(_LATE).groupby(by)["compensation"].mean()
+            both = pd.concat([last, late], axis=1, join="inner", keys=["last", "late"])
+            if len(both) > 0 and np.allclose(both["last"], both["late"], rtol=1e-5, atol=1e-5):
+                out[str(name)] = str(block)
+    return out
+
+
+def _sitting(table: pd.DataFrame) -> list[str]:
+    """Columns that tell the sessions of a person apart, in which trials have the same numbers."""
+    return [key for key in ("seed", "session", "study_session") if key in table]
+
+
+def _name_factors(data: Data, rows: pd.DataFrame, names: list[str], design: _Design) -> None:
+    """Notes units of the numeric factors, and the levels of the others in their order."""
+    units = data.table(design.tables[0]).attrs.get("units", {})
+    for name in dict.fromkeys(names):
+        if name not in rows or rows[name].nunique() < 2:
+            continue
+        if pd.api.types.is_numeric_dtype(rows[name]):
+            design.numbers[name] = str(units.get(name, ""))
+        else:
+            known = data.levels(name) if name in data.table("trials") else list(rows[name].unique())
+            levels = [str(value) for value in known if (rows[name] == value).any() and str(value)]
+            if len(levels) > 1:
+                design.words[name] = levels
+
+
+def _effects(rows: pd.DataFrame, measure: str, design: _Design) -> list[str]:
+    """The factors that this measure's trials can tell apart; [] where it has too few trials, or people."""
+    rows = rows[rows[measure].notna()]
+    chosen: list[str] = []
+    for name in [*design.words, *design.numbers]:
+        # a factor that few of these trials have, such as that of another session of a study, is none of this measure
+        if rows[name].notna().sum() * 2 < len(rows):
+            continue
+        if _is_of_full_rank(rows, [*chosen, name], design):
+            chosen.append(name)
+    known = rows.dropna(subset=chosen)
+    parameters = 3 + len(chosen)
+    enough = known["person"].nunique() > 1 and len(known) > known["person"].nunique() + parameters
+    return chosen if enough and known[measure].nunique() > 1 else []
+
+
+def _is_of_full_rank(rows: pd.DataFrame, names: list[str], design: _Design) -> bool:
+    """Whether the effects of these factors can be told apart."""
+    known = rows.dropna(subset=names)
+    columns = [np.ones(len(known))]
+    for name in names:
+        if known[name].nunique() < 2:
+            return False
+        if name in design.numbers:
+            centred = known[name] - known[name].mean()
+            columns.append((centred / centred.std()).to_numpy())
+        else:
+            present = [value for value in design.words[name] if (known[name].astype(str) == value).any()]
+            columns += [(known[name].astype(str) == value).to_numpy(dtype=float) for value in present[1:]]
+    return bool(np.linalg.matrix_rank(np.column_stack(columns)) == len(columns))
+
+
+def _joined(data: Data) -> Path | None:
+    """The folder of the joined tables, if there is one."""
+    return None if data._collected is None else data._collected._tables_folder
+
+
+# What both scripts say
+
+
+@dataclass
+class _Source:
+    """Where a script finds its rows."""
+
+    folder: str  #: of the tables, from the script's
+    prefix: str
+    person: list[str]  #: columns that name a person
+    sitting: list[str]  #: columns that tell a person's sessions apart
+    people: list[str]  #: whom to choose; []: everybody
+
+
+def _source(data: Data, design: _Design, folder: Path) -> _Source:
+    table = data.table(design.tables[0])
+    joined = _joined(data)
+    if joined is None:
+        return _Source(".", "analysis-", ["person"], _sitting(table), [])
+    several = isinstance(data._collected, Rehearsal) and "seed" in table and table["seed"].nunique() > 1
+    up = os.path.relpath(joined.resolve(), folder.resolve())
+    return _Source(up, "", ["seed", "id"] if several else ["id"], _sitting(table), data._only or [])
+
+
+def _about(data: Data, design: _Design) -> list[str]:
+    what = f"late compensation [{design.unit}]" if design.late else "measures over attempts"
+    return [
+        f"Mixed models of {' '.join(data.title.split()) or 'an experiment'}: {what}, by the factors of the design.",
+        "Each person has an intercept. Intervals are Wald's, and with few people too narrow.",
+    ]
+
+
+def _notes(design: _Design) -> list[str]:
+    """Comments on the models."""
+    notes = ["Numbers are centred, and words are compared with the first of them."]
+    factors = [*design.words, *design.numbers]
+    partial = [measure for measure, effects in design.models.items() if len(effects) < len(factors)]
+    if partial:
+        notes.append("A model lacks the factors that its trials do not tell apart.")
+    if len(factors) > 1:
+        first, second = (_formula_name(name, "R") for name in factors[:2])
+        notes.append(f"For an interaction, write {first} * {second}.")
+    return notes
+
+
+def _formula_name(name: str, language: str) -> str:
+    """A column's name as it is written in a formula."""
+    plain = re.fullmatch(r"[A-Za-z][A-Za-z0-9_]*", name) is not None
+    if language == "R":
+        return name if plain and name not in _R_WORDS else f"`{name}`"
+    return name if plain and not keyword.iskeyword(name) and name not in _PATSY_WORDS else f"Q({name!r})"
+
+
+def _formula(names: list[str], language: str) -> str:
+    return " + ".join(_formula_name(name, language) for name in names)
+
+
+def _laid_out(head: str, items: list[str], tail: str) -> str:
+    """A list on one line if it fits, or else with an item on each line."""
+    line = f"{head}{', '.join(items)}{tail}"
+    if len(line) <= _WIDTH:
+        return line
+    return head + ",".join(f"\n    {item}" for item in items) + "\n" + tail
+
+
+def _text(value: Any) -> str:
+    """A string, which Python and R write alike."""
+    return json.dumps(str(value), ensure_ascii=False)
+
+
+def _items(values: list[str]) -> str:
+    return ", ".join(map(_text, values))
+
+
+def _vector(values: list[str]) -> str:
+    """A vector of R."""
+    return f"c({_items(values)})"
+
+
+def _comment(notes: list[str]) -> str:
+    return "\n".join(f"# {note}" for note in notes)
+
+
+# In Python
+
+
+def _python(data: Data, design: _Design, folder: Path) -> str:
+    source = _source(data, design, folder)
+    about = "\n".join(line.replace("\\", "/").replace('"', "'") for line in _about(data, design))
+    words = _laid_out("WORDS = {", [f"{_text(name)}: [{_items(levels)}]" for name, levels in design.words.items()], "}")
+    numbers = _laid_out("NUMBERS = {", [f"{_text(name)}: {_text(unit)}" for name, unit in design.numbers.items()], "}")
+    models = "".join(f"    {_text(name)}: {_text(_formula(effects, 'Python'))},\n" for name, effects in design.models.items())
+    person = ' + "/" + '.join(f"rows[{_text(name)}]" for name in source.person)
+    chosen = f'[rows["person"].isin([{_items(source.people)}])]' if source.people else ""
+    rows = _python_late(design, source) if design.late else _python_attempts(design, source)
+    return f'''"""{about}
+Run with python3 analysis.py; it takes the Debian package python3-statsmodels. analysis.R fits the same models.
+"""
+
+from pathlib import Path
+
+import pandas as pd
+import statsmodels.formula.api as smf
+
+{_comment(_notes(design))}
+# Where people differ in an effect of their own trials, add re_formula="~ FACTOR" to mixedlm().
+{numbers}
+{words}
+MODELS = {{
+{models}}}
+
+
+def read(name):
+    file = Path(__file__).resolve().parent / {_text(source.folder)} / name
+    texts = {{column: str for column in [{_items(source.person)}, *WORDS]}}
+    rows = pd.read_csv(file, dtype=texts, keep_default_na=False, na_values=[""])
+    rows["person"] = {person}
+    return rows{chosen}
+
+
+{rows}
+for measure, effects in MODELS.items():
+    known = rows[rows[measure].notna()].copy()
+    scale = known[measure].std()  # the fit converges best where numbers are about 1
+    known[measure] /= scale
+    names = {{name: f"{{name}}, for each {{unit or 'unit'}}" for name, unit in NUMBERS.items()}}
+    for name in NUMBERS:
+        known[name] -= known[name].mean()
+    for name, levels in WORDS.items():
+        present = [level for level in levels if level in set(known[name])]
+        known[name] = pd.Categorical(known[name], present)
+        names.update({{f"{{name}}[T.{{level}}]": f"{{name}}: {{level}} - {{present[0]}}" for level in present[1:]}})
+    fit = smf.mixedlm(f"{{measure}} ~ {{effects}}", known, groups="person", missing="drop").fit(reml=True, method="powell")
+    half = 1.96 * fit.bse_fe
+    table = scale * pd.DataFrame({{"estimate": fit.fe_params, "low": fit.fe_params - half, "high": fit.fe_params + half}})
+    print(f"\\n{{measure}}: {{fit.model.n_groups}} people, {{int(fit.nobs)}} trials; standard deviation between people")
+    print(f"{{scale * fit.cov_re.iloc[0, 0] ** 0.5:.6g}}, within {{scale * fit.scale ** 0.5:.6g}}; estimates and 95 % intervals:")
+    print(table.rename(index=names).to_string(float_format="{{:.6g}}".format))
+'''
+
+
+def _python_attempts(design: _Design, source: _Source) -> str:
+    keys = ["person", *source.sitting, "trial_num"]
+    text = f"""# The last attempt at each trial, without practice and catch trials
+keys = [{_items(keys)}]
+rows = read("{source.prefix}trials.csv").drop_duplicates(keys, keep="last")
+rows = rows[~rows["kind"].isin([{_items(ASIDE)}])]
+"""
+    if design.of_lifts:
+        text += f"""lifts = read("{source.prefix}lifts.csv")[[*keys, "attempt", {_items(design.of_lifts)}]]
+rows = rows.merge(lifts, how="left")
+"""
+    return text
+
+
+def _python_late(design: _Design, source: _Source) -> str:
+    late = ", ".join(f"{_text(name)}: {_text(block)}" for name, block in design.late.items())
+    return f"""# The last {_LATE} measured trials of the late block of each round
+LATE = {{{late}}}
+rows = read("{source.prefix}adaptation.csv")
+rows["round"] = rows["round"].fillna("").astype(str)
+rows = rows[(rows["block"] == rows["round"].map(LATE)) & ~rows["kind"].isin([{_items(_PROBES)}]) & (rows["unit"] == {_text(design.unit)})]
+rows = rows.dropna(subset=["compensation"]).groupby([{_items(["person", *source.sitting, "round"])}]).tail({_LATE})
+"""
+
+
+# In R
+
+
+def _r(data: Data, design: _Design, folder: Path) -> str:
+    source = _source(data, design, folder)
+    numbers = _laid_out("numbers <- c(", [f"`{name}` = {_text(unit)}" for name, unit in design.numbers.items()], ")")
+    words = _laid_out("words <- list(", [f"`{name}` = {_vector(levels)}" for name, levels in design.words.items()], ")")
+    models = ",\n".join(f"  `{name}` = {_text(_formula(effects, 'R'))}" for name, effects in design.models.items())
+    person = ", ".join(f"rows[[{_text(name)}]]" for name in source.person)
+    person = f'paste({person}, sep = "/")' if len(source.person) > 1 else person
+    chosen = f"[rows$person %in% {_vector(source.people)}, ]" if source.people else ""
+    rows = _r_late(design, source) if design.late else _r_attempts(design, source)
+    return f"""{_comment(_about(data, design))}
+# Run with Rscript analysis.R; it takes the Debian package r-cran-lme4. analysis.py fits the same models.
+suppressPackageStartupMessages(library(lme4))
+script <- sub("^--file=", "", grep("^--file=", commandArgs(), value = TRUE))
+if (length(script) == 1) setwd(dirname(gsub("~+~", " ", script, fixed = TRUE)))
+
+{_comment(_notes(design))}
+# Where people differ in an effect of their own trials, write (1 + FACTOR | person) below.
+{numbers}
+{words}
+models <- c(
+{models}
+)
+
+read <- function(name) {{
+  file <- file.path({_text(source.folder)}, name)
+  columns <- names(read.csv(file, nrows = 1, check.names = FALSE))
+  texts <- intersect(c({", ".join(map(_text, source.person))}, names(words)), columns)
+  rows <- read.csv(file, na.strings = "", check.names = FALSE, colClasses = sapply(texts, function(name) "character"))
+  rows$person <- {person}
+  rows{chosen}
+}}
+
+{rows}
+for (measure in names(models)) {{
+  known <- rows[!is.na(rows[[measure]]), ]
+  for (name in names(numbers)) known[[name]] <- known[[name]] - mean(known[[name]], na.rm = TRUE)
+  for (name in names(words)) known[[name]] <- droplevels(factor(known[[name]], levels = words[[name]]))
+  fit <- lmer(as.formula(paste0("`", measure, "` ~ ", models[[measure]], " + (1 | person)")), known, REML = TRUE)
+  error <- sqrt(diag(as.matrix(vcov(fit))))
+  table <- data.frame(estimate = fixef(fit), low = fixef(fit) - 1.96 * error, high = fixef(fit) + 1.96 * error)
+  rownames(table)[1] <- "Intercept"
+  for (name in names(numbers))
+    rownames(table)[rownames(table) == name] <- paste0(name, ", for each ", if (nzchar(numbers[[name]])) numbers[[name]] else "unit")
+  for (name in names(words)) for (level in levels(known[[name]])[-1])
+    rownames(table)[rownames(table) == paste0(name, level)] <- paste0(name, ": ", level, " - ", levels(known[[name]])[1])
+  cat("\\n", measure, ": ", ngrps(fit), " people, ", nobs(fit), " trials; standard deviation between people\\n", sep = "")
+  cat(sprintf("%.6g, within %.6g; estimates and 95 %% intervals:\\n", sqrt(VarCorr(fit)$person[1]), sigma(fit)))
+  print(format(table, digits = 6, width = 10))
+}}
+"""
+
+
+def _r_attempts(design: _Design, source: _Source) -> str:
+    keys = ["person", *source.sitting, "trial_num"]
+    text = f"""# The last attempt at each trial, without practice and catch trials
+keys <- {_vector(keys)}
+rows <- read("{source.prefix}trials.csv")
+rows <- rows[!duplicated(rows[keys], fromLast = TRUE) & !rows$kind %in% {_vector(ASIDE)}, ]
+"""
+    if design.of_lifts:
+        text += f"""lifts <- read("{source.prefix}lifts.csv")[c(keys, "attempt", {_items(design.of_lifts)})]
+rows <- merge(rows, lifts, all.x = TRUE)
+"""
+    return text
+
+
+def _r_late(design: _Design, source: _Source) -> str:
+    order = ", ".join(f"rows${name}" for name in ["person", *source.sitting, "round"])
+    return f"""# The last {_LATE} measured trials of the late block of each round
+rows <- read("{source.prefix}adaptation.csv")
+rows$round[is.na(rows$round)] <- ""
+blocks <- {_vector(list(design.late.values()))}[match(rows$round, {_vector(list(design.late))})]
+rows <- rows[!is.na(blocks) & rows$block == blocks & !rows$kind %in% {_vector(_PROBES)} & rows$unit == {_text(design.unit)}, ]
+rows <- rows[!is.na(rows$compensation), ]
+rows <- do.call(rbind, lapply(split(rows, list({order}), drop = TRUE), tail, {_LATE}))
+"""
