@@ -8,13 +8,13 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from ..errors import Error
-from . import conditions, learning, lifts, paths, psychophysics
+from . import conditions, learning, lifts, paths, psychophysics, quality
 from .data import Data, read
 from .saving import Plan, is_changed, save, write
 from .statistics import write_analyses
 
 #: Each kind of figure: a module with `plans(data)`, in the order in which figures are listed.
-KINDS = [conditions, lifts, learning, paths, psychophysics]
+KINDS = [conditions, lifts, learning, paths, psychophysics, quality]
 
 
 def plans(data: Data) -> Iterator[Plan]:

@@ -158,7 +158,7 @@ def _name_factors(data: Data, rows: pd.DataFrame, names: list[str], design: _Des
         if name not in rows or rows[name].nunique() < 2:
             continue
         if pd.api.types.is_numeric_dtype(rows[name]):
-            design.numbers[name] = str(units.get(name, ""))
+            design.numbers[name] = str(units.get(name, "")) or "unit"
         else:
             known = data.levels(name) if name in data.table("trials") else list(rows[name].unique())
             levels = [str(value) for value in known if (rows[name] == value).any() and str(value)]
@@ -328,7 +328,7 @@ for measure, effects in MODELS.items():
     known = rows[rows[measure].notna()].copy()
     scale = known[measure].std()  # the fit converges best where numbers are about 1
     known[measure] /= scale
-    names = {{name: f"{{name}}, for each {{unit or 'unit'}}" for name, unit in NUMBERS.items()}}
+    names = {{name: f"{{name}}, for each {{unit}}" for name, unit in NUMBERS.items()}}
     for name in NUMBERS:
         known[name] -= known[name].mean()
     for name, levels in WORDS.items():
@@ -364,7 +364,8 @@ def _python_late(design: _Design, source: _Source) -> str:
 LATE = {{{late}}}
 rows = read("{source.prefix}adaptation.csv")
 rows["round"] = rows["round"].fillna("").astype(str)
-rows = rows[(rows["block"] == rows["round"].map(LATE)) & ~rows["kind"].isin([{_items(_PROBES)}]) & (rows["unit"] == {_text(design.unit)})]
+rows = rows[(rows["block"] == rows["round"].map(LATE)) & (rows["unit"] == {_text(design.unit)})]
+rows = rows[~rows["kind"].isin([{_items(_PROBES)}])]
 rows = rows.dropna(subset=["compensation"]).groupby([{_items(["person", *source.sitting, "round"])}]).tail({_LATE})
 """
 
@@ -413,8 +414,7 @@ for (measure in names(models)) {{
   error <- sqrt(diag(as.matrix(vcov(fit))))
   table <- data.frame(estimate = fixef(fit), low = fixef(fit) - 1.96 * error, high = fixef(fit) + 1.96 * error)
   rownames(table)[1] <- "Intercept"
-  for (name in names(numbers))
-    rownames(table)[rownames(table) == name] <- paste0(name, ", for each ", if (nzchar(numbers[[name]])) numbers[[name]] else "unit")
+  for (name in names(numbers)) rownames(table)[rownames(table) == name] <- paste0(name, ", for each ", numbers[[name]])
   for (name in names(words)) for (level in levels(known[[name]])[-1])
     rownames(table)[rownames(table) == paste0(name, level)] <- paste0(name, ": ", level, " - ", levels(known[[name]])[1])
   cat("\\n", measure, ": ", ngrps(fit), " people, ", nobs(fit), " trials; standard deviation between people\\n", sep = "")

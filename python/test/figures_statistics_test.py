@@ -1,0 +1,284 @@
+"""The scripts of mixed models find an effect that was planted, in Python and in R alike, and need nothing of the package."""
+
+import functools
+import importlib.util
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+import warnings
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "test"))
+
+import needs  # noqa: E402
+import numpy as np  # noqa: E402
+import pandas as pd  # noqa: E402
+import soak  # noqa: E402
+
+from dihaptic import figures  # noqa: E402
+
+MASSES = [200, 400, 800]
+SURFACES = ["sandpaper", "it's silk"]
+SLOPE, STEP, MEAN = 0.012, 3.5, 8.0
+TASK = """cross:
+  - { factor: mass_g, levels: [200, 400, 800] }
+  - { factor: surface, levels: [sandpaper, "it's silk"] }
+blocks: [{ name: practice }, { name: lifts }]
+"""
+
+
+def simulated(seed, people=20, trials=10):
+    """Attempts with a random intercept for each person, an effect of mass, and one of the surface."""
+    random = np.random.default_rng(seed)
+    rows = []
+    for person in range(people):
+        own = random.normal(0, 2)
+        number = 0
+        for mass in MASSES:
+            for repeat in range(trials):
+                number += 1
+                surface = SURFACES[(repeat + person) % 2]
+                value = MEAN + own + SLOPE * (mass - np.mean(MASSES)) + STEP * (surface != "sandpaper") + random.normal(0, 1.5)
+                rows.append((f"{person:02}", "", number, mass, surface, value))
+    return pd.DataFrame(rows, columns=["id", "group", "trial_num", "mass_g", "surface", "grip_N"])
+
+
+def as_trials(table, **columns):
+    """The columns that trials.csv of a rehearsal has, in their order."""
+    fixed = {
+        "seed": 1, "group": table["group"], "id": table["id"], "trial_num": table["trial_num"], "block": "lifts",
+        "kind": "baseline", "round": "", "condition": "", "perturbation": "", "mass_g": table["mass_g"],
+        "surface": table["surface"], "attempt": 1, "outcome": "lifted", "grip_N": table["grip_N"], "not_measured": "",
+        "simulated": "yes", "moved_by": "simulated_person",
+    }  # fmt: skip
+    return pd.DataFrame({**fixed, **columns}, index=table.index)
+
+
+def rehearsal(folder, tables, task=TASK):
+    """A folder that is read as a rehearsal with these joined tables."""
+    people = list(dict.fromkeys(tables["trials"]["id"]))
+    for person in people:
+        own = Path(folder, person)
+        own.mkdir(parents=True)
+        (own / "session.yaml").write_text(f'title: Grip\nstate: complete\nparticipant: {{ id: "{person}" }}\n...\n')
+        (own / "task.yaml").write_text(task)
+    Path(folder, "rehearsal.yaml").write_text(f"seed: 1\nasked: {{ people: {len(people)} }}\n")
+    for name, table in tables.items():
+        table.to_csv(Path(folder, f"{name}.csv"), index=False)
+    return Path(folder)
+
+
+def read(folder, people=None):
+    """These data; the sessions, which are no real ones, lack seals and more, and reading says so."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return figures.read(folder, people)
+
+
+def needs_statsmodels():
+    if importlib.util.find_spec("statsmodels") is None:
+        needs.skip("statsmodels is not installed; it is in the Debian package python3-statsmodels")
+
+
+@functools.cache
+def has_lme4():
+    if shutil.which("Rscript") is None:
+        return False
+    return subprocess.run(["Rscript", "-e", "library(lme4)"], capture_output=True).returncode == 0
+
+
+def fitted(command):
+    """What a script prints: each measure's numbers, standard deviations, and [estimate, low, high] of its contrasts."""
+    environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+    done = subprocess.run(command, capture_output=True, text=True, cwd="/", env=environment)
+    if done.returncode != 0:
+        raise AssertionError(done.stdout + done.stderr)
+    out, measure = {}, ""
+    for line in done.stdout.splitlines():
+        if head := re.match(r"(\S+): (\d+) people, (\d+) trials", line):
+            measure = head[1]
+            out[measure, "n"] = [int(head[2]), int(head[3])]
+        elif within := re.match(r"(\S+), within (\S+);", line):
+            out[measure, "sd"] = [float(within[1]), float(within[2])]
+        elif row := re.match(r"(.+?)\s+(-?[\d.e+-]+)\s+(-?[\d.e+-]+)\s+(-?[\d.e+-]+)\s*$", line):
+            out[measure, row[1]] = [float(number) for number in row.groups()[1:]]
+    return out
+
+
+def in_python(folder):
+    return fitted([sys.executable, folder / "analysis.py"])
+
+
+class Statistics(unittest.TestCase):
+    def setUp(self):
+        self.temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(self.temporary.cleanup)
+        # a space and a letter that is not ASCII in the way to the tables
+        self.folder = Path(self.temporary.name, "Renée Müller", "grip")
+
+    def check_both(self, folder):
+        """Runs both scripts, and compares what they print; returns it."""
+        needs_statsmodels()
+        python = in_python(folder)
+        if not has_lme4():
+            needs.skip("lme4 is not installed; it is in the Debian package r-cran-lme4")
+        in_r = fitted(["Rscript", folder / "analysis.R"])
+        self.assertEqual(list(python), list(in_r))
+        for name, numbers in python.items():
+            np.testing.assert_allclose(numbers, in_r[name], rtol=1e-3, atol=1e-3 * max(map(abs, numbers)), err_msg=str(name))
+        return python
+
+    def planted(self):
+        """Tables with practice, and with first attempts that were repeated, both of which do not count."""
+        table = simulated(1)
+        again = table[table["trial_num"] % 7 == 0]
+        wrong = as_trials(again, attempt=1, grip_N=again["grip_N"] + 100, outcome="not lifted")
+        trials = as_trials(table, attempt=1 + (table["trial_num"] % 7 == 0))
+        practice = as_trials(table[:20], kind="practice", block="practice", trial_num=np.arange(100, 120), grip_N=-50)
+        return pd.concat([practice, wrong, trials]).sort_values(["id", "trial_num", "attempt"], kind="stable")
+
+    def test_finds_what_was_planted(self):
+        rehearsal(self.folder, {"trials": self.planted()})
+        written = figures.write_analyses(read(self.folder), self.folder / "figures")
+        self.assertEqual([path.name for path in written], ["analysis.py", "analysis.R"])
+        found = self.check_both(self.folder / "figures")
+        self.assertEqual(found["grip_N", "n"], [20, 600])
+        names = {"grip_N", "Intercept", "surface: it's silk - sandpaper", "mass_g, for each g"}
+        self.assertEqual({name for _, name in found} - {"n", "sd"}, names - {"grip_N"})
+        for name, true in (("surface: it's silk - sandpaper", STEP), ("mass_g, for each g", SLOPE)):
+            estimate, low, high = found["grip_N", name]
+            self.assertLess(abs(estimate - true), 2 * (high - low) / 1.96)
+        # without missing trials these are the differences of means in conditions, by least squares
+        table = simulated(1)
+        within = table.assign(silk=(table["surface"] != "sandpaper") * 1.0)[["id", "mass_g", "silk", "grip_N"]]
+        within = within.set_index("id") - within.groupby("id").mean()
+        slopes = np.linalg.lstsq(within[["mass_g", "silk"]].to_numpy(), within["grip_N"].to_numpy(), rcond=None)[0]
+        np.testing.assert_allclose(found["grip_N", "mass_g, for each g"][0], slopes[0], rtol=1e-4)
+        np.testing.assert_allclose(found["grip_N", "surface: it's silk - sandpaper"][0], slopes[1], rtol=1e-4)
+        np.testing.assert_allclose(found["grip_N", "sd"], [2, 1.5], rtol=0.4)
+
+    def test_lifts_and_missing_values(self):
+        trials = self.planted().rename(columns={"grip_N": "reaction_s"})
+        lifts = trials[["seed", "group", "id", "trial_num", "attempt"]].copy()
+        lifts["static_grip_N"] = trials["reaction_s"] * 2
+        lifts["safety_margin"] = np.nan
+        lifts.loc[lifts["trial_num"] == 3, "static_grip_N"] = np.nan
+        trials.loc[trials["surface"] == "sandpaper", "reaction_s"] = np.nan
+        rehearsal(self.folder, {"trials": trials, "lifts": lifts})
+        figures.write_analyses(read(self.folder), self.folder / "figures")
+        found = self.check_both(self.folder / "figures")
+        self.assertEqual({measure for measure, _ in found}, {"reaction_s", "static_grip_N"})
+        self.assertEqual(found["static_grip_N", "n"], [20, 580])
+        # these trials have one surface: its effect is not in the model
+        self.assertNotIn(("reaction_s", "surface: it's silk - sandpaper"), found)
+        self.assertEqual(found["reaction_s", "n"], [20, 300])
+
+    def test_late_compensation_by_group(self):
+        random = np.random.default_rng(3)
+        rows = []
+        for person in range(12):
+            group, own = ("given", "withheld")[person % 2], random.normal(0, 3)
+            for number in range(40):
+                kind, block = ("baseline", "before") if number < 10 else ("perturbed", "rotated")
+                value = 0.0 if number < 10 else 20 + 5 * (person % 2)
+                value = np.nan if number == 37 else value + own + random.normal(0, 2)
+                kind = "catch" if number == 38 else kind
+                rows.append((1, group, f"{person:02}", "", number + 1, block, kind, "deg", value))
+        columns = ["seed", "group", "id", "round", "trial_num", "block", "kind", "unit", "compensation"]
+        adaptation = pd.DataFrame(rows, columns=columns)
+        perturbed = adaptation[(adaptation["kind"] == "perturbed")].dropna(subset=["compensation"])
+        late = perturbed.groupby(["seed", "group", "id"])["compensation"]
+        late = late.apply(lambda own: own[-8:].mean()).reset_index(name="late")
+        fits = late.assign(round="", measure="angle", unit="deg")
+        trials = as_trials(simulated(1, 12), group=np.repeat(["given", "withheld"] * 6, 30))
+        trials = trials.drop(columns=["mass_g", "surface", "grip_N"])
+        rehearsal(self.folder, {"trials": trials, "adaptation": adaptation, "fits": fits}, "blocks: []\n")
+        figures.write_analyses(read(self.folder), self.folder / "figures")
+        found = self.check_both(self.folder / "figures")
+        self.assertEqual(found["compensation", "n"], [12, 96])
+        # as many trials of each person: the estimates are means over people
+        means = late.groupby("group")["late"].mean()
+        np.testing.assert_allclose(found["compensation", "Intercept"][0], means["given"], rtol=1e-4)
+        difference = found["compensation", "group: withheld - given"]
+        np.testing.assert_allclose(difference[0], means["withheld"] - means["given"], rtol=1e-4)
+
+    def test_sessions_that_are_not_joined(self):
+        table = as_trials(simulated(2, 5)).drop(columns=["seed", "group"])
+        for person, own in table.groupby("id"):
+            folder = self.folder / f"session-{person}"
+            folder.mkdir(parents=True)
+            (folder / "session.yaml").write_text(f'title: Grip\nstate: complete\nparticipant: {{ id: "{person}" }}\n...\n')
+            (folder / "task.yaml").write_text(TASK)
+            own.drop(columns="id").to_csv(folder / "trials.csv", index=False)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")  # as in read()
+            written = figures.write_analyses(read(self.folder), self.folder / "figures")
+        self.assertEqual([path.name for path in written], ["analysis.py", "analysis.R", "analysis-trials.csv"])
+        self.assertEqual(self.check_both(self.folder / "figures")["grip_N", "n"], [5, 150])
+
+    def test_of_some_people(self):
+        needs_statsmodels()
+        rehearsal(self.folder, {"trials": self.planted()})
+        some = read(self.folder, people=["03", "04", "05"])
+        figures.write_analyses(some, self.folder / "figures")
+        self.assertEqual(self.check_both(self.folder / "figures")["grip_N", "n"], [3, 90])
+
+    def test_nothing_for_one_person_nor_without_factors(self):
+        one = as_trials(simulated(1, 1))
+        none = as_trials(simulated(1, 3), mass_g=200, surface="silk")
+        empty = as_trials(simulated(1, 3), grip_N=np.nan)
+        for name, trials in (("one", one), ("none", none), ("empty", empty)):
+            with self.subTest(name):
+                folder = rehearsal(self.folder / name, {"trials": trials})
+                self.assertEqual(figures.write_analyses(read(folder), folder / "figures"), [])
+                self.assertFalse((folder / "figures").exists())
+
+    def test_a_script_that_was_changed_stays(self):
+        data = read(rehearsal(self.folder, {"trials": self.planted()}))
+        script = figures.write_analyses(data, self.folder / "figures")[0]
+        before = script.read_bytes()
+        figures.write_analyses(data, self.folder / "figures")
+        self.assertEqual(script.read_bytes(), before)
+        script.write_text("# my own\n")
+        with self.assertWarnsRegex(UserWarning, "analysis.py has been changed"):
+            figures.write_analyses(data, self.folder / "figures")
+        self.assertEqual(script.read_text(), "# my own\n")
+
+    def test_can_be_read(self):
+        figures.write_analyses(read(rehearsal(self.folder, {"trials": self.planted()})), self.folder / "figures")
+        for name in ("analysis.py", "analysis.R"):
+            text = (self.folder / "figures" / name).read_text()
+            lines = text.splitlines()
+            self.assertTrue(20 <= len(lines) <= 56, len(lines))
+            self.assertLessEqual(max(map(len, lines)), 130)
+            self.assertNotIn("signific", text)
+            self.assertNotIn("dihaptic", text)
+
+
+@soak.alone
+class Coverage(unittest.TestCase):
+    """95 % intervals contain what was planted about as often as they say."""
+
+    def test_of_intervals(self):
+        needs_statsmodels()
+        inside, runs = {"surface: it's silk - sandpaper": 0, "mass_g, for each g": 0}, 60
+        with tempfile.TemporaryDirectory() as temporary:
+            folder = rehearsal(Path(temporary, "grip"), {"trials": as_trials(simulated(0))})
+            figures.write_analyses(read(folder), folder / "figures")
+            for seed in range(100, 100 + runs):
+                as_trials(simulated(seed)).to_csv(folder / "trials.csv", index=False)
+                found = in_python(folder / "figures")
+                for name, true in zip(inside, (STEP, SLOPE)):
+                    _, low, high = found["grip_N", name]
+                    inside[name] += low <= true <= high
+        for name, count in inside.items():
+            # of 60 intervals, 52 and more contain it in 99.5 % of all series
+            self.assertGreaterEqual(count, 52, name)
+
+
+if __name__ == "__main__":
+    unittest.main()
