@@ -20,6 +20,8 @@ from .words import counted, label, level, words_of
 #: Most panels of a figure, and most levels that colours tell apart.
 _MOST_PANELS = 9
 _MOST_COLOURS = 7
+#: What tells the sessions of all people apart.
+_SITTING = ("person", "group", "session", "study_session")
 #: Figures of lifts.csv that a study of grip reports (Johansson and Westling 1984).
 LIFT_MEASURES = [
     "peak_grip_N", "peak_grip_rate_N_s", "peak_load_rate_N_s", "static_grip_N", "static_ratio", "safety_margin", "loading_s",
@@ -39,13 +41,13 @@ def counting_trials(data: Data, table: str = "trials") -> pd.DataFrame:
         columns = [str(column) for column in trials]
         # what describes a trial comes from trials.csv, even if the other table has a measure of the same name
         design = columns[: columns.index("attempt" if "attempt" in columns else "trial_num") + 1]
-        keys = [key for key in ("person", "group", "session", "trial_num", "attempt") if key in design and key in other]
+        keys = [key for key in (*_SITTING, "trial_num", "attempt") if key in design and key in other]
         new = [column for column in other if column not in design]
         attrs = {"units": {**other.attrs.get("units", {}), **trials.attrs.get("units", {})}}
         trials = trials[design].merge(other[[*keys, *new]], on=keys, how="inner")
         trials.attrs = attrs
     attrs = trials.attrs
-    last = [key for key in ("person", "group", "session", "trial_num") if key in trials]
+    last = [key for key in (*_SITTING, "trial_num") if key in trials]
     trials = trials.drop_duplicates(last, keep="last")
     trials = trials[~trials["kind"].isin(ASIDE)] if "kind" in trials else trials
     trials.attrs = attrs

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 import textwrap
 import zlib
 from collections.abc import Callable
@@ -128,10 +129,18 @@ def save(figure: Figure, file: str | Path, points: pd.DataFrame | None = None) -
     for kind in kinds:
         whole = io.BytesIO()
         figure.savefig(whole, format=kind, metadata=metadata[kind], **({"transparent": True} if kind == "svg" else {}))
-        written.append(write(base.with_name(f"{base.name}.{kind}"), whole.getvalue()))
+        content = _with_steady_names(whole.getvalue()) if kind == "svg" else whole.getvalue()
+        written.append(write(base.with_name(f"{base.name}.{kind}"), content))
     if points is not None:
         written.append(write(base.with_name(f"{base.name}.csv"), points.to_csv(index=False).encode()))
     return written
+
+
+def _with_steady_names(svg: bytes) -> bytes:
+    """An SVG whose clipping paths are numbered: matplotlib names some by their place in memory, which differs each time."""
+    for number, name in enumerate(dict.fromkeys(re.findall(rb'<clipPath id="(\w+)"', svg))):
+        svg = svg.replace(name, b"clip%d" % number)
+    return svg
 
 
 def write(file: Path, content: bytes) -> Path:
