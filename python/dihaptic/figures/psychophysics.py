@@ -675,7 +675,7 @@ def _people_and_mean(axes: Axes, own: pd.DataFrame, names: list[str], i: int, gr
         axes.plot(each["at"], each["value"], color=hue, alpha=0.4, linewidth=0.5 if joined else 0, marker="o", markersize=2.5)
     mean = own[own["of"] == "mean"]
     at = mean["procedure"].map(places) + 0.3 * step
-    errors = [(mean["value"] - mean["low"]).fillna(0), (mean["high"] - mean["value"]).fillna(0)]
+    errors = np.array([(mean["value"] - mean["low"]).fillna(0), (mean["high"] - mean["value"]).fillna(0)])
     axes.errorbar(
         at, mean["value"], errors, color=hue, marker=marker, markersize=5, capsize=2, linestyle="", elinewidth=1.2, zorder=3
     )  # fmt: skip
@@ -978,7 +978,7 @@ def _shares_of_series(axes: Axes, own: pd.DataFrame, aside: float, i: int) -> No
     low, high = shown["low"].clip(lower=0), shown["high"].clip(upper=1)
     errors = [(shown["value"] - low).fillna(0).clip(lower=0), (high - shown["value"]).fillna(0).clip(lower=0)]
     axes.errorbar(
-        shown["x"] + aside, shown["value"], errors, color=hue, marker=marker, linestyle=_LINES[i % len(_LINES)],
+        shown["x"] + aside, shown["value"], np.array(errors), color=hue, marker=marker, linestyle=_LINES[i % len(_LINES)],
         markersize=4.5, capsize=2, elinewidth=0.9, zorder=3,
     )  # fmt: skip
 
