@@ -23,8 +23,9 @@ _LIFT_MOMENTS = ["touch", "load_onset", "lift_off", "replacement", "release", "f
 _RESTORE = "Restore the table, or rebuild it from raw.log: dihaptic recover."
 #: Quantities with the same colour everywhere.
 _COLOURS: dict[str, str] = facts()["colours"]
-#: Colours for all others, distinct with any kind of colour vision (Okabe and Ito, 2008).
-_OTHERS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
+#: Colours for all others, and of figures, distinct with any kind of colour vision (Okabe and Ito, 2008), in the order of
+#: their use.
+COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
 
 
 def plot(
@@ -168,7 +169,7 @@ def _line(axes: Axes, x: Any, y: Any, label: str, colour: str, width: float) -> 
 
 def _next_colour(axes: Axes) -> str:
     named = [line for line in axes.get_lines() if not str(line.get_label()).startswith("_")]
-    return _OTHERS[len(named) % len(_OTHERS)]
+    return COLOURS[len(named) % len(COLOURS)]
 
 
 def _colour(name: str, label: str, axes: Axes) -> str:

@@ -158,7 +158,7 @@ class Lifts(unittest.TestCase):
                     self.assertRegex(plan.caption, r"\d (person|people), \d+ lift")
                     file = Path(self.folder.name, "points.csv")
                     points.to_csv(file, index=False)
-                    again = plan.drawing(pd.read_csv(file), **plan.drawing_options)
+                    again = plan.drawing(pd.read_csv(file), **plan.options_of_drawing(data))
                     self.assertEqual(len(again.axes), len(figure.axes))
 
     def test_the_unexpected_weight_is_shown_by_block(self):

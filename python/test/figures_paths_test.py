@@ -158,7 +158,7 @@ class Paths(unittest.TestCase):
                     self.assertEqual(faults(figure), [])
                     file = Path(self.folder.name, "points.csv")
                     points.to_csv(file, index=False)
-                    again = plan.drawing(pd.read_csv(file), **plan.drawing_options)
+                    again = plan.drawing(pd.read_csv(file), **plan.options_of_drawing(data))
                     self.assertEqual(faults(again), [])
 
     def test_many_and_long_names(self):

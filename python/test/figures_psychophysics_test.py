@@ -109,7 +109,7 @@ class Psychophysics(unittest.TestCase):
                     if saved:
                         # a saved table of points has no types: it must still be one that can be drawn
                         table = pd.read_csv(io.StringIO(points.to_csv(index=False)))
-                        again = plan.drawing(table, **plan.drawing_options)
+                        again = plan.drawing(table, **plan.options_of_drawing(data))
                         self.assertEqual([a.get_ylim() for a in again.axes], [a.get_ylim() for a in figure.axes])
                 self.assertNotIn(plan.name, made)
                 made[plan.name] = plan

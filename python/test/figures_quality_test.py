@@ -137,7 +137,7 @@ class Rehearsed(unittest.TestCase):
                     self.assertEqual(wrong, [])
                     # points that were kept in a file give the same figure
                     points.to_csv(file := Path(self.folder.name, "points.csv"), index=False)
-                    same = plan.drawing(pd.read_csv(file, float_precision="round_trip"), **plan.drawing_options)
+                    same = plan.drawing(pd.read_csv(file, float_precision="round_trip"), **plan.options_of_drawing(data))
                     drawn = [figures.save(f, file.with_suffix(".svg"))[0].read_bytes() for f in (plan.make(data)[1], same)]
                     # names of clipping paths differ with the last digit of the layout
                     self.assertEqual(*(re.sub(rb"\bp[0-9a-f]{10}\b", b"", svg) for svg in drawn))

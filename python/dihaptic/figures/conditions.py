@@ -9,19 +9,16 @@ import numpy as np
 import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from scipy import stats
-
 from ..errors import NotThere, error
-from .data import ASIDE, Data
+from .data import ASIDE, SITTING, Data, sittings
+from .means import means_with_intervals
 from .saving import Plan
-from .style import COLOURS, MARKERS, WIDTHS, canvas, corner, fit_names, legend_above, styled, wrapped
+from .style import COLOURS, MARKERS, WIDTHS, canvas, corner, fit_names, legend_above, same_limits, styled, wrapped
 from .words import counted, label, level, words_of
 
 #: Most panels of a figure, and most levels that colours tell apart.
 _MOST_PANELS = 9
 _MOST_COLOURS = 7
-#: What tells the sessions of all people apart.
-_SITTING = ("person", "group", "session", "study_session")
 #: Figures of lifts.csv that a study of grip reports (Johansson and Westling 1984).
 LIFT_MEASURES = [
     "peak_grip_N", "peak_grip_rate_N_s", "peak_load_rate_N_s", "static_grip_N", "static_ratio", "safety_margin", "loading_s",
@@ -41,14 +38,13 @@ def counting_trials(data: Data, table: str = "trials") -> pd.DataFrame:
         columns = [str(column) for column in trials]
         # what describes a trial comes from trials.csv, even if the other table has a measure of the same name
         design = columns[: columns.index("attempt" if "attempt" in columns else "trial_num") + 1]
-        keys = [key for key in (*_SITTING, "trial_num", "attempt") if key in design and key in other]
+        keys = [key for key in (*SITTING, "trial_num", "attempt") if key in design and key in other]
         new = [column for column in other if column not in design]
         attrs = {"units": {**other.attrs.get("units", {}), **trials.attrs.get("units", {})}}
         trials = trials[design].merge(other[[*keys, *new]], on=keys, how="inner")
         trials.attrs = attrs
     attrs = trials.attrs
-    last = [key for key in (*_SITTING, "trial_num") if key in trials]
-    trials = trials.drop_duplicates(last, keep="last")
+    trials = trials.drop_duplicates([*sittings(trials), "trial_num"], keep="last")
     trials = trials[~trials["kind"].isin(ASIDE)] if "kind" in trials else trials
     trials.attrs = attrs
     return trials
@@ -94,10 +90,8 @@ def means_by_condition(
         else:
             each = known.groupby([*by, "person"], dropna=False, sort=True)[measure].agg(value="mean", n="count").reset_index()
         each["of"] = "person"
-        mean = each.groupby(by, dropna=False, sort=True)["value"].agg(value="mean", n="count", sd="std").reset_index()
-        half = stats.t.ppf(0.975, mean["n"].clip(lower=2) - 1) * mean["sd"] / np.sqrt(mean["n"])
-        mean["low"], mean["high"], mean["of"] = mean["value"] - half, mean["value"] + half, "mean"
-        both = pd.concat([each, mean.drop(columns="sd")], ignore_index=True)
+        mean = means_with_intervals(each, by, dropna=False, sort=True)
+        both = pd.concat([each, mean], ignore_index=True)
         both.insert(0, "measure", measure)
         parts.append(both)
     columns = ["measure", *by, "of", "person", "n", "value", "low", "high"]
@@ -158,7 +152,8 @@ def draw_conditions(
         _label(axes, places, label(x, units.get(x, "")), label(measure, units.get(measure, "")), WIDTHS[size] / columns)
         if panel:
             axes.set_title(level(part, units.get(panel, "")))
-    _share_limits(all_axes, cells)
+    for measure in measures:
+        same_limits([axes for axes, (of, _) in zip(all_axes, cells) if of == measure])
     for axes in all_axes[len(cells) :]:
         axes.set_visible(False)
     if colour:
@@ -215,15 +210,6 @@ def _label(axes: Axes, places: dict[Any, float], xlabel: str, ylabel: str, width
     axes.set_xlabel(wrapped(xlabel, 34))
     axes.set_ylabel(wrapped(ylabel, 24))
     axes.margins(x=0.12 if len(places) > 1 else 0.5, y=0.08)
-
-
-def _share_limits(all_axes: list[Axes], cells: list[tuple[str, Any]]) -> None:
-    """Gives all panels of one measure the same limits."""
-    for measure in {measure for measure, _ in cells}:
-        own = [axes for axes, (of, _) in zip(all_axes, cells) if of == measure]
-        low, high = min(axes.get_ylim()[0] for axes in own), max(axes.get_ylim()[1] for axes in own)
-        for axes in own:
-            axes.set_ylim(low, high)
 
 
 # Which figures a design calls for
@@ -310,6 +296,5 @@ def _plans_of(data: Data, table: str, measures: list[str], name: str, design: di
                 **design,
                 "size": "two columns" if max(len(some), panels) > 1 else "one column",
                 **({"order": order} if order else {}),
-                **({"mark": data.mark} if data.mark else {}),
             },
         )

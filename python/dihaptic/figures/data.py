@@ -21,6 +21,8 @@ from .words import label
 
 #: Trials of these kinds are not among those that show the effect of a condition.
 ASIDE = ["practice", "catch"]
+#: Columns that tell the sessions of all people apart.
+SITTING = ("person", "group", "session", "study_session")
 #: Columns of trials.csv that describe a trial, or how it was done, and that are no measure.
 _END_OF_DESIGN = "attempt"
 _AFTER_MEASURES = ["not_measured", "simulated", "moved_by", "start_type", "replays"]
@@ -278,11 +280,10 @@ class Data:
         """The short mark in each figure's corner: "simulated" if no person took part."""
         return "simulated" if self.is_simulated else ""
 
-    def origin(self) -> str:
-        """Where the data come from, in a sentence: people, program, seed."""
-        info = self.sessions[0].info
-        who = ("simulated " if self.is_simulated else "") + ("person" if len(self.people) == 1 else "people")
-        return f"{len(self.people)} {who}; {info.get('program', '')}, seed {info.get('seed', '')}; {self.path.name}"
+
+def sittings(table: pd.DataFrame) -> list[str]:
+    """Columns of a table that tell the sessions of all people apart."""
+    return [column for column in SITTING if column in table]
 
 
 def _person_of(session: Session) -> str:

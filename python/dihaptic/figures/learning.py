@@ -13,11 +13,11 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
-from scipy import stats
 
-from .data import Data
+from .data import Data, sittings
+from .means import means_with_intervals
 from .saving import Plan
-from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, corner, fit_names, legend_above, styled, wrapped
+from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, corner, fit_names, legend_above, same_limits, styled, wrapped
 from .words import counted, in_print, label, level, words_of
 
 #: Most panels of a figure, most groups that colours tell apart, and least trials of which a course is drawn.
@@ -61,11 +61,6 @@ def _parts(table: pd.DataFrame) -> pd.Series:
     return words
 
 
-def _sittings(table: pd.DataFrame) -> list[str]:
-    """Columns that tell the sessions of all people apart."""
-    return [column for column in ("person", "group", "session", "study_session") if column in table]
-
-
 def _grouped(table: pd.DataFrame) -> pd.DataFrame:
     """The table, its groups not told apart if there are more than colours."""
     return table.assign(group="") if table["group"].nunique() > _MOST_GROUPS else table
@@ -74,14 +69,14 @@ def _grouped(table: pd.DataFrame) -> pd.DataFrame:
 def _numbered(table: pd.DataFrame) -> pd.DataFrame:
     """The last attempt at each trial, with its number in its part, from 1; practice is left out."""
     table = _grouped(table[table["trial_num"].notna()].assign(part=_parts(table)))
-    keys = [*_sittings(table), "part"]
+    keys = [*sittings(table), "part"]
     table["trial"] = table["trial_num"] - table.groupby(keys)["trial_num"].transform("min") + 1
     table = table.drop_duplicates([*keys, "trial"], keep="last")
     for column in ("block", "kind"):
         table[column] = table[column].fillna("").astype(str) if column in table else ""
     # parts stay in the order of the first person
     places = {part: place for place, part in enumerate(dict.fromkeys(table["part"]))}
-    table = table.assign(place=table["part"].map(places)).sort_values(["place", *_sittings(table), "trial_num"], kind="stable")
+    table = table.assign(place=table["part"].map(places)).sort_values(["place", *sittings(table), "trial_num"], kind="stable")
     return table[table["kind"] != "practice"].drop(columns="place").reset_index(drop=True)
 
 
@@ -110,13 +105,6 @@ def _bins(table: pd.DataFrame, width: int) -> pd.DataFrame:
         same = trials.groupby(["run", "number"])["trial"]
         found.append(trials.assign(first=same.transform("min"), last=same.transform("max"))[["part", "trial", "first", "last"]])
     return pd.concat(found, ignore_index=True)
-
-
-def _with_intervals(each: pd.DataFrame, by: list[str]) -> pd.DataFrame:
-    """Means of people's values, with their 95 % intervals."""
-    mean = each.groupby(by, sort=False)["value"].agg(value="mean", n="count", sd="std").reset_index()
-    half = stats.t.ppf(0.975, mean["n"].clip(lower=2) - 1) * mean["sd"] / np.sqrt(mean["n"])
-    return mean.assign(of="mean", low=mean["value"] - half, high=mean["value"] + half).drop(columns="sd")
 
 
 def _schedule(table: pd.DataFrame) -> pd.DataFrame:
@@ -152,7 +140,7 @@ def _courses(table: pd.DataFrame, width: int, several: bool) -> pd.DataFrame:
     each["kind"] = kinds.first().where(kinds.nunique() == 1, "")
     parts = [each.reset_index().assign(of="person")]
     if several:
-        mean = _with_intervals(parts[0], by).set_index(by)
+        mean = means_with_intervals(parts[0], by, sort=False).set_index(by)
         kinds = measured.groupby(by, sort=False)["kind"]
         mean["kind"] = kinds.first().where(kinds.nunique() == 1, "")
         parts.append(mean.reset_index())
@@ -169,10 +157,10 @@ def _courses(table: pd.DataFrame, width: int, several: bool) -> pd.DataFrame:
 
 def _width_of_bins(table: pd.DataFrame, most: int) -> int:
     """How many trials a point of a line needs: few enough points, and a value of each person in most of them."""
-    sittings = [*_sittings(table), "part"]
-    trials = int(table.groupby(sittings)["trial"].count().max())
-    share = table["value"].notna().groupby([table[column] for column in [*sittings, "block"]]).mean()
-    share = share.groupby([*sittings[1:], "block"] if len(sittings) > 1 else ["block"]).mean()
+    keys = [*sittings(table), "part"]
+    trials = int(table.groupby(keys)["trial"].count().max())
+    share = table["value"].notna().groupby([table[column] for column in [*keys, "block"]]).mean()
+    share = share.groupby([*keys[1:], "block"] if len(keys) > 1 else ["block"]).mean()
     least = float(share[share > 0].min()) if (share > 0).any() else 1.0
     # where points must be means of trials, there are half as many as would fit
     wanted = max(2 * trials / most if trials > most else 1.0, 1 / least if least < 0.5 else 1.0)
@@ -388,7 +376,7 @@ def _draw_courses(
     for axes in all_axes[len(panels) :]:
         axes.set_visible(False)
     if share:
-        _same_limits(all_axes[: len(panels)])
+        same_limits(all_axes[: len(panels)])
     handles, names = _key(points, groups, several, shaded, perturbed, catch)
     if len(names) > 1:
         legend_above(figure, handles, names)
@@ -401,13 +389,6 @@ def _columns(trials: float, panels: int, size: str) -> int:
     if panels == 1 or size != "two columns":
         return 1
     return 3 if panels == 3 and trials <= 80 else 2
-
-
-def _same_limits(all_axes: list[Axes]) -> None:
-    """Gives panels the same vertical limits."""
-    low, high = min(axes.get_ylim()[0] for axes in all_axes), max(axes.get_ylim()[1] for axes in all_axes)
-    for axes in all_axes:
-        axes.set_ylim(low, high)
 
 
 # The learning curve
@@ -487,7 +468,7 @@ def learning_windows(data: Data, *, unit: str = "", rounds: list[str] | None = N
         own = table[table[window].notna()]
         each = own.groupby(["part", "group", "person"], sort=False)[window].agg(value="mean", n="count").reset_index()
         each["n"] = 1
-        mean = _with_intervals(each, ["part", "group"])
+        mean = means_with_intervals(each, ["part", "group"], sort=False)
         if not several:
             ends = own.groupby(["part", "group"], sort=False)[[f"{window}_low", f"{window}_high"]].mean()
             mean["low"], mean["high"] = ends.to_numpy().T
@@ -530,7 +511,7 @@ def draw_learning_windows(
     for axes in all_axes[len(cells) :]:
         axes.set_visible(False)
     for side in sides:
-        _same_limits([axes for axes, cell in zip(all_axes, cells) if cell[1] == side])
+        same_limits([axes for axes, cell in zip(all_axes, cells) if cell[1] == side])
     if len(levels) > 1:
         legend_above(figure, [_dot(i) for i in range(len(levels))], [level(value) for value in levels])
     corner(figure, mark)
@@ -586,7 +567,7 @@ def generalisation_curve(data: Data) -> pd.DataFrame:
     same = table.groupby([*by, "person"], sort=True)
     each = same.agg(value=("compensation_deg", "mean"), share=("share", "mean"), n=("trials", "sum")).reset_index()
     each = each.assign(of="person")
-    mean = _with_intervals(each, by)
+    mean = means_with_intervals(each, by, sort=False)
     out = pd.concat([each, mean] if table["person"].nunique() > 1 else [each], ignore_index=True)
     return out.reindex(columns=["part", "group", "angle_deg", "of", "person", "n", "value", "low", "high", "share"])
 
@@ -698,10 +679,6 @@ def plans(data: Data) -> Iterator[Plan]:
         yield from _plans_of_measures(data)
 
 
-def _mark(data: Data) -> dict[str, Any]:
-    return {"mark": data.mark} if data.mark else {}
-
-
 def _quantity(data: Data, unit: str) -> str:
     """What compensation is in the rounds with this unit: the label of its axis."""
     if not data.has("fits"):
@@ -770,7 +747,7 @@ def _plan_of_curve(data: Data, table: pd.DataFrame, options: dict[str, Any], uni
         points=learning_curve,
         points_options={**options, **({"bin_trials": width} if width > 1 else {})},
         drawing=draw_learning_curve,
-        drawing_options={"ylabel": ylabel, "size": "one column" if short else "two columns", **_mark(data)},
+        drawing_options={"ylabel": ylabel, "size": "one column" if short else "two columns"},
     )
 
 
@@ -817,7 +794,7 @@ def _plan_of_windows(data: Data, own: pd.DataFrame, options: dict[str, Any], uni
         points=learning_windows,
         points_options=options,
         drawing=draw_learning_windows,
-        drawing_options={"ylabel": _quantity(data, unit), "size": "two columns" if wide else "one column", **_mark(data)},
+        drawing_options={"ylabel": _quantity(data, unit), "size": "two columns" if wide else "one column"},
     )
 
 
@@ -835,7 +812,6 @@ def _plan_of_generalisation(data: Data) -> Iterator[Plan]:
         f"direction.{lines} {counted(people, 'person', 'people')}, {counted(int(table['trials'].sum()), 'trial')}.",
         points=generalisation_curve,
         drawing=draw_generalisation,
-        drawing_options=_mark(data),
     )
 
 
@@ -883,6 +859,6 @@ def _plan_of_measures(data: Data, session: str, suffix: str) -> Plan | None:
         },
         drawing=draw_measures_over_trials,
         drawing_options={
-            "size": "two columns" if len(some) > 1 or table["trial"].max() > 60 else "one column", **_mark(data),
+            "size": "two columns" if len(some) > 1 or table["trial"].max() > 60 else "one column",
         },  # fmt: skip
     )

@@ -9,7 +9,6 @@ import numpy as np
 import numpy.typing as npt
 import pandas as pd
 from matplotlib.axes import Axes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
@@ -49,7 +48,7 @@ def _joined(data: Data, trials: pd.DataFrame, lifts: pd.DataFrame) -> pd.DataFra
 
     Of columns that both tables have, factors are those of the trial, and measures those of the lift.
     """
-    lifts = lifts.drop(columns=[name for name in _factor_names(data) if name in lifts and name in trials and name != "group"])
+    lifts = lifts.drop(columns=[name for name in data.factors if name in lifts and name in trials])
     keys = [key for key in ("person", "group", "session", "trial_num", "attempt") if key in trials and key in lifts]
     design = trials.drop(columns=[column for column in lifts if column in trials and column not in keys])
     frame = design.merge(lifts, on=keys, how="inner")
@@ -108,28 +107,14 @@ def _counting(frame: pd.DataFrame, catch: bool) -> pd.DataFrame:
     return frame[(frame["lift"] == "complete") & ~frame["kind"].isin(aside)]
 
 
-def _factor_names(data: Data) -> list[str]:
-    """Columns that may tell lifts apart: the group of people, and factors of conditions and of rounds."""
-    if not _is_task(data):
-        return ["group"]
-    names = ["group", *(str(factor["factor"]) for factor in data.task.get("cross") or [])]
-    for part in [*(data.task.get("conditions") or []), *(data.task.get("rounds") or [])]:
-        names += [str(name) for name in part.get("factors") or {}]
-    return list(dict.fromkeys(names))
-
-
-def _is_task(data: Data) -> bool:
-    return (data.sessions[0].folder / "task.yaml").is_file()
-
-
 def _levels(data: Data, column: str, found: list[Any]) -> list[Any]:
     """Levels of a column in order: numbers by size, words in the order of the task."""
     if not any(isinstance(value, str) for value in found):
         return sorted(found)
     known: list[Any] = []
-    if column == "presented" and _is_task(data):
+    if column == "presented":
         known = ["no perturbation"] + [str(p["name"]) for p in data.task.get("perturbations") or []] + data.conditions
-    elif column in data.table("trials") and _is_task(data):
+    elif column in data.table("trials"):
         known = data.levels(column)
     place = {value: i for i, value in enumerate(known)}
     return sorted(found, key=lambda value: place.get(value, len(place)))
@@ -173,9 +158,7 @@ def _sampled(data: Data, frame: pd.DataFrame, times: Array) -> dict[str, Array]:
     `times` and each array have the shape (lifts, times). The height is that of the lift's object above its place at touch.
     """
     out = {name: np.full(times.shape, np.nan) for name in ("grip force", "load force", "height")}
-    objects = {}
-    if _is_task(data):
-        objects = {c["name"]: c["object"] for c in data.task.get("conditions") or [] if c.get("object")}
+    objects = {c["name"]: c["object"] for c in data.task.get("conditions") or [] if c.get("object")}
     for number in sorted(frame["of"].unique()):
         session = data.recorded[number]
         rows = np.flatnonzero(frame["of"] == number)
@@ -676,19 +659,6 @@ def _widen(axes: list[Axes]) -> None:
             here.set_ylim(low - 0.5, high + 0.5)
 
 
-def _narrow(figure: Figure, handles: list[Any], names: list[str], title: str) -> None:
-    """Puts a legend that is wider than the figure into fewer columns, and leaves room for its lines."""
-    renderer = FigureCanvasAgg(figure).get_renderer()
-    for columns in range(len(names) - 1, 0, -1):
-        if figure.legends[0].get_window_extent(renderer).width <= figure.bbox.width:
-            return
-        figure.legends[0].remove()
-        lines = -(-len(names) // columns) + (1 if title else 0)
-        share = (lines * 7 * 1.45 + 6) / (figure.get_figheight() * 72)
-        figure.get_layout_engine().set(rect=(0, 0, 1, 1 - share))
-        figure.legend(handles, names, loc="upper center", ncols=columns, title=title or None, borderaxespad=0.2)
-
-
 def _legend(
     figure: Figure, cases: list[str], title: str, *, marks: bool, dashed: bool = True, more: list[Any] | None = None,
     names: list[str] | None = None,
@@ -703,7 +673,6 @@ def _legend(
     handles, texts = [*handles, *(more or [])], [*texts, *(names or [])]
     if handles:
         legend_above(figure, handles, texts, title)
-        _narrow(figure, handles, texts, title)
 
 
 # Which figures a design calls for
@@ -711,7 +680,7 @@ def _legend(
 
 def _factors(data: Data, frame: pd.DataFrame) -> list[str]:
     """Factors of the design whose level differs between lifts; numbers that hardly ever come twice are no levels."""
-    names = [name for name in _factor_names(data) if name in frame]
+    names = [name for name in ["group", *data.factors] if name in frame]
     return [name for name in names if 1 < frame[name].nunique() <= max(2, len(frame) / 2)]
 
 
@@ -733,8 +702,6 @@ def _design(data: Data, frame: pd.DataFrame) -> tuple[list[str], str]:
 
 def _shows_catches(data: Data) -> bool:
     """Whether catch trials are lifts of another object: they then show what was expected."""
-    if not _is_task(data):
-        return False
     changes = any(part.get("body") for part in data.task.get("perturbations") or [])
     trials = data.table("trials")
     return changes and "kind" in trials and bool((trials["kind"] == "catch").any())
@@ -764,7 +731,7 @@ def plans(data: Data) -> Iterator[Plan]:
             f"{_counts(data, frame, catch, rows, '', _MOST_ROWS)}",
             points=lift_phases, points_options={**options, **({"colour": rows} if rows else {})},
             drawing=draw_lift_phases,
-            drawing_options={**ordinate, **_marked(data)},
+            drawing_options=ordinate,
         )  # fmt: skip
 
 
@@ -780,7 +747,7 @@ def _plans_of_courses(data: Data, options: dict[str, Any], panel: str, legend: s
     cap = min(_MOST_PANELS, kept[panel].nunique()) if panel else 1
     where = {"panel": panel} if panel else {}
     drawing: dict[str, Any] = {"legend": legend} if legend else {}
-    drawing |= {"size": "two columns" if cap > 1 else "one column", **_marked(data)}
+    drawing |= {"size": "two columns" if cap > 1 else "one column"}
     shown = ["median over lifts, bands are quartiles", "single lift"][len(kept) == 1]
     if kept["person"].nunique() > 1:
         shown = "median over people's medians, bands are quartiles over people"
@@ -810,7 +777,7 @@ def _plans_of_change(data: Data, frame: pd.DataFrame, options: dict[str, Any], p
     complete = frame[frame["lift"] == "complete"]
     wanted = ["safety_margin", "peak_grip_rate_N_s", *(["peak_load_rate_N_s"] if catch else [])]  # the weight expected
     known = [name for name in wanted if complete[name].notna().any()]
-    if not known or complete.groupby("person").size().median() < 8 or not _is_task(data):
+    if not known or complete.groupby("person").size().median() < 8 or not data.task:
         return
     colour = options.get("colour", [])
     if panel in _factors(data, frame) and _is_surface(complete, panel):
@@ -832,7 +799,6 @@ def _plans_of_change(data: Data, frame: pd.DataFrame, options: dict[str, Any], p
         drawing_options={
             **({"legend": " and ".join(names)} if names else {}),
             **({"abscissa": "number of the lift in its condition", "size": "one column"} if repetition else {}),
-            **_marked(data),
         },
     )  # fmt: skip
 
@@ -846,10 +812,6 @@ def _is_surface(lifts: pd.DataFrame, factor: str) -> bool:
 def _word(column: str) -> str:
     """A factor in words, its unit left out: the levels have it."""
     return label(column).removesuffix(" g").removesuffix(" N").removesuffix(" mm").removesuffix(" ms")
-
-
-def _marked(data: Data) -> dict[str, str]:
-    return {"mark": data.mark} if data.mark else {}
 
 
 def _dots(kept: pd.DataFrame) -> str:

@@ -848,7 +848,6 @@ def _plan_of_paths(data: Data, sheet: _Sheet) -> Plan:
             **({"legend": False} if by_target else {}),
             "bar_mm": 50 if widest > 150 else 20,
             "size": "two columns" if len(sheet.panels) > 1 else "one column",
-            **({"mark": data.mark} if data.mark else {}),
         },
     )  # fmt: skip
 
@@ -888,7 +887,6 @@ def _plan_of_speed(data: Data, sheet: _Sheet) -> Plan:
         drawing_options={
             "size": "two columns" if len(sheet.panels) > 1 else "one column",
             **({"legend": "distance of the target"} if by_distance and len(colours) > 1 else {}),
-            **({"mark": data.mark} if data.mark else {}),
         },
     )
 
@@ -907,6 +905,5 @@ def _plan_of_channels(data: Data, stages: dict[str, list[_Reach]]) -> Plan:
         drawing=draw_channel_forces,
         drawing_options={
             "size": "two columns" if len(stages) > 1 else "one column",
-            **({"mark": data.mark} if data.mark else {}),
         },
     )

@@ -16,7 +16,8 @@ from scipy import special, stats
 
 from ..errors import NotThere, error
 from .conditions import counting_trials
-from .data import Data
+from .data import Data, sittings
+from .means import means_with_intervals
 from .saving import Plan
 from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, corner, fit_names, legend_above, styled, wrapped
 from .words import counted, in_print, label, level, words_of
@@ -128,10 +129,10 @@ def _procedures(data: Data) -> list[_Procedure]:
     trials = data.table("trials")
     if "procedure" not in trials or "outcome" not in trials:
         return []
-    sittings = trials["study_session"].fillna("").astype(str) if "study_session" in trials else pd.Series("", trials.index)
+    days = trials["study_session"].fillna("").astype(str) if "study_session" in trials else pd.Series("", trials.index)
     asked = trials["procedure"].notna()
-    missing = set(zip(sittings[asked], trials.loc[asked, "procedure"].astype(str)))
-    several = sittings.nunique() > 1
+    missing = set(zip(days[asked], trials.loc[asked, "procedure"].astype(str)))
+    several = days.nunique() > 1
     found: list[_Procedure] = []
     for session in data.sessions:
         place = _sitting_of(session) if "study_session" in trials else ""
@@ -187,15 +188,10 @@ def _parts(name: str, candidates: list[_Procedure]) -> list[_Procedure]:
     return []
 
 
-def _person_keys(table: pd.DataFrame) -> list[str]:
-    """Columns that tell sessions of all people apart."""
-    return [column for column in ("person", "group", "session", "study_session") if column in table]
-
-
 def _is_single(data: Data) -> bool:
     """Whether all trials are those of one session of one person."""
     trials = data.table("trials")
-    return len(trials[_person_keys(trials)].drop_duplicates()) == 1
+    return len(trials[sittings(trials)].drop_duplicates()) == 1
 
 
 def _of_sitting(table: pd.DataFrame, procedure: _Procedure) -> pd.DataFrame:
@@ -212,7 +208,7 @@ def _answers(data: Data, procedure: _Procedure) -> pd.DataFrame:
     own["level"] = pd.to_numeric(own[procedure.column], errors="coerce") if procedure.column in own else np.nan
     own = own[np.isfinite(own["level"]) & ((own["level"] > 0) | (not procedure.logarithmic))]
     own["said_yes"] = own["outcome"] == procedure.yes
-    keys = _person_keys(own)
+    keys = sittings(own)
     own["answer"] = own.groupby(keys).cumcount() + 1 if len(own) else pd.Series(dtype=int)
     return own[[*keys, "trial_num", "answer", "level", "said_yes"]]
 
@@ -224,7 +220,7 @@ def _fits(data: Data, procedure: _Procedure) -> pd.DataFrame:
     table = _of_sitting(data.table("thresholds"), procedure)
     table = table[(table["procedure"].astype(str) == procedure.name) & ((table["kind"] == _ALL) == (procedure.kind == _ALL))]
     # a report made anew is the only one of its session
-    table = table.drop_duplicates(_person_keys(table), keep="last")
+    table = table.drop_duplicates(sittings(table), keep="last")
     table = table[table["threshold"].notna() & (table["shape"] > 0)]
     return table.assign(outside=table["note"].fillna("").astype(str).str.startswith(_OUTSIDE))
 
@@ -331,7 +327,7 @@ def _curves(answers: pd.DataFrame, fits: pd.DataFrame, procedure: _Procedure) ->
     """The function of each person over the levels that the person was shown, and its threshold."""
     for fit in fits.to_dict("records"):
         own = answers
-        for key in _person_keys(answers):
+        for key in sittings(answers):
             own = own[own[key] == fit[key]] if key in fit else own
         if own.empty:
             continue
@@ -708,7 +704,7 @@ def procedure_courses(data: Data, *, procedures: list[str] | None = None) -> pd.
             continue
         head = procedure.panel()
         sessions = answers.groupby("person")["session"].nunique() if "session" in answers else pd.Series([1])
-        keys = _person_keys(answers)
+        keys = sittings(answers)
         for _, own in answers.groupby(keys, sort=False):
             person = own["person"].iloc[0]
             person = f"{person}, {own['session'].iloc[0]}" if sessions.max() > 1 else person
@@ -746,7 +742,7 @@ def _reversals(levels: pd.Series, procedure: _Procedure) -> list[int]:
 
 def _mean_course(answers: pd.DataFrame, logarithmic: bool) -> Iterator[dict[str, Any]]:
     """The mean level of all people at each answer, up to the last one that all gave."""
-    keys = _person_keys(answers)
+    keys = sittings(answers)
     last = answers.groupby(keys)["answer"].max().min()
     if answers.groupby(keys).ngroups < 2 or last < 3:
         return
@@ -876,9 +872,7 @@ def answers_by_level(
         each["low"], each["high"] = wilson(each["yes"], each["n"])
         out = each
     else:
-        mean = each.groupby(["series", "x"], sort=False)["value"].agg(value="mean", n="count", sd="std").reset_index()
-        half = stats.t.ppf(0.975, mean["n"].clip(lower=2) - 1) * mean["sd"] / np.sqrt(mean["n"])
-        out = pd.concat([each, mean.assign(of="mean", low=mean["value"] - half, high=mean["value"] + half)], ignore_index=True)
+        out = pd.concat([each, means_with_intervals(each, ["series", "x"], sort=False)], ignore_index=True)
     order = {name: place for place, name in enumerate(_order_of_series(own, series or [], data))}
     return (
         out.assign(place=out["series"].map(order)).sort_values(["place", "of", "x", "person"], kind="stable")
@@ -1022,7 +1016,7 @@ def _outside(data: Data, procedures: list[_Procedure]) -> str:
 
 
 def _options(data: Data, panels: int) -> dict[str, Any]:
-    return {"size": "two columns" if panels > 1 else "one column", **({"mark": data.mark} if data.mark else {})}
+    return {"size": "two columns" if panels > 1 else "one column"}
 
 
 def _plans_of_functions(data: Data, procedures: list[_Procedure]) -> Iterator[Plan]:

@@ -476,14 +476,13 @@ def plans(data: Data) -> Iterator[Plan]:
     if trials.empty or not {"outcome", "trial_num", "start_time", "stop_time"} <= set(trials):
         return
     people = counted(len(data.people), "person", "people")
-    mark = {"mark": data.mark} if data.mark else {}
     if "attempt" in trials or trials["outcome"].nunique() > 1:
-        yield _plan_of_outcomes(data, people, mark)
+        yield _plan_of_outcomes(data, people)
     if "attempt" in trials or len(trials) > 1:
-        yield _plan_of_timing(data, people, mark)
+        yield _plan_of_timing(data, people)
 
 
-def _plan_of_outcomes(data: Data, people: str, mark: dict[str, Any]) -> Plan:
+def _plan_of_outcomes(data: Data, people: str) -> Plan:
     points = trial_outcomes(data)
     parts = set(points["of"])
     attempts = _attempts(data)
@@ -505,11 +504,11 @@ def _plan_of_outcomes(data: Data, people: str, mark: dict[str, Any]) -> Plan:
     size = {"size": "one column"} if parts == {"block"} else {}
     return Plan(
         name="outcomes", title="Outcomes of trials", caption=" ".join(text), points=trial_outcomes,
-        drawing=draw_trial_outcomes, drawing_options={**size, **mark},
+        drawing=draw_trial_outcomes, drawing_options=size,
     )  # fmt: skip
 
 
-def _plan_of_timing(data: Data, people: str, mark: dict[str, Any]) -> Plan:
+def _plan_of_timing(data: Data, people: str) -> Plan:
     points = timing_and_force(data)
     text = [f"{people}, {counted(len(data.table('trials')), 'attempt')}, repeated ones included."]
     text.append("Boxes have the median and the quartiles of attempts, whiskers reach to the shortest and longest")
@@ -530,5 +529,5 @@ def _plan_of_timing(data: Data, people: str, mark: dict[str, Any]) -> Plan:
             text.append(f"The {_MOST_PEOPLE} of {count} people with most of these have rows of their own.")
     return Plan(
         name="timing-and-force", title="Durations, forces and ticks", caption=" ".join(text), points=timing_and_force,
-        drawing=draw_timing_and_force, drawing_options=mark,
+        drawing=draw_timing_and_force,
     )  # fmt: skip

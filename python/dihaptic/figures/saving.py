@@ -27,7 +27,7 @@ class Plan:
     """A figure that is to be drawn: which table of points, and how it is drawn.
 
     `points` is called with the Data and its options, and gives a table with a row for each point; `drawing` is called
-    with that table and its own options, and gives matplotlib's Figure.
+    with that table, its own options and the `mark` of the data, and gives matplotlib's Figure.
 
     >>> from dihaptic import figures
     >>> options = {"measures": ["peak_grip_N"], "x": "trial_num", "table": "lifts"}
@@ -48,7 +48,11 @@ class Plan:
     def make(self, data: Data) -> tuple[pd.DataFrame, Figure]:
         """Its points, and the figure. Raises Error."""
         points = self.points(data, **self.points_options)
-        return points, self.drawing(points, **self.drawing_options)
+        return points, self.drawing(points, **self.options_of_drawing(data))
+
+    def options_of_drawing(self, data: Data) -> dict[str, Any]:
+        """The options of the drawing, with the mark of these data."""
+        return {**self.drawing_options, **({"mark": data.mark} if data.mark else {})}
 
     def script(self, data: Data, folder: Path) -> str:
         """The Python script that draws this figure anew, to be kept in `folder`."""
@@ -74,15 +78,15 @@ data = figures.read({source})
 points = {_call(self.points, "data", self.points_options)}
 
 # size: "one column" (89 mm) or "two columns" (183 mm) of a journal
-figure = {_call(self.drawing, "points", self.drawing_options)}
+figure = {_call(self.drawing, "points", self.options_of_drawing(data))}
 # The panels are matplotlib's: figure.axes[0].set_ylim(0, 10)
 
 figures.save(figure, here / "{self.name}", points)
 '''
-        return text + _signed(text)
+        return text + signed(text)
 
 
-def _signed(text: str) -> str:
+def signed(text: str) -> str:
     """The last line of a script, by which a script that somebody has changed is known."""
     return f"# Checksum {zlib.crc32(text.encode()):08x}: a script that was changed is not written anew.\n"
 
@@ -90,7 +94,7 @@ def _signed(text: str) -> str:
 def is_changed(script: Path) -> bool:
     """Whether somebody has changed a script that Plan.script() made."""
     lines = script.read_text(encoding="utf-8", errors="replace").splitlines(keepends=True)
-    return not lines or lines[-1] != _signed("".join(lines[:-1]))
+    return not lines or lines[-1] != signed("".join(lines[:-1]))
 
 
 def _call(function: Callable[..., Any], first: str, options: dict[str, Any]) -> str:

@@ -16,8 +16,7 @@ import pandas as pd
 
 from ..rehearsal import Rehearsal
 from .data import ASIDE, Data
-from .saving import is_changed, write
-from .saving import _signed as signed
+from .saving import is_changed, signed, write
 
 #: Figures of lifts.csv that are analysed, where the task does not measure the same.
 _OF_LIFTS = ["peak_grip_rate_N_s", "static_grip_N", "safety_margin"]

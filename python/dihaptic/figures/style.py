@@ -9,12 +9,12 @@ from typing import Any, TypeVar
 
 import matplotlib
 from matplotlib.axes import Axes
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from ..charts import COLOURS as COLOURS  # the same ones
 from ..errors import NotThere
 
-#: Colours that can be told apart with any kind of colour vision (Okabe and Ito, 2008), in the order of their use.
-COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
 #: The mark of each colour, so that figures can be read in black and white.
 MARKERS = ["o", "s", "^", "D", "v", "P", "X"]
 #: Widths of a figure [mm].
@@ -69,6 +69,7 @@ def styled(function: _Function) -> _Function:
     return call  # type: ignore[return-value]
 
 
+@styled
 def canvas(
     size: str = "one column", height_mm: float = 65, rows: int = 1, columns: int = 1, **options: Any
 ) -> tuple[Figure, list[Axes]]:
@@ -84,12 +85,8 @@ def canvas(
     """
     if size not in WIDTHS:
         raise NotThere(size, "is not a size of figures", list(WIDTHS), "Sizes are " + " and ".join(WIDTHS) + ".")
-    with matplotlib.rc_context():
-        matplotlib.rcdefaults()
-        matplotlib.rcParams.update(_RC)
-        figure = Figure(figsize=(WIDTHS[size] / 25.4, height_mm / 25.4), layout="constrained")
-        panels = figure.subplots(rows, columns, squeeze=False, **options)
-    return figure, list(panels.flat)
+    figure = Figure(figsize=(WIDTHS[size] / 25.4, height_mm / 25.4), layout="constrained")
+    return figure, list(figure.subplots(rows, columns, squeeze=False, **options).flat)
 
 
 def wrapped(text: str, letters: int) -> str:
@@ -108,15 +105,28 @@ def fit_names(axes: Axes, width_mm: float) -> None:
         axes.set_xticks(axes.get_xticks(), [wrapped(name, letters) for name in names])
 
 
+def same_limits(panels: list[Axes]) -> None:
+    """Gives panels the same vertical limits."""
+    low, high = min(axes.get_ylim()[0] for axes in panels), max(axes.get_ylim()[1] for axes in panels)
+    for axes in panels:
+        axes.set_ylim(low, high)
+
+
 def legend_above(figure: Figure, handles: list[Any], names: list[str], title: str = "") -> None:
     """A legend above all panels, which leave room for it; to be called when the panels are complete."""
     # the width of a name is about 0.6 of its height for each letter; the line before it takes about 4 letters
     width = figure.get_figwidth() * 72 / 7 / 0.6
     columns = max(1, min(len(names), int(width / (max(map(len, names)) + 6))))
-    lines = -(-len(names) // columns) + (1 if title else 0)
-    share = (lines * 7 * 1.45 + 6) / (figure.get_figheight() * 72)
-    figure.get_layout_engine().set(rect=(0, 0, 1, 1 - share))
-    figure.legend(handles, names, loc="upper center", ncols=columns, title=title or None, borderaxespad=0.2)
+    renderer = FigureCanvasAgg(figure).get_renderer()
+    while True:
+        lines = -(-len(names) // columns) + (1 if title else 0)
+        share = (lines * 7 * 1.45 + 6) / (figure.get_figheight() * 72)
+        figure.get_layout_engine().set(rect=(0, 0, 1, 1 - share))
+        legend = figure.legend(handles, names, loc="upper center", ncols=columns, title=title or None, borderaxespad=0.2)
+        if columns == 1 or legend.get_window_extent(renderer).width <= figure.bbox.width:
+            return
+        legend.remove()
+        columns -= 1
 
 
 def corner(figure: Figure, mark: str) -> None:

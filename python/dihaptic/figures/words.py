@@ -59,21 +59,6 @@ def level(value: Any, unit: str = "") -> str:
     return f"{text} {in_print(unit)}" if unit and unit != "1" else text
 
 
-def number(value: float) -> str:
-    """A number with three digits, as a text would give it.
-
-    >>> number(0.08843), number(15.0), number(1234.5)
-    ('0.0884', '15', '1230')
-    """
-    if not math.isfinite(value):
-        return "-"
-    if value == 0:
-        return "0"
-    digits = 2 - math.floor(math.log10(abs(value)))
-    rounded = round(value, digits)
-    return f"{rounded:.{max(0, digits)}f}".rstrip("0").rstrip(".") if digits > 0 else f"{rounded:.0f}"
-
-
 def counted(number: int, thing: str, things: str = "") -> str:
     """ "one person", "4 people": a number with its noun."""
     return f"{number} {thing}" if number == 1 else f"{number} {things or thing + 's'}"

@@ -1,0 +1,24 @@
+"""Means over people, or over trials, with their intervals."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pandas as pd
+from scipy import stats
+
+
+def means_with_intervals(each: pd.DataFrame, by: list[str], **options: Any) -> pd.DataFrame:
+    """Means of the column `value` in each group, with their 95 % intervals by Student's t.
+
+    A row has the columns `by`, value, n, low, high, and `of`, which is "mean". The ends are NaN where n is 1. `options` go
+    to pandas' groupby(), such as sort=False.
+
+    >>> each = pd.DataFrame({"x": [1, 1, 2], "value": [3.0, 5.0, 7.0]})
+    >>> means_with_intervals(each, ["x"]).round(2).values.tolist()
+    [[1, 4.0, 2, 'mean', -8.71, 16.71], [2, 7.0, 1, 'mean', nan, nan]]
+    """
+    mean = each.groupby(by, **options)["value"].agg(value="mean", n="count", sd="std").reset_index()
+    half = stats.t.ppf(0.975, mean["n"].clip(lower=2) - 1) * mean["sd"] / np.sqrt(mean["n"])
+    return mean.assign(of="mean", low=mean["value"] - half, high=mean["value"] + half).drop(columns="sd")
