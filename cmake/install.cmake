@@ -25,7 +25,7 @@ install(DIRECTORY experiments forms meshes movements octave populations rigs sce
 # Debian's Python looks there
 set(python_folder lib/python3/dist-packages/dihaptic)
 install(DIRECTORY python/dihaptic/ DESTINATION ${python_folder} FILES_MATCHING PATTERN *.py PATTERN *.pyi PATTERN py.typed
-    PATTERN __pycache__ EXCLUDE)
+    PATTERN *.css PATTERN *.js PATTERN __pycache__ EXCLUDE)
 if(TARGET dihaptic_python)
     install(TARGETS dihaptic_python LIBRARY DESTINATION ${python_folder})
     foreach(folder ${python_folder} ${CMAKE_INSTALL_DATADIR}/dihaptic/octave)

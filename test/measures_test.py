@@ -296,7 +296,7 @@ class Measures(unittest.TestCase):
     def test_are_in_the_report(self):
         subprocess.run([PROGRAM, "report", str(self.session)], check=True, capture_output=True)
         page = (self.session / "report.html").read_text()
-        for text in ["<h2>Measures</h2>", "lateral_deviation_mm", "no channel (6)"]:
+        for text in ["By condition</h2>", "lateral deviation [mm]", "no channel (6)"]:
             self.assertIn(text, page)
         with open(self.session / "adaptation.csv", newline="") as file:
             rows = list(csv.DictReader(file))

@@ -68,7 +68,7 @@ def tables_of(experiment):
         person = ["--simulate", "--participant", "sim-001"] if has_trials else []
         dihaptic("run", file, *person, "--out", folder)
         (session,) = pathlib.Path(folder).iterdir()
-        dihaptic("report", session)
+        dihaptic("report", session, "--tables")
         return hashes_of(session, experiment)
 
 
@@ -81,7 +81,7 @@ def tables_of_population():
         pathlib.Path(folder, "short.yaml").write_text(text)
         dihaptic("rehearse", "short.yaml", "--people", "3", "--out", "people", cwd=folder)
         dihaptic("collect", "people", cwd=folder)
-        dihaptic("report", "people", cwd=folder)
+        dihaptic("report", "people", "--tables", cwd=folder)
         return hashes_of(pathlib.Path(folder, "people"), "population")
 
 

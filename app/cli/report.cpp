@@ -1,19 +1,25 @@
 #include "analysis/report/report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
-#include "base/child.h"
-#include "base/installed.h"
 #include "base/plural.h"
 #include "command.h"
+#include "common/drawn_report.h"
 #include "study_collection.h"
 
 namespace dihaptic::cli {
 namespace {
+
+struct ReportOptions {
+    std::vector<std::string> paths;
+    std::string rehearsed;
+    std::string out;
+    bool tables = false;  // without a page
+};
 
 /// The folder with the sessions of a study's participants. Throws Error when there is none yet.
 std::string sessions_of(const StudyData& data) {
@@ -24,76 +30,102 @@ std::string sessions_of(const StudyData& data) {
     return folder;
 }
 
-/// Draws the figures of what lies at `path`, by the Python package. Throws Error when it cannot.
-void draw_figures(const std::string& path) {
-    const std::string code = in_or_above_program(
-        {"python/dihaptic/facts.json", "lib/python3/dist-packages/dihaptic/facts.json"});
-    if (code.empty())
-        throw Error({path, 0}, "", "has no figures, because the Python package draws them",
-                    "Type sudo apt install python3-dihaptic, and repeat the command.");
-    const std::string package = std::filesystem::path(code).parent_path().parent_path();
-    std::fflush(stdout);  // before the child's own lines
-    // another Python, such as Anaconda's, does not have the package
-    const Launch launch{
-        "/usr/bin/env",
-        {"PYTHONPATH=" + package, "/usr/bin/python3", "-m", "dihaptic.figures", path},
-        {Launch::kNothing, Launch::kKept, Launch::kKept},
-        Launch::kFreshSignals};
-    Child python;
-    const int failed = python.start(launch);
-    const std::optional<int> status = failed == 0 ? python.wait() : std::nullopt;
-    if (status != 0)
-        throw Error({path, 0}, "", "has no figures, because Python did not draw them",
-                    "The lines above this one name the reason.");
+/// Throws Error when the options do not go together.
+void check_options(const ReportOptions& options) {
+    const std::string& first = options.paths.front();
+    const bool one = options.paths.size() == 1;
+    if (!options.rehearsed.empty() && !(one && is_study(first))) {
+        if (one) throw Error({first, 0}, "", "is not a study's file", "Leave out --rehearsed.");
+        throw Error({"--rehearsed", 0}, "", "is valid only with one study alone",
+                    "Leave it out, and name the folder sessions of the rehearsal as a path.");
+    }
+    if (!options.out.empty() && options.tables)
+        throw Error({"--out", 0}, "", "is for the page, and --tables draws none",
+                    "Leave out one of them: tables stand in the folders of their sessions.");
+    if (!options.out.empty() && one)
+        throw Error({"--out", 0}, "", "is valid only with several paths",
+                    "Leave it out: the page of one path goes into its folder.");
+    if (options.out.empty() && !one && !options.tables)
+        throw Error({first, 0}, "", "and the other paths have no common folder for their page",
+                    "Name one with --out, or add --tables.");
+}
+
+/// Makes the folder for the page. Throws Error when it cannot.
+void make_folder(const std::string& folder) {
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed)
+        throw Error({folder, 0}, "", "cannot be made: " + failed.message(),
+                    "Name a folder in which you may write with --out.");
+}
+
+/// Writes the tables of all paths, and says what is wrong with the sessions.
+analysis::ReportResult write_tables_of(const ReportOptions& options) {
+    analysis::ReportResult result;
+    {
+        ProgressLine line("reading");
+        double before = 0;
+        const auto paths = static_cast<double>(options.paths.size());
+        for (const std::string& path : options.paths) {
+            const std::string folder =
+                is_study(path) ? sessions_of({path, options.rehearsed}) : path;
+            result.add(analysis::write_tables(
+                folder, [&](double share) { line.show((before + share) / paths); }));
+            ++before;
+        }
+    }
+    print(result.changed);
+    print(result.unwritten);
+    for (const std::string& why : result.left_out) fmt::print("left out: {}\n", why);
+    for (const std::string& what : result.log) fmt::print("raw.log: {}\n", what);
+    return result;
+}
+
+void report(const ReportOptions& options) {
+    check_options(options);
+    if (!options.out.empty()) make_folder(options.out);
+    analysis::ReportResult result = write_tables_of(options);
+    result.out = options.out;
+    std::vector<std::string> made;
+    if (!options.tables) {
+        app::draw_page(result, command_line(), app::PythonSays::on_terminal);
+        made.push_back(result.page());
+    }
+    for (const std::string& file : result.tables) {
+        const std::string name = std::filesystem::path(file).filename();
+        if (std::ranges::find(made, name) == made.end()) made.push_back(name);  // of several paths
+    }
+    fmt::print("{}: of {}\n", made.empty() ? "no table" : fmt::format("{}", fmt::join(made, ", ")),
+               counted(result.sessions, "session"));
 }
 
 }  // namespace
 
 void add_report(CLI::App& app) {
     auto* command = app.add_subcommand("report",
-                                       "Make report.html, and its tables as CSV: for a session, or "
-                                       "for all sessions in a folder or "
-                                       "of a study");
-    auto path = std::make_shared<std::string>();
-    auto study = std::make_shared<StudyData>();
+                                       "Make report.html with its figures, and tables as CSV: for "
+                                       "a session, or for all sessions in a folder or of a study");
+    auto options = std::make_shared<ReportOptions>();
     command
-        ->add_option("SESSION|FOLDER", *path,
-                     "a session, a folder with sessions, or a study's file")
+        ->add_option("SESSION|FOLDER|STUDY", options->paths,
+                     "sessions, folders with sessions, or files of studies")
         ->required();
-    command->add_option("--rehearsed", study->rehearsed,
+    command->add_option("--rehearsed", options->rehearsed,
                         "with a study: the folder of its rehearsal, in place of its participants");
-    auto figures = std::make_shared<bool>(false);
-    command->add_flag(
-        "--figures", *figures,
-        "also draw figures for a paper, in the folder figures: SVG, PDF and PNG, each "
-        "with its points as CSV and the Python script that draws it");
+    command->add_option("--out", options->out,
+                        "with several paths: folder for the page of all of them");
+    command->add_flag("--tables", options->tables,
+                      "write the tables alone, without drawing the page and its figures");
     command->footer(
+        "\nThe figures are in the folder figures beside the page: SVG, PDF and PNG, each with its "
+        "points\n"
+        "as CSV and the Python script that draws it.\n"
         "\nExamples:\n  dihaptic report sessions/2026-11-20_101500_visuomotor-rotation_S07\n"
         "  dihaptic report sessions\n"
-        "  dihaptic report rehearsals/grip-and-lift_1 --figures\n"
+        "  dihaptic report rehearsals/grip-and-lift_1 --tables\n"
+        "  dihaptic report sessions rehearsals/grip-and-lift_1 --out both\n"
         "  dihaptic report my-study.yaml");
-    command->callback([path, study, figures] {
-        study->file = *path;
-        if (is_study(*path)) {
-            *path = sessions_of(*study);
-        } else if (!study->rehearsed.empty()) {
-            throw Error({*path, 0}, "", "is not a study's file", "Leave out --rehearsed.");
-        }
-        analysis::ReportResult result;
-        {
-            ProgressLine line("reading");
-            result = analysis::write_report(*path, command_line(),
-                                            [&](double share) { line.show(share); });
-        }
-        print(result.changed);
-        for (const std::string& why : result.left_out) fmt::print("left out: {}\n", why);
-        for (const std::string& what : result.log) fmt::print("raw.log: {}\n", what);
-        std::string tables;
-        for (const std::string& file : result.tables)
-            tables += ", " + std::filesystem::path(file).filename().string();
-        fmt::print("{}{}: of {}\n", result.page, tables, counted(result.sessions, "session"));
-        if (*figures) draw_figures(*path);
-    });
+    command->callback([options] { report(*options); });
 }
 
 }  // namespace dihaptic::cli

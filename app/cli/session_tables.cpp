@@ -1,7 +1,7 @@
 #include "session_tables.h"
 
 #include "analysis/dictionary.h"
-#include "analysis/report/session_page.h"
+#include "analysis/report/session_tables.h"
 #include "base/regular_file.h"
 #include "recording/moved_by.h"
 
@@ -23,15 +23,15 @@ std::vector<TextTable> tables_of(const std::string& session) {
     for (const char* name : {"trials.csv", "lifts.csv", "corrections.csv"}) {
         if (auto table = table_of(session, name)) out.push_back(std::move(*table));
     }
-    const auto data = analysis::SessionData::read(session);
-    const auto page = analysis::session_page(data, "", [](double) {});
+    const analysis::FittedSession fitted(analysis::SessionData::read(session));
+    const analysis::SessionTables made = analysis::session_tables(fitted);
     const auto add = [&](const char* name, const Table& table) {
         if (!table.rows.empty())
-            out.push_back(text_of(recording::marked(table, data.info.moved_by), name));
+            out.push_back(text_of(recording::marked(table, fitted.data.info.moved_by), name));
     };
-    add("adaptation.csv", page.adaptation);
-    add("fits.csv", page.fits);
-    add("thresholds.csv", page.thresholds);
+    add("adaptation.csv", made.adaptation);
+    add("fits.csv", made.fits);
+    add("thresholds.csv", made.thresholds);
     return out;
 }
 

@@ -4,6 +4,7 @@
 #include <exception>
 
 #include "analysis/report/report.h"
+#include "common/drawn_report.h"
 
 namespace dihaptic::gui {
 
@@ -18,8 +19,9 @@ void Reporter::write(const QString& folder) {
         QString why;
         try {
             const std::string command = "dihaptic report " + folder.toStdString();
-            page = QString::fromStdString(
-                analysis::write_report(folder.toStdString(), command, [](double) {}).page);
+            const auto result = analysis::write_tables(folder.toStdString(), {});
+            app::draw_page(result, command, app::PythonSays::in_error);
+            page = QString::fromStdString(result.page());
         } catch (const std::exception& e) {
             why = QString::fromStdString(e.what());
         }

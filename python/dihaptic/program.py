@@ -149,16 +149,20 @@ def recover(session: Session | str | Path, *, progress: bool = True) -> Session:
     return Session(folder)
 
 
-def report(session: Session | str | Path, *, progress: bool = True) -> Path:
+def report(*sessions: Session | str | Path, out: str | Path = "", progress: bool = True) -> Path:
     """Makes the report of a session, or of a folder of sessions; returns its report.html.
+
+    Several are compared, and need a folder `out` for the page. Raises Error.
 
     >>> import dihaptic as dh
     >>> dh.report(lift_session, progress=False).name
     'report.html'
     """
-    folder = _folder(session)
-    call(["report", folder], progress)
-    return Path(folder) / "report.html"
+    if not sessions:
+        raise error("is missing", "Name the folder of a session, or one with sessions.", key="sessions")
+    folders = [_folder(session) for session in sessions]
+    call(["report", *folders, *(["--out", str(out)] if out else [])], progress)
+    return Path(out or folders[0]) / "report.html"
 
 
 def check(*files: Input, rig: Input = "") -> list[Problem]:

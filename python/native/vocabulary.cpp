@@ -102,6 +102,7 @@ py::dict unit_symbols() {
                 out[suffix] = unit.si == 1 ? std::string(si_symbol(quantity)) : symbol;
         }
     }
+    out["mm2"] = "mm^2";  // of a measure: no key of a file is an area
     // of curves (analysis/curves.h)
     for (const QuantityRow& row : quantities()) {
         const std::string& symbol = std::get<3>(row);

@@ -13,7 +13,7 @@ def texts(figure):
     """Each text that is seen, with its box [pixels]."""
     canvas = FigureCanvasAgg(figure)
     figure.set_dpi(200)
-    canvas.draw()
+    figure.draw_without_rendering()  # places everything
     ticks = {id(t): t for axes in figure.axes for axis in (axes.xaxis, axes.yaxis) for t in axis.findobj(Text)}
     seen = [text for text in figure.findobj(Text) if id(text) not in ticks and _is_seen(text)]
     for axes in figure.axes:

@@ -2,64 +2,43 @@
 
 import tempfile
 import unittest
-import warnings
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from boxes import faults
+from drawn import Drawn, rehearsed, with_tables
 from scipy import stats
 from small_study import dihaptic
 
-import dihaptic as dh
 from dihaptic import figures
 from dihaptic.figures import learning
 
-
-def rehearsed(name, folder, people):
-    """A rehearsal of a shipped experiment, with its tables."""
-    out = Path(folder, name)
-    dh.rehearse(f"experiments/{name}.yaml", people, out=out, progress=False)
-    dihaptic("collect", out)
-    return out
-
-
-def with_tables(path, **tables):
-    """The data of a folder, with other tables in place of its own."""
-    data = figures.read(path)
-    for name, table in tables.items():
-        original = data.table(name)
-        table.attrs = original.attrs
-        data.__dict__["_cache"][name] = table
-    return data
+#: Fewer trials of the shipped experiments: in each of the four rounds 8, 26, 8 and 8.
+ROTATION = [
+    ("baseline, repeats: 2", "baseline, repeats: 1"), ("repeats: 8", "repeats: 3"), ("count: 6", "count: 2"),
+    ("clamp, repeats: 2", "clamp, repeats: 1"), ("washout, repeats: 3", "washout, repeats: 1"),
+]  # fmt: skip
+FIELD = [("repeats: 12", "repeats: 6"), ("repeats: 40", "repeats: 14"), ("count: 4", "count: 2"), ("repeats: 8", "repeats: 4")]
+GENERALISATION = [("repeats: 4", "repeats: 1"), ("repeats: 3", "repeats: 1"), ("repeats: 24", "repeats: 6"),
+    ("repeats: 88", "repeats: 24")]  # fmt: skip
 
 
-class Learning(unittest.TestCase):
+class Learning(Drawn):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.addClassCleanup(cls.folder.cleanup)
-        cls.rotation = rehearsed("visuomotor-rotation", cls.folder.name, 3)
-        cls.field = rehearsed("divergent-field", cls.folder.name, 2)
-        cls.one = rehearsed("generalisation-one", cls.folder.name, 1) / "sim-001"
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.rotation = rehearsed("visuomotor-rotation", folder.name, 3, ROTATION)
+        cls.field = rehearsed("divergent-field", folder.name, 2, FIELD)
+        cls.one = rehearsed("generalisation-one", folder.name, 1, GENERALISATION) / "sim-001"
         dihaptic("report", cls.one)
 
     def check(self, data, expected=None):
         """All figures of these data can be read; returns their plans."""
-        made = {}
-        with warnings.catch_warnings():
-            warnings.simplefilter("error", FutureWarning)
-            for plan in learning.plans(data):
-                points, figure = plan.make(data)
-                with self.subTest(plan.name):
-                    self.assertFalse(points.empty)
-                    self.assertEqual(faults(figure), [])
-                    self.assertTrue(all(axes.get_xlabel() or axes.get_xticklabels() for axes in figure.axes))
-                self.assertNotIn(plan.name, made)
-                made[plan.name] = plan
-        if expected is not None:
-            self.assertEqual(list(made), expected)
-        return made
+        made = super().check(learning, data, expected)
+        for name, (_, _, figure) in made.items():
+            with self.subTest(name):
+                self.assertTrue(all(axes.get_xlabel() or axes.get_xticklabels() for axes in figure.axes))
+        return {name: plan for name, (plan, _, _) in made.items()}
 
     def adaptation(self):
         table = pd.read_csv(self.rotation / "adaptation.csv")
@@ -91,8 +70,8 @@ class Learning(unittest.TestCase):
         points = figures.learning_curve(figures.read(self.rotation), rounds=["about y"], bin_trials=4)
         table = self.adaptation()
         table = table[table["round"] == "about y"]
-        # blocks of 16, 70, 16 and 24 trials: the last two of the second one are a bin of their own
-        ends = [*range(4, 85, 4), 86, *range(90, 127, 4)]
+        # blocks of 8, 26, 8 and 8 trials: the last two of the second one are a bin of their own
+        ends = [*range(4, 33, 4), 34, *range(38, 51, 4)]
         wanted = list(zip([1, *(end + 1 for end in ends)], ends))
         mean = points[points.of == "mean"].sort_values("first")
         self.assertEqual(list(zip(mean["first"], mean["last"])), wanted)
@@ -160,7 +139,7 @@ class Learning(unittest.TestCase):
         table = figures.read(self.rotation).table("adaptation")
         table = table[table["round"].isin(["about x", "about z"])]
         trial = table["trial_num"] - table.groupby(["person", "round"])["trial_num"].transform("min")
-        table["block"] = "block number " + (trial // 4).astype(str)
+        table["block"] = "block number " + (trial // 2).astype(str)
         made = self.check(with_tables(self.rotation, adaptation=table))
         self.assertIn("too narrow", made["learning-curve"].caption)
         table["block"] = "block number " + ((trial + table["person"].eq("sim-001")) // 16).astype(str)

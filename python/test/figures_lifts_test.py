@@ -2,61 +2,29 @@
 
 import tempfile
 import unittest
-import warnings
-from pathlib import Path
 
 import numpy as np
 import pandas as pd
-from boxes import faults as faults_of_boxes
-from matplotlib.backends.backend_agg import FigureCanvasAgg
+from boxes import faults
+from drawn import Drawn, rehearsed, with_tables
 
-import dihaptic as dh
 from dihaptic import figures
 from dihaptic.errors import Error, NotThere
 from dihaptic.figures import lifts
 
 TIGHT = {"rtol": 0, "atol": 1e-12, "equal_nan": True}
+#: Fewer lifts of unexpected-weight.
+WEIGHTS = [("repeats: 3 }", "repeats: 1 }"), ("repeats: 18", "repeats: 4"), ("count: 3, gap: 5", "count: 1, gap: 2"),
+    ("repeats: 8", "repeats: 2")]  # fmt: skip
 
 
-def faults(figure):
-    """Faults of what is seen: matplotlib keeps numbers beyond the ends of an axis, and does not draw them."""
-    figure.set_dpi(200)
-    FigureCanvasAgg(figure).draw()
-    for axes in figure.axes:
-        for axis in (axes.xaxis, axes.yaxis):
-            low, high = sorted(axis.get_view_interval())
-            slack = 1e-9 * (high - low)
-            for tick in axis.get_major_ticks():
-                if not low - slack <= tick.get_loc() <= high + slack:
-                    tick.label1.set_visible(False)
-    return faults_of_boxes(figure)
-
-
-def rehearsed(name, folder, people, fewer, **options):
-    """A rehearsal of a shipped experiment with fewer lifts."""
-    text = Path("experiments", f"{name}.yaml").read_text(encoding="utf-8").replace("../", f"{Path.cwd()}/")
-    for before, after in fewer.items():
-        assert before in text, before
-        text = text.replace(before, after)
-    file = Path(folder, f"{name}.yaml")
-    file.write_text(text, encoding="utf-8")
-    dh.rehearse(str(file), people, out=Path(folder, name), progress=False, **options)
-    return Path(folder, name)
-
-
-class Lifts(unittest.TestCase):
+class Lifts(Drawn):
     @classmethod
     def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.recorded = rehearsed("size-weight", cls.folder.name, 2, {"repeats: 20": "repeats: 5"}, keep_recordings=True)
-        cls.weights = rehearsed(
-            "unexpected-weight", cls.folder.name, 3,
-            {"repeats: 18": "repeats: 6", "count: 3, gap: 5": "count: 1, gap: 2", "repeats: 8": "repeats: 3"},
-        )  # fmt: skip
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.recorded = rehearsed("size-weight", folder.name, 2, [("repeats: 20", "repeats: 4")], keep_recordings=True)
+        cls.weights = rehearsed("unexpected-weight", folder.name, 3, WEIGHTS)
 
     def joined(self, path):
         trials, own = pd.read_csv(path / "trials.csv"), pd.read_csv(path / "lifts.csv")
@@ -84,7 +52,7 @@ class Lifts(unittest.TestCase):
         points = figures.lift_curves(data, colour=["condition"])
         own = self.joined(self.recorded)
         own = own[own.lift == "complete"]
-        sessions = {session.info["participant"]["id"]: session for session in data.recorded}
+        sessions = {sitting.person: sitting.session for sitting in data.recorded}
         for condition in ("small", "large"):
             for quantity in ("grip force", "load force", "height"):
                 medians = pd.DataFrame({
@@ -148,18 +116,8 @@ class Lifts(unittest.TestCase):
             (self.recorded / "sim-001", ["lift-curves", "grip-against-load", "successive-lifts", "lift-phases"]),
             (self.weights, ["successive-lifts", "lift-phases"]),
         ]:  # fmt: skip
-            data = figures.read(path)
-            made = list(lifts.plans(data))
-            self.assertEqual([plan.name for plan in made], names)
-            for plan in made:
-                with self.subTest(f"{path.name}: {plan.name}"):
-                    points, figure = plan.make(data)
-                    self.assertEqual(faults(figure), [])
-                    self.assertRegex(plan.caption, r"\d (person|people), \d+ lift")
-                    file = Path(self.folder.name, "points.csv")
-                    points.to_csv(file, index=False)
-                    again = plan.drawing(pd.read_csv(file), **plan.options_of_drawing(data))
-                    self.assertEqual(len(again.axes), len(figure.axes))
+            for plan, _, _ in self.check(lifts, figures.read(path), names, kept=path != self.weights).values():
+                self.assertRegex(plan.caption, r"\d (person|people), \d+ lift")
 
     def test_the_unexpected_weight_is_shown_by_block(self):
         data = figures.read(self.weights)
@@ -169,12 +127,9 @@ class Lifts(unittest.TestCase):
         self.assertEqual(set(points[points.block == "told by colour"].condition), {"blue", "red"})
 
     def test_many_and_long_conditions(self):
-        data = figures.read(self.weights)
-        trials = data.table("trials")
-        names = [f"a condition with quite a long name, number {i}" for i in range(30)]
-        changed = trials.assign(condition=[names[i % 30] for i in range(len(trials))])
-        changed.attrs = trials.attrs
-        data._cache["trials"] = changed
+        trials = figures.read(self.weights).table("trials")
+        trials["condition"] = [f"a condition with quite a long name, number {i % 30}" for i in range(len(trials))]
+        data = with_tables(self.weights, trials=trials)
         points = figures.lift_phases(data, colour=["condition"])
         self.assertEqual(points.condition.nunique(), 24)
         self.assertEqual(faults(figures.draw_lift_phases(points)), [])
@@ -185,8 +140,7 @@ class Lifts(unittest.TestCase):
         self.assertIn("only the first 24 are: ", captions[0])
 
     def test_missing_values(self):
-        data = figures.read(self.weights)
-        whole = data.table("lifts")
+        whole = figures.read(self.weights).table("lifts")
         for change in ("margin", "phase", "all incomplete", "one lift", "no rows"):
             broken = whole.copy()
             if change == "margin":
@@ -199,16 +153,11 @@ class Lifts(unittest.TestCase):
                 broken["lift"] = "no touch"
             else:
                 broken = broken.iloc[10:11] if change == "one lift" else broken.iloc[:0]
-            broken.attrs = whole.attrs
-            data._cache["lifts"] = broken
-            with self.subTest(change), warnings.catch_warnings():
-                warnings.simplefilter("error")
-                made = list(lifts.plans(data))
-                self.assertEqual(bool(made), change in ("margin", "phase"))
+            data = with_tables(self.weights, lifts=broken)
+            with self.subTest(change):
+                self.assertEqual(bool(self.check(lifts, data)), change in ("margin", "phase"))
                 if change == "one lift":
                     self.assertEqual(faults(figures.draw_lift_phases(figures.lift_phases(data))), [])
-                for plan in made:
-                    self.assertEqual(faults(plan.make(data)[1]), [], plan.name)
         empty = figures.lift_phases(data).iloc[:0]
         for draw in (figures.draw_lift_phases, figures.draw_successive_lifts, figures.draw_lift_curves,
                      figures.draw_grip_against_load):  # fmt: skip

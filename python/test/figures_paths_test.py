@@ -1,28 +1,29 @@
 """Figures of recorded reaches: paths, speed, force on channels."""
 
 import shutil
+import sys
 import tempfile
 import unittest
 import warnings
 from pathlib import Path
 
-import h5py
-import numpy as np
-import pandas as pd
-from boxes import faults
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "test"))
 
-import dihaptic as dh
-from dihaptic import figures
-from dihaptic.figures import paths
+import h5py  # noqa: E402
+import numpy as np  # noqa: E402
+import pandas as pd  # noqa: E402
+import soak  # noqa: E402
+from boxes import faults  # noqa: E402
+from drawn import Drawn, rehearsed  # noqa: E402
+
+import dihaptic as dh  # noqa: E402
+from dihaptic import figures  # noqa: E402
+from dihaptic.figures import paths  # noqa: E402
 
 TICK = 0.001
-
-
-def recorded(name, folder, people):
-    """A rehearsal of a shipped experiment with its recordings."""
-    out = Path(folder, name)
-    dh.rehearse(f"experiments/{name}.yaml", people, out=out, keep_recordings=True, progress=False)
-    return out
+#: Fewer reaches of curl-field, with as many panels.
+CURL = [("repeats: 28", "repeats: 12"), ("count: 4, gap: 6", "count: 2, gap: 4"), ("repeats: 70", "repeats: 28"),
+    ("count: 10, gap: 6", "count: 9, gap: 2")]  # fmt: skip
 
 
 def of_phase(session, phase):
@@ -37,20 +38,18 @@ def quantity(session, name):
         return np.asarray(file[f"acquisition/{name}/data"], float)
 
 
-class Paths(unittest.TestCase):
+class Paths(Drawn):
     @classmethod
     def setUpClass(cls):
         warnings.simplefilter("error", FutureWarning)
         cls.folder = tempfile.TemporaryDirectory()
-        cls.tone = recorded("reach-at-tone", cls.folder.name, 2)
-        cls.curl = recorded("curl-field", cls.folder.name, 1)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
+        cls.addClassCleanup(cls.folder.cleanup)
+        # more reaches than are drawn
+        cls.tone = rehearsed("reach-at-tone", cls.folder.name, 2, [("repeats: 40", "repeats: 24")], keep_recordings=True)
+        cls.curl = rehearsed("curl-field", cls.folder.name, 1, CURL, keep_recordings=True)
 
     def sessions(self, folder):
-        return [session.folder for session in figures.read(folder).recorded]
+        return [sitting.session.folder for sitting in figures.read(folder).recorded]
 
     def test_paths_are_those_of_the_recording(self):
         points = figures.reach_paths(figures.read(self.tone), most=1000)
@@ -146,24 +145,18 @@ class Paths(unittest.TestCase):
         plan = next(iter(paths.plans(data)))
         points = plan.points(data)
         self.assertEqual(points[points.of == "path"].groupby(["session", "trial_num"]).ngroups, 40)
-        self.assertIn("Drawn are 40 of 80", plan.caption)
+        self.assertIn("Drawn are 40 of 48", plan.caption)
         self.assertIn("2 people", plan.caption)
 
     def test_texts(self):
         for folder in (self.tone, self.curl, self.sessions(self.tone)[0]):
-            data = figures.read(folder)
-            for plan in paths.plans(data):
-                with self.subTest(plan.name, folder=folder):
-                    points, figure = plan.make(data)
-                    self.assertEqual(faults(figure), [])
-                    file = Path(self.folder.name, "points.csv")
-                    points.to_csv(file, index=False)
-                    again = plan.drawing(pd.read_csv(file), **plan.options_of_drawing(data))
-                    self.assertEqual(faults(again), [])
+            with self.subTest(folder):
+                self.check(paths, figures.read(folder), kept=True)
 
     def test_many_and_long_names(self):
         long = "a condition whose name is about as long as names can be in an experiment"
-        for count in (1, 2, 12):
+        everything = [(count, size) for count in (1, 2, 12) for size in ("one column", "two columns")]
+        for count, size in soak.of([everything[0], everything[-1]], everything):
             names = [f"{long} {i}" for i in range(count)]
             lines = [(name, i, colour) for name in names for i, colour in enumerate(names[:7])]
             rows = [(name, colour, 0.005 * k, k + i, 2 * k) for name, i, colour in lines for k in range(9)]
@@ -171,11 +164,10 @@ class Paths(unittest.TestCase):
             points = points.assign(of="path", person="p", session="s", trial_num=1, radius_mm=np.nan)
             speed = points.assign(median_m_s=points.up_mm, lower_m_s=points.up_mm - 1, upper_m_s=points.up_mm + 1)
             force = speed.rename(columns=lambda name: name.replace("_m_s", "_N")).assign(force="ideal")
-            for size in ("one column", "two columns"):
-                with self.subTest(count, size=size):
-                    self.assertEqual(faults(figures.draw_reach_paths(points, size=size, mark="simulated")), [])
-                    self.assertEqual(faults(figures.draw_speed_profiles(speed, size=size)), [])
-                    self.assertEqual(faults(figures.draw_channel_forces(force, size=size)), [])
+            with self.subTest(count, size=size):
+                self.assertEqual(faults(figures.draw_reach_paths(points, size=size, mark="simulated")), [])
+                self.assertEqual(faults(figures.draw_speed_profiles(speed, size=size)), [])
+                self.assertEqual(faults(figures.draw_channel_forces(force, size=size)), [])
 
     def damaged(self, name):
         """A copy of a session of the tone, to be damaged."""
@@ -185,14 +177,7 @@ class Paths(unittest.TestCase):
 
     def drawn(self, folder):
         """Names of the figures of a damaged session, all of which can be drawn."""
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            data = figures.read(folder)
-            out = []
-            for plan in paths.plans(data):
-                self.assertEqual(faults(plan.make(data)[1]), [])
-                out.append(plan.name)
-        return out
+        return list(self.check(paths, figures.read(folder), damaged=True))
 
     def test_tables_that_lack_something(self):
         copy = self.damaged("few")
@@ -234,8 +219,8 @@ class Paths(unittest.TestCase):
         self.assertNotIn(trial, points.trial_num.dropna().tolist())
 
     def test_tables_alone_have_no_such_figures(self):
-        out = Path(self.folder.name, "tables")
-        dh.rehearse("experiments/reach-at-tone.yaml", 1, out=out, progress=False)
+        (folder := Path(self.folder.name, "tables")).mkdir()
+        out = rehearsed("reach-at-tone", folder, 1, [("repeats: 40", "repeats: 4")])
         self.assertEqual(list(paths.plans(figures.read(out))), [])
 
 

@@ -1,21 +1,25 @@
 """Figures of psychophysics: their numbers are those of pandas, and they can be read with any number of people and answers."""
 
-import io
+import sys
 import tempfile
 import unittest
 import unittest.mock
 import warnings
 from pathlib import Path
 
-import numpy as np
-import pandas as pd
-from boxes import faults
-from scipy import special, stats
-from small_study import dihaptic
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "test"))
 
-from dihaptic import figures
-from dihaptic.errors import Error, NotThere
-from dihaptic.figures import psychophysics
+import numpy as np  # noqa: E402
+import pandas as pd  # noqa: E402
+import soak  # noqa: E402
+from boxes import faults  # noqa: E402
+from drawn import Drawn, with_tables  # noqa: E402
+from scipy import special, stats  # noqa: E402
+from small_study import dihaptic  # noqa: E402
+
+from dihaptic import figures  # noqa: E402
+from dihaptic.errors import Error, NotThere  # noqa: E402
+from dihaptic.figures import psychophysics  # noqa: E402
 
 STATES = """
   states:
@@ -62,22 +66,14 @@ ANSWERS = f"""{HEAD.replace("size /", "width /")}{STATES}
 """
 
 
-def rehearsed(text, folder, name, people):
-    """A rehearsal of an experiment, with its tables, and reports of its people."""
+def done(text, folder, name, people):
+    """A rehearsal of an experiment that is written here, with its tables."""
     file, out = Path(folder, f"{name}.yaml"), Path(folder, name)
     file.write_text(text)
     dihaptic("rehearse", file, "--people", people, "--out", out)
+    dihaptic("report", out, "--tables")
     dihaptic("collect", out)
     return out
-
-
-def with_tables(path, **tables):
-    """The data of a folder, with other tables in place of its own."""
-    data = figures.read(path)
-    for name, table in tables.items():
-        table.attrs = data.table(name).attrs
-        data.__dict__["_cache"][name] = table
-    return data
 
 
 def interval(values):
@@ -86,36 +82,18 @@ def interval(values):
     return np.mean(values), np.mean(values) - half, np.mean(values) + half
 
 
-class Psychophysics(unittest.TestCase):
+class Psychophysics(Drawn):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
-        cls.many = rehearsed(PROCEDURES, cls.folder.name, "procedures", 4)
+        cls.many = done(PROCEDURES, cls.folder.name, "procedures", 4)
         cls.one = cls.many / "sim-002"
-        dihaptic("report", cls.one)
-        cls.sides = rehearsed(ANSWERS, cls.folder.name, "sides", 3)
+        cls.sides = done(ANSWERS, cls.folder.name, "sides", 3)
 
-    def check(self, data, expected=None, saved=False):
+    def check(self, data, expected=None, kept=False):
         """All figures of these data can be read; returns their plans."""
-        made = {}
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            for plan in psychophysics.plans(data):
-                points, figure = plan.make(data)
-                with self.subTest(plan.name):
-                    self.assertFalse(points.empty)
-                    self.assertEqual(faults(figure), [])
-                    if saved:
-                        # a saved table of points has no types: it must still be one that can be drawn
-                        table = pd.read_csv(io.StringIO(points.to_csv(index=False)))
-                        again = plan.drawing(table, **plan.options_of_drawing(data))
-                        self.assertEqual([a.get_ylim() for a in again.axes], [a.get_ylim() for a in figure.axes])
-                self.assertNotIn(plan.name, made)
-                made[plan.name] = plan
-        if expected is not None:
-            self.assertEqual(list(made), expected)
-        return made
+        return {name: plan for name, (plan, _, _) in super().check(psychophysics, data, expected, kept).items()}
 
     def test_shares_are_those_of_pandas(self):
         points = figures.psychometric_functions(figures.read(self.one), procedures=["constant", "up and down"])
@@ -222,12 +200,12 @@ class Psychophysics(unittest.TestCase):
         np.testing.assert_allclose([row.low, row.high], ends, rtol=1e-12, atol=1e-12)
 
     def test_figures_of_several_people_and_of_one(self):
-        made = self.check(figures.read(self.many), saved=True)
+        made = self.check(figures.read(self.many), kept=True)
         self.assertIn("4 people, 400 answers", made["psychometric-functions"].caption)
-        made = self.check(figures.read(self.one), ["psychometric-functions", "procedure-courses"], saved=True)
+        made = self.check(figures.read(self.one), ["psychometric-functions", "procedure-courses"], kept=True)
         self.assertIn("1 person, 100 answers", made["psychometric-functions"].caption)
         for path in (self.sides, self.sides / "sim-001"):
-            made = self.check(figures.read(path), ["answers-by-width-mm"], saved=True)
+            made = self.check(figures.read(path), ["answers-by-width-mm"], kept=True)
             self.assertEqual(made["answers-by-width-mm"].drawing_options["ylabel"], 'share of "comparison"')
 
     def test_groups_and_long_names(self):
@@ -268,8 +246,9 @@ class Psychophysics(unittest.TestCase):
         unfitted["threshold_95"] = "-"
         made = self.check(with_tables(self.one, thresholds=unfitted), ["psychometric-functions", "procedure-courses"])
         self.assertNotIn("Curves", made["psychometric-functions"].caption)
-        self.check(with_tables(self.one, thresholds=thresholds.assign(threshold_95="-", lapse=np.nan)))
-        self.check(with_tables(self.one, thresholds=thresholds.iloc[:0]))
+        without_intervals, none = thresholds.assign(threshold_95="-", lapse=np.nan), thresholds.iloc[:0]
+        for changed in soak.of([none], [none, without_intervals]):
+            self.check(with_tables(self.one, thresholds=changed))
         self.check(with_tables(self.one, trials=trials.groupby("procedure").head(1)))
         for table in (trials.iloc[:0], trials.assign(procedure=np.nan), trials.assign(outcome=np.nan)):
             data = with_tables(self.one, trials=table)

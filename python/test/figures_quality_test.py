@@ -1,28 +1,37 @@
 """Figures of how sessions went: their numbers are those of pandas, and their texts can be read, whatever is missing."""
 
 import re
+import sys
 import tempfile
 import unittest
-import warnings
 from pathlib import Path
 
-import numpy as np
-import pandas as pd
-from boxes import faults
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "test"))
 
-import dihaptic as dh
-from dihaptic import figures
-from dihaptic.errors import Error
-from dihaptic.figures import quality
+import numpy as np  # noqa: E402
+import pandas as pd  # noqa: E402
+import soak  # noqa: E402
+from boxes import faults  # noqa: E402
+from drawn import Drawn, drawn_again, rehearsed  # noqa: E402
+
+from dihaptic import figures  # noqa: E402
+from dihaptic.errors import Error  # noqa: E402
+from dihaptic.figures import quality  # noqa: E402
 
 TIGHT = {"rtol": 0, "atol": 1e-12}
+#: All figures of how sessions went.
+NAMES = ["outcomes", "timing-and-force"]
 
 
 class Few:
     """Data of tables alone, as the functions of points ask for them."""
 
     def __init__(self, trials, sessions=(), blocks=()):
-        self.trials, self.sessions, self.blocks, self.mark = trials, list(sessions), list(blocks), "simulated"
+        self.trials, self.sittings, self.blocks, self.mark = trials, list(sessions), list(blocks), "simulated"
+
+    @property
+    def sessions(self):
+        return self.sittings
 
     def table(self, name):
         assert name == "trials"
@@ -41,6 +50,7 @@ class Sitting:
 
     def __init__(self, person, info, events=None):
         self.folder, self.tables, self._events = Path(person), ["trials"] if events is None else ["events", "trials"], events
+        self.person, self.session = person, self
         self.info = {"participant": {"id": person}, **info}
 
     def table(self, name):
@@ -70,24 +80,13 @@ def attempts(people=3, blocks=("one", "two"), trials=6, outcomes=("hit", "missed
     return pd.DataFrame(rows, columns=columns)
 
 
-def figures_of(data):
-    """Each figure that is planned for these data; says what is wrong with it."""
-    for plan in quality.plans(data):
-        points, figure = plan.make(data)
-        yield plan, points, figure, faults(figure)
-
-
-class Rehearsed(unittest.TestCase):
+class Rehearsed(Drawn):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(cls.folder.cleanup)
-        cls.people = Path(cls.folder.name, "fragile-object")
-        text = Path("experiments/fragile-object.yaml").read_text(encoding="utf-8").replace("../", f"{Path.cwd()}/")
-        assert text.count("repeats: 10") == 1
-        file = Path(cls.folder.name, "fragile-object.yaml")
-        file.write_text(text.replace("repeats: 10", "repeats: 2"), encoding="utf-8")
-        dh.rehearse(str(file), 2, out=cls.people, progress=False)
+        fewer = [("repeats: 5", "repeats: 1"), ("repeats: 10", "repeats: 2")]
+        cls.people = rehearsed("fragile-object", cls.folder.name, 2, fewer)
 
     def test_numbers_are_those_of_pandas(self):
         points = figures.trial_outcomes(figures.read(self.people))
@@ -129,33 +128,19 @@ class Rehearsed(unittest.TestCase):
 
     def test_can_be_read_of_several_and_of_one(self):
         for path in (self.people, self.people / "sim-001"):
-            found = []
             data = figures.read(path)
-            for plan, points, _, wrong in figures_of(data):
-                with self.subTest(f"{path.name}: {plan.name}"):
-                    self.assertFalse(points.empty)
-                    self.assertEqual(wrong, [])
-                    # points that were kept in a file give the same figure
-                    points.to_csv(file := Path(self.folder.name, "points.csv"), index=False)
-                    same = plan.drawing(pd.read_csv(file, float_precision="round_trip"), **plan.options_of_drawing(data))
-                    drawn = [figures.save(f, file.with_suffix(".svg"))[0].read_bytes() for f in (plan.make(data)[1], same)]
-                    # names of clipping paths differ with the last digit of the layout
-                    self.assertEqual(*(re.sub(rb"\bp[0-9a-f]{10}\b", b"", svg) for svg in drawn))
-                found.append(plan.name)
-            self.assertEqual(found, ["outcomes", "timing-and-force"])
+            for plan, points, _ in self.check(quality, data, NAMES).values():
+                # points that were kept in a file give the same figure, to the last sign
+                files = [Path(self.folder.name, f"{which}.svg") for which in ("made", "kept")]
+                for file, drawn in zip(files, (plan.make(data)[1], drawn_again(plan, points, data))):
+                    figures.save(drawn, file)
+                # names of clipping paths differ with the last digit of the layout
+                self.assertEqual(*(re.sub(rb"\bp[0-9a-f]{10}\b", b"", file.read_bytes()) for file in files), plan.name)
 
 
-class Made(unittest.TestCase):
-    def check(self, data, names=("outcomes", "timing-and-force")):
-        """Draws all figures, without a warning; returns their plans."""
-        with warnings.catch_warnings():
-            warnings.simplefilter("error")
-            found = list(figures_of(data))
-        self.assertEqual([plan.name for plan, *_ in found], list(names))
-        for plan, _, _, wrong in found:
-            with self.subTest(plan.name):
-                self.assertEqual(wrong, [])
-        return [plan for plan, *_ in found]
+class Made(Drawn):
+    def check(self, data, names=NAMES):
+        return [plan for plan, _, _ in super().check(quality, data, list(names)).values()]
 
     def sessions(self, people, **info):
         told = {
@@ -177,17 +162,17 @@ class Made(unittest.TestCase):
     def test_many_of_all(self):
         """People, blocks with long names, outcomes and reasons beyond what has a row of its own: each caption says so."""
         blocks = [f"block {i} with quite a long name, in which much happens" for i in range(20)]
-        trials = attempts(25, blocks, 4, [f"an outcome that is called {i}" for i in range(11)])
+        trials = attempts(12, blocks, 4, [f"an outcome that is called {i}" for i in range(11)])
         words = np.array(["slow", "lost", "late", "off", "short", "long", "high", "low", "near", "far"])
         trials["not_measured"] = "movement_time: it was too " + pd.Series(words[np.arange(len(trials)) % 10])
         trials.loc[::4, "not_measured"] = np.nan
-        data = Few(trials, self.sessions(25))
+        data = Few(trials, self.sessions(12))
         outcomes, timing = self.check(data)
         self.assertIn("Of 20 blocks, the last 6 are one bar", outcomes.caption)
         self.assertIn("The 5 rarest of 11 outcomes have one colour", outcomes.caption)
         self.assertIn("The 6 most frequent of 10 reasons have bars of their own", outcomes.caption)
         self.assertIn("The first 14 of 20 blocks are shown", timing.caption)
-        self.assertIn("The 8 of 25 people with most of these have rows of their own", timing.caption)
+        self.assertIn("The 8 of 12 people with most of these have rows of their own", timing.caption)
 
     def test_one_column(self):
         data = Few(attempts(), self.sessions(3))
@@ -215,7 +200,7 @@ class Made(unittest.TestCase):
 
     def test_what_is_missing(self):
         whole = attempts()
-        for name, trials in {
+        cases = {
             "no times": whole.assign(start_time=np.nan),
             "no forces": whole.assign(peak_force_N=np.nan),
             "forces of zero": whole.assign(peak_force_N=0.0),
@@ -225,9 +210,10 @@ class Made(unittest.TestCase):
             "a single trial": whole[:1],
             "reasons that nobody has written so": whole.assign(not_measured="?"),
             "nothing measured": whole.assign(not_measured="speed: no movement"),
-        }.items():
+        }
+        for name in soak.of(list(cases)[::2], cases):
             with self.subTest(name):
-                self.check(Few(trials, self.sessions(trials["person"].nunique())))
+                self.check(Few(cases[name], self.sessions(cases[name]["person"].nunique())))
         with self.subTest("nothing known of sessions"):
             self.check(Few(whole, [Sitting("p0", {}), Sitting("p1", {"convergence": None, "finished": None, "devices": None})]))
         with self.subTest("no rows"):

@@ -1,9 +1,12 @@
 """The scripts of mixed models find an effect that was planted, in Python and in R alike, and need nothing of the package."""
 
+import contextlib
 import functools
 import importlib.util
+import io
 import os
 import re
+import runpy
 import shutil
 import subprocess
 import sys
@@ -50,7 +53,7 @@ def simulated(seed, people=20, trials=10):
 def as_trials(table, **columns):
     """The columns that trials.csv of a rehearsal has, in their order."""
     fixed = {
-        "seed": 1, "group": table["group"], "id": table["id"], "trial_num": table["trial_num"], "block": "lifts",
+        "group": table["group"], "id": table["id"], "trial_num": table["trial_num"], "block": "lifts",
         "kind": "baseline", "round": "", "condition": "", "perturbation": "", "mass_g": table["mass_g"],
         "surface": table["surface"], "attempt": 1, "outcome": "lifted", "grip_N": table["grip_N"], "not_measured": "",
         "simulated": "yes", "moved_by": "simulated_person",
@@ -58,25 +61,19 @@ def as_trials(table, **columns):
     return pd.DataFrame({**fixed, **columns}, index=table.index)
 
 
-def rehearsal(folder, tables, task=TASK):
-    """A folder that is read as a rehearsal with these joined tables."""
-    people = list(dict.fromkeys(tables["trials"]["id"]))
-    for person in people:
+def sessions(folder, tables, task=TASK):
+    """A folder with a session of each person, which has that person's rows of these tables."""
+    for person, rows in tables["trials"].groupby("id"):
         own = Path(folder, person)
         own.mkdir(parents=True)
-        (own / "session.yaml").write_text(f'title: Grip\nstate: complete\nparticipant: {{ id: "{person}" }}\n...\n')
+        group = rows["group"].iloc[0] if "group" in rows else ""
+        of_study = f"in_study: {{ group: {group} }}\n" if group else ""
+        about = f'title: Grip\nstate: complete\nparticipant: {{ id: "{person}" }}\n{of_study}'
+        (own / "session.yaml").write_text(f"{about}moved_by: {{ mover: script }}\n...\n")
         (own / "task.yaml").write_text(task)
-    Path(folder, "rehearsal.yaml").write_text(f"seed: 1\nasked: {{ people: {len(people)} }}\n")
-    for name, table in tables.items():
-        table.to_csv(Path(folder, f"{name}.csv"), index=False)
+        for name, table in tables.items():
+            table[table["id"] == person].drop(columns=["id", "group"]).to_csv(own / f"{name}.csv", index=False)
     return Path(folder)
-
-
-def read(folder, people=None):
-    """These data; the sessions, which are no real ones, lack seals and more, and reading says so."""
-    with warnings.catch_warnings():
-        warnings.simplefilter("ignore")
-        return figures.read(folder, people)
 
 
 def needs_statsmodels():
@@ -88,17 +85,33 @@ def needs_statsmodels():
 def has_lme4():
     if shutil.which("Rscript") is None:
         return False
-    return subprocess.run(["Rscript", "-e", "library(lme4)"], capture_output=True).returncode == 0
+    # where it is: to load it takes more than a second
+    there = subprocess.run(["Rscript", "-e", 'cat(system.file(package = "lme4"))'], capture_output=True, text=True)
+    return bool(there.stdout)
 
 
-def fitted(command):
-    """What a script prints: each measure's numbers, standard deviations, and [estimate, low, high] of its contrasts."""
+def run_alone(*command):
+    """What a script prints that knows nothing of the package."""
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     done = subprocess.run(command, capture_output=True, text=True, cwd="/", env=environment)
     if done.returncode != 0:
         raise AssertionError(done.stdout + done.stderr)
+    return done.stdout
+
+
+def run_here(script):
+    """What a script of Python prints, run by this one: statsmodels is imported once."""
+    printed = io.StringIO()
+    with contextlib.chdir("/"), contextlib.redirect_stdout(printed), warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # run alone, it warns on standard error
+        runpy.run_path(str(script), run_name="__main__")
+    return printed.getvalue()
+
+
+def fitted(printed):
+    """What a script has printed: each measure's numbers, standard deviations, and [estimate, low, high] of its contrasts."""
     out, measure = {}, ""
-    for line in done.stdout.splitlines():
+    for line in printed.splitlines():
         if head := re.match(r"(\S+): (\d+) people, (\d+) trials", line):
             measure = head[1]
             out[measure, "n"] = [int(head[2]), int(head[3])]
@@ -109,27 +122,28 @@ def fitted(command):
     return out
 
 
-def in_python(folder):
-    return fitted([sys.executable, folder / "analysis.py"])
-
-
 class Statistics(unittest.TestCase):
     def setUp(self):
+        # the sessions, which are no real ones, lack seals and more, and reading says so
+        warnings.filterwarnings("ignore", ".*session.yaml: warning: has (lost keys|no seals)")
         self.temporary = tempfile.TemporaryDirectory()
         self.addCleanup(self.temporary.cleanup)
         # a space and a letter that is not ASCII in the way to the tables
         self.folder = Path(self.temporary.name, "Renée Müller", "grip")
 
-    def check_both(self, folder):
-        """Runs both scripts, and compares what they print; returns it."""
+    def check_both(self, folder, *, alone=False, in_r=True):
+        """Runs both scripts, and compares what they print; returns it. The one of Python may have a process of its own."""
         needs_statsmodels()
-        python = in_python(folder)
+        script = folder / "analysis.py"
+        python = fitted(run_alone(sys.executable, script) if alone else run_here(script))
+        if not in_r:
+            return python
         if not has_lme4():
             needs.skip("lme4 is not installed; it is in the Debian package r-cran-lme4")
-        in_r = fitted(["Rscript", folder / "analysis.R"])
-        self.assertEqual(list(python), list(in_r))
+        found = fitted(run_alone("Rscript", folder / "analysis.R"))
+        self.assertEqual(list(python), list(found))
         for name, numbers in python.items():
-            np.testing.assert_allclose(numbers, in_r[name], rtol=1e-3, atol=1e-3 * max(map(abs, numbers)), err_msg=str(name))
+            np.testing.assert_allclose(numbers, found[name], rtol=1e-3, atol=1e-3 * max(map(abs, numbers)), err_msg=str(name))
         return python
 
     def planted(self):
@@ -142,10 +156,10 @@ class Statistics(unittest.TestCase):
         return pd.concat([practice, wrong, trials]).sort_values(["id", "trial_num", "attempt"], kind="stable")
 
     def test_finds_what_was_planted(self):
-        rehearsal(self.folder, {"trials": self.planted()})
-        written = figures.write_analyses(read(self.folder), self.folder / "figures")
-        self.assertEqual([path.name for path in written], ["analysis.py", "analysis.R"])
-        found = self.check_both(self.folder / "figures")
+        sessions(self.folder, {"trials": self.planted()})
+        written = figures.write_analyses(figures.read(self.folder), self.folder / "figures")
+        self.assertEqual([path.name for path in written], ["analysis.py", "analysis.R", "analysis-trials.csv"])
+        found = self.check_both(self.folder / "figures", alone=True)
         self.assertEqual(found["grip_N", "n"], [20, 600])
         names = {"grip_N", "Intercept", "surface: it's silk - sandpaper", "mass_g, for each g"}
         self.assertEqual({name for _, name in found} - {"n", "sd"}, names - {"grip_N"})
@@ -163,13 +177,13 @@ class Statistics(unittest.TestCase):
 
     def test_lifts_and_missing_values(self):
         trials = self.planted().rename(columns={"grip_N": "reaction_s"})
-        lifts = trials[["seed", "group", "id", "trial_num", "attempt"]].copy()
+        lifts = trials[["group", "id", "trial_num", "attempt"]].copy()
         lifts["static_grip_N"] = trials["reaction_s"] * 2
         lifts["safety_margin"] = np.nan
         lifts.loc[lifts["trial_num"] == 3, "static_grip_N"] = np.nan
         trials.loc[trials["surface"] == "sandpaper", "reaction_s"] = np.nan
-        rehearsal(self.folder, {"trials": trials, "lifts": lifts})
-        figures.write_analyses(read(self.folder), self.folder / "figures")
+        sessions(self.folder, {"trials": trials, "lifts": lifts})
+        figures.write_analyses(figures.read(self.folder), self.folder / "figures")
         found = self.check_both(self.folder / "figures")
         self.assertEqual({measure for measure, _ in found}, {"reaction_s", "static_grip_N"})
         self.assertEqual(found["static_grip_N", "n"], [20, 580])
@@ -187,17 +201,17 @@ class Statistics(unittest.TestCase):
                 value = 0.0 if number < 10 else 20 + 5 * (person % 2)
                 value = np.nan if number == 37 else value + own + random.normal(0, 2)
                 kind = "catch" if number == 38 else kind
-                rows.append((1, group, f"{person:02}", "", number + 1, block, kind, "deg", value))
-        columns = ["seed", "group", "id", "round", "trial_num", "block", "kind", "unit", "compensation"]
+                rows.append((group, f"{person:02}", "", number + 1, block, kind, "deg", value))
+        columns = ["group", "id", "round", "trial_num", "block", "kind", "unit", "compensation"]
         adaptation = pd.DataFrame(rows, columns=columns)
         perturbed = adaptation[(adaptation["kind"] == "perturbed")].dropna(subset=["compensation"])
-        late = perturbed.groupby(["seed", "group", "id"])["compensation"]
+        late = perturbed.groupby(["group", "id"])["compensation"]
         late = late.apply(lambda own: own[-8:].mean()).reset_index(name="late")
         fits = late.assign(round="", measure="angle", unit="deg")
         trials = as_trials(simulated(1, 12), group=np.repeat(["given", "withheld"] * 6, 30))
         trials = trials.drop(columns=["mass_g", "surface", "grip_N"])
-        rehearsal(self.folder, {"trials": trials, "adaptation": adaptation, "fits": fits}, "blocks: []\n")
-        figures.write_analyses(read(self.folder), self.folder / "figures")
+        sessions(self.folder, {"trials": trials, "adaptation": adaptation, "fits": fits}, "blocks: []\n")
+        figures.write_analyses(figures.read(self.folder), self.folder / "figures")
         found = self.check_both(self.folder / "figures")
         self.assertEqual(found["compensation", "n"], [12, 96])
         # as many trials of each person: the estimates are means over people
@@ -206,26 +220,13 @@ class Statistics(unittest.TestCase):
         difference = found["compensation", "group: withheld - given"]
         np.testing.assert_allclose(difference[0], means["withheld"] - means["given"], rtol=1e-4)
 
-    def test_sessions_that_are_not_joined(self):
-        table = as_trials(simulated(2, 5)).drop(columns=["seed", "group"])
-        for person, own in table.groupby("id"):
-            folder = self.folder / f"session-{person}"
-            folder.mkdir(parents=True)
-            (folder / "session.yaml").write_text(f'title: Grip\nstate: complete\nparticipant: {{ id: "{person}" }}\n...\n')
-            (folder / "task.yaml").write_text(TASK)
-            own.drop(columns="id").to_csv(folder / "trials.csv", index=False)
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # as in read()
-            written = figures.write_analyses(read(self.folder), self.folder / "figures")
-        self.assertEqual([path.name for path in written], ["analysis.py", "analysis.R", "analysis-trials.csv"])
-        self.assertEqual(self.check_both(self.folder / "figures")["grip_N", "n"], [5, 150])
-
     def test_of_some_people(self):
         needs_statsmodels()
-        rehearsal(self.folder, {"trials": self.planted()})
-        some = read(self.folder, people=["03", "04", "05"])
+        sessions(self.folder, {"trials": self.planted()})
+        some = figures.read(self.folder, people=["03", "04", "05"])
         figures.write_analyses(some, self.folder / "figures")
-        self.assertEqual(self.check_both(self.folder / "figures")["grip_N", "n"], [3, 90])
+        found = self.check_both(self.folder / "figures", in_r=soak.EVERYTHING)
+        self.assertEqual(found["grip_N", "n"], [3, 90])
 
     def test_nothing_for_one_person_nor_without_factors(self):
         one = as_trials(simulated(1, 1))
@@ -233,12 +234,12 @@ class Statistics(unittest.TestCase):
         empty = as_trials(simulated(1, 3), grip_N=np.nan)
         for name, trials in (("one", one), ("none", none), ("empty", empty)):
             with self.subTest(name):
-                folder = rehearsal(self.folder / name, {"trials": trials})
-                self.assertEqual(figures.write_analyses(read(folder), folder / "figures"), [])
+                folder = sessions(self.folder / name, {"trials": trials})
+                self.assertEqual(figures.write_analyses(figures.read(folder), folder / "figures"), [])
                 self.assertFalse((folder / "figures").exists())
 
     def test_a_script_that_was_changed_stays(self):
-        data = read(rehearsal(self.folder, {"trials": self.planted()}))
+        data = figures.read(sessions(self.folder, {"trials": self.planted()}))
         script = figures.write_analyses(data, self.folder / "figures")[0]
         before = script.read_bytes()
         figures.write_analyses(data, self.folder / "figures")
@@ -249,7 +250,7 @@ class Statistics(unittest.TestCase):
         self.assertEqual(script.read_text(), "# my own\n")
 
     def test_can_be_read(self):
-        figures.write_analyses(read(rehearsal(self.folder, {"trials": self.planted()})), self.folder / "figures")
+        figures.write_analyses(figures.read(sessions(self.folder, {"trials": self.planted()})), self.folder / "figures")
         for name in ("analysis.py", "analysis.R"):
             text = (self.folder / "figures" / name).read_text()
             lines = text.splitlines()
@@ -267,11 +268,12 @@ class Coverage(unittest.TestCase):
         needs_statsmodels()
         inside, runs = {"surface: it's silk - sandpaper": 0, "mass_g, for each g": 0}, 60
         with tempfile.TemporaryDirectory() as temporary:
-            folder = rehearsal(Path(temporary, "grip"), {"trials": as_trials(simulated(0))})
-            figures.write_analyses(read(folder), folder / "figures")
+            folder = sessions(Path(temporary, "grip"), {"trials": as_trials(simulated(0))})
+            figures.write_analyses(figures.read(folder), folder / "figures")
             for seed in range(100, 100 + runs):
-                as_trials(simulated(seed)).to_csv(folder / "trials.csv", index=False)
-                found = in_python(folder / "figures")
+                table = as_trials(simulated(seed)).rename(columns={"id": "person"}).assign(session="")
+                table.to_csv(folder / "figures" / "analysis-trials.csv", index=False)
+                found = fitted(run_here(folder / "figures" / "analysis.py"))
                 for name, true in zip(inside, (STEP, SLOPE)):
                     _, low, high = found["grip_N", name]
                     inside[name] += low <= true <= high

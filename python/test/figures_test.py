@@ -1,76 +1,97 @@
 """Figures for papers: every figure of every shipped experiment can be read, and is drawn again by its script."""
 
+import contextlib
+import io
+import runpy
+import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "test"))
 
 import pandas as pd  # noqa: E402
 import soak  # noqa: E402
-from boxes import faults  # noqa: E402
+from drawn import Drawn, rehearsed  # noqa: E402
 
 import dihaptic as dh  # noqa: E402
 from dihaptic import figures  # noqa: E402
-from dihaptic.figures.drawing import plans  # noqa: E402
+from dihaptic.figures import drawing, quality, saving  # noqa: E402
+
+#: Fewer lifts of grip-and-lift.
+GRIP = [("suede], repeats: 4", "suede], repeats: 1"), ("perturbed, repeats: 4", "perturbed, repeats: 1")]
+#: The experiment of which `./dev test` draws all figures, with fewer trials: its conditions have long names.
+SAMPLE = {"bimanual-bar": [("repeats: 4", "repeats: 1")]}
 
 
-def rehearsed(name, folder, people=2):
-    """A rehearsal of a shipped experiment by few people, with its tables."""
-    out = Path(folder, name)
-    dh.rehearse(f"experiments/{name}.yaml", people, out=out, progress=False)
-    return out
+def few(formats=("svg",), kinds=(quality,)):
+    """While this lasts, figures of these kinds alone are drawn, in these formats: others would tell no more, and take time."""
+    stack = contextlib.ExitStack()
+    stack.enter_context(unittest.mock.patch.object(saving, "FORMATS", formats))
+    stack.enter_context(unittest.mock.patch.object(drawing, "KINDS", kinds))
+    return stack
 
 
 class Figures(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
-        cls.grip = rehearsed("grip-and-lift", cls.folder.name)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
+        cls.addClassCleanup(cls.folder.cleanup)
+        cls.grip = rehearsed("grip-and-lift", cls.folder.name, 2, GRIP)
+        cls.done = subprocess.run([sys.executable, "-m", "dihaptic.figures", cls.grip], capture_output=True, text=True)
 
     def test_means_are_those_of_pandas(self):
-        points = figures.means_by_condition(
-            figures.read(self.grip), measures=["peak_grip_N"], x="mass_g", colour="surface", table="lifts"
-        )
         lifts = pd.read_csv(self.grip / "lifts.csv")
         trials = pd.read_csv(self.grip / "trials.csv").merge(lifts, on=["seed", "id", "trial_num", "attempt"])
         trials = trials[~trials.kind.isin(["practice", "catch"])].drop_duplicates(["id", "trial_num"], keep="last")
-        each = trials.groupby(["mass_g", "surface", "id"]).peak_grip_N_y.mean() if "peak_grip_N_y" in trials else None
-        people = points[points.of == "person"].set_index(["mass_g", "surface", "person"]).value
-        pd.testing.assert_series_equal(people.sort_index(), each.sort_index(), check_names=False, rtol=1e-12)
-        over = each.groupby(level=[0, 1]).mean()
-        mean = points[points.of == "mean"].set_index(["mass_g", "surface"]).value
-        pd.testing.assert_series_equal(mean.sort_index(), over.sort_index(), check_names=False, rtol=1e-12)
+        column = "peak_grip_N_y" if "peak_grip_N_y" in trials else "peak_grip_N"
+        for keys, options in ((["mass_g"], {}), (["mass_g", "surface"], {"colour": "surface"})):
+            points = figures.means_by_condition(
+                figures.read(self.grip), measures=["peak_grip_N"], x="mass_g", table="lifts", **options
+            )
+            each = trials.groupby([*keys, "id"])[column].mean()
+            people = points[points.of == "person"].set_index([*keys, "person"]).value
+            pd.testing.assert_series_equal(people.sort_index(), each.sort_index(), check_names=False, rtol=1e-12)
+            over = each.groupby(level=list(range(len(keys)))).mean()
+            mean = points[points.of == "mean"].set_index(keys).value
+            pd.testing.assert_series_equal(mean.sort_index(), over.sort_index(), check_names=False, rtol=1e-12)
 
     def test_a_script_draws_the_same_figure(self):
-        for script in figures.draw(self.grip):
+        scripts = sorted((self.grip / "figures").glob("*.py"))
+        scripts = [script for script in scripts if script.name != "analysis.py"]
+        self.assertGreater(len(scripts), 4)
+        for script in scripts:
             with self.subTest(script.name):
+                self.assertLessEqual(10, len(script.read_text().splitlines()), script)
+                self.assertLessEqual(len(script.read_text().splitlines()), 40, script)
                 before = {kind: script.with_suffix(kind).read_bytes() for kind in (".svg", ".csv")}
                 for kind in before:
                     script.with_suffix(kind).unlink()
-                done = subprocess.run([sys.executable, script], capture_output=True, text=True, cwd="/")
-                self.assertEqual(done.returncode, 0, done.stderr)
+                if script == scripts[0]:  # as it is meant to be run
+                    done = subprocess.run([sys.executable, script], capture_output=True, text=True, cwd="/")
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                else:
+                    with few(), contextlib.chdir("/"):
+                        runpy.run_path(str(script))
                 for kind, content in before.items():
                     self.assertEqual(script.with_suffix(kind).read_bytes(), content, kind)
-                self.assertLessEqual(10, len(script.read_text().splitlines()), script)
-                self.assertLessEqual(len(script.read_text().splitlines()), 40, script)
 
     def test_a_script_that_was_changed_is_kept(self):
-        script = figures.draw(self.grip)[0]
-        script.write_text("size = 3\n")
-        script.with_suffix(".svg").unlink()
-        with self.assertWarnsRegex(UserWarning, "has been changed, so its figure is left as it is"):
-            figures.draw(self.grip)
-        self.assertEqual(script.read_text(), "size = 3\n")
-        self.assertFalse(script.with_suffix(".svg").exists())
-        script.unlink()
-        figures.draw(self.grip)
+        folder = Path(self.folder.name, "changed")
+        shutil.copytree(self.grip, folder, ignore=shutil.ignore_patterns("figures"))
+        with few():
+            script = figures.draw(folder)[0]
+            script.write_text("size = 3\n")
+            script.with_suffix(".svg").unlink()
+            with self.assertWarnsRegex(UserWarning, "has been changed, so its figure is left as it is"):
+                figures.draw(folder)
+            self.assertEqual(script.read_text(), "size = 3\n")
+            self.assertFalse(script.with_suffix(".svg").exists())
+            script.unlink()
+            figures.draw(folder)
         self.assertTrue(script.with_suffix(".svg").exists())
         self.assertIn(f"{script.stem}: ", (script.parent / "captions.txt").read_text())
 
@@ -99,17 +120,24 @@ class Figures(unittest.TestCase):
                 call()
 
     def test_the_command(self):
-        done = subprocess.run(
-            [sys.executable, "-m", "dihaptic.figures", self.grip, Path(self.folder.name, "out")], capture_output=True, text=True
-        )
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertTrue(list(Path(self.folder.name, "out").glob("*.pdf")))
+        self.assertEqual(self.done.returncode, 0, self.done.stderr)
+        data = figures.read(self.grip)
+        names = {plan.name for kind in drawing.KINDS for plan in kind.plans(data)}
+        for kind in ("svg", "pdf", "png", "csv", "py"):
+            self.assertLessEqual(names, {file.stem for file in (self.grip / "figures").glob(f"*.{kind}")}, kind)
+            self.assertTrue(all(file.stat().st_size > 0 for file in (self.grip / "figures").glob(f"*.{kind}")), kind)
+        out = Path(self.folder.name, "out")
         for words, code, said in [
             ([], 2, "Usage"), (["--help"], 0, "Example"), (["no-such-folder"], 1, "contains no completed sessions"),
+            ([str(self.grip), str(out)], 0, "outcomes"),
         ]:  # fmt: skip
-            done = subprocess.run([sys.executable, "-m", "dihaptic.figures", *words], capture_output=True, text=True)
-            self.assertEqual(done.returncode, code, done.stderr)
-            self.assertIn(said, done.stdout + done.stderr)
+            told, argv = io.StringIO(), unittest.mock.patch.object(sys, "argv", ["", *words])
+            with few(("pdf",)), argv, unittest.mock.patch("warnings.formatwarning"), self.assertRaises(SystemExit) as ended:
+                with contextlib.redirect_stdout(told), contextlib.redirect_stderr(told):
+                    runpy.run_module("dihaptic.figures", run_name="__main__")
+            self.assertEqual(ended.exception.code, code, words)
+            self.assertIn(said, told.getvalue())
+        self.assertTrue(list(out.glob("*.pdf")))
 
 
 def shipped():
@@ -117,27 +145,24 @@ def shipped():
     return sorted(path.stem for path in Path("experiments").glob("*.yaml") if "\ntask:" in path.read_text())
 
 
-class Shipped(unittest.TestCase):
+class Shipped(Drawn):
     """Every figure of an experiment, of two people and of one: it has points, and its texts can be read."""
 
 
 def check(name):
     def test(self):
         with tempfile.TemporaryDirectory() as folder:
-            people = rehearsed(name, folder)
+            people = rehearsed(name, folder, 2, soak.of(SAMPLE.get(name), ()))
             for path in (people, people / "sim-001"):
-                data = figures.read(path)
-                for plan in plans(data):
-                    with self.subTest(f"{path.name}: {plan.name}"):
-                        points, figure = plan.make(data)
-                        self.assertFalse(points.empty)
-                        self.assertEqual(faults(figure), [])
+                with self.subTest(path.name):
+                    data = figures.read(path)
+                    names = [name for kind in drawing.KINDS for name in self.check(kind, data)]
+                    self.assertEqual(len(names), len(set(names)), names)
 
     return test
 
 
-# conditions with long names; answers
-for _name in soak.of(["bimanual-bar", "delayed-stiffness"], shipped()):
+for _name in soak.of(SAMPLE, shipped()):
     setattr(Shipped, "test_" + _name.replace("-", "_"), check(_name))
 
 

@@ -401,11 +401,6 @@ Table block_table(const std::vector<AdaptationCurve>& curves) {
     return table;
 }
 
-std::string y_label(const AdaptationCurve& curve) {
-    if (curve.errors) return "compensation, from " + curve.measure + " [" + curve.unit + "]";
-    return (curve.in_channels() ? curve.measure : "compensation") + " [" + curve.unit + "]";
-}
-
 std::vector<AdaptationCurve> adaptation_curves(const TrialFile& trials,
                                                const Unmeasured& unmeasured) {
     std::vector<AdaptationCurve> curves;

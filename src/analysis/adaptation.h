@@ -109,9 +109,6 @@ bool has_adaptation_index(const rows::TrialFile& trials);
 /// Table with a row for each of blocks().
 Table block_table(const std::vector<AdaptationCurve>& curves);
 
-/// E.g. "adaptation_index [%]"; "compensation [deg]" if measured by the hand's position.
-std::string y_label(const AdaptationCurve& curve);
-
 /// The curves by round, in the order of the rounds. Empty if no reach was measured.
 std::vector<AdaptationCurve> adaptation_curves(const rows::TrialFile& trials,
                                                const Unmeasured& unmeasured = {});

@@ -17,22 +17,6 @@
 
 namespace dihaptic {
 
-Table transposed(const Table& table) {
-    Table out;
-    if (table.columns.empty()) return out;
-    out.columns.push_back({table.columns[0].name, ""});
-    for (const auto& row : table.rows) {
-        const auto* name = std::get_if<std::string>(&row[0]);
-        out.columns.push_back({name != nullptr ? *name : to_csv(row[0]), ""});
-    }
-    for (size_t c = 1; c < table.columns.size(); ++c) {
-        std::vector<Table::Cell>& row = out.rows.emplace_back();
-        row.emplace_back(table.columns[c].name);
-        for (const auto& from : table.rows) row.push_back(from.at(c));
-    }
-    return out;
-}
-
 std::string to_csv(const Table::Cell& cell) {
     if (const double* number = std::get_if<double>(&cell))
         return std::isnan(*number) ? "" : number_text(*number, 9);

@@ -29,9 +29,6 @@ struct Table {
     std::vector<std::vector<Cell>> rows;
 };
 
-/// Swaps rows and columns: the first column becomes the header. Descriptions are lost.
-Table transposed(const Table& table);
-
 /// One cell as CSV: text is quoted where RFC 4180 needs it.
 std::string to_csv(const Table::Cell& cell);
 std::string to_csv(const Table& table);

@@ -39,9 +39,4 @@ constexpr bool is_clamp(TrialKind kind) {
     return kind == TrialKind::visual_clamp || kind == TrialKind::force_channel;
 }
 
-/// Whether trials of this kind are left out of a condition's means.
-constexpr bool is_aside(TrialKind kind) {
-    return kind == TrialKind::practice || kind == TrialKind::catch_trial;
-}
-
 }  // namespace dihaptic::rows

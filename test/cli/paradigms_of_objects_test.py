@@ -83,7 +83,7 @@ class Paradigms(unittest.TestCase):
         person = Person(f"{out}/sim-001")
         self.assertLessEqual({row["outcome"] for row in person.trials}, set(outcomes))
         subprocess.run([PROGRAM, "report", str(person.folder)], check=True, capture_output=True)
-        self.assertIn("<h2>Trials</h2>", (person.folder / "report.html").read_text())
+        self.assertIn(">Quality of the data</h2>", (person.folder / "report.html").read_text())
         return person
 
     def assert_drawn_equally(self, trials, *columns):

@@ -34,7 +34,7 @@ class Rehearsal:
         self.test = test
         self.run("rehearse", str(file), "--people", str(people), "--out", self.out, "--keep-recordings")
         self.run("replay", self.out + "/sim-001")
-        self.run("report", self.out)
+        self.run("report", self.out, "--tables")
         self.run("report", self.out + "/sim-001")
         self.page = pathlib.Path(self.out, "sim-001", "report.html").read_text()
         self.people = [self.table(f"sim-{i + 1:03}/trials.csv") for i in range(people)]
@@ -83,7 +83,7 @@ class Paradigms(unittest.TestCase):
             waits = numbers(rows, "foreperiod_s")
             self.assertEqual(len(set(waits)), len(waits))
             self.assertTrue(all(1 <= t <= 3 for t in waits))
-        self.assertIn("grip_latency_s by rise_ms", done.page)
+        self.assertIn('data-name="measures-by-rise-ms', done.page)
 
     def test_size_weight(self):
         done = Rehearsal(self, "size-weight", repeats=("20", "10"))
@@ -133,7 +133,7 @@ class Paradigms(unittest.TestCase):
                      for block in ("field", "washout")]
             self.assertLess(max(first[0][:4]), 0, first[0][:4])
             self.assertGreater(first[1][0], 0, first[1][:4])
-        self.assertIn("adaptation_index", done.page)
+        self.assertIn("adaptation index", done.page)
 
     def test_unexpected_weight(self):
         done = Rehearsal(self, "unexpected-weight", repeats=("18", "12"), count=("3", "2"))
@@ -180,7 +180,7 @@ class Paradigms(unittest.TestCase):
     def test_fitts_law(self):
         done = Rehearsal(self, "fitts-law")
         self.assertEqual(done.warnings, [])
-        self.assertIn("movement_time_s by distance_mm", done.page)
+        self.assertIn('data-name="measures-by-distance-mm', done.page)
         reaches = where(done.trials, block="reaches", outcome="hit")
         times, reactions = {}, {}
         for row in reaches:

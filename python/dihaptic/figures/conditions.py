@@ -10,12 +10,14 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from ..errors import NotThere, error
-from .data import ASIDE, SITTING, Data, sittings
+from .data import ASIDE, SITTING, Data, listed, sitting_columns
 from .means import means_with_intervals
 from .saving import Plan
 from .style import COLOURS, MARKERS, WIDTHS, canvas, corner, fit_names, legend_above, same_limits, styled, wrapped
 from .words import counted, label, level, words_of
 
+#: Above these figures on the page of a report.
+HEADING = "By condition"
 #: Most panels of a figure, and most levels that colours tell apart.
 _MOST_PANELS = 9
 _MOST_COLOURS = 7
@@ -44,7 +46,7 @@ def counting_trials(data: Data, table: str = "trials") -> pd.DataFrame:
         trials = trials[design].merge(other[[*keys, *new]], on=keys, how="inner")
         trials.attrs = attrs
     attrs = trials.attrs
-    trials = trials.drop_duplicates([*sittings(trials), "trial_num"], keep="last")
+    trials = trials.drop_duplicates([*sitting_columns(trials), "trial_num"], keep="last")
     trials = trials[~trials["kind"].isin(ASIDE)] if "kind" in trials else trials
     trials.attrs = attrs
     return trials
@@ -79,7 +81,7 @@ def means_by_condition(
     units = trials.attrs.get("units", {})
     single = len(data.people) == 1
     parts = []
-    for measure in measures:
+    for measure in listed("measures", measures):
         check_column(trials, measure)
         if not pd.api.types.is_numeric_dtype(trials[measure]):
             raise error("has words, of which there is no mean", "Name a column of numbers.", key=measure)
@@ -135,6 +137,12 @@ def draw_conditions(
         raise error("there are several means at one place", "Name as colour or panel what tells them apart.", key=x)
     measures = list(dict.fromkeys(points["measure"]))
     order = order or {}
+    for column, levels in order.items():
+        check_column(points, column)
+        known = list(points[column].dropna().unique())
+        for each in levels:
+            if each not in known:
+                raise NotThere(str(each), f"is not a level of {column}", [str(value) for value in known], "")
     panels = list(_places(points[panel], order.get(panel))) if panel else [None]
     rows, columns = _grid(len(measures), len(panels), size)
     figure, all_axes = canvas(size, height_mm * rows, rows, columns)
@@ -282,10 +290,13 @@ def _plans_of(data: Data, table: str, measures: list[str], name: str, design: di
         dots = "Dots are trials" if people == 1 else "Dots are people's means over trials, joined over conditions"
         over = "trials" if people == 1 else "people"
         rest = [words_of(name, units.get(name, "")) for name in data.factors if name not in design.values()]
-        order = {name: data.levels(name) for name in design.values() if not pd.api.types.is_numeric_dtype(trials[name])}
+        order = {
+            name: [value for value in data.levels(name) if (trials[name] == value).any()]
+            for name in design.values() if not pd.api.types.is_numeric_dtype(trials[name])
+        }  # fmt: skip
         yield Plan(
             name=f"{name}-by-{'-'.join(design.values())}{number}".replace("_", "-"),
-            title=f"{'Lifts' if table == 'lifts' else 'Measures'} by {by}",
+            title=f"{'Lifts' if table == 'lifts' else 'Measures'} by {by}{', continued' if first else ''}",
             caption=f"{dots}; marks are means over {over} with 95 % intervals. {counted(people, 'person', 'people')}, "
             f"{counted(len(trials), 'trial')}; practice, catch trials and repeated attempts are left out."
             + (f" Averaged over {' and '.join(rest)}." if rest else ""),

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-import os
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -12,11 +11,10 @@ import pandas as pd
 import yaml
 
 from .._facts import facts
-from ..errors import Error, NotThere, error
-from ..rehearsal import Rehearsal
+from .._head import MOST_YAML, why_unreadable
+from ..errors import NotThere, error
 from ..session import Session
-from ..study import Study
-from ..tables import Collected, command_of
+from .sessions import Paths, Sample, Sitting, Sittings, named_apart
 from .words import label
 
 #: Trials of these kinds are not among those that show the effect of a condition.
@@ -25,6 +23,8 @@ ASIDE = ["practice", "catch"]
 SITTING = ("person", "group", "session", "study_session")
 #: Columns of trials.csv that describe a trial, or how it was done, and that are no measure.
 _END_OF_DESIGN = "attempt"
+#: Some columns of tables that are not in docs/tables.md.
+_OTHER_COLUMNS = {"settings": {"setting"}, "procedures": {"procedure"}, "trial-list": {"trial_num"}}
 _AFTER_MEASURES = ["not_measured", "simulated", "moved_by", "start_type", "replays"]
 
 
@@ -47,23 +47,29 @@ class Measure:
         return label(self.column, self.unit)
 
 
-def read(path: str | Path, people: list[str] | None = None) -> Data:
+def read(
+    path: Paths, people: list[str] | None = None, *, experiment: str | None = None, moved_by: str | None = None,
+    population: str | None = None,
+) -> Data:  # fmt: skip
     """The tables of a session's folder, of a rehearsal's, of a study's file, or of a folder that contains sessions.
 
-    `people` names those who count, in all figures and means; the default is everybody. A rehearsal and a study are read
-    from their collected tables (dihaptic collect). Raises Error when there is nothing, and NotThere for a person's name.
+    Several paths, in a list, are compared: the people of each are a group. `people` names those who count, in all figures
+    and means; the default is everybody. Of a folder with several experiments, `experiment` names one by its title;
+    `moved_by`, a value of that column of tables, tells people from simulated ones, and `population` names one of those: they
+    are never averaged. Raises Error when there is nothing, or when several samples are left, and NotThere for a person's name.
 
     >>> from dihaptic import figures
     >>> figures.read(lift_session)
     <Data of one session: Two fingers lift a block>
     """
-    return Data(path, people)
+    return Data(path, people, Sample(experiment, moved_by, population))
 
 
 class Data:
     """The tables that figures are drawn from, of one person or of many.
 
-    Every table has the columns `person` and `group` ("" without groups). `path` is what was read.
+    Every table has the columns `person` and `group` ("" without groups). `paths` are those that were read, and `left_out`
+    says of each session that does not count why.
 
     >>> from dihaptic import figures
     >>> data = figures.read(lift_session)
@@ -71,52 +77,26 @@ class Data:
     (['person', 'group'], False)
     """
 
-    def __init__(self, path: str | Path, people: list[str] | None = None) -> None:
-        self.path = Path(os.path.abspath(path))
-        self._only: list[str] | None = None
-        self._collected: Collected | None = None
-        if self.path.is_file() and self.path.suffix in (".yaml", ".yml") and self.path.name != "session.yaml":
-            self._collected = study = Study(self.path)
-            self.sessions = _sessions_in(study.folder / "sessions")
-        elif (self.path / "rehearsal.yaml").is_file():
-            self._collected = rehearsal = Rehearsal(self.path)
-            self.sessions = [Session(folder) for folder in rehearsal.sessions]
-            self._check_collected()
-        elif (self.path / "session.yaml").is_file() or self.path.is_file():
-            self.sessions = [Session(self.path)]
-        else:
-            self.sessions = _sessions_in(self.path)
-        if not self.sessions:
-            raise error(
-                "contains no completed sessions",
-                "Name a session's folder, a rehearsal's, a study's file, or a folder that contains sessions.",
-                file=str(path),
-            )
-        titles = {str(session.info.get("title", "")) for session in self.sessions}
-        if len(titles) > 1 and self._collected is None:
-            raise error(
-                f"contains sessions of {len(titles)} experiments: {', '.join(sorted(titles))}",
-                "Name a folder with the sessions of one of them.",
-                file=str(path),
-            )
-
+    def __init__(self, path: Paths, people: list[str] | None, wanted: Sample) -> None:
+        found = Sittings(path)
+        self.paths, self.left_out = found.paths, found.left_out
+        #: What chose these people, to be repeated in a script.
+        self.choice: dict[str, Any] = {"people": people, **asdict(wanted)}
+        chosen = [sitting for sitting in found.counting if sitting.sample.is_among(wanted)]
+        samples = sorted({sitting.sample for sitting in chosen}, key=str)
+        if not chosen or (len(samples) > 1 and len(found.paths) < 2):
+            there = "; ".join(map(str, samples or sorted({s.sample for s in found.counting}, key=str)))
+            what = f"has sessions of {len(samples)} samples" if samples else "has no such sessions"
+            choose = "Choose one by experiment= (its title), moved_by= (e.g. devices, or simulated_person), population="
+            raise error(what, f"{choose}; there are: {there}.", file=str(self.paths[0]))
+        self.sittings = named_apart(chosen)
         if people is not None:
             for name in people:
                 if name not in self.people:
                     raise NotThere(name, "is not a person of these sessions", self.people, "Data.people lists them.")
-            self.__dict__.pop("_cache")
-            self._only = list(people)
-            self.sessions = [session for session in self.sessions if _person_of(session) in self._only] or self.sessions
-
-    def _check_collected(self) -> None:
-        """Raises Error when the joined tables of a rehearsal are missing, or older than its people."""
-        trials = self.path / "trials.csv"
-        known = pd.read_csv(trials, usecols=["id"], dtype=str)["id"].nunique() if trials.is_file() else 0
-        if known < len(self.sessions):
-            raise error(
-                f"has tables of {known} of {len(self.sessions)} people", f"Type {command_of('collect', self.path)}.",
-                file=str(self.path),
-            )  # fmt: skip
+            self.sittings = [sitting for sitting in self.sittings if sitting.person in people]
+            self.__dict__.pop("_cache", None)
+        self.sample = self.sittings[0].sample
 
     def __repr__(self) -> str:
         count = len(self.sessions)
@@ -125,7 +105,8 @@ class Data:
     @property
     def folder(self) -> Path:
         """Where figures of these data go: beside their tables."""
-        return self.path.parent if self.path.is_file() else self.path
+        path = self.paths[0]
+        return path.parent if path.is_file() else path
 
     @property
     def title(self) -> str:
@@ -133,9 +114,14 @@ class Data:
         return str(self.sessions[0].info.get("title", ""))
 
     @property
-    def recorded(self) -> list[Session]:
-        """The sessions with a session.nwb: a rehearsal keeps the tables alone."""
-        return [session for session in self.sessions if (session.folder / "session.nwb").is_file()]
+    def sessions(self) -> list[Session]:
+        """The sessions that count."""
+        return [sitting.session for sitting in self.sittings]
+
+    @property
+    def recorded(self) -> list[Sitting]:
+        """The sessions with a session.nwb, and whose they are: a rehearsal keeps the tables alone."""
+        return [sitting for sitting in self.sittings if (sitting.session.folder / "session.nwb").is_file()]
 
     @cached_property
     def task(self) -> dict[str, Any]:
@@ -143,6 +129,8 @@ class Data:
         file = self.sessions[0].folder / "task.yaml"
         if not file.exists():
             return {}
+        if fault := why_unreadable(file, MOST_YAML):
+            raise error(f"cannot be read: {fault}", "Restore the file from a copy of the session.", file=str(file))
         try:
             task = yaml.load(file.read_text(encoding="utf-8"), getattr(yaml, "CSafeLoader", yaml.SafeLoader))
         except (OSError, UnicodeDecodeError, yaml.YAMLError, RecursionError) as why:
@@ -154,8 +142,6 @@ class Data:
     @cached_property
     def tables(self) -> list[str]:
         """Names of the tables, without .csv."""
-        if self._collected is not None:
-            return self._collected.tables
         return sorted({name for session in self.sessions for name in session.tables})
 
     def has(self, name: str) -> bool:
@@ -166,42 +152,18 @@ class Data:
         """A table of all people, by its name; units and meanings of its columns are in `attrs`. Raises NotThere, Error."""
         cache: dict[str, pd.DataFrame] = self.__dict__.setdefault("_cache", {})
         if name not in cache:
-            table = self._read(name)
-            if self._only is not None:
-                attrs, table = table.attrs, table[table["person"].isin(self._only)].reset_index(drop=True)
-                table.attrs = attrs
-            cache[name] = table
+            cache[name] = self._read(name)
         return cache[name].copy()
 
     def _read(self, name: str) -> pd.DataFrame:
-        if self._collected is not None:
-            table = self._collected.table(name)
-            person = table["id"].astype(str)
-            # rehearsals that were joined have people of the same names; a study's sessions have seeds of their own
-            if isinstance(self._collected, Rehearsal) and "seed" in table and table["seed"].nunique() > 1:
-                person = table["seed"].astype(str) + "/" + person
-            group = table["group"].fillna("").astype(str) if "group" in table else pd.Series("", index=table.index)
-            return _marked(table, person, group)
         if name not in self.tables:
             raise NotThere(name, "is not a table of these sessions", self.tables, "Data.tables lists them.")
-        parts = []
-        for session in self.sessions:
-            if name not in session.tables:
-                continue
-            table = session.table(name)
-            person = _person_of(session)
-            group = str((session.info.get("in_study") or {}).get("group", "") or "")
-            part = _marked(table, pd.Series(person, index=table.index), pd.Series(group, index=table.index))
-            part.insert(2, "session", session.folder.name)
-            parts.append(part)
-        out = pd.concat(parts, ignore_index=True)
-        out.attrs = parts[0].attrs
-        return out
+        return _joined([each.marked(_checked(each.session, name)) for each in self.sittings if name in each.session.tables])
 
     @property
     def people(self) -> list[str]:
         """Names of the people, in the order of their sessions."""
-        return list(dict.fromkeys(self.table("trials")["person"]))
+        return list(dict.fromkeys(sitting.person for sitting in self.sittings))
 
     # The design
 
@@ -226,12 +188,16 @@ class Data:
 
     def levels(self, column: str) -> list[Any]:
         """The levels of a column that describes trials: numbers by size, words in the order of the task or of the trials.
+        Raises NotThere.
 
         >>> from dihaptic import figures
         >>> figures.read(lift_session).levels("outcome")
         ['done']
         """
-        found = list(self.table("trials")[column].dropna().unique())
+        trials = self.table("trials")
+        if column not in trials:
+            raise NotThere(column, "is not a column of trials", [str(name) for name in trials], "")
+        found = list(trials[column].dropna().unique())
         if not any(isinstance(value, str) for value in found):
             return sorted(found)
         known: list[Any] = {"condition": self.conditions, "block": self.blocks}.get(column, [])
@@ -271,47 +237,44 @@ class Data:
 
     @property
     def is_simulated(self) -> bool:
-        """Whether simulated people moved all hands."""
-        trials = self.table("trials")
-        return "simulated" in trials and bool(trials["simulated"].all())
+        """Whether no person took part."""
+        return all(sitting.sample.is_simulated for sitting in self.sittings)
 
     @property
     def mark(self) -> str:
         """The short mark in each figure's corner: "simulated" if no person took part."""
-        return "simulated" if self.is_simulated else ""
+        if self.is_simulated:
+            return "simulated"
+        return "partly simulated" if any(sitting.sample.is_simulated for sitting in self.sittings) else ""
 
 
-def sittings(table: pd.DataFrame) -> list[str]:
+def listed(name: str, values: list[str]) -> list[str]:
+    """A list of names that a function was given. Raises Error for a single text, whose letters would be taken for names."""
+    if isinstance(values, str):
+        raise error("must be a list of names", f'Write {name}=["{values}"].', key=name)
+    return values
+
+
+def sitting_columns(table: pd.DataFrame) -> list[str]:
     """Columns of a table that tell the sessions of all people apart."""
     return [column for column in SITTING if column in table]
 
 
-def _person_of(session: Session) -> str:
-    """A session's participant; a session without a name counts as a person of its own."""
-    return str((session.info.get("participant") or {}).get("id", "") or session.folder.name)
-
-
-def _marked(table: pd.DataFrame, person: pd.Series, group: pd.Series) -> pd.DataFrame:
-    """The table with the columns person and group in front."""
-    attrs = table.attrs
-    table = table.drop(columns=["group", "person"], errors="ignore")
-    table.insert(0, "person", person)
-    table.insert(1, "group", group)
-    table.attrs = attrs
+def _checked(session: Session, name: str) -> pd.DataFrame:
+    """A session's table. Raises Error when it has none of the columns that the program writes."""
+    table = session.table(name)
+    known = {column for column, _ in facts()["columns"].get(f"{name}.csv", [])} or _OTHER_COLUMNS.get(name, set())
+    if known and not known & set(table):
+        what = "is not the table that its name says: it has none of its columns"
+        raise error(what, "Restore it from a copy of the session.", file=str(session.folder / f"{name}.csv"))
     return table
 
 
-def _sessions_in(folder: Path) -> list[Session]:
-    """The completed sessions in a folder, at any depth; sessions that another one resumes are left out."""
-    sessions, resumed = [], set()
-    for file in sorted(folder.rglob("session.yaml")):
-        session = Session(file)
-        try:
-            info = session.info
-        except Error:
-            continue
-        if info.get("resumes"):
-            resumed.add(Path(str(info["resumes"])).name)
-        if info.get("state") == "complete":
-            sessions.append(session)
-    return [session for session in sessions if session.folder.name not in resumed]
+def _joined(parts: list[pd.DataFrame]) -> pd.DataFrame:
+    """The tables below each other. A column that is empty in one session and has words in another keeps its words."""
+    kinds = pd.DataFrame([part.dtypes for part in parts])
+    mixed = [column for column in kinds if kinds[column].nunique(dropna=False) > 1]
+    parts = [part.astype({column: object for column in mixed if column in part}) for part in parts]
+    out = pd.concat(parts, ignore_index=True).infer_objects()
+    out.attrs = parts[0].attrs
+    return out

@@ -5,25 +5,23 @@ from __future__ import annotations
 import sys
 import warnings
 from collections.abc import Callable, Iterator
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from multiprocessing import get_all_start_methods, get_context
 from pathlib import Path
 
 from ..errors import Error
 from . import conditions, learning, lifts, paths, psychophysics, quality
 from .data import Data, read
 from .saving import Plan, is_changed, save, write
+from .sessions import Paths
 from .statistics import write_analyses
 
-#: Each kind of figure: a module with `plans(data)`, in the order in which figures are listed.
+#: Each kind of figure: a module with `plans(data)` and its HEADING, in the order in which figures are listed.
 KINDS = [conditions, lifts, learning, paths, psychophysics, quality]
 
 
-def plans(data: Data) -> Iterator[Plan]:
-    """The figures that this experiment's design calls for."""
-    for kind in KINDS:
-        yield from kind.plans(data)
-
-
-def draw(path: str | Path, out: str | Path | None = None, *, progress: Callable[[str], None] | None = None) -> list[Path]:
+def draw(path: Paths, out: str | Path | None = None, *, progress: Callable[[str], None] | None = None) -> list[Path]:
     """Draws all figures that the experiment of these sessions calls for, and returns the scripts that draw each anew.
 
     `path` is a session's folder, a rehearsal's, a study's file, or a folder with sessions of one experiment; `out` is the
@@ -36,26 +34,71 @@ def draw(path: str | Path, out: str | Path | None = None, *, progress: Callable[
     """
     data = read(path)
     folder = Path(out) if out is not None else data.folder / "figures"
-    folder = folder.absolute()
-    scripts, captions = [], []
-    for plan in plans(data):
-        script = folder / f"{plan.name}.py"
-        text = plan.script(data, folder).encode()
-        scripts.append(script)
-        captions.append(f"{plan.name}: {plan.title}. {plan.caption}\n")
-        if script.exists() and is_changed(script):
-            kept = f"{script.name} has been changed, so its figure is left as it is; remove the script to have it drawn anew"
-            warnings.warn(kept, stacklevel=2)
-            continue
+    return [drawn.script for drawn in draw_data(data, folder, progress=progress)]
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """A figure whose files are in a folder."""
+
+    plan: Plan
+    heading: str  #: of its kind, e.g. "Learning"
+    script: Path
+    kept: bool  #: its script had been changed, and it was left as it is
+
+
+def draw_data(
+    data: Data, folder: str | Path, *, jobs: int = 1, progress: Callable[[str], None] | None = None
+) -> list[Drawn]:
+    """Does what draw() does, of data that have been read, in `jobs` processes. Raises Error."""
+    folder = Path(folder).absolute()
+    made = []
+    for kind in KINDS:
+        for plan in kind.plans(data):
+            script = folder / f"{plan.name}.py"
+            made.append(Drawn(plan, kind.HEADING, script, is_changed(script)))
+    for each in made:
+        if each.kept:
+            name = each.script.name
+            what = f"{name} has been changed, so its figure is left as it is; remove the script to have it drawn anew"
+            warnings.warn(what, stacklevel=2)
+    for title in _save_all([each for each in made if not each.kept], data, folder, jobs):
         if progress is not None:
-            progress(plan.title)
+            progress(title)
+    if made:
+        captions = "\n".join(f"{each.plan.name}: {each.plan.title}. {each.plan.caption}\n" for each in made)
+        write(folder / "captions.txt", captions.encode())
+    write_analyses(data, folder)
+    return made
+
+
+def _save_all(made: list[Drawn], data: Data, folder: Path, jobs: int) -> Iterator[str]:
+    """Makes and saves these figures, and gives the title of each that is done."""
+
+    def save_one(i: int) -> str:
+        plan = made[i].plan
         points, figure = plan.make(data)
         save(figure, folder / plan.name, points)
-        write(script, text)
-    if captions:
-        write(folder / "captions.txt", "\n".join(captions).encode())
-    write_analyses(data, folder)
-    return scripts
+        write(made[i].script, plan.script(data, folder).encode())
+        return plan.title
+
+    if min(jobs, len(made)) < 2 or "fork" not in get_all_start_methods():
+        yield from map(save_one, range(len(made)))
+        return
+    # a child that is forked has the data: nothing is read, or handed over, twice
+    with ProcessPoolExecutor(jobs, get_context("fork"), _take, (save_one,)) as children:
+        yield from children.map(_do, range(len(made)))
+
+
+_work: list[Callable[[int], str]] = []
+
+
+def _take(work: Callable[[int], str]) -> None:
+    _work.append(work)
+
+
+def _do(i: int) -> str:
+    return _work[-1](i)
 
 
 def main(words: list[str]) -> int:

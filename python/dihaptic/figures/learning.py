@@ -14,12 +14,15 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
-from .data import Data, sittings
+from ..errors import NotThere, error
+from .data import Data, listed, sitting_columns
 from .means import means_with_intervals
 from .saving import Plan
 from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, corner, fit_names, legend_above, same_limits, styled, wrapped
 from .words import counted, in_print, label, level, words_of
 
+#: Above these figures on the page of a report.
+HEADING = "Learning"
 #: Most panels of a figure, most groups that colours tell apart, and least trials of which a course is drawn.
 _MOST_PANELS, _MOST_GROUPS, _LEAST_TRIALS = 6, 7, 8
 #: Most rows of blocks' names above each other.
@@ -69,14 +72,15 @@ def _grouped(table: pd.DataFrame) -> pd.DataFrame:
 def _numbered(table: pd.DataFrame) -> pd.DataFrame:
     """The last attempt at each trial, with its number in its part, from 1; practice is left out."""
     table = _grouped(table[table["trial_num"].notna()].assign(part=_parts(table)))
-    keys = [*sittings(table), "part"]
+    keys = [*sitting_columns(table), "part"]
     table["trial"] = table["trial_num"] - table.groupby(keys)["trial_num"].transform("min") + 1
     table = table.drop_duplicates([*keys, "trial"], keep="last")
     for column in ("block", "kind"):
         table[column] = table[column].fillna("").astype(str) if column in table else ""
     # parts stay in the order of the first person
     places = {part: place for place, part in enumerate(dict.fromkeys(table["part"]))}
-    table = table.assign(place=table["part"].map(places)).sort_values(["place", *sittings(table), "trial_num"], kind="stable")
+    table = table.assign(place=table["part"].map(places))
+    table = table.sort_values(["place", *sitting_columns(table), "trial_num"], kind="stable")
     return table[table["kind"] != "practice"].drop(columns="place").reset_index(drop=True)
 
 
@@ -132,6 +136,8 @@ def _schedule(table: pd.DataFrame) -> pd.DataFrame:
 
 def _courses(table: pd.DataFrame, width: int, several: bool) -> pd.DataFrame:
     """Each person's values, their means, fitted models, and the schedule of blocks, as rows of a table of points."""
+    if width < 1:
+        raise error("must be at least one trial", "Write bin_trials=1 for every trial.", key="bin_trials")
     shown = table[~_scattered(table)].merge(_bins(table, width), on=["part", "trial"], how="left")
     by = ["part", "group", "first", "last"]
     measured = shown[shown["value"].notna()]
@@ -157,7 +163,7 @@ def _courses(table: pd.DataFrame, width: int, several: bool) -> pd.DataFrame:
 
 def _width_of_bins(table: pd.DataFrame, most: int) -> int:
     """How many trials a point of a line needs: few enough points, and a value of each person in most of them."""
-    keys = [*sittings(table), "part"]
+    keys = [*sitting_columns(table), "part"]
     trials = int(table.groupby(keys)["trial"].count().max())
     share = table["value"].notna().groupby([table[column] for column in [*keys, "block"]]).mean()
     share = share.groupby([*keys[1:], "block"] if len(keys) > 1 else ["block"]).mean()
@@ -403,6 +409,9 @@ def _adaptation(data: Data, unit: str, parts: list[str] | None) -> pd.DataFrame:
     for column in ("value", "fit", "perturbation"):
         known = pd.to_numeric(table[column], errors="coerce") if column in table else pd.Series(np.nan, index=table.index)
         table[column] = known.where(np.isfinite(known))
+    for part in parts or []:
+        if part not in set(table["part"]):
+            raise NotThere(part, "is not a round of these sessions", list(table["part"].unique()), "")
     return table[table["part"].isin(parts)] if parts else table
 
 
@@ -419,7 +428,7 @@ def learning_curve(data: Data, *, unit: str = "", rounds: list[str] | None = Non
     places in their block differ between people are left out. Of one person there is no mean.
 
     Example: points = figures.learning_curve(figures.read(dh.rehearse("experiments/visuomotor-rotation.yaml", 4).folder)),
-    once `dihaptic collect` has joined the rehearsal's tables. Raises NotThere without adaptation.csv.
+    once `dihaptic report` has made its tables. Raises NotThere without adaptation.csv, or for another round.
     """
     table = _adaptation(data, unit, rounds)
     out = _courses(table, bin_trials, table["person"].nunique() > 1)
@@ -631,7 +640,7 @@ def measures_over_trials(data: Data, *, measures: list[str], session: str = "", 
     >>> points[["measure", "of", "trial", "unit"]].values.tolist()
     [['peak_grip_N', 'person', 1.0, 'N'], ['peak_grip_N', 'schedule', 1.0, 'N']]
     """
-    for measure in measures:
+    for measure in listed("measures", measures):
         data.measure(measure)
     table = _of_session(data, session, measures)
     several = table["person"].nunique() > 1

@@ -14,13 +14,15 @@ from matplotlib.lines import Line2D
 
 from ..errors import NotThere, error
 from ..session import Session
-from .data import ASIDE, Data
+from .data import ASIDE, Data, sitting_columns
 from .saving import Plan
 from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, corner, legend_above, styled, wrapped
 from .words import counted, label, level
 
 Array = npt.NDArray[Any]
 
+#: Above these figures on the page of a report.
+HEADING = "Grip and lift"
 #: Most conditions of a panel, most panels side by side, and most conditions below each other.
 _MOST_CASES, _MOST_PANELS, _MOST_ROWS = 6, 4, 24
 #: Loads below this are no load: the ratio of grip and load is not drawn there [N].
@@ -84,17 +86,11 @@ def _all_lifts(data: Data) -> pd.DataFrame:
 
 def _recorded_lifts(data: Data) -> pd.DataFrame:
     """The lifts of the sessions with a recording; `of` is the number of its session in Data.recorded."""
-    known = set(data.people)
-    groups = data.table("trials").groupby("person")["group"].first()
     parts = []
-    for number, session in enumerate(data.recorded):
-        if not {"trials", "lifts"} <= set(session.tables):
-            continue
-        person = str(session.info.get("participant", {}).get("id", "") or session.folder.name)
-        person = person if person in known else f"{session.info.get('seed', '')}/{person}"
-        marks = {"person": person, "group": groups.get(person, ""), "session": session.folder.name}
-        part = _joined(data, session.trials.assign(**marks), session.lifts.assign(**marks))
-        parts.append(part.assign(of=number))
+    for number, each in enumerate(data.recorded):
+        if {"trials", "lifts"} <= set(each.session.tables):
+            part = _joined(data, each.marked(each.session.trials), each.marked(each.session.lifts))
+            parts.append(part.assign(of=number))
     out = pd.concat(parts, ignore_index=True) if parts else _all_lifts(data).iloc[:0].assign(of=0)
     if not out.empty:
         out["presented"] = _presented(out)
@@ -160,7 +156,7 @@ def _sampled(data: Data, frame: pd.DataFrame, times: Array) -> dict[str, Array]:
     out = {name: np.full(times.shape, np.nan) for name in ("grip force", "load force", "height")}
     objects = {c["name"]: c["object"] for c in data.task.get("conditions") or [] if c.get("object")}
     for number in sorted(frame["of"].unique()):
-        session = data.recorded[number]
+        session = data.recorded[number].session
         rows = np.flatnonzero(frame["of"] == number)
         own = frame.iloc[rows]
         at = _ticks(session, times[rows], own)
@@ -845,3 +841,46 @@ def _left_out(data: Data, kept: pd.DataFrame, shown: pd.DataFrame, colour: list[
             more = f" and {len(gone) - 12} more" if len(gone) > 12 else ""
             text += f"; not shown, since only the first {cap} are: {', '.join(gone[:12])}{more}"
     return text
+
+
+# The weight of the lift before
+
+#: Fewest pairs of complete lifts, and least ratio of weights, from which the effect of the weight before is told.
+_LEAST_PAIRS, _LEAST_RATIO = 10, 1.05
+
+
+def previous_weight(data: Data) -> pd.DataFrame:
+    """What the weight of the lift before does to a lift (Johansson and Westling 1988), of each person.
+
+    The regression is rate = a + b W + c W_before, of the largest rate of load force before lift-off on the weights held,
+    over consecutive complete lifts of a session. A row has the person, `effect` (c, in N/s for each N), its standard
+    `error`, `share` (c / (b + c): 0 if only this weight counts, 1 if only the one before does), and `n` pairs of lifts.
+    People whose weights vary by less than 5 %, or with fewer than ten pairs, have no row.
+
+    >>> from dihaptic import figures
+    >>> len(previous_weight(figures.read(lift_session)))
+    0
+    """
+    columns = ["person", "effect", "error", "share", "n"]
+    if not data.has("lifts"):
+        return pd.DataFrame(columns=columns)
+    lifts = data.table("lifts")
+    rows = []
+    for person, own in lifts.groupby("person", sort=False):
+        own = own.assign(known=(own["lift"] == "complete") & own[["static_load_N", "peak_load_rate_N_s"]].notna().all(axis=1))
+        by = own.groupby(sitting_columns(own), sort=False, dropna=False)
+        own = own.assign(before=by["static_load_N"].shift(), known_before=by["known"].shift().fillna(False).astype(bool))
+        pairs = own[own["known"] & own["known_before"]]
+        n = len(pairs)
+        weights = pairs["static_load_N"]
+        if n < _LEAST_PAIRS or weights.max() < _LEAST_RATIO * weights.min():
+            continue
+        design = np.column_stack([np.ones(n), weights, pairs["before"]])
+        rates = pairs["peak_load_rate_N_s"].to_numpy()
+        b, _, rank, _ = np.linalg.lstsq(design, rates, rcond=None)
+        if rank < 3:
+            continue
+        variance = float(np.sum((rates - design @ b) ** 2)) / (n - 3)
+        error = np.sqrt(variance * np.linalg.inv(design.T @ design)[2, 2])
+        rows.append([person, b[2], error, b[2] / (b[1] + b[2]), n])
+    return pd.DataFrame(rows, columns=columns)

@@ -17,9 +17,9 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Circle
 
 from ..errors import Error, NotThere, error
-from ..session import Session
 from .data import Data
 from .saving import Plan
+from .sessions import Sitting
 from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, corner, legend_above, styled, wrapped
 from .words import counted, level
 
@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
     Array = npt.NDArray[np.float64]
 
+#: Above these figures on the page of a report.
+HEADING = "Movements"
 #: Kinds of trials whose reaches are drawn: those of others are held or shown on a line, or not of the design.
 _SHOWN = ["baseline", "perturbed", "washout"]
 #: Reaches at the begin and at the end of a block that show what is learned in it.
@@ -83,11 +85,11 @@ def _reaches(data: Data) -> list[_Reach]:
     cache: dict[str, Any] = data.__dict__
     if "_reaches" not in cache:
         found: list[_Reach] = []
-        for session in data.recorded:
+        for sitting in data.recorded:
             try:
-                found += _Reader(session, data.task).reaches()
+                found += _Reader(sitting, data.task).reaches()
             except Error as why:
-                warnings.warn(f"reaches of {session.folder.name} are not drawn: {why}", stacklevel=2)
+                warnings.warn(f"reaches of {sitting.session.folder.name} are not drawn: {why}", stacklevel=2)
         cache["_reaches"] = found
     return list(cache["_reaches"])
 
@@ -95,8 +97,8 @@ def _reaches(data: Data) -> list[_Reach]:
 class _Reader:
     """Finds the reaches of one session."""
 
-    def __init__(self, session: Session, task: dict[str, Any]) -> None:
-        self.session, self.task = session, task
+    def __init__(self, sitting: Sitting, task: dict[str, Any]) -> None:
+        self.sitting, self.session, self.task = sitting, sitting.session, task
         self.movement: dict[str, Any] = task.get("movement") or {}
         measured = task.get("reach")
         self.of_reach = bool(measured)
@@ -183,10 +185,8 @@ class _Reader:
             curves = {"begins": (first - onset) * self.session.tick, "speed": speed[first::every]}
             curves.update(self._forces(row, part, axis, along, velocity, slice(first, None, every)))
         text = {name: "" if _none(row.get(name)) else str(row[name]) for name in ("round", "block", "kind", "condition")}
-        info = self.session.info
         return _Reach(
-            str((info.get("participant") or {}).get("id", "") or self.session.folder.name),
-            str((info.get("in_study") or {}).get("group", "") or ""), self.session.folder.name, int(row["trial_num"]),
+            self.sitting.person, self.sitting.group, self.session.folder.name, int(row["trial_num"]),
             text["round"], text["block"], text["kind"], text["condition"], start, target,
             self._radius("from", text["condition"], part.start), self._radius("to", text["condition"], part.start),
             axis, path, **curves,
@@ -389,7 +389,8 @@ def _sheet(data: Data, name: str) -> _Sheet:
         if sheet.name == name:
             return sheet
     if not sheets:
-        raise error("has no recorded reaches", "Name sessions with session.nwb whose task measures reaches.", file=str(data.path))
+        remedy = "Name sessions with session.nwb whose task measures reaches."
+        raise error("has no recorded reaches", remedy, file=str(data.folder))
     raise NotThere(name, "is not a part of these reaches", [sheet.name for sheet in sheets], "")
 
 
@@ -660,7 +661,7 @@ def speed_profiles(data: Data, *, part: str = "") -> pd.DataFrame:
                 curve = _quartiles([(reach.begins, reach.speed) for reach in some], "m_s")
                 parts.append(pd.concat({(panel, colour): curve}, names=["panel", "colour"]).droplevel(2).reset_index())
     if not parts:
-        raise error("has no reach with an onset", "Name sessions in which the hand moved.", file=str(data.path))
+        raise error("has no reach with an onset", "Name sessions in which the hand moved.", file=str(data.folder))
     return pd.concat(parts, ignore_index=True)
 
 
@@ -777,7 +778,7 @@ def channel_forces(data: Data) -> pd.DataFrame:
             curve = _quartiles([(begins, values) for begins, values in curves if values is not None], "N")
             parts.append(pd.concat({(panel, name): curve}, names=["panel", "force"]).droplevel(2).reset_index())
     if not parts:
-        raise error("has no recorded reach in a channel", "Name sessions with force channels.", file=str(data.path))
+        raise error("has no recorded reach in a channel", "Name sessions with force channels.", file=str(data.folder))
     return pd.concat(parts, ignore_index=True)
 
 

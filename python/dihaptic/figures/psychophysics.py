@@ -16,12 +16,14 @@ from scipy import special, stats
 
 from ..errors import NotThere, error
 from .conditions import counting_trials
-from .data import Data, sittings
+from .data import Data, sitting_columns
 from .means import means_with_intervals
 from .saving import Plan
 from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, corner, fit_names, legend_above, styled, wrapped
 from .words import counted, in_print, label, level, words_of
 
+#: Above these figures on the page of a report.
+HEADING = "Thresholds"
 #: Most panels of a figure, and most lines that colours tell apart.
 _MOST_PANELS, _MOST_COLOURS = 9, 7
 #: Least answers at a level for which an interval is drawn: with fewer, it takes up the panel and says nothing.
@@ -191,7 +193,7 @@ def _parts(name: str, candidates: list[_Procedure]) -> list[_Procedure]:
 def _is_single(data: Data) -> bool:
     """Whether all trials are those of one session of one person."""
     trials = data.table("trials")
-    return len(trials[sittings(trials)].drop_duplicates()) == 1
+    return len(trials[sitting_columns(trials)].drop_duplicates()) == 1
 
 
 def _of_sitting(table: pd.DataFrame, procedure: _Procedure) -> pd.DataFrame:
@@ -208,7 +210,7 @@ def _answers(data: Data, procedure: _Procedure) -> pd.DataFrame:
     own["level"] = pd.to_numeric(own[procedure.column], errors="coerce") if procedure.column in own else np.nan
     own = own[np.isfinite(own["level"]) & ((own["level"] > 0) | (not procedure.logarithmic))]
     own["said_yes"] = own["outcome"] == procedure.yes
-    keys = sittings(own)
+    keys = sitting_columns(own)
     own["answer"] = own.groupby(keys).cumcount() + 1 if len(own) else pd.Series(dtype=int)
     return own[[*keys, "trial_num", "answer", "level", "said_yes"]]
 
@@ -220,7 +222,7 @@ def _fits(data: Data, procedure: _Procedure) -> pd.DataFrame:
     table = _of_sitting(data.table("thresholds"), procedure)
     table = table[(table["procedure"].astype(str) == procedure.name) & ((table["kind"] == _ALL) == (procedure.kind == _ALL))]
     # a report made anew is the only one of its session
-    table = table.drop_duplicates(sittings(table), keep="last")
+    table = table.drop_duplicates(sitting_columns(table), keep="last")
     table = table[table["threshold"].notna() & (table["shape"] > 0)]
     return table.assign(outside=table["note"].fillna("").astype(str).str.startswith(_OUTSIDE))
 
@@ -229,7 +231,7 @@ def _chosen(data: Data, procedures: list[str] | None) -> list[_Procedure]:
     """The procedures with these titles, by default all. Raises NotThere, or Error when there is none."""
     known = _procedures(data)
     if not known:
-        raise error("has no trials of a procedure", "Name a session whose task has procedures.", file=str(data.path))
+        raise error("has no trials of a procedure", "Name a session whose task has procedures.", file=str(data.folder))
     if procedures is None:
         return known
     for name in procedures:
@@ -327,7 +329,7 @@ def _curves(answers: pd.DataFrame, fits: pd.DataFrame, procedure: _Procedure) ->
     """The function of each person over the levels that the person was shown, and its threshold."""
     for fit in fits.to_dict("records"):
         own = answers
-        for key in sittings(answers):
+        for key in sitting_columns(answers):
             own = own[own[key] == fit[key]] if key in fit else own
         if own.empty:
             continue
@@ -704,7 +706,7 @@ def procedure_courses(data: Data, *, procedures: list[str] | None = None) -> pd.
             continue
         head = procedure.panel()
         sessions = answers.groupby("person")["session"].nunique() if "session" in answers else pd.Series([1])
-        keys = sittings(answers)
+        keys = sitting_columns(answers)
         for _, own in answers.groupby(keys, sort=False):
             person = own["person"].iloc[0]
             person = f"{person}, {own['session'].iloc[0]}" if sessions.max() > 1 else person
@@ -742,7 +744,7 @@ def _reversals(levels: pd.Series, procedure: _Procedure) -> list[int]:
 
 def _mean_course(answers: pd.DataFrame, logarithmic: bool) -> Iterator[dict[str, Any]]:
     """The mean level of all people at each answer, up to the last one that all gave."""
-    keys = sittings(answers)
+    keys = sitting_columns(answers)
     last = answers.groupby(keys)["answer"].max().min()
     if answers.groupby(keys).ngroups < 2 or last < 3:
         return

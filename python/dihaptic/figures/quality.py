@@ -18,6 +18,8 @@ from .saving import Plan
 from .style import COLOURS, MARKERS, QUIET, canvas, corner, legend_above, styled
 from .words import counted, level, words_of
 
+#: Above these figures on the page of a report.
+HEADING = "Quality of the data"
 #: Most outcomes that colours tell apart, and most rows of a panel: the rest is one of them.
 _MOST_OUTCOMES = 7
 _MOST_BLOCKS = 14
@@ -356,12 +358,11 @@ def _spread(groups: Any, of: str) -> pd.DataFrame:
 def _ticks(data: Data) -> pd.DataFrame:
     """Ticks of each person: how many, how many missed, and how many late ones; limits of force and faults."""
     rows = []
-    for session in data.sessions:
-        info = session.info
-        person = str((info.get("participant") or {}).get("id", "") or session.folder.name)
+    for sitting in data.sittings:
+        session, info = sitting.session, sitting.session.info
         convergence = info.get("convergence") or {}
         late = re.search(r"(\d+) overruns?", str(info.get("finished", "")))
-        row: dict[str, Any] = {"person": person, "ticks": info.get("ticks"), "missed": convergence.get("missed")}
+        row: dict[str, Any] = {"person": sitting.person, "ticks": info.get("ticks"), "missed": convergence.get("missed")}
         row["late"] = int(late[1]) if late and info.get("clock") == "real" else None
         if "events" in session.tables:
             events = session.table("events")

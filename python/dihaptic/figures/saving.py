@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import io
+import os
 import re
+import tempfile
 import textwrap
 import zlib
 from collections.abc import Callable
@@ -56,10 +58,6 @@ class Plan:
 
     def script(self, data: Data, folder: Path) -> str:
         """The Python script that draws this figure anew, to be kept in `folder`."""
-        up = Path("..") if folder.parent == data.folder else data.folder
-        source = f'here / "{up.as_posix()}"' if not up.is_absolute() else repr(str(up))
-        if data.path.is_file():
-            source = f'here / "{(up / data.path.name).as_posix()}"' if not up.is_absolute() else repr(str(data.path))
         caption = textwrap.fill(self.caption, 120)
         text = f'''"""{self.title}: draws {self.name}.svg, .pdf and .png, and writes {self.name}.csv.
 
@@ -72,7 +70,7 @@ from dihaptic import figures
 
 here = Path(__file__).resolve().parent
 # The folder of the sessions. To draw some of the people: figures.read(..., people=["sim-001", "sim-002"])
-data = figures.read({source})
+data = {_reading(data, folder)}
 
 # A pandas table with a row for each point, mean and interval that is drawn.
 points = {_call(self.points, "data", self.points_options)}
@@ -92,9 +90,25 @@ def signed(text: str) -> str:
 
 
 def is_changed(script: Path) -> bool:
-    """Whether somebody has changed a script that Plan.script() made."""
+    """Whether there is a script that Plan.script() made, and somebody has changed it."""
+    if script.is_symlink():
+        return True  # this package makes none
+    if not script.is_file():
+        return False
     lines = script.read_text(encoding="utf-8", errors="replace").splitlines(keepends=True)
     return not lines or lines[-1] != signed("".join(lines[:-1]))
+
+
+def _reading(data: Data, folder: Path) -> str:
+    """The call that reads these data, as it is written in a script that is kept in `folder`."""
+    paths = []
+    for path in data.paths:
+        near = folder.is_relative_to(data.folder)
+        up = Path(*[".."] * len(folder.relative_to(data.folder).parts)) if near else Path()
+        within = near and path.is_relative_to(data.folder)
+        paths.append(f'here / "{(up / path.relative_to(data.folder)).as_posix()}"' if within else repr(str(path)))
+    options = "".join(f", {name}={value!r}" for name, value in data.choice.items() if value is not None)
+    return f"figures.read({paths[0] if len(paths) == 1 else '[' + ', '.join(paths) + ']'}{options})"
 
 
 def _call(function: Callable[..., Any], first: str, options: dict[str, Any]) -> str:
@@ -129,12 +143,17 @@ def save(figure: Figure, file: str | Path, points: pd.DataFrame | None = None) -
         "pdf": {"CreationDate": None, "Creator": None, "Producer": None},
         "png": {"Software": None},
     }
+    # places are found once, so that they are the same in all formats; finding them takes as long as drawing
+    engine = figure.get_layout_engine()
+    figure.draw_without_rendering()
+    figure.set_layout_engine("none")
     written = []
     for kind in kinds:
         whole = io.BytesIO()
         figure.savefig(whole, format=kind, metadata=metadata[kind], **({"transparent": True} if kind == "svg" else {}))
         content = _with_steady_names(whole.getvalue()) if kind == "svg" else whole.getvalue()
         written.append(write(base.with_name(f"{base.name}.{kind}"), content))
+    figure.set_layout_engine(engine)
     if points is not None:
         written.append(write(base.with_name(f"{base.name}.csv"), points.to_csv(index=False).encode()))
     return written
@@ -148,11 +167,29 @@ def _with_steady_names(svg: bytes) -> bytes:
 
 
 def write(file: Path, content: bytes) -> Path:
-    """Writes a file, and the folder that it is in. Raises Error."""
+    """Writes a file, and the folder that it is in. A link of this name is replaced, and what it leads to stays as it is.
+    Raises Error."""
     try:
         file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_bytes(content)
+        if file.parent.name.startswith("figures") and file.parent.is_symlink():  # this package makes none
+            raise OSError(0, "its folder is a link to another one")
+        with tempfile.NamedTemporaryFile(dir=file.parent, prefix=".unfinished-", delete=False) as new:
+            try:
+                new.write(content)
+                new.close()
+                os.chmod(new.name, 0o666 & ~_mask())
+                os.replace(new.name, file)
+            except BaseException:
+                Path(new.name).unlink(missing_ok=True)
+                raise
     except OSError as why:
-        remedy = "Name another folder for the figures, in which you may write."
+        remedy = "Mend its permissions, take away what has its name, or name another folder."
         raise error(f"cannot be written: {why.strerror}", remedy, file=str(file)) from None
     return file
+
+
+def _mask() -> int:
+    """The permissions that new files do not get."""
+    mask = os.umask(0)
+    os.umask(mask)
+    return mask

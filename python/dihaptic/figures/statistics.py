@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import keyword
-import os
 import re
 import warnings
 from dataclasses import dataclass, field
@@ -14,7 +13,6 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from ..rehearsal import Rehearsal
 from .data import ASIDE, Data
 from .saving import is_changed, signed, write
 
@@ -38,11 +36,11 @@ def write_analyses(data: Data, folder: str | Path) -> list[Path]:
     """Writes `analysis.py` (statsmodels) and `analysis.R` (lme4) into the folder, and returns them. One that you have
     changed is left as it is, with a warning.
 
-    Each is a script of its own: it reads the CSV tables by relative paths, fits a mixed model (REML) of each measure, and
-    prints estimates with 95 % intervals (Wald), the numbers of people and of trials. Fixed effects are the factors of the
-    design, numbers centred, words compared with the first one; each person has an intercept of their own. For learning,
-    the measure is the late compensation, by group and by round. For a folder of sessions, whose tables are not joined,
-    the joined ones are written beside the scripts. Returns [] for one person, or for a design without factors.
+    Each is a script of its own: it reads the tables that are written beside it (`analysis-trials.csv`, ...), fits a mixed
+    model (REML) of each measure, and prints estimates with 95 % intervals (Wald), the numbers of people and of trials.
+    Fixed effects are the factors of the design, numbers centred, words compared with the first one; each person has an
+    intercept of their own. For learning, the measure is the late compensation, by group and by round. Returns [] for one
+    person, or for a design without factors.
 
     >>> from dihaptic import figures
     >>> figures.write_analyses(figures.read(lift_session), folder)
@@ -56,16 +54,14 @@ def write_analyses(data: Data, folder: str | Path) -> list[Path]:
     into = Path(folder)
     into.mkdir(parents=True, exist_ok=True)
     written = []
-    for language, text in ((".py", _python(data, design, into)), (".R", _r(data, design, into))):
+    for language, text in ((".py", _python(data, design)), (".R", _r(data, design))):
         path = into / f"analysis{language}"
         written.append(path)
-        if path.exists() and is_changed(path):
+        if is_changed(path):
             kept = f"{path.name} has been changed, and is left as it is; remove it to have it written anew"
             warnings.warn(kept, stacklevel=2)
             continue
         write(path, (text + signed(text)).encode())
-    if _joined(data):
-        return written
     for name in design.tables:
         path = into / f"analysis-{name}.csv"
         write(path, data.table(name).to_csv(index=False).encode())
@@ -147,7 +143,7 @@ def _late_blocks(table: pd.DataFrame, fits: pd.DataFrame) -> dict[str, str]:
 
 def _sitting(table: pd.DataFrame) -> list[str]:
     """Columns that tell the sessions of a person apart, in which trials have the same numbers."""
-    return [key for key in ("seed", "session", "study_session") if key in table]
+    return [key for key in ("session", "study_session") if key in table]
 
 
 def _name_factors(data: Data, rows: pd.DataFrame, names: list[str], design: _Design) -> None:
@@ -197,33 +193,7 @@ def _is_of_full_rank(rows: pd.DataFrame, names: list[str], design: _Design) -> b
     return bool(np.linalg.matrix_rank(np.column_stack(columns)) == len(columns))
 
 
-def _joined(data: Data) -> Path | None:
-    """The folder of the joined tables, if there is one."""
-    return None if data._collected is None else data._collected._tables_folder
-
-
 # What both scripts say
-
-
-@dataclass
-class _Source:
-    """Where a script finds its rows."""
-
-    folder: str  #: of the tables, from the script's
-    prefix: str
-    person: list[str]  #: columns that name a person
-    sitting: list[str]  #: columns that tell a person's sessions apart
-    people: list[str]  #: whom to choose; []: everybody
-
-
-def _source(data: Data, design: _Design, folder: Path) -> _Source:
-    table = data.table(design.tables[0])
-    joined = _joined(data)
-    if joined is None:
-        return _Source(".", "analysis-", ["person"], _sitting(table), [])
-    several = isinstance(data._collected, Rehearsal) and "seed" in table and table["seed"].nunique() > 1
-    up = os.path.relpath(joined.resolve(), folder.resolve())
-    return _Source(up, "", ["seed", "id"] if several else ["id"], _sitting(table), data._only or [])
 
 
 def _about(data: Data, design: _Design) -> list[str]:
@@ -288,15 +258,13 @@ def _comment(notes: list[str]) -> str:
 # In Python
 
 
-def _python(data: Data, design: _Design, folder: Path) -> str:
-    source = _source(data, design, folder)
+def _python(data: Data, design: _Design) -> str:
+    sitting = _sitting(data.table(design.tables[0]))
     about = "\n".join(line.replace("\\", "/").replace('"', "'") for line in _about(data, design))
     words = _laid_out("WORDS = {", [f"{_text(name)}: [{_items(levels)}]" for name, levels in design.words.items()], "}")
     numbers = _laid_out("NUMBERS = {", [f"{_text(name)}: {_text(unit)}" for name, unit in design.numbers.items()], "}")
     models = "".join(f"    {_text(name)}: {_text(_formula(effects, 'Python'))},\n" for name, effects in design.models.items())
-    person = ' + "/" + '.join(f"rows[{_text(name)}]" for name in source.person)
-    chosen = f'[rows["person"].isin([{_items(source.people)}])]' if source.people else ""
-    rows = _python_late(design, source) if design.late else _python_attempts(design, source)
+    rows = _python_late(design, sitting) if design.late else _python_attempts(design, sitting)
     return f'''"""{about}
 Run with python3 analysis.py; it takes the Debian package python3-statsmodels. analysis.R fits the same models.
 """
@@ -315,11 +283,8 @@ MODELS = {{
 
 
 def read(name):
-    file = Path(__file__).resolve().parent / {_text(source.folder)} / name
-    texts = {{column: str for column in [{_items(source.person)}, *WORDS]}}
-    rows = pd.read_csv(file, dtype=texts, keep_default_na=False, na_values=[""])
-    rows["person"] = {person}
-    return rows{chosen}
+    texts = {{column: str for column in ["person", *WORDS]}}
+    return pd.read_csv(Path(__file__).resolve().parent / name, dtype=texts, keep_default_na=False, na_values=[""])
 
 
 {rows}
@@ -343,44 +308,41 @@ for measure, effects in MODELS.items():
 '''
 
 
-def _python_attempts(design: _Design, source: _Source) -> str:
-    keys = ["person", *source.sitting, "trial_num"]
+def _python_attempts(design: _Design, sitting: list[str]) -> str:
+    keys = ["person", *sitting, "trial_num"]
     text = f"""# The last attempt at each trial, without practice and catch trials
 keys = [{_items(keys)}]
-rows = read("{source.prefix}trials.csv").drop_duplicates(keys, keep="last")
+rows = read("analysis-trials.csv").drop_duplicates(keys, keep="last")
 rows = rows[~rows["kind"].isin([{_items(ASIDE)}])]
 """
     if design.of_lifts:
-        text += f"""lifts = read("{source.prefix}lifts.csv")[[*keys, "attempt", {_items(design.of_lifts)}]]
+        text += f"""lifts = read("analysis-lifts.csv")[[*keys, "attempt", {_items(design.of_lifts)}]]
 rows = rows.merge(lifts, how="left")
 """
     return text
 
 
-def _python_late(design: _Design, source: _Source) -> str:
+def _python_late(design: _Design, sitting: list[str]) -> str:
     late = ", ".join(f"{_text(name)}: {_text(block)}" for name, block in design.late.items())
     return f"""# The last {_LATE} measured trials of the late block of each round
 LATE = {{{late}}}
-rows = read("{source.prefix}adaptation.csv")
+rows = read("analysis-adaptation.csv")
 rows["round"] = rows["round"].fillna("").astype(str)
 rows = rows[(rows["block"] == rows["round"].map(LATE)) & (rows["unit"] == {_text(design.unit)})]
 rows = rows[~rows["kind"].isin([{_items(_PROBES)}])]
-rows = rows.dropna(subset=["compensation"]).groupby([{_items(["person", *source.sitting, "round"])}]).tail({_LATE})
+rows = rows.dropna(subset=["compensation"]).groupby([{_items(["person", *sitting, "round"])}]).tail({_LATE})
 """
 
 
 # In R
 
 
-def _r(data: Data, design: _Design, folder: Path) -> str:
-    source = _source(data, design, folder)
+def _r(data: Data, design: _Design) -> str:
+    sitting = _sitting(data.table(design.tables[0]))
     numbers = _laid_out("numbers <- c(", [f"`{name}` = {_text(unit)}" for name, unit in design.numbers.items()], ")")
     words = _laid_out("words <- list(", [f"`{name}` = {_vector(levels)}" for name, levels in design.words.items()], ")")
     models = ",\n".join(f"  `{name}` = {_text(_formula(effects, 'R'))}" for name, effects in design.models.items())
-    person = ", ".join(f"rows[[{_text(name)}]]" for name in source.person)
-    person = f'paste({person}, sep = "/")' if len(source.person) > 1 else person
-    chosen = f"[rows$person %in% {_vector(source.people)}, ]" if source.people else ""
-    rows = _r_late(design, source) if design.late else _r_attempts(design, source)
+    rows = _r_late(design, sitting) if design.late else _r_attempts(design, sitting)
     return f"""{_comment(_about(data, design))}
 # Run with Rscript analysis.R; it takes the Debian package r-cran-lme4. analysis.py fits the same models.
 suppressPackageStartupMessages(library(lme4))
@@ -396,12 +358,9 @@ models <- c(
 )
 
 read <- function(name) {{
-  file <- file.path({_text(source.folder)}, name)
-  columns <- names(read.csv(file, nrows = 1, check.names = FALSE))
-  texts <- intersect(c({", ".join(map(_text, source.person))}, names(words)), columns)
-  rows <- read.csv(file, na.strings = "", check.names = FALSE, colClasses = sapply(texts, function(name) "character"))
-  rows$person <- {person}
-  rows{chosen}
+  columns <- names(read.csv(name, nrows = 1, check.names = FALSE))
+  texts <- intersect(c("person", names(words)), columns)
+  read.csv(name, na.strings = "", check.names = FALSE, colClasses = sapply(texts, function(name) "character"))
 }}
 
 {rows}
@@ -423,24 +382,24 @@ for (measure in names(models)) {{
 """
 
 
-def _r_attempts(design: _Design, source: _Source) -> str:
-    keys = ["person", *source.sitting, "trial_num"]
+def _r_attempts(design: _Design, sitting: list[str]) -> str:
+    keys = ["person", *sitting, "trial_num"]
     text = f"""# The last attempt at each trial, without practice and catch trials
 keys <- {_vector(keys)}
-rows <- read("{source.prefix}trials.csv")
+rows <- read("analysis-trials.csv")
 rows <- rows[!duplicated(rows[keys], fromLast = TRUE) & !rows$kind %in% {_vector(ASIDE)}, ]
 """
     if design.of_lifts:
-        text += f"""lifts <- read("{source.prefix}lifts.csv")[c(keys, "attempt", {_items(design.of_lifts)})]
+        text += f"""lifts <- read("analysis-lifts.csv")[c(keys, "attempt", {_items(design.of_lifts)})]
 rows <- merge(rows, lifts, all.x = TRUE)
 """
     return text
 
 
-def _r_late(design: _Design, source: _Source) -> str:
-    order = ", ".join(f"rows${name}" for name in ["person", *source.sitting, "round"])
+def _r_late(design: _Design, sitting: list[str]) -> str:
+    order = ", ".join(f"rows${name}" for name in ["person", *sitting, "round"])
     return f"""# The last {_LATE} measured trials of the late block of each round
-rows <- read("{source.prefix}adaptation.csv")
+rows <- read("analysis-adaptation.csv")
 rows$round[is.na(rows$round)] <- ""
 blocks <- {_vector(list(design.late.values()))}[match(rows$round, {_vector(list(design.late))})]
 rows <- rows[!is.na(blocks) & rows$block == blocks & !rows$kind %in% {_vector(_PROBES)} & rows$unit == {_text(design.unit)}, ]

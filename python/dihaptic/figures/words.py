@@ -21,7 +21,8 @@ _WORDS = {
 
 def split(column: str, unit: str) -> str:
     """A column's name without the unit at its end: "peak_grip_rate" of "peak_grip_rate_N_s"."""
-    ends = {"N*s/m": "Ns_m", "m/s^2": "m_s2", "N*m": "Nm", "N/m^2": "Pa", "kg/m^3": "kg_m3", "N*m/rad": "Nm_rad"}
+    ends = {"N*s/m": "Ns_m", "m/s^2": "m_s2", "N*m": "Nm", "N/m^2": "Pa", "kg/m^3": "kg_m3", "N*m/rad": "Nm_rad",
+            "mm^2": "mm2"}  # fmt: skip
     for end in (ends.get(unit, ""), unit.replace("/", "_").replace("*", "")):
         if end and column.endswith("_" + end):
             return column[: -len(end) - 1]

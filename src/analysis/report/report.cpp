@@ -1,47 +1,103 @@
 #include "analysis/report/report.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <map>
 #include <set>
 
-#include "analysis/report/population_page.h"
-#include "analysis/report/session_page.h"
+#include "analysis/report/population_tables.h"
+#include "analysis/report/session_tables.h"
 #include "base/regular_file.h"
 #include "base/text_file.h"
+#include "recording/raw_log.h"
 
 namespace dihaptic::analysis {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Adds who moved the hand to each row of a session's table.
-Table of(const SessionData& session, Table table) {
-    return recording::marked(std::move(table), session.info.moved_by);
-}
-
 /// Writes the table, unless it has no rows.
-void write(ReportResult& result, const Table& table, const std::string& file) {
+void write(std::vector<std::string>& written, const Table& table, const std::string& file) {
     if (table.rows.empty()) return;
     write_csv(table, file);
-    result.tables.push_back(file);
+    written.push_back(file);
 }
 
-ReportResult report_session(const std::string& path, const std::string& command,
-                            const std::function<void(double)>& progress) {
-    const SessionData session = SessionData::read(path);
-    const SessionPage made = session_page(session, command, progress);
+/// Writes the tables of one session into its folder, and returns their files.
+std::vector<std::string> write_tables_of(const FittedSession& session) {
+    const SessionTables made = session_tables(session);
+    std::vector<std::string> out;
+    const auto add = [&](const Table& table, const char* name) {
+        write(out, recording::marked(table, session.data.info.moved_by),
+              session.data.folder.file(name));
+    };
+    add(made.adaptation, "adaptation.csv");
+    add(made.fits, "fits.csv");
+    add(made.blocks, "adaptation-blocks.csv");
+    add(made.generalisation, "generalisation.csv");
+    add(made.thresholds, "thresholds.csv");
+    return out;
+}
+
+/// Reads the session's log to its end: it may have been damaged since the tables were made. Throws
+/// Error when it cannot be read.
+std::vector<std::string> faults_of_log(const SessionData& session,
+                                       const std::function<void(double)>& progress) {
+    recording::RawLogReader log(session.folder.raw_log());
+    session.folder.check_log(session.info, log.head());
+    while (log.next() != nullptr) {
+        if (progress) progress(log.share());
+    }
+    const recording::LogHealth& health = log.health();
+    std::vector<std::string> out = recording::describe_version(health);
+    if (!health.damaged(session.info.ticks)) return out;
+    const std::vector<std::string> faults =
+        recording::describe(health, session.info.ticks, log.head().planned());
+    out.insert(out.end(), faults.begin(), faults.end());
+    return out;
+}
+
+/// What was written into note.txt by hand, or why it is not shown.
+std::string note_in(const SessionData& session) {
+    const std::string file = session.folder.file("note.txt");
+    try {
+        if (fs::is_symlink(fs::symlink_status(file)))
+            return "not shown: note.txt is a link to another file";
+        return is_there(file) ? read_text_file(file) : "";
+    } catch (const Error& e) {
+        return e.what();
+    }
+}
+
+ReportSample sample_of(const Sessions& sessions) {
+    const SessionData& first = sessions.front()->data;
+    ReportSample out{
+        first.info.title, first.info.moved_by, "", "", perturbation_table(first.task), "", {}};
+    std::set<std::string> not_measured;
+    for (const FittedSession* session : sessions) {
+        out.folders.push_back(session->data.folder.path());
+        if (!session->data.unmeasured.empty()) not_measured.insert(session->data.not_measured());
+    }
+    out.not_measured = fmt::format("{}", fmt::join(not_measured, "; "));
+    return out;
+}
+
+ReportResult report_session(const std::string& path, const std::function<void(double)>& progress) {
+    const FittedSession session(SessionData::read(path));
+    const SessionData& data = session.data;
     ReportResult result;
+    result.paths = {data.folder.path()};
     result.sessions = 1;
-    write(result, of(session, made.adaptation), session.folder.file("adaptation.csv"));
-    write(result, of(session, made.fits), session.folder.file("fits.csv"));
-    write(result, of(session, made.blocks), session.folder.file("adaptation-blocks.csv"));
-    write(result, of(session, made.generalisation), session.folder.file("generalisation.csv"));
-    write(result, of(session, made.thresholds), session.folder.file("thresholds.csv"));
-    result.changed = session.changed;
-    result.log = made.log;
-    result.page = session.folder.file("report.html");
-    write_file(made.page.html(), result.page);
+    result.changed = data.changed;
+    // a rehearsal has no log
+    if (is_there(data.folder.raw_log())) result.log = faults_of_log(data, progress);
+    result.tables = write_tables_of(session);
+    ReportSample& sample = result.samples.emplace_back(sample_of({&session}));
+    if (data.info.convergence) sample.contact = data.info.convergence->describe();
+    sample.note = note_in(data);
     return result;
 }
 
@@ -56,19 +112,24 @@ Error none_ended(const std::string& folder, const std::vector<std::string>& left
     return Error(problems);
 }
 
-ReportResult report_folder(const std::string& folder, const std::string& command,
-                           const std::function<void(double)>& progress) {
-    ReportResult result;
+/// The sessions in a folder that can be read. Tells why others are left out.
+std::vector<SessionData> read_sessions(ReportResult& result, const std::string& folder,
+                                       const std::function<void(double)>& progress) {
+    std::vector<SessionData> out;
     const std::vector<std::string> paths = find_sessions(folder);
-    std::vector<SessionData> sessions;
     for (size_t i = 0; i < paths.size(); ++i) {
         try {
-            sessions.push_back(SessionData::read(paths[i]));
+            out.push_back(SessionData::read(paths[i]));
         } catch (const Error& e) {
             result.left_out.push_back(e.problems().front().text());
         }
-        if (progress) progress(static_cast<double>(i + 1) / static_cast<double>(paths.size()));
+        progress(static_cast<double>(i + 1) / static_cast<double>(paths.size()));
     }
+    return out;
+}
+
+/// Leaves out sessions that do not count: copies, parts of others, and those cut short.
+void leave_out(ReportResult& result, std::vector<SessionData>& sessions) {
     // a session that is resumed by another one is part of it
     std::set<std::string> earlier;
     for (const SessionData& session : sessions) {
@@ -95,32 +156,87 @@ ReportResult report_folder(const std::string& folder, const std::string& command
         }
         return true;
     });
-    if (sessions.empty()) throw none_ended(folder, result.left_out);
-    const PopulationPage made = population_page(sessions, folder, command);
-    const auto file = [&](const char* name) { return (fs::path(folder) / name).string(); };
-    result.sessions = static_cast<int>(sessions.size());
-    for (const SessionData& session : sessions) {
-        result.changed.insert(result.changed.end(), session.changed.begin(), session.changed.end());
+}
+
+/// Fits the sessions and writes each one's tables into its folder. A folder that cannot be written,
+/// as in an archive, does not keep the others from being reported.
+std::vector<FittedSession> fit_and_write(ReportResult& result, std::vector<SessionData> sessions,
+                                         const std::function<void(double)>& progress) {
+    std::vector<FittedSession> out;
+    for (SessionData& session : sessions) {
+        const FittedSession& fitted = out.emplace_back(std::move(session));
+        try {
+            write_tables_of(fitted);
+        } catch (const Error& e) {
+            for (Problem problem : e.problems()) {
+                problem.severity = Severity::warning;
+                result.unwritten.push_back(std::move(problem));
+            }
+        }
+        progress(static_cast<double>(out.size()) / static_cast<double>(sessions.size()));
     }
-    write(result, made.people, file("population-people.csv"));
-    write(result, made.adaptation, file("population-adaptation.csv"));
-    write(result, made.lifts, file("population-lifts.csv"));
-    write(result, made.thresholds, file("population-thresholds.csv"));
-    write(result, made.measures, file("population-measures.csv"));
-    result.page = file("report.html");
-    write_file(made.page.html(), result.page);
+    return out;
+}
+
+ReportResult report_folder(const std::string& folder, const std::function<void(double)>& progress) {
+    const auto half = [&](double from) {
+        return [&progress, from](double share) {
+            if (progress) progress(from + 0.5 * share);
+        };
+    };
+    ReportResult result;
+    result.paths = {folder};
+    std::vector<SessionData> read = read_sessions(result, folder, half(0));
+    leave_out(result, read);
+    if (read.empty()) throw none_ended(folder, result.left_out);
+    const std::vector<FittedSession> sessions = fit_and_write(result, std::move(read), half(0.5));
+    result.sessions = static_cast<int>(sessions.size());
+    for (const FittedSession& session : sessions) {
+        const std::vector<Problem>& changed = session.data.changed;
+        result.changed.insert(result.changed.end(), changed.begin(), changed.end());
+    }
+    const std::vector<Sessions> samples = samples_of(sessions);
+    for (const Sessions& one : samples) result.samples.push_back(sample_of(one));
+    const PopulationTables made = population_tables(samples);
+    const auto add = [&](const Table& table, const char* name) {
+        write(result.tables, table, (fs::path(folder) / name).string());
+    };
+    add(made.people, "population-people.csv");
+    add(made.adaptation, "population-adaptation.csv");
+    add(made.lifts, "population-lifts.csv");
+    add(made.thresholds, "population-thresholds.csv");
+    add(made.measures, "population-measures.csv");
     return result;
+}
+
+template <class Item>
+void add_all(std::vector<Item>& to, const std::vector<Item>& items) {
+    to.insert(to.end(), items.begin(), items.end());
 }
 
 }  // namespace
 
-ReportResult write_report(const std::string& path, const std::string& command,
-                          const std::function<void(double)>& progress) {
+std::string ReportResult::page() const {
+    return (fs::path(out.empty() ? paths.front() : out) / "report.html").string();
+}
+
+void ReportResult::add(const ReportResult& other) {
+    add_all(paths, other.paths);
+    add_all(tables, other.tables);
+    sessions += other.sessions;
+    add_all(left_out, other.left_out);
+    add_all(changed, other.changed);
+    add_all(unwritten, other.unwritten);
+    add_all(log, other.log);
+    add_all(samples, other.samples);
+}
+
+ReportResult write_tables(const std::string& path, const std::function<void(double)>& progress) {
     std::error_code unreadable;  // report_session() then reports that it is not a session
     const bool is_folder = fs::is_directory(path, unreadable);
     if (!is_folder || is_there(path + "/session.yaml") || is_there(path + "/raw.log"))
-        return report_session(path, command, progress);
-    return report_folder(path, command, progress);
+        return report_session(path, progress);
+    return report_folder(path, progress);
 }
 
 }  // namespace dihaptic::analysis

@@ -1,5 +1,5 @@
-// The command `dihaptic report`: shows the results of a session, or of a folder of sessions, as a
-// page and as tables.
+// The command `dihaptic report`: makes the tables of a session, or of a folder of sessions. The
+// Python package draws a page of them (report_json.h).
 #pragma once
 
 #include <functional>
@@ -7,24 +7,46 @@
 #include <vector>
 
 #include "base/diagnostics.h"
+#include "base/table.h"
+#include "recording/moved_by.h"
 
 namespace dihaptic::analysis {
 
+/// Sessions of one experiment whose hands were moved by people of one kind: they may be counted
+/// together.
+struct ReportSample {
+    std::string title;  ///< of the experiment
+    recording::MovedBy moved_by;
+    std::string not_measured;  ///< perturbations whose learning has no measure; empty: none
+    std::string contact;       ///< of a single session: how closely the contact solver answered
+    Table perturbations;
+    std::string note;  ///< of a single session: what was written into note.txt by hand
+    std::vector<std::string> folders;  ///< of the sessions
+};
+
 struct ReportResult {
-    std::string page;                 ///< report.html
-    std::vector<std::string> tables;  ///< tables written beside the page
+    std::vector<std::string> paths;   ///< folders of sessions, or with sessions in them
+    std::string out;                  ///< folder for the page of several paths
+    std::vector<std::string> tables;  ///< tables written; of a folder, those over people
     int sessions = 0;
     std::vector<std::string> left_out;  ///< sessions left out, each with the reason
     std::vector<Problem> changed;       ///< changes in sessions since they ended
+    std::vector<Problem> unwritten;     ///< sessions in whose folders no table could be written
     std::vector<std::string> log;       ///< faults of a session's raw.log, in sentences
+    std::vector<ReportSample> samples;
+
+    /// The file of the page that Python draws.
+    std::string page() const;
+    /// Adds the result of another path, for one page of both.
+    void add(const ReportResult& other);
 };
 
-/// For one session, writes report.html in its folder, with adaptation.csv and fits.csv if it has
-/// reaches. For a folder with sessions in it, at any depth, writes report.html there, with
-/// population-people.csv, population-adaptation.csv, population-thresholds.csv,
-/// population-lifts.csv and population-measures.csv. `command`: the command line, shown in the
-/// report. Throws Error when there is no session.
-ReportResult write_report(const std::string& path, const std::string& command,
-                          const std::function<void(double)>& progress);
+/// For one session, writes adaptation.csv, fits.csv, adaptation-blocks.csv, generalisation.csv and
+/// thresholds.csv into its folder, as far as there is something to write; reads its raw.log to the
+/// end, and says what is wrong with it. For a folder with sessions in it, at any depth, writes
+/// these tables of each session that counts, and population-people.csv, population-adaptation.csv,
+/// population-lifts.csv, population-thresholds.csv and population-measures.csv into the folder.
+/// Throws Error when there is no session.
+ReportResult write_tables(const std::string& path, const std::function<void(double)>& progress);
 
 }  // namespace dihaptic::analysis

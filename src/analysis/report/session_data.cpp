@@ -1,8 +1,6 @@
 #include "analysis/report/session_data.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <map>
 #include <set>
@@ -215,43 +213,6 @@ std::vector<std::string> groups_of_lifts(const SessionData& session) {
         const auto found = groups.find({lift.trial, lift.attempt});
         out.push_back(found == groups.end() ? "" : found->second);
     }
-    return out;
-}
-
-std::optional<PreviousWeight> previous_weight(const rows::LiftFile& lifts) {
-    constexpr Eigen::Index kLeast = 10;
-    constexpr double kVaries = 1.05;
-    std::vector<Eigen::Vector3d> rows;  // 1, W, W before
-    std::vector<double> rates;
-    double least = std::numeric_limits<double>::infinity();
-    double most = 0;
-    for (size_t i = 1; i < lifts.size(); ++i) {
-        if (!lifts[i].complete() || !lifts[i - 1].complete()) continue;
-        const double weight = lifts[i].static_load;
-        const double before = lifts[i - 1].static_load;
-        const double rate = lifts[i].peak_load_rate;
-        if (!std::isfinite(weight + before + rate)) continue;
-        least = std::min(least, weight);
-        most = std::max(most, weight);
-        rows.emplace_back(1, weight, before);
-        rates.push_back(rate);
-    }
-    const auto n = static_cast<Eigen::Index>(rows.size());
-    if (n < kLeast || most < kVaries * least) return std::nullopt;
-    Eigen::MatrixXd x(n, 3);
-    Eigen::VectorXd y(n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-        x.row(i) = rows[static_cast<size_t>(i)];
-        y[i] = rates[static_cast<size_t>(i)];
-    }
-    const Eigen::Matrix3d normal = x.transpose() * x;
-    const Eigen::Vector3d b = normal.ldlt().solve(x.transpose() * y);
-    const double variance = (y - x * b).squaredNorm() / static_cast<double>(n - 3);
-    PreviousWeight out;
-    out.effect = b[2];
-    out.error = std::sqrt(variance * normal.inverse()(2, 2));
-    out.share = b[2] / (b[1] + b[2]);
-    out.lifts = static_cast<int>(n);
     return out;
 }
 

@@ -47,37 +47,5 @@ std::vector<std::string> find_sessions(const std::string& folder);
 /// For each row of lifts.csv, the demands of its trial: "round, block, kind, condition", as far as
 /// the trial has them.
 std::vector<std::string> groups_of_lifts(const SessionData& session);
-/// Figures of lifts whose medians are in reports.
-inline constexpr double rows::LiftRow::*kLiftFigures[] = {
-    &rows::LiftRow::preload,        &rows::LiftRow::loading,       &rows::LiftRow::peak_grip_rate,
-    &rows::LiftRow::peak_load_rate, &rows::LiftRow::peak_grip,     &rows::LiftRow::static_grip,
-    &rows::LiftRow::static_load,    &rows::LiftRow::static_ratio,  &rows::LiftRow::safety_margin,
-    &rows::LiftRow::grip_load_r,    &rows::LiftRow::grip_load_lag, &rows::LiftRow::overshoot};
-
-/// One figure of each of these lifts, in the unit of its column.
-template <class Lifts, class Member>
-std::vector<double> values_of(const Lifts& lifts, Member rows::LiftRow::*figure) {
-    const double scale = figure_column(figure).scale;
-    std::vector<double> out;
-    for (const rows::LiftRow& lift : lifts) out.push_back(scale * lift.*figure);
-    return out;
-}
-
-/// Dependence of a lift on the weight of the previous one (Johansson and Westling 1988): the
-/// regression
-///
-///     rate = a + b W + c W_before
-///
-/// of the largest rate of load force before lift-off on the weights held, over consecutive complete
-/// lifts.
-struct PreviousWeight {
-    double share =
-        0;  ///< c / (b + c): 0 if only this weight counts, 1 if only the previous one does
-    double effect = 0;  ///< c [1/s]
-    double error = 0;   ///< its standard error [1/s]
-    int lifts = 0;
-};
-/// Nullopt if weights varied by less than 5 %, or if fewer than ten pairs are complete.
-std::optional<PreviousWeight> previous_weight(const rows::LiftFile& lifts);
 
 }  // namespace dihaptic::analysis

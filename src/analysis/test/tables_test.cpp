@@ -7,8 +7,8 @@
 #include "analysis/episodes.h"
 #include "analysis/events.h"
 #include "analysis/lifts.h"
-#include "analysis/report/population_page.h"
-#include "analysis/report/session_page.h"
+#include "analysis/report/population_tables.h"
+#include "analysis/report/session_tables.h"
 #include "analysis/session_report.h"
 #include "analysis/trials.h"
 #include "base/figure.h"
@@ -51,9 +51,9 @@ std::string table(const std::string& name, const std::string& meaning, const Col
 
 std::string tables() {
     const testing::TemporaryFolder folder;
-    const SessionData session = session_in(folder);
-    const SessionPage page = session_page(session, "", {});
-    const PopulationPage people = population_page({session}, "", "");
+    const FittedSession session(session_in(folder));
+    const SessionTables own = session_tables(session);
+    const PopulationTables people = population_tables({{&session}});
     return table("trials.csv", "A row for each attempt at a trial of a task.", trial_columns()) +
            table("trials.csv without a task", "A row for each trial.",
                  list_figures(rows::PlainTrialRow{}).columns) +
@@ -66,11 +66,11 @@ std::string tables() {
                  list_figures(rows::LiftRow{}).columns) +
            table("corrections.csv", "A row for each condition in which something happens.",
                  list_figures(rows::CorrectionRow{}).columns) +
-           table("adaptation.csv", "A row for each reach.", page.adaptation.columns) +
-           table("adaptation-blocks.csv", "A row for each block of reaches.", page.blocks.columns) +
-           table("fits.csv", "A row for each round.", page.fits.columns) +
-           table("generalisation.csv", "A row for each condition.", page.generalisation.columns) +
-           table("thresholds.csv", "A row for each procedure.", page.thresholds.columns) +
+           table("adaptation.csv", "A row for each reach.", own.adaptation.columns) +
+           table("adaptation-blocks.csv", "A row for each block of reaches.", own.blocks.columns) +
+           table("fits.csv", "A row for each round.", own.fits.columns) +
+           table("generalisation.csv", "A row for each condition.", own.generalisation.columns) +
+           table("thresholds.csv", "A row for each procedure.", own.thresholds.columns) +
            table("population-people.csv", "A row for each person and round.",
                  people.people.columns) +
            table("population-adaptation.csv", "A row for each trial of a round.",

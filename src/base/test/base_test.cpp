@@ -197,13 +197,6 @@ TEST(Json, ThatIsNestedTooDeeplyIsNone) {
                 .is_discarded());
 }
 
-TEST(Table, TransposedHasTheFirstColumnForItsHeader) {
-    Table table;
-    table.columns = {{"block", "what"}, {"n", "lifts"}};
-    table.rows = {{std::string("a, b"), 1.0}, {std::string("c"), 2.0}};
-    EXPECT_EQ(to_csv(transposed(table)), "block,\"a, b\",c\nn,1,2\n");
-}
-
 TEST(Table, CsvQuotesWhatItMustAndReadsBack) {
     Table table;
     table.columns = {{"a", ""}, {"b", ""}};

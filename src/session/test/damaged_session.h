@@ -90,7 +90,7 @@ inline void expect_all_tell(int cases) {
             }
             if (seed % 5 == 0) {
                 fs::remove_all(sessions.file("study"));  // a data set has a session once
-                EXPECT_FALSE(analysis::write_report(session.path(), "", {}).log.empty());
+                EXPECT_FALSE(analysis::write_tables(session.path(), {}).log.empty());
                 EXPECT_FALSE(
                     analysis::export_bids(session, sessions.file("study"), {}).log.empty());
             }
@@ -111,7 +111,7 @@ inline void read_all_ways(const std::string& path, const std::string& study) {
         }
     };
     attempt("replay", [&] { replay_session(path, kGoOn, {}); });
-    attempt("report", [&] { analysis::write_report(path, "", {}); });
+    attempt("report", [&] { analysis::write_tables(path, {}); });
     attempt("export",
             [&] { analysis::export_bids(recording::SessionFolder::open(path), study, {}); });
     attempt("resume", [&] {

@@ -1,4 +1,4 @@
-// Tests reports on tables whose figures are known. test/report_test.py opens pages in a browser.
+// Tests reports on tables whose figures are known.
 #include "analysis/report/report.h"
 
 #include <gtest/gtest.h>
@@ -8,11 +8,9 @@
 
 #include "analysis/adaptation.h"
 #include "analysis/generalisation.h"
-#include "analysis/report/page.h"
 #include "analysis/report/session_data.h"
 #include "analysis/report/statistics.h"
 #include "base/number.h"
-#include "base/palette.h"
 #include "base/random.h"
 #include "testing/files.h"
 
@@ -32,6 +30,7 @@ TEST(Statistics, OfAKnownSample) {
     EXPECT_TRUE(std::isnan(sample(std::span(x).first(1)).mean_interval.low));
     EXPECT_EQ(sample({}).count, 0);
     EXPECT_TRUE(std::isnan(sample({}).mean));
+    EXPECT_EQ(in_words({std::nan(""), std::nan("")}), "-");
 }
 
 /// Trials of a person who adapts by a two-rate model.
@@ -202,28 +201,6 @@ TEST(Adaptation, IsNotSeenWhereNothingWasMeasuredOrPerturbed) {
     EXPECT_FALSE(fit_adaptation(curves[0]));
 }
 
-TEST(PreviousWeight, IsTheShareThatTheLiftsWereMadeWith) {
-    testing::TemporaryFolder folder;
-    Random random(3, "weights");
-    std::string text = "lift,static_load_N,peak_load_rate_N_s\n";
-    double before = 2;
-    for (int i = 0; i < 60; ++i) {
-        const double weight = random.uniform(0, 1) < 0.5 ? 2 : 8;
-        const double rate = 5 + 1.5 * weight + 0.5 * before + 0.1 * random.normal();
-        text += "complete," + number_text(weight) + "," + number_text(rate) + "\n";
-        before = weight;
-    }
-    const auto effect = previous_weight(rows::LiftFile(folder.write("lifts.csv", text)));
-    ASSERT_TRUE(effect);
-    EXPECT_NEAR(effect->effect, 0.5, 4 * effect->error);
-    EXPECT_LT(effect->error, 0.02);
-    EXPECT_NEAR(effect->share, 0.25, 0.02);
-    // weights do not vary
-    text = "lift,static_load_N,peak_load_rate_N_s\n";
-    for (int i = 0; i < 60; ++i) text += "complete,2,7\n";
-    EXPECT_FALSE(previous_weight(rows::LiftFile(folder.write("same.csv", text))));
-}
-
 TEST(Thresholds, AreFittedToTheAnswersOfTheirProcedure) {
     testing::TemporaryFolder folder;
     Random random(4, "observer");
@@ -293,22 +270,6 @@ TEST(Thresholds, OfProceduresOverOneNumberArePooledAndHaveAWeberFraction) {
     EXPECT_TRUE(std::isnan(tracks[2].weber_fraction({})));
 }
 
-TEST(Page, ShowsAnyTextAsItIs) {
-    Page page("a < b & \"c\"", "", "by </script>");
-    Chart chart;
-    chart.title = "</script>\"'\xff";
-    chart.series = {{"x", Drawn::points, {1, 2}, {3, std::nan("")}, {}, {}, {}}};
-    page.chart(chart);
-    const std::string html = page.html();
-    EXPECT_NE(html.find("a &lt; b &amp; &quot;c&quot;"), std::string::npos);
-    EXPECT_EQ(html.find("by </script>"), std::string::npos);
-    EXPECT_NE(html.find("[3.0,null]"), std::string::npos);
-    // nothing is fetched from anywhere
-    for (const char* outside :
-         {"<script src", "<link", "<img", "@import", "url(http", "sourceMappingURL"})
-        EXPECT_EQ(html.find(outside), std::string::npos) << outside;
-}
-
 TEST(Thresholds, ThatCannotBeFittedSayWhyAndOutsideOnesAreMarked) {
     ThresholdTrack track;
     track.model.sigmoid = model::Sigmoid::weibull;
@@ -329,23 +290,6 @@ TEST(Thresholds, ThatCannotBeFittedSayWhyAndOutsideOnesAreMarked) {
     EXPECT_TRUE(far.outside);
     EXPECT_NE(far.note.find("outside of the levels shown, 0 to 0.3"), std::string::npos)
         << far.note;
-}
-
-TEST(Page, HasNoChartOfNothing) {
-    Page page("title", "who", "origin");
-    Chart chart;
-    chart.title = "Grip";
-    chart.series = {{"none", Drawn::line, {1, 2}, {std::nan(""), std::nan("")}, {}, {}, {}}};
-    page.chart(chart);
-    EXPECT_EQ(page.html().find("data-chart=\"{"), std::string::npos);
-    EXPECT_NE(page.html().find("Grip: no values were measured."), std::string::npos);
-    chart.series.push_back({"grip force", Drawn::line, {1}, {2}, {}, {}, palette::kGrip});
-    page.chart(chart);
-    const std::string html = page.html();
-    EXPECT_NE(html.find("grip force"), std::string::npos);
-    EXPECT_NE(html.find(palette::kGrip), std::string::npos);
-    EXPECT_EQ(html.find("&quot;none&quot;"), std::string::npos);
-    EXPECT_EQ(in_words({std::nan(""), std::nan("")}), "-");
 }
 
 TEST(Adaptation, WindowsAreOfOneBlockEach) {
@@ -489,7 +433,6 @@ TEST(Adaptation, ToAFieldIsThatOfTheIndexInChannelsAndNeverAnAngle) {
         ASSERT_EQ(curves.size(), 1u);
         const AdaptationCurve& curve = curves[0];
         EXPECT_EQ(curve.measure, kAdaptationIndex);
-        EXPECT_EQ(y_label(curve), "adaptation_index [%]");
         EXPECT_EQ(curve.note(), "");
         EXPECT_NEAR(curve.perturbation(), 100 * sign, 1e-9);
         EXPECT_TRUE(std::isnan(curve.trials[40].compensation));  // in the field
@@ -584,9 +527,9 @@ TEST(Adaptation, ToAMassIsThatOfTheErrorsInEachDirection) {
 
 TEST(Report, OfNothingSaysSo) {
     testing::TemporaryFolder folder;
-    EXPECT_THROW(write_report(folder.file("nothing"), "", {}), Error);
+    EXPECT_THROW(write_tables(folder.file("nothing"), {}), Error);
     folder.write("a.txt", "");
-    EXPECT_THROW(write_report(folder.file("."), "", {}), Error);
+    EXPECT_THROW(write_tables(folder.file("."), {}), Error);
 }
 
 }  // namespace

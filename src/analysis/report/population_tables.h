@@ -1,24 +1,25 @@
-// Makes the report's page of a folder of sessions: each person's figures, and means over people.
+// Makes the tables over the people of several sessions: each person's figures, and their means.
 #pragma once
 
-#include <string>
 #include <vector>
 
-#include "analysis/report/page.h"
-#include "analysis/report/session_data.h"
+#include "analysis/report/session_tables.h"
 
 namespace dihaptic::analysis {
 
-struct PopulationPage {
-    Page page;
+using Sessions = std::vector<const FittedSession*>;
+
+/// The sessions by experiment and by who moved the hands: simulated and real people, or two
+/// populations, never count as one sample.
+std::vector<Sessions> samples_of(const std::vector<FittedSession>& sessions);
+
+struct PopulationTables {
     Table people{};      ///< a row per session and round
     Table adaptation{};  ///< a row per round and trial; empty without reaches
     Table thresholds{};  ///< a row per session and procedure; empty without procedures
     Table lifts{};       ///< a row per experiment, group of trials and figure; empty without lifts
     Table measures{};    ///< a row per measure, round, condition and kind of trials
 };
-
-PopulationPage population_page(const std::vector<SessionData>& sessions, const std::string& folder,
-                               const std::string& command);
+PopulationTables population_tables(const std::vector<Sessions>& samples);
 
 }  // namespace dihaptic::analysis

@@ -1,0 +1,29 @@
+// Tests what the window says when Python draws no page.
+#include "common/drawn_report.h"
+
+#include <gtest/gtest.h>
+
+#include "base/installed.h"
+#include "testing/files.h"
+
+namespace dihaptic::app::drawn_report_test {
+namespace {
+
+TEST(DrawnReport, ThatPythonRefusesTellsTheWindowWhy) {
+    const testing::TemporaryFolder folder;
+    analysis::ReportResult result;
+    result.paths = {folder.path()};
+    try {
+        draw_page(result, "dihaptic report", PythonSays::in_error);
+        FAIL() << "there is no session";
+    } catch (const Error& e) {
+        const std::string why = e.what();
+        EXPECT_EQ(why.find(folder.path() + ": error: has no report.html, because "), 0u) << why;
+        // under a sanitizer the Python package is not built
+        if (in_or_above_program({"python/dihaptic/facts.json"}).empty()) return;
+        EXPECT_NE(why.find("contains no completed sessions"), std::string::npos) << why;
+    }
+}
+
+}  // namespace
+}  // namespace dihaptic::app::drawn_report_test

@@ -1,0 +1,79 @@
+#include "common/drawn_report.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "analysis/report/report_json.h"
+#include "base/child.h"
+#include "base/descriptor.h"
+#include "base/installed.h"
+
+namespace dihaptic::app {
+namespace {
+
+/// A file in memory with this text, to be read from its beginning.
+Descriptor in_memory(const std::string& text) {
+    Descriptor file(memfd_create("dihaptic report", MFD_CLOEXEC));
+    for (size_t at = 0; file && at < text.size();) {
+        const ssize_t size = write(file.get(), text.data() + at, text.size() - at);
+        if (size > 0) at += static_cast<size_t>(size);
+        if (size < 0 && errno != EINTR) file.close();
+    }
+    if (file && lseek(file.get(), 0, SEEK_SET) != 0) file.close();
+    return file;
+}
+
+/// The end of what was written into the file: the last lines of a Python error name its reason.
+std::string last_words_in(const Descriptor& file) {
+    std::array<char, 2000> text{};
+    const off_t end = lseek(file.get(), 0, SEEK_END);
+    const off_t from = end > static_cast<off_t>(text.size()) ? end - text.size() : 0;
+    const ssize_t size = pread(file.get(), text.data(), text.size(), from);
+    std::string out(text.data(), size > 0 ? static_cast<size_t>(size) : 0);
+    while (out.ends_with('\n')) out.pop_back();
+    return out;
+}
+
+Error no_page(const std::string& folder, const std::string& why, const std::string& remedy) {
+    return Error({folder, 0}, "", "has no report.html, because " + why, remedy);
+}
+
+}  // namespace
+
+void draw_page(const analysis::ReportResult& result, const std::string& command, PythonSays says) {
+    const std::string folder = std::filesystem::path(result.page()).parent_path();
+    const std::string code = in_or_above_program(
+        {"python/dihaptic/facts.json", "lib/python3/dist-packages/dihaptic/facts.json"});
+    if (code.empty())
+        throw no_page(folder, "the Python package draws it",
+                      "Type sudo apt install python3-dihaptic, and repeat the command.");
+    const std::string package = std::filesystem::path(code).parent_path().parent_path();
+    const Descriptor description = in_memory(analysis::report_json(result, command));
+    const Descriptor said = in_memory("");
+    // another Python, such as Anaconda's, does not have the package
+    Launch launch{"/usr/bin/env",
+                  {"PYTHONPATH=" + package, "/usr/bin/python3", "-m", "dihaptic.reports"},
+                  {description.get(), Launch::kKept, Launch::kKept},
+                  Launch::kFreshSignals};
+    launch.arguments.insert(launch.arguments.end(), result.paths.begin(), result.paths.end());
+    if (says == PythonSays::in_error)
+        launch.files = {description.get(), Launch::kNothing, said.get()};
+    std::fflush(stdout);  // before the child's own lines
+    Child python;
+    const int failed = description && said ? python.start(launch) : errno;
+    if (failed != 0)
+        throw no_page(folder, std::string("Python cannot be started: ") + std::strerror(failed),
+                      "End other programs and try again.");
+    if (python.wait() == 0) return;
+    const std::string words = says == PythonSays::in_error ? last_words_in(said) : "";
+    throw no_page(folder, "Python did not draw it",
+                  words.empty() ? "The lines above this one name the reason." : words);
+}
+
+}  // namespace dihaptic::app

@@ -1,0 +1,202 @@
+"""Finds the sessions that count: in a session's folder, a rehearsal's, a study's, or any folder that contains sessions."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Union
+
+import pandas as pd
+
+from ..errors import Error, error
+from ..session import Session
+from ..study import Study
+
+#: What is read: a path, or several, in a list, that are compared.
+Paths = Union[str, Path, Sequence[Union[str, Path]]]  # as Python 3.9 can read it
+
+
+@dataclass(frozen=True)
+class Sample:
+    """People who may be averaged: of one experiment, and all moved by a person, a script, or one population's people.
+
+    >>> from dihaptic import figures
+    >>> figures.samples_in(lift_session)
+    [Sample(experiment='Two fingers lift a block', moved_by='script', population='')]
+    """
+
+    experiment: str | None  #: its title
+    moved_by: str | None  #: who moved the hand, e.g. "devices" (a person) or "simulated_person"; "": not recorded
+    population: str | None  #: of simulated people
+
+    @property
+    def is_simulated(self) -> bool:
+        """Whether no person moved the hand."""
+        return self.moved_by not in ("devices", "mouse", "")
+
+    def is_among(self, wanted: Sample) -> bool:
+        """Whether it has all that is wanted; None is wanted by nobody."""
+        pairs = zip(asdict(self).values(), asdict(wanted).values())
+        return all(want is None or have == want for have, want in pairs)
+
+    def __str__(self) -> str:
+        mover = (self.moved_by or "a mover that was not recorded").replace("_", " ")
+        return f"{self.experiment}, moved by {mover}{f' ({self.population})' if self.population else ''}"
+
+
+def samples_in(path: Paths) -> list[Sample]:
+    """The samples that the sessions at a path belong to, in the order of their titles. Raises Error."""
+    return sorted({sitting.sample for sitting in Sittings(path).counting}, key=str)
+
+
+@dataclass(frozen=True)
+class Sitting:
+    """A session, and whose it is."""
+
+    session: Session
+    person: str
+    group: str
+    study_session: str = ""
+    study_condition: str = ""
+
+    @property
+    def _mover(self) -> dict[str, Any]:
+        return self.session.info.get("moved_by") or {}
+
+    @cached_property
+    def sample(self) -> Sample:
+        """The people with whom this one may be averaged."""
+        mover = str(self._mover.get("mover") or "")
+        mover = "" if mover == "not_recorded" else mover
+        return Sample(str(self.session.info.get("title", "")), mover, str(self._mover.get("population") or ""))
+
+    @property
+    def seed(self) -> str:
+        """The seed from which a simulated person was drawn; "" for others, and in a study, where a name is one person's."""
+        return "" if self.study_session else str(self._mover.get("seed") or "")
+
+    def marked(self, table: pd.DataFrame) -> pd.DataFrame:
+        """The table, with columns that say whose it is, in front."""
+        attrs = table.attrs
+        columns = {"person": self.person, "group": self.group, "session": self.session.folder.name}
+        if self.study_session:
+            columns |= {"study_session": self.study_session, "study_condition": self.study_condition}
+        table = table.drop(columns=list(columns), errors="ignore")
+        for place, (name, value) in enumerate(columns.items()):
+            table.insert(place, name, value)
+        table.attrs = attrs
+        return table
+
+
+class Sittings:
+    """The sessions at a path, or at several: those that count, and why the others do not."""
+
+    def __init__(self, path: Paths) -> None:
+        each = [path] if isinstance(path, (str, Path)) else list(path)
+        self.paths = [Path(os.path.abspath(one)) for one in each]
+        self.left_out: list[str] = []
+        self.counting: list[Sitting] = []
+        for one, name in zip(self.paths, _names_of(self.paths)):
+            found = list(self._at(one))
+            if not found:
+                raise error(
+                    "contains no completed sessions",
+                    "Name a session's folder, a rehearsal's, a study's file, or a folder that contains sessions.",
+                    file=str(one),
+                )
+            if len(self.paths) > 1:
+                found = [replace(each, group=", ".join(filter(None, [name, each.group]))) for each in found]
+            self.counting += found
+
+    def _at(self, path: Path) -> Iterator[Sitting]:
+        if path.is_file() and path.suffix in (".yaml", ".yml") and path.name != "session.yaml":
+            yield from self._of_study(path)
+        elif path.is_file() or os.path.lexists(path / "session.yaml"):
+            yield _sitting(Session(path))
+        else:
+            yield from self._in_folder(path)
+
+    def _of_study(self, file: Path) -> Iterator[Sitting]:
+        study = Study(file)
+        for (participant, name), rows in study.sessions.groupby(["participant", "study_session"], sort=False):
+            try:
+                session = study.session(participant, name)
+            except Error as why:
+                self.left_out.append(str(why))
+                continue
+            row = rows.iloc[0]
+            condition = "" if pd.isna(row["study_condition"]) else str(row["study_condition"])
+            yield Sitting(session, participant, str(row["group"]), name, condition)
+
+    def _in_folder(self, folder: Path) -> Iterator[Sitting]:
+        """Sessions at any depth, by the rules by which `dihaptic report` counts them."""
+        sessions = []
+        for file in sorted(folder.rglob("session.yaml")):
+            try:
+                session = Session(file)
+                if session.info.get("state") == "running":
+                    raise error("has not ended", "", file=str(session.folder))
+                sessions.append(session)
+            except Error as why:
+                self.left_out.append(str(why))
+        resumed = {Path(str(session.info["resumes"])).name for session in sessions if session.info.get("resumes")}
+        first: dict[str, Path] = {}
+        for session in sessions:
+            identity = str(session.info.get("identity") or "")
+            copied = first.setdefault(identity, session.folder)
+            # on the virtual clock, a session that is run twice is identical to the bit, but not a copy
+            if copied != session.folder and identity and session.info.get("clock") == "real":
+                why_not = f"it is the same session as {copied}"
+            elif session.folder.name in resumed:
+                why_not = "another session resumes it"
+            elif _is_cut_short(session):
+                why_not = "it ended before its trials were done"
+            else:
+                yield _sitting(session)
+                continue
+            self.left_out.append(f"{session.folder}: {why_not}")
+
+
+def named_apart(sittings: list[Sitting]) -> list[Sitting]:
+    """The sittings, in which simulated people of one name who were drawn from several seeds have the seed in their names,
+    and people of one name in several groups the group."""
+    for what in ("seed", "group"):
+        told: dict[str, set[str]] = {}
+        for sitting in sittings:
+            told.setdefault(sitting.person, set()).add(getattr(sitting, what))
+        if any(len(each) > 1 for each in told.values()):
+            sittings = [replace(s, person="/".join(filter(None, [getattr(s, what), s.person]))) for s in sittings]
+    return sittings
+
+
+def _sitting(session: Session) -> Sitting:
+    place = session.info.get("in_study") or {}
+    # a session without a name counts as a person of its own
+    person = str((session.info.get("participant") or {}).get("id") or session.folder.name)
+    names = [str(place.get(key) or "") for key in ("group", "session", "condition")]
+    return Sitting(session, person, *names)
+
+
+def _names_of(paths: list[Path]) -> list[str]:
+    """A name for each path: its last part, with those before it where that is not enough to tell them apart."""
+    parts = 1
+    while parts < 9:
+        names = ["/".join((path.parent / path.stem if path.is_file() else path).parts[-parts:]) for path in paths]
+        if len(set(names)) == len(paths):
+            return names
+        parts += 1
+    return [str(path) for path in paths]
+
+
+def _is_cut_short(session: Session) -> bool:
+    """Whether a session ended before its trials were done."""
+    state = session.info.get("state")
+    if state not in ("interrupted", "recovered") or not (session.folder / "trial-list.csv").is_file():
+        return False
+    if state == "interrupted":
+        return True
+    trials = session.table("trials")
+    return len(trials) == 0 or trials["outcome"].iloc[-1] == "interrupted"

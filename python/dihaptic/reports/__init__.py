@@ -1,0 +1,117 @@
+"""Makes report.html: the page of a session, of a rehearsal, of a study, or of a folder of sessions.
+
+    dihaptic report rehearsals/grip-and-lift_1
+
+The program makes the tables, and this package the page, from them and from the figures of dihaptic.figures, which are saved
+beside it. `python3 -m dihaptic.reports FOLDER` makes the page alone, from the tables that are there; so it does on a
+computer without the program. To change the page for your laboratory, change sections.py; for a figure, change its script in
+the folder figures, which is then kept.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from .. import figures
+from ..errors import Error, error
+from ..figures.saving import write
+from ..figures.sessions import Paths
+from .page import Page
+from .sections import add_sample
+
+#: The name of the page.
+NAME = "report.html"
+
+
+def write_page(
+    paths: Paths, out: str | Path = "", told: dict[str, Any] | None = None, *, jobs: int = 1,
+    progress: Callable[[str], None] | None = None,
+) -> Path:  # fmt: skip
+    """Writes report.html, and the folder figures beside it, and returns the page.
+
+    `paths`: a session's folder, a rehearsal's, a study's file, or a folder that contains sessions; or several of them,
+    which are compared, and need a folder `out` for the page. `told` is what `dihaptic report` says beside the tables
+    (src/analysis/report/report_json.cpp). Of several experiments, and of people and simulated ones, the page has a part
+    each. Figures are drawn in `jobs` processes. Raises Error.
+
+    >>> from dihaptic.reports import write_page
+    >>> write_page(lift_session).name
+    'report.html'
+    """
+    told = told or {}
+    found = figures.samples_in(paths)
+    several = not isinstance(paths, (str, Path)) and len(paths) > 1
+    if several and not out:
+        raise error("has no folder", "Name one for the page, with --out.", key="out")
+    every = [_data(paths, sample, len(found)) for sample in found] if not several else [figures.read(paths)]
+    folder = Path(os.path.abspath(out)) if out else every[0].folder
+    titles = list(dict.fromkeys(data.title for data in every))
+    of = {id(data): _told_of(data, told) for data in every}
+    who = " ".join(dict.fromkeys(str(of[id(data)].get("who") or "") for data in every)).strip()
+    if not who:
+        who = "Simulated. No person took part." if all(data.is_simulated for data in every) else ""
+    page = Page(titles[0] if len(titles) == 1 else f"{len(titles)} experiments", who, _origin(every, told))
+    sessions = sum(len(data.sessions) for data in every)
+    for heading, texts in (
+        (f"Changed since the session{'s' if sessions > 1 else ''} ended", told.get("changed")),
+        ("Tables that could not be written", told.get("unwritten")),
+        ("Of raw.log", told.get("faults")),
+        ("Left out", told.get("left_out") or sorted({text for data in every for text in data.left_out})),
+    ):
+        if texts:
+            page.heading(heading)
+            for text in texts:
+                page.text(str(text), "warning")
+    for data in every:
+        if len(every) > 1:
+            page.part(str(data.sample) if len(found) > len(titles) else data.title)
+        try:
+            add_sample(page, data, of[id(data)], _figures_of(folder, data, every), jobs=jobs, progress=progress)
+        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as why:
+            if isinstance(why, Error):
+                raise
+            what = f"cannot be drawn: {type(why).__name__}: {why}"
+            remedy = "If its tables are as the program wrote them, report this. Or else restore them; dihaptic recover makes some."
+            raise error(what, remedy, file=str(data.folder)) from why
+    return write(folder / NAME, page.html().encode(errors="replace"))
+
+
+def _data(paths: Paths, sample: figures.Sample, samples: int) -> figures.Data:
+    """A sample's data; a choice that is not needed is not written into scripts."""
+    if samples == 1:
+        return figures.read(paths)
+    return figures.read(paths, experiment=sample.experiment, moved_by=sample.moved_by, population=sample.population)
+
+
+def _figures_of(folder: Path, data: figures.Data, every: list[figures.Data]) -> Path:
+    """The folder of a sample's figures."""
+    if len(every) == 1:
+        return folder / "figures"
+    words = re.sub(r"[^a-z0-9]+", "-", str(data.sample).lower()).strip("-")
+    return folder / f"figures-{words[:60]}"
+
+
+def _told_of(data: figures.Data, told: dict[str, Any]) -> dict[str, Any]:
+    """What the program says of these sessions: of the first sample that has one of them, with the words of all."""
+    folders = {str(session.folder) for session in data.sessions}
+    own = [each for each in told.get("samples") or [] if folders & {os.path.abspath(f) for f in each.get("folders") or []}]
+    if not own:
+        return {}
+    who = " ".join(dict.fromkeys(str(each.get("who") or "") for each in own))
+    return {**own[0], "who": who}
+
+
+def _origin(every: list[figures.Data], told: dict[str, Any]) -> str:
+    """Where the numbers of the page are from, in a sentence or two."""
+    sessions = sum(len(data.sessions) for data in every)
+    programs = sorted({str(session.info.get("program", "")) for data in every for session in data.sessions} - {""})
+    where = ", ".join(dict.fromkeys(str(path) for data in every for path in data.paths))
+    count = "One session" if sessions == 1 else f"{sessions} sessions"
+    first = next(iter(every)).sessions[0].info
+    one = [f"seed {first['seed']}", str(first.get("started") or "")] if sessions == 1 and first.get("seed") else []
+    made = f" Made by {told['program']} with: {told['command']}" if told.get("command") else ""
+    return f"{count} in {where}, recorded by {', '.join([*programs, *filter(None, one)])}.{made}"
