@@ -56,9 +56,13 @@ void draw_page(const analysis::ReportResult& result, const std::string& command,
     const std::string package = std::filesystem::path(code).parent_path().parent_path();
     const Descriptor description = in_memory(analysis::report_json(result, command));
     const Descriptor said = in_memory("");
-    // another Python, such as Anaconda's, does not have the package
+    // another Python, such as Anaconda's, does not have the package; -I keeps out what is in the
+    // current folder, the environment and the user's own packages
+    const std::string code_of =
+        "import sys; sys.path.insert(0, sys.argv.pop(1)); from dihaptic.reports.__main__ import "
+        "main; sys.exit(main(sys.argv[1:]))";
     Launch launch{"/usr/bin/env",
-                  {"PYTHONPATH=" + package, "/usr/bin/python3", "-m", "dihaptic.reports"},
+                  {"MPLBACKEND=agg", "/usr/bin/python3", "-I", "-c", code_of, package},
                   {description.get(), Launch::kKept, Launch::kKept},
                   Launch::kFreshSignals};
     launch.arguments.insert(launch.arguments.end(), result.paths.begin(), result.paths.end());

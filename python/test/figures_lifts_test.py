@@ -2,6 +2,7 @@
 
 import tempfile
 import unittest
+import unittest.mock
 
 import numpy as np
 import pandas as pd
@@ -11,6 +12,7 @@ from drawn import Drawn, rehearsed, with_tables
 from dihaptic import figures
 from dihaptic.errors import Error, NotThere
 from dihaptic.figures import lifts
+from dihaptic.figures.lifts import previous_weight
 
 TIGHT = {"rtol": 0, "atol": 1e-12, "equal_nan": True}
 #: Fewer lifts of unexpected-weight.
@@ -170,6 +172,31 @@ class Lifts(Drawn):
             figures.lift_curves(data, align="touchdown")
         with self.assertRaises(NotThere):
             figures.lift_phases(data, colour=["no such column"])
+
+
+class PreviousWeight(unittest.TestCase):
+    def test_is_what_the_lifts_were_made_with(self):
+        random = np.random.default_rng(3)
+        weights = random.choice([2.0, 8.0], 60)
+        before = np.concatenate([[2.0], weights[:-1]])
+        rates = 5 + 1.5 * weights + 0.5 * before + 0.1 * random.normal(size=60)
+        lifts = pd.DataFrame({"person": "S01", "session": "s", "lift": "complete", "static_load_N": weights, "peak_load_rate_N_s": rates})
+
+        def found(table):
+            data = unittest.mock.Mock(has=lambda name: True, table=lambda name: table)
+            return previous_weight(data)
+
+        (effect,) = found(lifts).itertuples()
+        self.assertLess(abs(effect.effect - 0.5), 4 * effect.error)
+        self.assertLess(effect.error, 0.02)
+        self.assertAlmostEqual(effect.share, 0.25, delta=0.02)
+        self.assertEqual(effect.n, 59)
+        # the first lift of a session has none before it, and one that failed tells nothing
+        both = lifts.assign(session=["s"] * 30 + ["t"] * 30)
+        self.assertEqual(found(both).n.item(), 58)
+        both.loc[5, "lift"] = "not lifted"
+        self.assertEqual(found(both).n.item(), 56)
+        self.assertTrue(found(lifts.assign(static_load_N=2.0)).empty)
 
 
 if __name__ == "__main__":

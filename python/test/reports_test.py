@@ -17,6 +17,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 from drawn import rehearsed
+from scipy import stats
 
 import dihaptic as dh
 from dihaptic import figures
@@ -102,10 +103,16 @@ class Reports(unittest.TestCase):
         trials = pd.concat([pd.read_csv(file) for file in sorted(self.fitts.glob("sim-*/trials.csv"))])
         trials = trials.drop_duplicates(["ppid", "trial_num"], keep="last")
         trials = trials[~trials.kind.isin(["practice", "catch"])]
-        mean = trials.groupby("ppid").movement_time_s.mean().mean()
-        row = re.search(r"<tr><td>movement time \[s\]</td>(.*?)</tr>", self.page).group(1)
-        cells = re.findall(r"<td[^>]*>([^<]*)</td>", row)
-        self.assertEqual(cells[:3], ["3", str(trials.movement_time_s.notna().sum()), in_short(mean)])
+        each = trials.groupby(["width_mm", "distance_mm", "ppid"]).movement_time_s.mean()
+        for width in (8, 16, 32):
+            row = re.search(rf"<tr><td>movement time \[s\]</td><td>{width} mm</td>(.*?)</tr>", self.page).group(1)
+            cells = re.findall(r"<td[^>]*>([^<]*)</td>", row)
+            for distance, cell in zip((40, 80, 160), cells):
+                people = each[width, distance]
+                half = stats.t.ppf(0.975, 2) * people.std() / np.sqrt(3)
+                ends = f"({in_short(people.mean() - half)} to {in_short(people.mean() + half)})"
+                self.assertEqual(cell, f"{in_short(people.mean())} {ends}")
+            self.assertEqual(cells[3], "3")
 
     def test_what_the_program_tells_is_on_it(self):
         sample = {
@@ -163,6 +170,31 @@ class Reports(unittest.TestCase):
         points = pd.read_csv(next((self.here / "compared" / "figures").glob("measures-by-*.csv")))
         self.assertEqual(set(points["group"].dropna()), {"sim-001", "sim-002"})
 
+    def test_experiments_of_several_folders_are_never_mixed(self):
+        for name, parts in (("a", ["sim-001", "sim-002"]), ("b", ["sim-003"])):
+            for part in parts:
+                shutil.copytree(self.fitts / part, self.here / "mixed" / name / part)
+            shutil.copytree(self.lift, self.here / "mixed" / name / "lift")
+        paths = [self.here / "mixed" / name for name in ("a", "b")]
+        with self.assertRaisesRegex(dh.Error, "samples"):
+            figures.read(paths)
+        page = write_page(paths, self.here / "of-both").read_text()
+        self.assertEqual(page.count('class="part"'), 2)
+        trials = figures.read(paths, experiment="Fitts's law").table("trials")
+        self.assertEqual(trials.groupby("group").person.nunique().to_dict(), {"a": 2, "b": 1})
+        with self.assertRaisesRegex(dh.Error, "Name each session once"):
+            figures.read([paths[0], paths[0] / "lift"])
+
+    def test_sessions_of_one_name_in_several_folders_are_told_apart(self):
+        for day in ("day1", "day2"):
+            shutil.copytree(self.fitts / "sim-001", self.here / "days" / day / "S01")
+        data = figures.read(self.here / "days")
+        self.assertEqual(data.people, ["sim-001"])
+        self.assertEqual(sorted(data.table("trials").session.unique()), ["day1/S01", "day2/S01"])
+        points = figures.means_by_condition(data, measures=["movement_time_s"], x="distance_mm")
+        once = pd.read_csv(self.fitts / "sim-001" / "trials.csv")
+        self.assertEqual(points[points.of == "person"].shape[0], 2 * (~once.kind.isin(["practice"])).sum())
+
     def test_a_figure_that_was_changed_is_on_the_page(self):
         folder = self.here / "changed"
         shutil.copytree(self.lift, folder)
@@ -204,7 +236,7 @@ class Reports(unittest.TestCase):
     def test_words_are_those_of_a_paper(self):
         methods, results = in_words(figures.read(self.fitts), {"who": "Simulated."})
         self.assertIn("The factor distance had 3 levels: 40, 80 and 160 mm.", " ".join(methods))
-        self.assertRegex(" ".join(results), r"Movement time \(mean ± SD\): 0\.\d+ ± 0\.\d+ s \(40 mm\), .* \(160 mm\); n = 3 people")
+        self.assertRegex(" ".join(results), r"Movement time \(mean ± SD over people\): 0\.\d+ ± 0\.\d+ s \(40 mm\), .* \(160 mm\); n = 3 people")
 
 
 class Pages(unittest.TestCase):

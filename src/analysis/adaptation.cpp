@@ -350,14 +350,15 @@ void AdaptationCurve::list_landmarks(FigureLister& row) const {
     row("unit", unit, "", "unit of the values below");
     row("perturbation", known ? perturbation() : kUnmeasured, "1", "largest in magnitude");
     w.baseline.list(row, "baseline", "mean of the baseline before the first perturbed block");
-    w.early.list(row, "early", "first eight trials of the first perturbed block");
+    w.early.list(row, "early", "first eight measured trials of the first perturbed block");
     w.late.list(row, "late",
-                "last eight trials of the last consecutive block with that perturbation");
+                "last eight measured trials of the last consecutive block with that perturbation");
     w.catch_trials.list(row, "catch", "mean of the catch trials among these blocks");
-    w.clamp_first.list(row, "clamp_first", "first eight trials of the first clamp block after it");
-    w.clamp_last.list(row, "clamp_last", "last eight trials of that block");
+    w.clamp_first.list(row, "clamp_first",
+                       "first eight measured trials of the first clamp block after it");
+    w.clamp_last.list(row, "clamp_last", "last eight measured trials of that block");
     w.washout_first.list(row, "washout_first",
-                         "first eight trials of the first washout block after it");
+                         "first eight measured trials of the first washout block after it");
     w.savings.list(row, "savings",
                    "relearning: mean of the first eight measured trials of the next block with the "
                    "first perturbation, after a block with another or none, less that of its first "

@@ -40,6 +40,7 @@ def counting_trials(data: Data, table: str = "trials") -> pd.DataFrame:
         columns = [str(column) for column in trials]
         # what describes a trial comes from trials.csv, even if the other table has a measure of the same name
         design = columns[: columns.index("attempt" if "attempt" in columns else "trial_num") + 1]
+        design += [name for name in data.factors if name not in design]  # of a later session with another task
         keys = [key for key in (*SITTING, "trial_num", "attempt") if key in design and key in other]
         new = [column for column in other if column not in design]
         attrs = {"units": {**other.attrs.get("units", {}), **trials.attrs.get("units", {})}}
@@ -50,6 +51,14 @@ def counting_trials(data: Data, table: str = "trials") -> pd.DataFrame:
     trials = trials[~trials["kind"].isin(ASIDE)] if "kind" in trials else trials
     trials.attrs = attrs
     return trials
+
+
+def without_channels(trials: pd.DataFrame) -> pd.DataFrame:
+    """Trials without those in force channels, whose walls hold the hand, unless all of them are in channels."""
+    if "kind" not in trials:
+        return trials
+    free = trials[trials["kind"] != "force_channel"]
+    return free if len(free) else trials
 
 
 def check_column(table: pd.DataFrame, name: str) -> None:
@@ -67,7 +76,8 @@ def means_by_condition(
     `x`, `colour` and `panel` are columns of trials.csv. A row has the measure, the levels, and `of`: "person", whose mean
     over n trials is `value`; or "mean", that over n people, with its 95 % interval from `low` to `high` (Student's t). Of
     one person, the dots are trials, and the mean is over them. Practice, catch trials and all but the last attempt at a
-    trial are left out. Raises NotThere, or Error when no trial has a value.
+    trial are left out; so are force channels, unless the measure is one of channels. Raises NotThere, or Error when no
+    trial has a value.
 
     >>> from dihaptic import figures
     >>> points = means_by_condition(figures.read(lift_session), measures=["peak_grip_N"], x="trial_num", table="lifts")
@@ -85,7 +95,7 @@ def means_by_condition(
         check_column(trials, measure)
         if not pd.api.types.is_numeric_dtype(trials[measure]):
             raise error("has words, of which there is no mean", "Name a column of numbers.", key=measure)
-        known = trials[trials[measure].notna()]
+        known = without_channels(trials[trials[measure].notna()])
         if single:
             each = known[["person", *by, measure]].rename(columns={measure: "value"})
             each["n"] = 1
@@ -225,7 +235,7 @@ def _label(axes: Axes, places: dict[Any, float], xlabel: str, ylabel: str, width
 
 def plans(data: Data) -> Iterator[Plan]:
     """A figure of the task's measures by condition, and one of its lifts'."""
-    axes_of = _axes_of_design(data) if "condition" in data.table("trials") else {}
+    axes_of = axes_of_design(data)
     if not axes_of:
         return
     own = [measure.column for measure in data.measures]
@@ -238,9 +248,11 @@ def plans(data: Data) -> Iterator[Plan]:
             yield from _plans_of(data, "lifts", known, "lifts", axes_of)
 
 
-def _axes_of_design(data: Data) -> dict[str, str]:
+def axes_of_design(data: Data) -> dict[str, str]:
     """Which column of trials.csv goes to x, to colour and to panels: numeric factors to x, few levels to colours."""
     trials = data.table("trials")
+    if "condition" not in trials:
+        return {}
     trials = trials[~trials["kind"].isin(ASIDE)] if "kind" in trials else trials
     factors = [name for name in data.factors if trials[name].nunique() > 1]
     if not factors:
@@ -290,15 +302,18 @@ def _plans_of(data: Data, table: str, measures: list[str], name: str, design: di
         dots = "Dots are trials" if people == 1 else "Dots are people's means over trials, joined over conditions"
         over = "trials" if people == 1 else "people"
         rest = [words_of(name, units.get(name, "")) for name in data.factors if name not in design.values()]
+        channels = "kind" in trials and (trials["kind"] == "force_channel").any()
+        channels = ", and force channels from measures that other trials have" if channels else ""
+        drawn = pd.concat([without_channels(trials[trials[measure].notna()]) for measure in some])
         order = {
-            name: [value for value in data.levels(name) if (trials[name] == value).any()]
+            name: [value for value in data.levels(name) if (drawn[name] == value).any()]
             for name in design.values() if not pd.api.types.is_numeric_dtype(trials[name])
         }  # fmt: skip
         yield Plan(
             name=f"{name}-by-{'-'.join(design.values())}{number}".replace("_", "-"),
             title=f"{'Lifts' if table == 'lifts' else 'Measures'} by {by}{', continued' if first else ''}",
             caption=f"{dots}; marks are means over {over} with 95 % intervals. {counted(people, 'person', 'people')}, "
-            f"{counted(len(trials), 'trial')}; practice, catch trials and repeated attempts are left out."
+            f"{counted(len(trials), 'trial')}; practice, catch trials and repeated attempts are left out{channels}."
             + (f" Averaged over {' and '.join(rest)}." if rest else ""),
             points=means_by_condition,
             points_options={"measures": some, **design, "table": table},

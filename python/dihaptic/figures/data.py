@@ -14,7 +14,7 @@ from .._facts import facts
 from .._head import MOST_YAML, why_unreadable
 from ..errors import NotThere, error
 from ..session import Session
-from .sessions import Paths, Sample, Sitting, Sittings, named_apart
+from .sessions import Paths, Sample, Sitting, Sittings, named_apart, renamed
 from .words import label
 
 #: Trials of these kinds are not among those that show the effect of a condition.
@@ -23,8 +23,8 @@ ASIDE = ["practice", "catch"]
 SITTING = ("person", "group", "session", "study_session")
 #: Columns of trials.csv that describe a trial, or how it was done, and that are no measure.
 _END_OF_DESIGN = "attempt"
-#: Some columns of tables that are not in docs/tables.md.
-_OTHER_COLUMNS = {"settings": {"setting"}, "procedures": {"procedure"}, "trial-list": {"trial_num"}}
+#: Columns of measures that tell what acted on the hand, not what it did.
+_NOT_BEHAVIOUR = ["field_share"]
 _AFTER_MEASURES = ["not_measured", "simulated", "moved_by", "start_type", "replays"]
 
 
@@ -84,7 +84,10 @@ class Data:
         self.choice: dict[str, Any] = {"people": people, **asdict(wanted)}
         chosen = [sitting for sitting in found.counting if sitting.sample.is_among(wanted)]
         samples = sorted({sitting.sample for sitting in chosen}, key=str)
-        if not chosen or (len(samples) > 1 and len(found.paths) < 2):
+        # paths that are compared may differ in who moved the hand, but each has one sample, of one experiment
+        mixed = len({(each.of, each.sample) for each in chosen}) > len({each.of for each in chosen})
+        mixed = mixed or len({sample.is_simulated for sample in samples}) > 1
+        if mixed or len({sample.experiment for sample in samples}) != 1:
             there = "; ".join(map(str, samples or sorted({s.sample for s in found.counting}, key=str)))
             what = f"has sessions of {len(samples)} samples" if samples else "has no such sessions"
             choose = "Choose one by experiment= (its title), moved_by= (e.g. devices, or simulated_person), population="
@@ -123,10 +126,22 @@ class Data:
         """The sessions with a session.nwb, and whose they are: a rehearsal keeps the tables alone."""
         return [sitting for sitting in self.sittings if (sitting.session.folder / "session.nwb").is_file()]
 
-    @cached_property
+    @property
     def task(self) -> dict[str, Any]:
         """The task of the first session, frozen (task.yaml); empty for a session without a task. Raises Error."""
-        file = self.sessions[0].folder / "task.yaml"
+        return self.tasks[0]
+
+    @cached_property
+    def tasks(self) -> list[dict[str, Any]]:
+        """The tasks of the sessions, each once. Raises Error."""
+        files: dict[bytes, Path] = {}
+        for session in self.sessions:
+            file = session.folder / "task.yaml"
+            content = b"" if why_unreadable(file, MOST_YAML) else file.read_bytes()
+            files.setdefault(content, file)
+        return [self._task_in(file) for file in files.values()]
+
+    def _task_in(self, file: Path) -> dict[str, Any]:
         if not file.exists():
             return {}
         if fault := why_unreadable(file, MOST_YAML):
@@ -158,7 +173,7 @@ class Data:
     def _read(self, name: str) -> pd.DataFrame:
         if name not in self.tables:
             raise NotThere(name, "is not a table of these sessions", self.tables, "Data.tables lists them.")
-        return _joined([each.marked(_checked(each.session, name)) for each in self.sittings if name in each.session.tables])
+        return _joined([each.table(name) for each in self.sittings if name in each.session.tables])
 
     @property
     def people(self) -> list[str]:
@@ -170,10 +185,14 @@ class Data:
     @cached_property
     def factors(self) -> list[str]:
         """Columns of trials.csv that are factors of the design, those with a single level left out."""
-        names = [str(factor["factor"]) for factor in self.task.get("cross") or []]
-        for each in [*(self.task.get("conditions") or []), *(self.task.get("rounds") or [])]:
-            names += [str(name) for name in (each.get("factors") or {}) if str(name) not in names]
         trials = self.table("trials")
+        names: list[str] = []
+        for task in self.tasks:
+            names += [renamed(str(factor["factor"])) for factor in task.get("cross") or []]
+            for each in [*(task.get("conditions") or []), *(task.get("rounds") or [])]:
+                names += [renamed(str(name)) for name in each.get("factors") or {}]
+        # sessions of a study and rounds, too, are never averaged over
+        names = list(dict.fromkeys([*names, "study_session", "round"]))
         return [name for name in names if name in trials and trials[name].nunique() > 1]
 
     @cached_property
@@ -185,6 +204,11 @@ class Data:
     def conditions(self) -> list[str]:
         """Names of the conditions, in the order of the task."""
         return [str(condition["name"]) for condition in self.task.get("conditions") or []]
+
+    @cached_property
+    def rounds(self) -> list[str]:
+        """Names of the rounds, in the order of the task."""
+        return [str(each["name"]) for each in self.task.get("rounds") or [] if each.get("name")]
 
     def levels(self, column: str) -> list[Any]:
         """The levels of a column that describes trials: numbers by size, words in the order of the task or of the trials.
@@ -200,7 +224,7 @@ class Data:
         found = list(trials[column].dropna().unique())
         if not any(isinstance(value, str) for value in found):
             return sorted(found)
-        known: list[Any] = {"condition": self.conditions, "block": self.blocks}.get(column, [])
+        known: list[Any] = {"condition": self.conditions, "block": self.blocks, "round": self.rounds}.get(column, [])
         for factor in self.task.get("cross") or []:
             known = known or (list(factor["levels"]) if factor["factor"] == column else [])
         for condition in self.task.get("conditions") or []:
@@ -219,7 +243,7 @@ class Data:
             self.measure(column)
             for column in columns[first:]
             if column in numeric and column not in _AFTER_MEASURES
-            and column not in built_in and trials[column].notna().any()
+            and column not in [*built_in, *_NOT_BEHAVIOUR, *self.factors] and trials[column].notna().any()
         ]  # fmt: skip
 
     def measure(self, column: str, table: str = "trials") -> Measure:
@@ -258,16 +282,6 @@ def listed(name: str, values: list[str]) -> list[str]:
 def sitting_columns(table: pd.DataFrame) -> list[str]:
     """Columns of a table that tell the sessions of all people apart."""
     return [column for column in SITTING if column in table]
-
-
-def _checked(session: Session, name: str) -> pd.DataFrame:
-    """A session's table. Raises Error when it has none of the columns that the program writes."""
-    table = session.table(name)
-    known = {column for column, _ in facts()["columns"].get(f"{name}.csv", [])} or _OTHER_COLUMNS.get(name, set())
-    if known and not known & set(table):
-        what = "is not the table that its name says: it has none of its columns"
-        raise error(what, "Restore it from a copy of the session.", file=str(session.folder / f"{name}.csv"))
-    return table
 
 
 def _joined(parts: list[pd.DataFrame]) -> pd.DataFrame:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import signal
 import sys
 import warnings
 from collections.abc import Callable, Iterator
@@ -94,6 +95,7 @@ _work: list[Callable[[int], str]] = []
 
 
 def _take(work: Callable[[int], str]) -> None:
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the parent ends its children
     _work.append(work)
 
 

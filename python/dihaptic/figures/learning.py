@@ -788,9 +788,10 @@ def _plan_of_windows(data: Data, own: pd.DataFrame, options: dict[str, Any], uni
     clamp, washout = any("clamp" in window for window in windows), "washout_first" in windows
     also = " and ".join(word for word, there in (("clamp", clamp), ("washout", washout)) if there)
     about = [
-        "Early and late: the first eight trials of the first perturbed block, and the last eight with that perturbation",
-        f"{also}: the first{' or last' if clamp else ''} eight trials of the block" if also else "",
-        "savings: the first eight trials of relearning less those of learning" if "savings" in windows else "",
+        "Early and late: the first eight measured trials of the first perturbed block, and the last eight with that "
+        "perturbation, or all, if there are fewer",
+        f"{also}: the first{' or last' if clamp else ''} eight measured trials of the block" if also else "",
+        "savings: the first eight measured trials of relearning less those of learning" if "savings" in windows else "",
         "rebound: the end of the clamp less what preceded it" if "rebound" in windows else "",
     ]
     wide = len(windows) > 4 or (groups > 1 and rounds > 1) or max(groups, rounds) > 2

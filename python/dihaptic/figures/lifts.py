@@ -89,7 +89,7 @@ def _recorded_lifts(data: Data) -> pd.DataFrame:
     parts = []
     for number, each in enumerate(data.recorded):
         if {"trials", "lifts"} <= set(each.session.tables):
-            part = _joined(data, each.marked(each.session.trials), each.marked(each.session.lifts))
+            part = _joined(data, each.table("trials"), each.table("lifts"))
             parts.append(part.assign(of=number))
     out = pd.concat(parts, ignore_index=True) if parts else _all_lifts(data).iloc[:0].assign(of=0)
     if not out.empty:
@@ -778,6 +778,8 @@ def _plans_of_change(data: Data, frame: pd.DataFrame, options: dict[str, Any], p
     colour = options.get("colour", [])
     if panel in _factors(data, frame) and _is_surface(complete, panel):
         colour = [panel]  # it tells more about grip than a weight that nobody can foresee
+    if frame["group"].nunique() > 1:
+        colour = ["group"]
     orders = complete.assign(case=complete[["block", *colour]].astype(str).agg("/".join, axis=1)).groupby("lift_number")["case"]
     repetition = bool((orders.nunique() > 1).mean() > 0.1) and not catch
     own = {**options, **({"colour": colour} if colour else {}), **({"repetition": True} if repetition else {})}

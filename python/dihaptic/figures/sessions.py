@@ -11,6 +11,7 @@ from typing import Any, Union
 
 import pandas as pd
 
+from .._facts import facts
 from ..errors import Error, error
 from ..session import Session
 from ..study import Study
@@ -43,13 +44,64 @@ class Sample:
         return all(want is None or have == want for have, want in pairs)
 
     def __str__(self) -> str:
+        if self.moved_by is None:
+            return str(self.experiment)
         mover = (self.moved_by or "a mover that was not recorded").replace("_", " ")
         return f"{self.experiment}, moved by {mover}{f' ({self.population})' if self.population else ''}"
 
 
 def samples_in(path: Paths) -> list[Sample]:
-    """The samples that the sessions at a path belong to, in the order of their titles. Raises Error."""
-    return sorted({sitting.sample for sitting in Sittings(path).counting}, key=str)
+    """The samples that the sessions at a path belong to, in the order of their titles. Of several paths, which are compared,
+    these are the experiments. Raises Error."""
+    found = Sittings(path)
+    samples = {sitting.sample for sitting in found.counting}
+    if len(found.paths) > 1:
+        samples = {Sample(sample.experiment, None, None) for sample in samples}
+    return sorted(samples, key=str)
+
+
+#: Some columns of tables that are not in docs/tables.md.
+_OTHER_COLUMNS = {"settings": {"setting"}, "procedures": {"procedure"}, "trial-list": {"trial_num"}}
+#: Columns that these tables and those of points have: a factor or measure of such a name gets another one.
+_OWN = {
+    "person", "group", "session", "study_session", "study_condition", "measure", "of", "n", "value", "low", "high", "part", "all",
+    "first", "last", "window", "phase", "number",
+}  # fmt: skip
+
+
+def renamed(column: str) -> str:
+    """The name of a table's column here: a factor that is called "session" is not the session.
+
+    >>> renamed("session"), renamed("mass_g")
+    ('session (column)', 'mass_g')
+    """
+    return f"{column} (column)" if column in _OWN else column
+
+
+def _checked(session: Session, name: str) -> pd.DataFrame:
+    """A session's table. Raises Error when it has none of the columns that the program writes."""
+    table = session.table(name)
+    known = {column for column, _ in facts()["columns"].get(f"{name}.csv", [])} or _OTHER_COLUMNS.get(name, set())
+    _check_numbers(table, session.folder / f"{name}.csv")
+    if known and not known & set(table):
+        what = "is not the table that its name says: it has none of its columns"
+        raise error(what, "Restore it from a copy of the session.", file=str(session.folder / f"{name}.csv"))
+    return table
+
+
+def _check_numbers(table: pd.DataFrame, file: Path) -> None:
+    """Makes numbers of the columns with units. "NA" and "nan", as R and numpy save them, are empty cells. Raises Error."""
+    for column in table.attrs.get("units", {}):
+        if table[column].dtype != object or table[column].isna().all():
+            continue
+        numbers = pd.to_numeric(table[column].replace({"NA": None, "nan": None, "NaN": None}), errors="coerce")
+        wrong = (numbers.isna() & table[column].notna() & ~table[column].isin(["NA", "nan", "NaN"])).to_numpy()
+        if not wrong.any():
+            table[column] = numbers
+        elif numbers.notna().any():  # a column of words that is named like one of numbers stays
+            line = int(wrong.argmax()) + 2  # after the header
+            what = f"is '{table[column].iloc[line - 2]}', which is not a number"
+            raise error(what, "Correct this line, or restore the table.", file=str(file), line=line, key=str(column))
 
 
 @dataclass(frozen=True)
@@ -61,6 +113,8 @@ class Sitting:
     group: str
     study_session: str = ""
     study_condition: str = ""
+    name: str = ""  #: of the session, which no other one of these has
+    of: str = ""  #: which of several paths it was found at
 
     @property
     def _mover(self) -> dict[str, Any]:
@@ -78,13 +132,20 @@ class Sitting:
         """The seed from which a simulated person was drawn; "" for others, and in a study, where a name is one person's."""
         return "" if self.study_session else str(self._mover.get("seed") or "")
 
-    def marked(self, table: pd.DataFrame) -> pd.DataFrame:
-        """The table, with columns that say whose it is, in front."""
+    @property
+    def population(self) -> str:
+        """That of a simulated person; "" for others."""
+        return str(self.sample.population or "")
+
+    def table(self, name: str) -> pd.DataFrame:
+        """A table of the session, with columns in front that say whose it is. Raises Error."""
+        table = _checked(self.session, name)
         attrs = table.attrs
-        columns = {"person": self.person, "group": self.group, "session": self.session.folder.name}
+        columns = {"person": self.person, "group": self.group, "session": self.name or self.session.folder.name}
         if self.study_session:
             columns |= {"study_session": self.study_session, "study_condition": self.study_condition}
-        table = table.drop(columns=list(columns), errors="ignore")
+        # factors have names of their own; columns of other tables are the program's
+        table = table.rename(columns=renamed) if name == "trials" else table.drop(columns=list(columns), errors="ignore")
         for place, (name, value) in enumerate(columns.items()):
             table.insert(place, name, value)
         table.attrs = attrs
@@ -96,11 +157,19 @@ class Sittings:
 
     def __init__(self, path: Paths) -> None:
         each = [path] if isinstance(path, (str, Path)) else list(path)
+        if not each:
+            raise error("is missing", "Name a session's folder, or one that contains sessions.", key="path")
         self.paths = [Path(os.path.abspath(one)) for one in each]
         self.left_out: list[str] = []
         self.counting: list[Sitting] = []
+        taken: set[Path] = set()
         for one, name in zip(self.paths, _names_of(self.paths)):
             found = list(self._at(one))
+            again = [each for each in found if each.session.folder.resolve() in taken]
+            if again:
+                what = f"has {again[0].session.folder.name}, which another one of these paths has as well"
+                raise error(what, "Name each session once.", file=str(one))
+            taken |= {each.session.folder.resolve() for each in found}
             if not found:
                 raise error(
                     "contains no completed sessions",
@@ -108,7 +177,7 @@ class Sittings:
                     file=str(one),
                 )
             if len(self.paths) > 1:
-                found = [replace(each, group=", ".join(filter(None, [name, each.group]))) for each in found]
+                found = [replace(each, of=name, group=", ".join(filter(None, [name, each.group]))) for each in found]
             self.counting += found
 
     def _at(self, path: Path) -> Iterator[Sitting]:
@@ -134,6 +203,9 @@ class Sittings:
     def _in_folder(self, folder: Path) -> Iterator[Sitting]:
         """Sessions at any depth, by the rules by which `dihaptic report` counts them."""
         sessions = []
+        for link in sorted(folder.iterdir() if folder.is_dir() else []):
+            if link.is_symlink() and (link / "session.yaml").is_file():
+                self.left_out.append(f"{link}: it is a link; name the folder that it leads to")
         for file in sorted(folder.rglob("session.yaml")):
             try:
                 session = Session(file)
@@ -152,6 +224,8 @@ class Sittings:
                 why_not = f"it is the same session as {copied}"
             elif session.folder.name in resumed:
                 why_not = "another session resumes it"
+            elif _stands_in(session):
+                why_not = "a simulated person stood in for the participant"
             elif _is_cut_short(session):
                 why_not = "it ended before its trials were done"
             else:
@@ -161,9 +235,11 @@ class Sittings:
 
 
 def named_apart(sittings: list[Sitting]) -> list[Sitting]:
-    """The sittings, in which simulated people of one name who were drawn from several seeds have the seed in their names,
-    and people of one name in several groups the group."""
-    for what in ("seed", "group"):
+    """The sittings with names of their own. Simulated people of one name who were drawn from several seeds have the seed in
+    their names; so have sessions parts of their paths. A person in several groups stays one."""
+    names = _names_of([sitting.session.folder for sitting in sittings])
+    sittings = [replace(sitting, name=name) for sitting, name in zip(sittings, names)]
+    for what in ("seed", "population"):
         told: dict[str, set[str]] = {}
         for sitting in sittings:
             told.setdefault(sitting.person, set()).add(getattr(sitting, what))
@@ -189,6 +265,12 @@ def _names_of(paths: list[Path]) -> list[str]:
             return names
         parts += 1
     return [str(path) for path in paths]
+
+
+def _stands_in(session: Session) -> bool:
+    """Whether a simulated person did a participant's session of a study (`run --simulate`), in the participant's folder."""
+    person = str((session.info.get("participant") or {}).get("id") or "")
+    return bool(session.info.get("in_study")) and person == f"sim-{session.folder.parent.parent.name}"
 
 
 def _is_cut_short(session: Session) -> bool:

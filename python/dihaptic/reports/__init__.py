@@ -47,7 +47,7 @@ def write_page(
     several = not isinstance(paths, (str, Path)) and len(paths) > 1
     if several and not out:
         raise error("has no folder", "Name one for the page, with --out.", key="out")
-    every = [_data(paths, sample, len(found)) for sample in found] if not several else [figures.read(paths)]
+    every = [_data(paths, sample, len(found)) for sample in found]
     folder = Path(os.path.abspath(out)) if out else every[0].folder
     titles = list(dict.fromkeys(data.title for data in every))
     of = {id(data): _told_of(data, told) for data in every}
@@ -60,7 +60,8 @@ def write_page(
         (f"Changed since the session{'s' if sessions > 1 else ''} ended", told.get("changed")),
         ("Tables that could not be written", told.get("unwritten")),
         ("Of raw.log", told.get("faults")),
-        ("Left out", told.get("left_out") or sorted({text for data in every for text in data.left_out})),
+        ("Left out", told.get("left_out") or []),
+        ("Not read", [text for text in every[0].left_out if "left_out" not in told or "it is a link" in text]),
     ):
         if texts:
             page.heading(heading)
@@ -75,7 +76,7 @@ def write_page(
             if isinstance(why, Error):
                 raise
             what = f"cannot be drawn: {type(why).__name__}: {why}"
-            remedy = "If its tables are as the program wrote them, report this. Or else restore them; dihaptic recover makes some."
+            remedy = "If its tables are as the program wrote them, report this; or else restore them."
             raise error(what, remedy, file=str(data.folder)) from why
     return write(folder / NAME, page.html().encode(errors="replace"))
 
@@ -91,8 +92,10 @@ def _figures_of(folder: Path, data: figures.Data, every: list[figures.Data]) -> 
     """The folder of a sample's figures."""
     if len(every) == 1:
         return folder / "figures"
-    words = re.sub(r"[^a-z0-9]+", "-", str(data.sample).lower()).strip("-")
-    return folder / f"figures-{words[:60]}"
+    alone = sum(one.title == data.title for one in every) == 1
+    number = every.index(data) + 1  # a title may have no Latin letter
+    words = re.sub(r"[^a-z0-9]+", "-", (data.title if alone else str(data.sample)).lower()).strip("-")
+    return folder / f"figures-{number}-{words[:60]}"
 
 
 def _told_of(data: figures.Data, told: dict[str, Any]) -> dict[str, Any]:

@@ -27,13 +27,19 @@ def main(words: list[str]) -> int:
         return 0 if words else 2
     warnings.formatwarning = lambda message, *_: f"{message}\n"  # for somebody who has typed a command
     try:
-        told: dict[str, Any] = {} if sys.stdin is None or sys.stdin.isatty() else json.loads(sys.stdin.read() or "{}")
+        told: dict[str, Any] = {} if sys.stdin is None or sys.stdin.isatty() else json.loads(sys.stdin.buffer.read() or "{}")
         show = _Progress()
         page = write_page(
             words if len(words) > 1 else words[0], told.get("out", ""), told, jobs=os.cpu_count() or 1,
             progress=show.title,
         )  # fmt: skip
         show.end()
+    except json.JSONDecodeError:
+        print("The description on the standard input is not JSON. Without one, add </dev/null.", file=sys.stderr)
+        return 2
+    except KeyboardInterrupt:
+        print("interrupted: report.html is as it was before", file=sys.stderr)
+        return 130
     except Error as why:
         print("\n".join(problem.text() for problem in why.problems), file=sys.stderr)
         return 1
@@ -59,4 +65,5 @@ class _Progress:
             print("\r\033[K", end="", file=sys.stderr, flush=True)
 
 
-sys.exit(main(sys.argv[1:]))
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

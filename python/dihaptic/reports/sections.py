@@ -10,14 +10,15 @@ import pandas as pd
 
 from .._head import why_unreadable
 from ..errors import error
-from ..figures.data import ASIDE, Data, sitting_columns
+from ..figures.conditions import LIFT_MEASURES, axes_of_design, counting_trials
+from ..figures.data import Data, sitting_columns
 from ..figures.drawing import Drawn, draw_data
 from ..figures.learning import learning_windows
 from ..figures.lifts import previous_weight
 from ..figures.means import means_with_intervals
-from ..figures.words import counted, in_print, label
+from ..figures.words import counted, in_print, label, level, words_of
 from .page import Page, in_short
-from .text import in_words
+from .text import in_words, means_of
 from .trials import trials_to_look_at
 
 #: Figures of lifts.csv whose medians are on the page.
@@ -107,8 +108,17 @@ def _facts(page: Page, data: Data, told: dict[str, Any]) -> None:
             said += f" in {counted(len(groups), 'group')} ({', '.join(groups)})"
         names = ", ".join(people) if len(people) <= 40 else f"{', '.join(people[:39])} and {len(people) - 39} others"
         page.text(f"{said}: {names}.")
-        if len(data.sessions) > len(people) and all(not sitting.study_session for sitting in data.sittings):
+        days = sorted({sitting.study_session for sitting in data.sittings} - {""})
+        if days:
+            page.text(f"Sessions of the study: {', '.join(days)}.")
+        elif len(data.sessions) > len(people) and not groups:
             page.text("Participants with several sessions count once in means over people, with the mean of these sessions.")
+        if len(data.tasks) > 1:
+            page.text(
+                f"These sessions have {len(data.tasks)} different tasks of one title. The description of the design below is "
+                "that of the first one; conditions of the same name are taken to be the same.",
+                "warning",
+            )
     perturbations = told.get("perturbations") or {"columns": [], "rows": []}
     table = pd.DataFrame(perturbations["rows"], columns=perturbations["columns"])
     page.table(table, "Perturbations; the column share of trials.csv states how much of each acts.")
@@ -149,13 +159,15 @@ def _facts_of_session(page: Page, data: Data, told: dict[str, Any]) -> None:
 
 
 def _outcomes(page: Page, data: Data) -> None:
-    """How many attempts had each outcome, by block."""
+    """What a supervisor is warned of, and how many attempts had each outcome, by block."""
+    for text in _warnings(data):
+        page.text(text, "warning")
     if not data.has("trials"):
         return
     trials = data.table("trials")
     if "outcome" not in trials or "block" not in trials:
         return
-    block = _joined(trials, ["round", "block"])
+    block = _joined(trials, ["study_session", "round", "block"])
     counts = pd.crosstab(block, trials["outcome"].fillna("none").astype(str))
     counts = counts.reindex(index=list(dict.fromkeys(block)), columns=list(dict.fromkeys(trials["outcome"].fillna("none"))))
     counts.columns.name = None
@@ -163,36 +175,71 @@ def _outcomes(page: Page, data: Data) -> None:
     page.table(counts, f"Attempts at trials by outcome: {len(trials)} in all.")
 
 
-def _counting(data: Data) -> pd.DataFrame:
-    """The last attempt at each trial, without practice and catch trials."""
-    trials = data.table("trials")
-    if "attempt" in trials:
-        trials = trials.drop_duplicates([*sitting_columns(trials), "trial_num"], keep="last")
-    return trials[~trials["kind"].isin(ASIDE)] if "kind" in trials else trials
+def _warnings(data: Data) -> list[str]:
+    """Sessions whose ticks missed something, in sentences."""
+    ticks, missed, people = 0, 0, set()
+    for sitting in data.sittings:
+        convergence = sitting.session.info.get("convergence") or {}
+        ticks += int(sitting.session.info.get("ticks") or 0)
+        if convergence.get("missed"):
+            missed += int(convergence["missed"])
+            people.add(sitting.person)
+    if not missed:
+        return []
+    share = f"{100 * missed / ticks:.2g} % of " if ticks else ""
+    return [
+        f"In {missed} ticks ({share}{ticks}) the contact solver missed its tolerance: {', '.join(sorted(people)[:12])}"
+        f"{' and others' if len(people) > 12 else ''}. Look at the forces of these sessions before you use them."
+    ]
 
 
 def _measures(page: Page, data: Data) -> None:
-    """Each measure over all conditions, and why it is missing."""
+    """Each measure by condition, and why it is missing."""
     if not data.has("trials") or not data.measures:
         return
-    trials = _counting(data)
-    single = len(data.people) == 1
+    trials = counting_trials(data)
+    page.table(_by_condition(data, [measure.column for measure in data.measures], "trials"), _caption_of_means(data))
+    rows = [
+        {"measure": label(measure.column, measure.unit), "trials": int(trials[measure.column].notna().sum()), "missing": why}
+        for measure in data.measures
+        if (why := _reasons(trials[trials[measure.column].isna()], measure.column))
+    ]
+    page.table(pd.DataFrame(rows), "Values that could not be computed are left out, not zero.")
+
+
+def _caption_of_means(data: Data) -> str:
+    over = "trials" if len(data.people) == 1 else "people's means over trials"
+    return (
+        f"Means, with their 95 % intervals over {over}. Practice, catch trials and repeated attempts are left out; so are force "
+        "channels, of measures that other trials have."
+    )
+
+
+def _by_condition(data: Data, measures: list[str], table: str) -> pd.DataFrame:
+    """Means of measures, with intervals: a row for each measure and combination of the other factors, and a column for each
+    level of the first factor."""
+    axes = axes_of_design(data)
+    columns = axes.get("x", "")
+    others = [axes[name] for name in ("colour", "panel") if name in axes]
+    units = data.table("trials").attrs.get("units", {})
+    known = counting_trials(data, table)
     rows = []
-    for measure in data.measures:
-        known = trials[trials[measure.column].notna()].rename(columns={measure.column: "value"})
-        if known.empty:
-            continue
-        each = known if single else known.groupby("person")["value"].mean().reset_index()
-        mean = means_with_intervals(each.assign(all=0), ["all"]).iloc[0]
-        of = {} if single else {"people": len(each)}
-        rows.append({
-            "measure": label(measure.column, measure.unit), **of, "trials": len(known), "mean": mean["value"],
-            "95 %": _between(mean["low"], mean["high"]), "SD": each["value"].std(),
-            "missing": _reasons(trials[trials[measure.column].isna()], measure.column),
-        })  # fmt: skip
-    over = "trials" if single else "people's means"
-    caption = f"Over all conditions, without practice, catch trials and repeated attempts; mean, interval and SD over {over}."
-    page.table(_without_empty(pd.DataFrame(rows)), f"{caption} Values that could not be computed are left out, not zero.")
+    for measure in (name for name in measures if known[name].notna().any()):
+        by = [columns, *others] if columns else []
+        means = means_of(data, measure, by, table)
+        unit = data.measure(measure, table).unit
+        key = others if others[1:] else "".join(others)  # pandas gives a level for a name, and a tuple for a list
+        for case, own in means.groupby(key, sort=False, dropna=False) if key else [((), means)]:
+            cases = case if isinstance(case, tuple) else (case,)
+            row: dict[str, Any] = {"measure": label(measure, unit)}
+            row |= {words_of(name, units.get(name, "")): _level(v, units.get(name, "")) for name, v in zip(others, cases)}
+            for _, each in own.iterrows():
+                column = _level(each[columns], units.get(columns, "")) if columns else "mean"
+                row[column] = _with_interval(each["mean"], each["low"], each["high"])
+            row["n"] = int(own["n"].max())
+            rows.append(row)
+    out = pd.DataFrame(rows).fillna("-")
+    return out[[*(name for name in out if name != "n"), "n"]] if "n" in out else out
 
 
 def _reasons(missing: pd.DataFrame, measure: str) -> str:
@@ -214,10 +261,19 @@ def _lifts(page: Page, data: Data) -> None:
     if not data.has("lifts"):
         return
     lifts = data.table("lifts")
-    keys = [key for key in (*sitting_columns(lifts), "trial_num", "attempt") if key in data.table("trials")]
-    design = [name for name in ("round", "block", "kind", "condition") if name in data.table("trials")]
-    own = lifts.drop(columns=design, errors="ignore").merge(data.table("trials")[[*keys, *design]], on=keys, how="left")
-    own["lifts"] = _joined(own, design) if design else "all"
+    if "lift" in lifts and not (lifts["lift"] == "complete").any():
+        return  # of another task: objects that are pushed, or carried from the start
+    trials = data.table("trials")
+    keys = [key for key in (*sitting_columns(lifts), "trial_num", "attempt") if key in trials]
+    design = [name for name in ("study_session", "round", "block", "kind", "condition") if name in trials]
+    design = [name for name in design if name not in keys]
+    own = lifts.drop(columns=design, errors="ignore").merge(trials[[*keys, *design]], on=keys, how="left")
+    groups = ["group"] if own["group"].nunique() > 1 else []
+    for name in ("condition", "block", *groups):
+        if name in own:  # in the order of the task
+            place = {value: i for i, value in enumerate(data.levels(name))}
+            own = own.sort_values(name, key=lambda values: values.map(place), kind="stable")
+    own["lifts"] = _joined(own, [*groups, *design]) if design else "all"
     rows = []
     for group, each in own.groupby("lifts", sort=False):
         complete = each[each["lift"] == "complete"] if "lift" in each else each
@@ -232,20 +288,24 @@ def _lifts(page: Page, data: Data) -> None:
     if len(table) <= _MOST_COLUMNS:
         table = table.set_index("trials").T.rename_axis(columns=None).reset_index(names="trials")
     page.table(table, f"{over}; an incomplete lift counts for the figures that it has.")
+    page.table(_by_condition(data, [name for name in LIFT_MEASURES if name in lifts], "lifts"), _caption_of_means(data))
+    _previous_weight(page, data)
+
+
+def _previous_weight(page: Page, data: Data) -> None:
     effects = previous_weight(data)
-    if len(effects) == 1:
-        effect = effects.iloc[0]
-        page.text(
-            f"Weight of the previous lift: the largest rate of load force increases by {in_short(effect['effect'])} ± "
-            f"{in_short(effect['error'])} N/s for each N of the previous object's weight ({effect['n']} pairs of lifts), "
-            f"{in_short(100 * effect['share'])} % of the effect of both weights."
-        )
-    elif len(effects) > 1:
-        mean = means_with_intervals(effects.rename(columns={"effect": "value"}).assign(all=0), ["all"]).iloc[0]
-        page.text(
-            f"Weight of the previous lift: the largest rate of load force increases by {in_short(mean['value'])} N/s "
-            f"(95 % {_between(mean['low'], mean['high'])}, {len(effects)} people) for each N of the previous object's weight."
-        )
+    groups = {sitting.person: sitting.group for sitting in data.sittings}
+    what = "the largest rate of load force changes by {} N/s for each N of the weight lifted before"
+    for group, own in effects.groupby(effects["person"].map(groups), sort=False):
+        of = f" ({group})" if group else ""
+        if len(own) == 1:
+            one = own.iloc[0]
+            text = what.format(f"{in_short(one['effect'])} ± {in_short(one['error'])}")
+            text += f" (standard error, {one['n']} pairs of lifts)"
+        else:
+            mean = means_with_intervals(own.rename(columns={"effect": "value"}).assign(all=0), ["all"]).iloc[0]
+            text = what.format(_with_interval(mean["value"], mean["low"], mean["high"])) + f" (95 %, {len(own)} people)"
+        page.text(f"Weight of the lift before{of}, with that of this lift in one regression: {text}.")
 
 
 def _learning(page: Page, data: Data) -> None:
@@ -271,15 +331,16 @@ def _learning(page: Page, data: Data) -> None:
     caption = f"Compensation in windows of one block each: mean over {over}, with its 95 % interval."
     page.table(_without_empty(pd.DataFrame(list(rows.values()))).fillna("-"), caption)
     single = len(data.people) == 1
-    caption = "with 95 % profile intervals" if single else "means over people, with 95 % intervals"
+    caption = "with 95 % profile intervals" if single else "medians over people, with quartiles"
     page.table(_models(fits, single), f"Models of learning, fitted to each curve by least squares: {caption}.")
 
 
 def _models(fits: pd.DataFrame, single: bool) -> pd.DataFrame:
     """The models' parameters, a row for each round."""
     rows = []
-    for part, own in fits.groupby("round", sort=False):
-        row: dict[str, Any] = {"round": part}
+    several = fits["group"].nunique() > 1
+    for (group, part), own in fits.groupby(["group", "round"], sort=False):
+        row: dict[str, Any] = {"group": group if several else "", "round": part}
         for name, words in _OF_MODELS.items():
             if name not in own or own[name].notna().sum() == 0:
                 continue
@@ -287,10 +348,10 @@ def _models(fits: pd.DataFrame, single: bool) -> pd.DataFrame:
                 between = f" ({own[f'{name}_95'].iloc[0]})" if f"{name}_95" in own else ""
                 row[words] = in_short(own[name].iloc[0]) + between
             else:
-                each = own.groupby("person")[name].mean().dropna()
-                mean = means_with_intervals(pd.DataFrame({"value": each, "all": 0}), ["all"]).iloc[0]
-                row[words] = _with_interval(mean["value"], mean["low"], mean["high"])
-        if len(row) > 1:
+                # rates lie between 0 and 1, and people's are far from normal
+                low, middle, high = own.groupby("person")[name].mean().quantile([0.25, 0.5, 0.75])
+                row[words] = _with_interval(middle, low, high)
+        if len(row) > 2:
             rows.append(row)
     return _without_empty(pd.DataFrame(rows))
 
@@ -316,7 +377,7 @@ def _thresholds(page: Page, data: Data) -> None:
         return
     rows = []
     unfit = 0
-    for procedure, own in table.groupby("procedure", sort=False):
+    for (group, procedure), own in table.groupby(["group", "procedure"], sort=False):
         # a note says why there is no fit, or that the threshold lies outside of the levels shown
         good = own[own["note"].isna() & own["threshold_share"].notna()]
         unfit += len(own) - len(good)
@@ -324,15 +385,20 @@ def _thresholds(page: Page, data: Data) -> None:
         mean = means_with_intervals(pd.DataFrame({"value": each, "all": 0}), ["all"])
         low, high = (mean.iloc[0]["low"], mean.iloc[0]["high"]) if len(mean) else (None, None)
         rows.append({
-            "procedure": procedure, "people": len(each), "mean": each.mean(), "95 %": _between(low, high), "SD": each.std(),
+            "group": group, "procedure": procedure, "people": len(each), "mean": each.mean(), "95 %": _between(low, high),
+            "SD": each.std(),
         })  # fmt: skip
     caption = "Thresholds over people, as shares of the perturbation or in the unit of the number's name."
     if unfit:
         caption += f" {unfit} {'is' if unfit == 1 else 'are'} left out, for reasons in population-thresholds.csv."
-    page.table(pd.DataFrame(rows), caption)
+    page.table(_without_empty(pd.DataFrame(rows)), caption)
 
 
 # Words
+
+
+def _level(value: Any, unit: str) -> str:
+    return level(value.item() if hasattr(value, "item") else value, unit)
 
 
 def _between(low: Any, high: Any) -> str:
@@ -340,7 +406,8 @@ def _between(low: Any, high: Any) -> str:
 
 
 def _with_interval(value: Any, low: Any, high: Any) -> str:
-    return in_short(value) + ("" if pd.isna(low) or pd.isna(high) else f" ({_between(low, high)})")
+    known = not (pd.isna(low) or pd.isna(high)) and in_short(low) != in_short(high)
+    return in_short(value) + (f" ({_between(low, high)})" if known else "")
 
 
 def _joined(table: pd.DataFrame, columns: list[str]) -> pd.Series:

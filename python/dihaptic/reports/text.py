@@ -7,13 +7,16 @@ from typing import Any
 
 import pandas as pd
 
-from ..figures.data import ASIDE, Data, sitting_columns
+from ..figures.conditions import axes_of_design, counting_trials, without_channels
+from ..figures.data import Data, sitting_columns
 from ..figures.means import means_with_intervals
-from ..figures.words import counted, in_print, words_of
+from ..figures.words import counted, in_print, level, words_of
 from .page import in_short
 
 #: Measures that are in the sentences; the others are in the table.
 _MOST_MEASURES = 3
+#: Figures of lifts that are in them, where the task has no measures of its own.
+_OF_LIFTS = ["peak_grip_N", "static_grip_N", "safety_margin"]
 #: Most levels that are listed by their names.
 _MOST_LISTED = 12
 
@@ -40,7 +43,7 @@ def _with_spread(mean: float, spread: float) -> str:
     if not spread > 0:
         return in_short(mean)
     digits = min(6, max(0, 1 - math.floor(math.log10(spread))))
-    return f"{mean:.{digits}f} ± {spread:.{digits}f}"
+    return f"{round(mean, digits) + 0.0:.{digits}f} ± {spread:.{digits}f}"  # + 0.0: no "-0.00"
 
 
 def _capital(text: str) -> str:
@@ -48,7 +51,7 @@ def _capital(text: str) -> str:
 
 
 def _who(data: Data, told: dict[str, Any]) -> str:
-    if data.is_simulated:
+    if data.is_simulated or data.sample.moved_by == "":
         return str(told.get("who") or "The hand was moved by a simulation. No person took part.")
     facts = pd.DataFrame([s.session.info.get("participant") or {} for s in data.sittings])
     facts = facts.assign(person=[s.person for s in data.sittings]).drop_duplicates("person")
@@ -105,7 +108,7 @@ def _design(data: Data) -> str:
     trials = _trials(data)
     if trials.empty:
         return ""
-    first = trials[trials["person"] == data.people[0]]
+    first = trials[trials["session"] == trials["session"].iloc[0]]
     rounds = _levels(first, "round")
     of = first[first["round"].fillna("").astype(str) == rounds[0]] if len(rounds) > 1 else first
     blocks = []
@@ -119,7 +122,9 @@ def _design(data: Data) -> str:
     text += f" and {len(blocks) - _MOST_LISTED} further ones." if len(blocks) > _MOST_LISTED else "."
     units = data.table("trials").attrs.get("units", {})
     for factor in data.factors:
-        levels = [in_short(level) if not isinstance(level, str) else level for level in data.levels(factor)]
+        levels = [level(value) for value in data.levels(factor)]
+        if factor in ("round", "study_session"):
+            continue
         unit = f" {in_print(units[factor])}" if factor in units else ""
         text += f" The factor {words_of(factor, units.get(factor, ''))} had {len(levels)} levels: {listed(levels)}{unit}."
     conditions = _levels(trials, "condition")
@@ -144,36 +149,59 @@ def _outcomes(data: Data) -> str:
     return f"Outcomes of {counted(int(outcomes.sum()), 'attempt')}: {listed(every)}."
 
 
+def means_of(data: Data, measure: str, by: list[str], table: str = "trials") -> pd.DataFrame:
+    """Means of a measure: a row for each combination of the columns `by`, in the order of their levels, with `mean`, `sd`,
+    and the 95 % interval from `low` to `high` over `n` people, or over `n` trials of one person; and the number of `trials`.
+    """
+    known = counting_trials(data, table)
+    known = without_channels(known[known[measure].notna()]).rename(columns={measure: "value"}).assign(all="")
+    keys = by or ["all"]
+    each = known
+    if len(data.people) > 1:
+        each = known.groupby([*keys, "person"], sort=False, dropna=False)["value"].mean().reset_index()
+    out = means_with_intervals(each, keys, sort=False, dropna=False).rename(columns={"value": "mean"})
+    counts = each.groupby(keys, sort=False, dropna=False)["value"].agg(sd="std").reset_index()
+    trials = known.groupby(keys, sort=False, dropna=False)["value"].agg(trials="count").reset_index()
+    out = out.merge(counts, on=keys).merge(trials, on=keys)
+    for name in reversed(by):
+        place = {value: i for i, value in enumerate(data.levels(name))}
+        out = out.sort_values(name, key=lambda values: values.map(place), kind="stable")
+    return out.reset_index(drop=True)
+
+
 def _measured(data: Data) -> list[str]:
-    """The first measures in each condition: mean and SD over people, or over the trials of one person."""
-    trials = _trials(data)
-    if trials.empty:
+    """The first measures, and those of lifts, in each condition: mean and SD over people, or over the trials of one person."""
+    if _trials(data).empty:
         return []
-    trials = trials[~trials["kind"].isin(ASIDE)]
-    by = data.factors[:1] or (["condition"] if trials["condition"].nunique() > 1 else [])
-    units = data.table("trials").attrs.get("units", {})
-    out = []
-    single = len(data.people) == 1
-    for measure in data.measures[:_MOST_MEASURES]:
-        known = trials[trials[measure.column].notna()].rename(columns={measure.column: "value"})
-        each = known if single else known.groupby(["person", *by], sort=False)["value"].mean().reset_index()
-        means = means_with_intervals(each.assign(all="all"), by or ["all"])
-        spread = each.assign(all="all").groupby(by or ["all"])["value"].std()
-        texts = []
-        order = data.levels(by[0]) if by else ["all"]
-        for level in order[:_MOST_LISTED]:
-            row = means[means[(by or ["all"])[0]] == level]
-            if row.empty:
-                continue
-            unit = in_print(measure.unit) if measure.unit != "1" else ""
-            value = f"{_with_spread(float(row['value'].iloc[0]), float(spread[level]))} {unit}".strip()
-            of = f"{level if isinstance(level, str) else in_short(level)} {in_print(units.get(by[0], '')) if by else ''}".strip()
-            texts.append(f"{value}{f' ({of})' if by else ''}")
-        n = f"n = {counted(len(known), 'trial')}" if single else f"n = {known['person'].nunique()} people, {len(known)} trials"
-        out.append(f"{_capital(words_of(measure.column, measure.unit))} (mean ± SD): {listed(texts)}; {n}.")
+    own = [("trials", measure.column) for measure in data.measures[:_MOST_MEASURES]]
+    if data.has("lifts") and not own:
+        known = counting_trials(data, "lifts")
+        own = [("lifts", name) for name in _OF_LIFTS if name in known and known[name].notna().any()]
+    axes = axes_of_design(data)
+    by = [axes["x"]] if axes else []
+    # groups, and rounds, are never averaged over
+    by += [name for name in (axes.get("colour"), axes.get("panel")) if name in ("group", "round", "study_session")]
+    out = [_sentence(data, measure, by, table) for table, measure in own]
     if len(data.measures) > _MOST_MEASURES:
-        out[-1] += " The table above has the other measures."
+        out[-1] += " The tables above have the other measures."
     return out
+
+
+def _sentence(data: Data, measure: str, by: list[str], table: str) -> str:
+    """A measure in each condition: "Movement time (mean ± SD): 0.69 ± 0.08 s (40 mm), ..."."""
+    units = data.table("trials").attrs.get("units", {})
+    unit = in_print(data.measure(measure, table).unit)
+    means = means_of(data, measure, by, table)
+    texts = []
+    for row in means.head(_MOST_LISTED).to_dict("records"):
+        of = ", ".join(level(row[name], units.get(name, "")) for name in by)
+        value = f"{_with_spread(row['mean'], row['sd'])} {unit if unit != '1' else ''}".strip()
+        texts.append(f"{value} ({of})" if of else value)
+    more = f", and {len(means) - _MOST_LISTED} further conditions" if len(means) > _MOST_LISTED else ""
+    trials = counted(int(means["trials"].sum()), "trial")
+    n = trials if len(data.people) == 1 else f"{counted(int(means['n'].max()), 'person', 'people')}, {trials}"
+    spread = "" if (means["n"] < 2).all() else f" (mean ± SD over {'trials' if len(data.people) == 1 else 'people'})"
+    return f"{_capital(words_of(measure, data.measure(measure, table).unit))}{spread}: {listed(texts)}{more}; n = {n}."
 
 
 def _learned(data: Data) -> str:
@@ -182,17 +210,19 @@ def _learned(data: Data) -> str:
     fits = data.table("fits")
     fits["round"] = fits["round"].fillna("").astype(str)
     texts = []
-    for part, own in fits.groupby("round", sort=False):
+    several = fits["group"].nunique() > 1
+    for (group, part), own in fits.groupby(["group", "round"], sort=False):
         windows = []
+        of = ", ".join(filter(None, [group if several else "", f"round {part}" if part else ""]))
         for window in ("baseline", "early", "late"):
             if window not in own or own[window].notna().sum() == 0:
                 continue
             each = own.groupby("person")[window].mean().dropna()
             windows.append(f"{_with_spread(each.mean(), each.std())} {in_print(str(own['unit'].iloc[0]))} ({window})")
         if windows:
-            texts.append(f"{f'{part}: ' if part else ''}{listed(windows)}")
-    spread = "mean ± SD over people" if len(data.people) > 1 else "mean over eight trials"
-    return f"Compensation ({spread}) was {'; '.join(texts)}." if texts else ""
+            texts.append(f"{listed(windows)}{f' in {of}' if of else ''}")
+    spread = "mean ± SD over people" if len(data.people) > 1 else "means over at most eight trials"
+    return f"Compensation ({spread}): {'; '.join(texts)}." if texts else ""
 
 
 def _thresholds(data: Data) -> str:
@@ -200,7 +230,9 @@ def _thresholds(data: Data) -> str:
         return ""
     table = data.table("thresholds")
     texts = []
-    for procedure, own in table.groupby("procedure", sort=False):
+    several = table["group"].nunique() > 1
+    for (group, name), own in table.groupby(["group", "procedure"], sort=False):
+        procedure = f"{name} ({group})" if several else name
         if len(data.people) == 1:
             row = own.iloc[0]
             if pd.notna(row["threshold"]):

@@ -147,6 +147,9 @@ void leave_out(ReportResult& result, std::vector<SessionData>& sessions) {
                                       first->second);
         } else if (earlier.contains(name)) {
             result.left_out.push_back(session.folder.path() + ": another session resumes it");
+        } else if (session.stands_in()) {
+            result.left_out.push_back(session.folder.path() +
+                                      ": a simulated person stood in for the participant");
         } else if (session.is_cut_short()) {
             result.left_out.push_back(
                 session.folder.path() +

@@ -174,6 +174,12 @@ bool SessionData::is_cut_short() const {
            (trials.empty() || trials.back().measures.outcome == rows::kInterrupted);
 }
 
+bool SessionData::stands_in() const {
+    const fs::path of_participant = fs::path(folder.path()).parent_path().parent_path();
+    return info.in_study &&
+           info.participant.id == recording::kSimulatedPrefix + of_participant.filename().string();
+}
+
 std::string SessionData::not_measured() const {
     std::string out;
     for (const auto& [name, what] : unmeasured)

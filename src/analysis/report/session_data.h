@@ -36,6 +36,10 @@ struct SessionData {
     /// over people.
     bool is_cut_short() const;
 
+    /// Whether a simulated person did a participant's session of a study, in the participant's
+    /// folder (`run --simulate`); such a session does not belong to the study.
+    bool stands_in() const;
+
     std::string participant() const {
         return info.participant.id.empty() ? "?" : info.participant.id;
     }
