@@ -231,7 +231,7 @@ class Sessions(Attack):
             (copy / name).write_bytes(mutated(self.chosen, (whole / name).read_bytes()))
             for command in commands:
                 before = spent()
-                told, code = self.do(command, copy)
+                told, code = self.do(*command.split(), copy)
                 about = f"{command}, {name}: {told[:3000]}"
                 self.assertLess(spent() - before, LONGEST, about)
                 if code == 2:
@@ -242,13 +242,13 @@ class Sessions(Attack):
 
     def test_sessions(self):
         names = ["session.yaml", "raw.log", "trials.csv"] * 4 + [path.name for path in self.session.iterdir()]
-        self.try_all(self.session, [name for name in names if name != "session.nwb"], ["replay", "report", "recover"])
+        self.try_all(self.session, [name for name in names if name != "session.nwb"], ["replay", "report --tables", "recover"])
 
     def test_rehearsals(self):
         folder = pathlib.Path(self.folder, "r")
         names = [str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()]
         names = [name for name in names if "session.nwb" not in name]
-        self.try_all(folder, names + ["rehearsal.yaml", "sim-001/trials.csv", "sim-001/session.yaml"] * 4, ["collect", "report"])
+        self.try_all(folder, names + ["rehearsal.yaml", "sim-001/trials.csv", "sim-001/session.yaml"] * 4, ["collect", "report --tables"])
 
 
 if __name__ == "__main__":

@@ -109,9 +109,9 @@ class Words(unittest.TestCase):
                 (session,) = pathlib.Path(out).iterdir()
                 with open(session / "trials.csv", newline="", encoding="utf-8") as file:
                     self.assertEqual({row["ppid"] for row in csv.DictReader(file)}, {"sim-" + word})
-                for command in ("report", "replay", "recover"):
-                    result = dihaptic(command, str(session))
-                    self.assertEqual(result.returncode, 0, command + ": " + result.stderr)
+                for command in (["report", "--tables"], ["replay"], ["recover"]):
+                    result = dihaptic(*command, str(session))
+                    self.assertEqual(result.returncode, 0, f"{command}: {result.stderr}")
 
 
 WORDS = ["null", "~", "yes", "-", "---", "...", "1e3", "0x1F", "007", ".nan", "=1+1", "@a", "# a", "a: b", "- a", "!a", "&a", "*a", "|", ">",

@@ -871,7 +871,7 @@ def previous_weight(data: Data) -> pd.DataFrame:
     for person, own in lifts.groupby("person", sort=False):
         own = own.assign(known=(own["lift"] == "complete") & own[["static_load_N", "peak_load_rate_N_s"]].notna().all(axis=1))
         by = own.groupby(sitting_columns(own), sort=False, dropna=False)
-        own = own.assign(before=by["static_load_N"].shift(), known_before=by["known"].shift().fillna(False).astype(bool))
+        own = own.assign(before=by["static_load_N"].shift(), known_before=by["known"].shift(fill_value=False))
         pairs = own[own["known"] & own["known_before"]]
         n = len(pairs)
         weights = pairs["static_load_N"]

@@ -7,6 +7,7 @@ import os
 import re
 import tempfile
 import textwrap
+import warnings
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -145,18 +146,36 @@ def save(figure: Figure, file: str | Path, points: pd.DataFrame | None = None) -
     }
     # places are found once, so that they are the same in all formats; finding them takes as long as drawing
     engine = figure.get_layout_engine()
-    figure.draw_without_rendering()
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        figure.draw_without_rendering()
+    _tell(told, base.name)
     figure.set_layout_engine("none")
     written = []
     for kind in kinds:
         whole = io.BytesIO()
-        figure.savefig(whole, format=kind, metadata=metadata[kind], **({"transparent": True} if kind == "svg" else {}))
+        with warnings.catch_warnings():
+            warnings.filterwarnings("ignore", "Glyph .* missing")  # told above
+            figure.savefig(whole, format=kind, metadata=metadata[kind], **({"transparent": True} if kind == "svg" else {}))
         content = _with_steady_names(whole.getvalue()) if kind == "svg" else whole.getvalue()
         written.append(write(base.with_name(f"{base.name}.{kind}"), content))
     figure.set_layout_engine(engine)
     if points is not None:
         written.append(write(base.with_name(f"{base.name}.csv"), points.to_csv(index=False).encode()))
     return written
+
+
+def _tell(told: list[warnings.WarningMessage], name: str) -> None:
+    """Warns of letters that no font has, each once, and passes on other warnings."""
+    missing: dict[str, None] = {}
+    for each in told:
+        if found := re.search(r"Glyph (\d+) .*missing", str(each.message)):
+            missing[chr(int(found[1]))] = None
+        else:
+            warnings.warn_explicit(each.message, each.category, each.filename, each.lineno)
+    if missing:
+        what = f"{name}: no font of this computer has {''.join(missing)}, which PDF and PNG show as boxes"
+        warnings.warn(f"{what}. Install one, such as Debian's fonts-noto-cjk, and draw again.", stacklevel=4)
 
 
 def _with_steady_names(svg: bytes) -> bytes:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Callable
-from functools import wraps
+from functools import cache, wraps
 from typing import Any, TypeVar
 
 import matplotlib
+from matplotlib import font_manager
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -21,6 +22,12 @@ MARKERS = ["o", "s", "^", "D", "v", "P", "X"]
 WIDTHS = {"one column": 89.0, "two columns": 183.0}
 #: Colour of what is not data: reference lines, names of blocks.
 QUIET = "#767676"
+
+#: Fonts for letters that DejaVu Sans lacks, where they are installed.
+_OTHER_FONTS = [
+    "Noto Sans CJK JP", "Noto Sans CJK SC", "WenQuanYi Micro Hei", "IPAexGothic", "Droid Sans Fallback", "Microsoft YaHei",
+    "Yu Gothic", "Malgun Gothic", "Hiragino Sans", "PingFang SC", "Apple SD Gothic Neo", "Noto Sans Devanagari", "Noto Sans Thai",
+]  # fmt: skip
 
 _RC = {
     "font.family": ["sans-serif"],
@@ -64,9 +71,17 @@ def styled(function: _Function) -> _Function:
         with matplotlib.rc_context():
             matplotlib.rcdefaults()
             matplotlib.rcParams.update(_RC)
+            matplotlib.rcParams["font.family"] = _families()
             return function(*arguments, **options)
 
     return call  # type: ignore[return-value]
+
+
+@cache
+def _families() -> list[str]:
+    """The typeface, and those installed that have the letters of other scripts: each letter is in the first that has it."""
+    installed = {font.name for font in font_manager.fontManager.ttflist}
+    return ["sans-serif", *(name for name in _OTHER_FONTS if name in installed)]
 
 
 @styled

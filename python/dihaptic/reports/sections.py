@@ -283,12 +283,12 @@ def _lifts(page: Page, data: Data) -> None:
                 values = each.groupby("person")[name].median()
                 row[label(name, str(lifts.attrs.get("units", {}).get(name, "")))] = values.mean()
         rows.append(row)
+    page.table(_by_condition(data, [name for name in LIFT_MEASURES if name in lifts], "lifts"), _caption_of_means(data))
     over = "Medians over lifts" if len(data.people) == 1 else "Means over people of each person's median"
     table = pd.DataFrame(rows)
     if len(table) <= _MOST_COLUMNS:
         table = table.set_index("trials").T.rename_axis(columns=None).reset_index(names="trials")
     page.table(table, f"{over}; an incomplete lift counts for the figures that it has.")
-    page.table(_by_condition(data, [name for name in LIFT_MEASURES if name in lifts], "lifts"), _caption_of_means(data))
     _previous_weight(page, data)
 
 
