@@ -52,7 +52,8 @@ void draw_page(const analysis::ReportResult& result, const std::string& command,
         {"python/dihaptic/facts.json", "lib/python3/dist-packages/dihaptic/facts.json"});
     if (code.empty())
         throw no_page(folder, "the Python package draws it",
-                      "Type sudo apt install python3-dihaptic, and repeat the command.");
+                      "Type sudo apt install python3-dihaptic or, in a checkout, ./dev build; or "
+                      "add --tables, which needs no Python.");
     const std::string package = std::filesystem::path(code).parent_path().parent_path();
     const Descriptor description = in_memory(analysis::report_json(result, command));
     const Descriptor said = in_memory("");

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from scipy import stats
+from scipy import special
 
 
 def means_with_intervals(each: pd.DataFrame, by: list[str], **options: Any) -> pd.DataFrame:
@@ -20,5 +20,5 @@ def means_with_intervals(each: pd.DataFrame, by: list[str], **options: Any) -> p
     [[1, 4.0, 2, 'mean', -8.71, 16.71], [2, 7.0, 1, 'mean', nan, nan]]
     """
     mean = each.groupby(by, **options)["value"].agg(value="mean", n="count", sd="std").reset_index()
-    half = stats.t.ppf(0.975, mean["n"].clip(lower=2) - 1) * mean["sd"] / np.sqrt(mean["n"])
+    half = special.stdtrit(mean["n"].clip(lower=2) - 1, 0.975) * mean["sd"] / np.sqrt(mean["n"])
     return mean.assign(of="mean", low=mean["value"] - half, high=mean["value"] + half).drop(columns="sd")

@@ -12,7 +12,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.ticker import FixedLocator, FuncFormatter, MaxNLocator, NullLocator
-from scipy import special, stats
+from scipy import special
 
 from ..errors import NotThere, error
 from .conditions import counting_trials
@@ -45,7 +45,7 @@ def wilson(yes: Any, n: Any) -> tuple[Any, Any]:
     >>> round(low, 3), round(high, 3)
     (0.49, 0.943)
     """
-    z = stats.norm.ppf(0.975)
+    z = special.ndtri(0.975)
     share = yes / n
     middle = (share + z**2 / (2 * n)) / (1 + z**2 / n)
     half = z / (1 + z**2 / n) * np.sqrt(share * (1 - share) / n + z**2 / (4 * n**2))
@@ -253,7 +253,7 @@ def _mean(values: pd.Series, logarithmic: bool) -> dict[str, Any]:
     x = np.log10(values) if logarithmic else values
     n = len(x)
     middle = x.mean()
-    half = stats.t.ppf(0.975, max(1, n - 1)) * x.std() / np.sqrt(n) if n > 1 else np.nan
+    half = special.stdtrit(max(1, n - 1), 0.975) * x.std() / np.sqrt(n) if n > 1 else np.nan
     ends = [middle, middle - half, middle + half]
     value, low, high = [10**end if logarithmic else end for end in ends]
     return {"n": n, "value": value, "low": low, "high": high}
