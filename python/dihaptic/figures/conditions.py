@@ -10,7 +10,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from ..errors import NotThere, error
-from .data import ASIDE, SITTING, Data, listed, sitting_columns
+from .data import ASIDE, SITTING, Data, checked_list, sitting_columns
 from .means import means_with_intervals
 from .saving import Plan
 from .style import COLOURS, MARKERS, WIDTHS, canvas, corner, fit_names, legend_above, same_limits, styled, wrapped
@@ -61,6 +61,19 @@ def without_channels(trials: pd.DataFrame) -> pd.DataFrame:
     return free if len(free) else trials
 
 
+def each_in_conditions(trials: pd.DataFrame, measure: str, by: list[str], single: bool) -> pd.DataFrame:
+    """What means of a measure are over, in each condition: people's means over n trials or, of a single person, the trials.
+
+    A row has the columns `by`, person, value, n, and `of`, which is "person". Force channels are left out, unless the
+    measure is one of channels.
+    """
+    known = without_channels(trials[trials[measure].notna()])
+    if single:
+        return known[["person", *by, measure]].rename(columns={measure: "value"}).assign(n=1, of="person")
+    people = known.groupby([*by, "person"], dropna=False, sort=True)[measure].agg(value="mean", n="count")
+    return people.reset_index().assign(of="person")
+
+
 def check_column(table: pd.DataFrame, name: str) -> None:
     """Raises NotThere when the table has no such column."""
     if name not in table:
@@ -91,17 +104,11 @@ def means_by_condition(
     units = trials.attrs.get("units", {})
     single = len(data.people) == 1
     parts = []
-    for measure in listed("measures", measures):
+    for measure in checked_list("measures", measures):
         check_column(trials, measure)
         if not pd.api.types.is_numeric_dtype(trials[measure]):
             raise error("has words, of which there is no mean", "Name a column of numbers.", key=measure)
-        known = without_channels(trials[trials[measure].notna()])
-        if single:
-            each = known[["person", *by, measure]].rename(columns={measure: "value"})
-            each["n"] = 1
-        else:
-            each = known.groupby([*by, "person"], dropna=False, sort=True)[measure].agg(value="mean", n="count").reset_index()
-        each["of"] = "person"
+        each = each_in_conditions(trials, measure, by, single)
         mean = means_with_intervals(each, by, dropna=False, sort=True)
         both = pd.concat([each, mean], ignore_index=True)
         both.insert(0, "measure", measure)
@@ -110,10 +117,7 @@ def means_by_condition(
     out = pd.concat(parts, ignore_index=True).reindex(columns=columns)
     if out.empty:
         raise error("has no value in a trial that counts", "Name a measure of this task.", key=", ".join(measures))
-    # words in the order of the task, in which they are then drawn
-    for name in reversed(by):
-        place = {value: i for i, value in enumerate(data.levels(name) if name in data.table("trials") else [])}
-        out = out.sort_values(name, key=lambda levels: levels.map(place), kind="stable")
+    out = data.in_order(out, by)  # in which it is then drawn
     out = out.sort_values("measure", key=lambda names: names.map({m: i for i, m in enumerate(measures)}), kind="stable")
     out = out.reset_index(drop=True)
     out.attrs["units"] = {name: unit for name, unit in units.items() if name in [*measures, *by]}

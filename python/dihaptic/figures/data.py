@@ -23,9 +23,9 @@ ASIDE = ["practice", "catch"]
 SITTING = ("person", "group", "session", "study_session")
 #: Columns of trials.csv that describe a trial, or how it was done, and that are no measure.
 _END_OF_DESIGN = "attempt"
+_AFTER_MEASURES = ["not_measured", "simulated", "moved_by", "start_type", "replays"]
 #: Columns of measures that tell what acted on the hand, not what it did.
 _NOT_BEHAVIOUR = ["field_share"]
-_AFTER_MEASURES = ["not_measured", "simulated", "moved_by", "start_type", "replays"]
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ def read(
     >>> figures.read(lift_session)
     <Data of one session: Two fingers lift a block>
     """
-    return Data(path, people, Sample(experiment, moved_by, population))
+    return Data(Sittings(path), people, Sample(experiment, moved_by, population))
 
 
 class Data:
@@ -77,8 +77,7 @@ class Data:
     (['person', 'group'], False)
     """
 
-    def __init__(self, path: Paths, people: list[str] | None, wanted: Sample) -> None:
-        found = Sittings(path)
+    def __init__(self, found: Sittings, people: list[str] | None, wanted: Sample) -> None:
         self.paths, self.left_out = found.paths, found.left_out
         #: What chose these people, to be repeated in a script.
         self.choice: dict[str, Any] = {"people": people, **asdict(wanted)}
@@ -98,7 +97,6 @@ class Data:
                 if name not in self.people:
                     raise NotThere(name, "is not a person of these sessions", self.people, "Data.people lists them.")
             self.sittings = [sitting for sitting in self.sittings if sitting.person in people]
-            self.__dict__.pop("_cache", None)
         self.sample = self.sittings[0].sample
 
     def __repr__(self) -> str:
@@ -231,6 +229,14 @@ class Data:
             known = [*known, (condition.get("factors") or {}).get(column)]
         return [*dict.fromkeys(value for value in known if value in found), *(value for value in found if value not in known)]
 
+    def in_order(self, table: pd.DataFrame, by: list[str]) -> pd.DataFrame:
+        """The rows of a table in the order of the levels of its columns `by`, the first one above all."""
+        trials = self.table("trials")
+        for name in reversed(by):
+            place = {value: i for i, value in enumerate(self.levels(name) if name in trials else [])}
+            table = table.sort_values(name, key=lambda levels: levels.map(place), kind="stable")
+        return table
+
     @cached_property
     def measures(self) -> list[Measure]:
         """The numeric measures and answers of the task that have a value in some trial, as columns of trials.csv."""
@@ -262,17 +268,15 @@ class Data:
     @property
     def is_simulated(self) -> bool:
         """Whether no person took part."""
-        return all(sitting.sample.is_simulated for sitting in self.sittings)
+        return self.sample.is_simulated
 
     @property
     def mark(self) -> str:
         """The short mark in each figure's corner: "simulated" if no person took part."""
-        if self.is_simulated:
-            return "simulated"
-        return "partly simulated" if any(sitting.sample.is_simulated for sitting in self.sittings) else ""
+        return "simulated" if self.is_simulated else ""
 
 
-def listed(name: str, values: list[str]) -> list[str]:
+def checked_list(name: str, values: list[str]) -> list[str]:
     """A list of names that a function was given. Raises Error for a single text, whose letters would be taken for names."""
     if isinstance(values, str):
         raise error("must be a list of names", f'Write {name}=["{values}"].', key=name)

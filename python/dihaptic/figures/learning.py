@@ -15,7 +15,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from ..errors import NotThere, error
-from .data import Data, listed, sitting_columns
+from .data import Data, checked_list, sitting_columns
 from .means import means_with_intervals
 from .saving import Plan
 from .style import COLOURS, MARKERS, QUIET, WIDTHS, canvas, corner, fit_names, legend_above, same_limits, styled, wrapped
@@ -640,7 +640,7 @@ def measures_over_trials(data: Data, *, measures: list[str], session: str = "", 
     >>> points[["measure", "of", "trial", "unit"]].values.tolist()
     [['peak_grip_N', 'person', 1.0, 'N'], ['peak_grip_N', 'schedule', 1.0, 'N']]
     """
-    for measure in listed("measures", measures):
+    for measure in checked_list("measures", measures):
         data.measure(measure)
     table = _of_session(data, session, measures)
     several = table["person"].nunique() > 1

@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 import os
 import re
-import tempfile
 import textwrap
 import warnings
 import zlib
@@ -192,23 +191,16 @@ def write(file: Path, content: bytes) -> Path:
         file.parent.mkdir(parents=True, exist_ok=True)
         if file.parent.name.startswith("figures") and file.parent.is_symlink():  # this package makes none
             raise OSError(0, "its folder is a link to another one")
-        with tempfile.NamedTemporaryFile(dir=file.parent, prefix=".unfinished-", delete=False) as new:
-            try:
-                new.write(content)
-                new.close()
-                os.chmod(new.name, 0o666 & ~_mask())
-                os.replace(new.name, file)
-            except BaseException:
-                Path(new.name).unlink(missing_ok=True)
-                raise
+        new = file.with_name(f".unfinished-{os.getpid()}-{file.name}")
+        new.unlink(missing_ok=True)
+        try:
+            with new.open("xb") as whole:
+                whole.write(content)
+            os.replace(new, file)
+        except BaseException:
+            new.unlink(missing_ok=True)
+            raise
     except OSError as why:
         remedy = "Mend its permissions, take away what has its name, or name another folder."
         raise error(f"cannot be written: {why.strerror}", remedy, file=str(file)) from None
     return file
-
-
-def _mask() -> int:
-    """The permissions that new files do not get."""
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

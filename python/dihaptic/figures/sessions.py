@@ -53,11 +53,7 @@ class Sample:
 def samples_in(path: Paths) -> list[Sample]:
     """The samples that the sessions at a path belong to, in the order of their titles. Of several paths, which are compared,
     these are the experiments. Raises Error."""
-    found = Sittings(path)
-    samples = {sitting.sample for sitting in found.counting}
-    if len(found.paths) > 1:
-        samples = {Sample(sample.experiment, None, None) for sample in samples}
-    return sorted(samples, key=str)
+    return Sittings(path).samples
 
 
 #: Some columns of tables that are not in docs/tables.md.
@@ -179,6 +175,14 @@ class Sittings:
             if len(self.paths) > 1:
                 found = [replace(each, of=name, group=", ".join(filter(None, [name, each.group]))) for each in found]
             self.counting += found
+
+    @property
+    def samples(self) -> list[Sample]:
+        """The samples that they belong to, in the order of their titles; of several paths, the experiments."""
+        samples = {sitting.sample for sitting in self.counting}
+        if len(self.paths) > 1:
+            samples = {Sample(sample.experiment, None, None) for sample in samples}
+        return sorted(samples, key=str)
 
     def _at(self, path: Path) -> Iterator[Sitting]:
         if path.is_file() and path.suffix in (".yaml", ".yml") and path.name != "session.yaml":

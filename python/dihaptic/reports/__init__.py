@@ -19,7 +19,7 @@ from typing import Any
 from .. import figures
 from ..errors import Error, error
 from ..figures.saving import write
-from ..figures.sessions import Paths
+from ..figures.sessions import Paths, Sample, Sittings
 from .page import Page
 from .sections import add_sample
 
@@ -43,11 +43,13 @@ def write_page(
     'report.html'
     """
     told = told or {}
-    found = figures.samples_in(paths)
+    sittings = Sittings(paths)
+    found = sittings.samples
     several = not isinstance(paths, (str, Path)) and len(paths) > 1
     if several and not out:
         raise error("has no folder", "Name one for the page, with --out.", key="out")
-    every = [_data(paths, sample, len(found)) for sample in found]
+    # a choice that is not needed is not written into scripts
+    every = [figures.Data(sittings, None, sample if len(found) > 1 else Sample(None, None, None)) for sample in found]
     folder = Path(os.path.abspath(out)) if out else every[0].folder
     titles = list(dict.fromkeys(data.title for data in every))
     of = {id(data): _told_of(data, told) for data in every}
@@ -69,7 +71,7 @@ def write_page(
                 page.text(str(text), "warning")
     for data in every:
         if len(every) > 1:
-            page.part(str(data.sample) if len(found) > len(titles) else data.title)
+            page.heading(str(data.sample) if len(found) > len(titles) else data.title, "part")
         try:
             add_sample(page, data, of[id(data)], _figures_of(folder, data, every), jobs=jobs, progress=progress)
         except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as why:
@@ -79,13 +81,6 @@ def write_page(
             remedy = "If its tables are as the program wrote them, report this; or else restore them."
             raise error(what, remedy, file=str(data.folder)) from why
     return write(folder / NAME, page.html().encode(errors="replace"))
-
-
-def _data(paths: Paths, sample: figures.Sample, samples: int) -> figures.Data:
-    """A sample's data; a choice that is not needed is not written into scripts."""
-    if samples == 1:
-        return figures.read(paths)
-    return figures.read(paths, experiment=sample.experiment, moved_by=sample.moved_by, population=sample.population)
 
 
 def _figures_of(folder: Path, data: figures.Data, every: list[figures.Data]) -> Path:

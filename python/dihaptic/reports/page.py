@@ -31,15 +31,10 @@ class Page:
         self._body: list[str] = []
         self._headings: list[str] = []
 
-    def heading(self, text: str) -> None:
-        """A heading, which is in the contents."""
+    def heading(self, text: str, kind: str = "") -> None:
+        """A heading, which is in the contents; `kind`: "part" for the title of a part of the page."""
         self._headings.append(text)
-        self._body.append(f'<h2 id="section-{len(self._headings)}">{escape(text)}</h2>')
-
-    def part(self, text: str) -> None:
-        """The title of a part of the page, above headings."""
-        self._headings.append(text)
-        self._body.append(f'<h2 class="part" id="section-{len(self._headings)}">{escape(text)}</h2>')
+        self._body.append(f'<h2{_class(kind)} id="section-{len(self._headings)}">{escape(text)}</h2>')
 
     def add(self, other: Page) -> None:
         """Adds the content of another page, without its head."""

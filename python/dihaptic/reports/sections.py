@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -269,10 +270,7 @@ def _lifts(page: Page, data: Data) -> None:
     design = [name for name in design if name not in keys]
     own = lifts.drop(columns=design, errors="ignore").merge(trials[[*keys, *design]], on=keys, how="left")
     groups = ["group"] if own["group"].nunique() > 1 else []
-    for name in ("condition", "block", *groups):
-        if name in own:  # in the order of the task
-            place = {value: i for i, value in enumerate(data.levels(name))}
-            own = own.sort_values(name, key=lambda values: values.map(place), kind="stable")
+    own = data.in_order(own, [name for name in (*groups, "block", "condition") if name in own])
     own["lifts"] = _joined(own, [*groups, *design]) if design else "all"
     rows = []
     for group, each in own.groupby("lifts", sort=False):
@@ -303,8 +301,7 @@ def _previous_weight(page: Page, data: Data) -> None:
             text = what.format(f"{in_short(one['effect'])} ± {in_short(one['error'])}")
             text += f" (standard error, {one['n']} pairs of lifts)"
         else:
-            mean = means_with_intervals(own.rename(columns={"effect": "value"}).assign(all=0), ["all"]).iloc[0]
-            text = what.format(_with_interval(mean["value"], mean["low"], mean["high"])) + f" (95 %, {len(own)} people)"
+            text = what.format(_with_interval(*_mean_of(own["effect"]))) + f" (95 %, {len(own)} people)"
         page.text(f"Weight of the lift before{of}, with that of this lift in one regression: {text}.")
 
 
@@ -382,10 +379,9 @@ def _thresholds(page: Page, data: Data) -> None:
         good = own[own["note"].isna() & own["threshold_share"].notna()]
         unfit += len(own) - len(good)
         each = good.groupby("person")["threshold_share"].mean()
-        mean = means_with_intervals(pd.DataFrame({"value": each, "all": 0}), ["all"])
-        low, high = (mean.iloc[0]["low"], mean.iloc[0]["high"]) if len(mean) else (None, None)
+        mean, low, high = _mean_of(each)
         rows.append({
-            "group": group, "procedure": procedure, "people": len(each), "mean": each.mean(), "95 %": _between(low, high),
+            "group": group, "procedure": procedure, "people": len(each), "mean": mean, "95 %": _between(low, high),
             "SD": each.std(),
         })  # fmt: skip
     caption = "Thresholds over people, as shares of the perturbation or in the unit of the number's name."
@@ -399,6 +395,14 @@ def _thresholds(page: Page, data: Data) -> None:
 
 def _level(value: Any, unit: str) -> str:
     return level(value.item() if hasattr(value, "item") else value, unit)
+
+
+def _mean_of(values: pd.Series) -> tuple[float, float, float]:
+    """A mean, and its 95 % interval; NaN for what too few values do not tell."""
+    means = means_with_intervals(pd.DataFrame({"value": values, "all": 0}), ["all"])
+    if means.empty:
+        return math.nan, math.nan, math.nan
+    return float(means["value"].iloc[0]), float(means["low"].iloc[0]), float(means["high"].iloc[0])
 
 
 def _between(low: Any, high: Any) -> str:

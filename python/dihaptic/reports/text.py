@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from ..figures.conditions import axes_of_design, counting_trials, without_channels
+from ..figures.conditions import axes_of_design, counting_trials, each_in_conditions
 from ..figures.data import Data, sitting_columns
 from ..figures.means import means_with_intervals
 from ..figures.words import counted, in_print, level, words_of
@@ -153,20 +153,12 @@ def means_of(data: Data, measure: str, by: list[str], table: str = "trials") -> 
     """Means of a measure: a row for each combination of the columns `by`, in the order of their levels, with `mean`, `sd`,
     and the 95 % interval from `low` to `high` over `n` people, or over `n` trials of one person; and the number of `trials`.
     """
-    known = counting_trials(data, table)
-    known = without_channels(known[known[measure].notna()]).rename(columns={measure: "value"}).assign(all="")
+    trials = counting_trials(data, table).assign(all="")
     keys = by or ["all"]
-    each = known
-    if len(data.people) > 1:
-        each = known.groupby([*keys, "person"], sort=False, dropna=False)["value"].mean().reset_index()
-    out = means_with_intervals(each, keys, sort=False, dropna=False).rename(columns={"value": "mean"})
-    counts = each.groupby(keys, sort=False, dropna=False)["value"].agg(sd="std").reset_index()
-    trials = known.groupby(keys, sort=False, dropna=False)["value"].agg(trials="count").reset_index()
-    out = out.merge(counts, on=keys).merge(trials, on=keys)
-    for name in reversed(by):
-        place = {value: i for i, value in enumerate(data.levels(name))}
-        out = out.sort_values(name, key=lambda values: values.map(place), kind="stable")
-    return out.reset_index(drop=True)
+    each = each_in_conditions(trials, measure, keys, len(data.people) == 1)
+    means = means_with_intervals(each, keys, dropna=False).rename(columns={"value": "mean"})
+    spread = each.groupby(keys, dropna=False).agg(sd=("value", "std"), trials=("n", "sum")).reset_index()
+    return data.in_order(means.merge(spread, on=keys), by).reset_index(drop=True)
 
 
 def _measured(data: Data) -> list[str]:
