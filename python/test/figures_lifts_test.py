@@ -180,7 +180,7 @@ class PreviousWeight(unittest.TestCase):
         weights = random.choice([2.0, 8.0], 60)
         before = np.concatenate([[2.0], weights[:-1]])
         rates = 5 + 1.5 * weights + 0.5 * before + 0.1 * random.normal(size=60)
-        lifts = pd.DataFrame({"person": "S01", "session": "s", "lift": "complete", "static_load_N": weights, "peak_load_rate_N_s": rates})
+        lifts = pd.DataFrame({"group": "", "person": "S01", "session": "s", "lift": "complete", "static_load_N": weights, "peak_load_rate_N_s": rates})
 
         def found(table):
             data = unittest.mock.Mock(has=lambda name: True, table=lambda name: table)
@@ -197,6 +197,9 @@ class PreviousWeight(unittest.TestCase):
         both.loc[5, "lift"] = "not lifted"
         self.assertEqual(found(both).n.item(), 56)
         self.assertTrue(found(lifts.assign(static_load_N=2.0)).empty)
+        # who came before and after a training has an effect of each
+        twice = pd.concat([lifts.assign(group="before"), lifts.assign(group="after", session="t")])
+        self.assertEqual(found(twice)[["group", "n"]].values.tolist(), [["before", 59], ["after", 59]])
 
 
 if __name__ == "__main__":

@@ -166,7 +166,9 @@ class Reports(unittest.TestCase):
         with self.assertRaisesRegex(dh.Error, "--out"):
             write_page([one, two])
         page = write_page([one, two], self.here / "compared").read_text()
-        self.assertIn("2 groups (sim-001, sim-002)", self.read(page).text)
+        text = self.read(page).text
+        self.assertIn("2 groups (sim-001, sim-002)", text)
+        self.assertRegex(text, r"Movement time: .*; n = 2 people, 36 trials; averaged over width\.")
         points = pd.read_csv(next((self.here / "compared" / "figures").glob("measures-by-*.csv")))
         self.assertEqual(set(points["group"].dropna()), {"sim-001", "sim-002"})
 

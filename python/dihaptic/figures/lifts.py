@@ -60,7 +60,7 @@ def _joined(data: Data, trials: pd.DataFrame, lifts: pd.DataFrame) -> pd.DataFra
         if column not in frame:
             frame[column] = ""
     frame = frame.reset_index(drop=True)
-    frame["lift_number"] = frame.groupby("person").cumcount() + 1
+    frame["lift_number"] = frame.groupby(["group", "person"], dropna=False).cumcount() + 1  # a person may be in two groups
     frame["presented"] = _presented(frame)
     return frame
 
@@ -855,7 +855,7 @@ def previous_weight(data: Data) -> pd.DataFrame:
     """What the weight of the lift before does to a lift (Johansson and Westling 1988), of each person.
 
     The regression is rate = a + b W + c W_before, of the largest rate of load force before lift-off on the weights held,
-    over consecutive complete lifts of a session. A row has the person, `effect` (c, in N/s for each N), its standard
+    over consecutive complete lifts of a session. A row has the group, the person, `effect` (c, in N/s for each N), its standard
     `error`, `share` (c / (b + c): 0 if only this weight counts, 1 if only the one before does), and `n` pairs of lifts.
     People whose weights vary by less than 5 %, or with fewer than ten pairs, have no row.
 
@@ -863,12 +863,12 @@ def previous_weight(data: Data) -> pd.DataFrame:
     >>> len(previous_weight(figures.read(lift_session)))
     0
     """
-    columns = ["person", "effect", "error", "share", "n"]
+    columns = ["group", "person", "effect", "error", "share", "n"]
     if not data.has("lifts"):
         return pd.DataFrame(columns=columns)
     lifts = data.table("lifts")
     rows = []
-    for person, own in lifts.groupby("person", sort=False):
+    for (group, person), own in lifts.groupby(["group", "person"], sort=False):
         own = own.assign(known=(own["lift"] == "complete") & own[["static_load_N", "peak_load_rate_N_s"]].notna().all(axis=1))
         by = own.groupby(sitting_columns(own), sort=False, dropna=False)
         own = own.assign(before=by["static_load_N"].shift(), known_before=by["known"].shift(fill_value=False))
@@ -884,5 +884,5 @@ def previous_weight(data: Data) -> pd.DataFrame:
             continue
         variance = float(np.sum((rates - design @ b) ** 2)) / (n - 3)
         error = np.sqrt(variance * np.linalg.inv(design.T @ design)[2, 2])
-        rows.append([person, b[2], error, b[2] / (b[1] + b[2]), n])
+        rows.append([group, person, b[2], error, b[2] / (b[1] + b[2]), n])
     return pd.DataFrame(rows, columns=columns)

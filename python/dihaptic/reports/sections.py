@@ -292,9 +292,8 @@ def _lifts(page: Page, data: Data) -> None:
 
 def _previous_weight(page: Page, data: Data) -> None:
     effects = previous_weight(data)
-    groups = {sitting.person: sitting.group for sitting in data.sittings}
     what = "the largest rate of load force changes by {} N/s for each N of the weight lifted before"
-    for group, own in effects.groupby(effects["person"].map(groups), sort=False):
+    for group, own in effects.groupby("group", sort=False):
         of = f" ({group})" if group else ""
         if len(own) == 1:
             one = own.iloc[0]

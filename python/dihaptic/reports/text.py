@@ -191,9 +191,12 @@ def _sentence(data: Data, measure: str, by: list[str], table: str) -> str:
         texts.append(f"{value} ({of})" if of else value)
     more = f", and {len(means) - _MOST_LISTED} further conditions" if len(means) > _MOST_LISTED else ""
     trials = counted(int(means["trials"].sum()), "trial")
-    n = trials if len(data.people) == 1 else f"{counted(int(means['n'].max()), 'person', 'people')}, {trials}"
+    people = counting_trials(data, table).dropna(subset=[measure])["person"].nunique()
+    n = trials if len(data.people) == 1 else f"{counted(people, 'person', 'people')}, {trials}"
+    over = [words_of(name, units.get(name, "")) for name in data.factors if name not in by]
+    averaged = f"; averaged over {listed(over)}" if over else ""
     spread = "" if (means["n"] < 2).all() else f" (mean ± SD over {'trials' if len(data.people) == 1 else 'people'})"
-    return f"{_capital(words_of(measure, data.measure(measure, table).unit))}{spread}: {listed(texts)}{more}; n = {n}."
+    return f"{_capital(words_of(measure, data.measure(measure, table).unit))}{spread}: {listed(texts)}{more}; n = {n}{averaged}."
 
 
 def _learned(data: Data) -> str:
