@@ -25,6 +25,7 @@ from dihaptic.figures import saving
 from dihaptic.reports import page as pages
 from dihaptic.reports import write_page
 from dihaptic.reports.page import Page, in_short
+from dihaptic.reports.sections import shared_windows
 from dihaptic.reports.text import in_words
 
 #: Fewer reaches of fitts-law: its distances and widths once.
@@ -239,6 +240,20 @@ class Reports(unittest.TestCase):
         methods, results = in_words(figures.read(self.fitts), {"who": "Simulated."})
         self.assertIn("The factor distance had 3 levels: 40, 80 and 160 mm.", " ".join(methods))
         self.assertRegex(" ".join(results), r"Movement time \(mean ± SD over people\): 0\.\d+ ± 0\.\d+ s \(40 mm\), .* \(160 mm\); n = 3 people")
+
+
+class Windows(unittest.TestCase):
+    def test_that_share_trials_are_told(self):
+        def table(channels):
+            kinds = ["baseline"] * 4 + ["perturbed", "force_channel"] * channels
+            values = [np.nan if kind == "perturbed" else 1.0 for kind in kinds]
+            blocks = ["before"] * 4 + ["field"] * (2 * channels)
+            return pd.DataFrame({"person": "S01", "group": "", "session": "s", "round": np.nan, "block": blocks, "kind": kinds,
+                                 "compensation": values})  # fmt: skip
+
+        self.assertIn("fewer than 16 measured trials (field: 10)", shared_windows(table(10)))
+        self.assertEqual(shared_windows(table(16)), "")
+        self.assertEqual(shared_windows(table(10).assign(kind="baseline")), "")
 
 
 class Pages(unittest.TestCase):

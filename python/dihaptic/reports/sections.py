@@ -34,6 +34,8 @@ _OF_MODELS = {
     "A_slow": "slow retention", "B_slow": "slow learning", "A_fast": "fast retention", "B_fast": "fast learning",
     "A": "retention, single rate", "B": "learning, single rate",
 }  # fmt: skip
+#: Trials of a window of a learning curve at most, as in fits.csv.
+_WINDOW = 8
 #: Columns of thresholds.csv on the page, and their names there.
 _OF_THRESHOLDS = {
     "threshold": "threshold", "threshold_95": "95 %", "weber_fraction": "Weber fraction", "shape": "shape", "lapse": "lapses",
@@ -326,9 +328,29 @@ def _learning(page: Page, data: Data) -> None:
     over = "people" if len(data.people) > 1 else "trials"
     caption = f"Compensation in windows of one block each: mean over {over}, with its 95 % interval."
     page.table(_without_empty(pd.DataFrame(list(rows.values()))).fillna("-"), caption)
+    if data.has("adaptation") and (text := shared_windows(data.table("adaptation"))):
+        page.text(text, "warning")
     single = len(data.people) == 1
     caption = "with 95 % profile intervals" if single else "medians over people, with quartiles"
     page.table(_models(fits, single), f"Models of learning, fitted to each curve by least squares: {caption}.")
+
+
+def shared_windows(adaptation: pd.DataFrame) -> str:
+    """Says of adaptation.csv whether early and late are means over some of the same trials; "" if they are not."""
+    least: dict[str, int] = {}
+    keys = [*sitting_columns(adaptation), "round"]
+    for case, own in adaptation.groupby(keys, sort=False, dropna=False):
+        blocks = own.loc[own["kind"] == "perturbed", "block"].unique()
+        measured = int(own.loc[own["block"].isin(blocks), "compensation"].notna().sum())
+        if len(blocks) == 1 and 0 < measured < 2 * _WINDOW:
+            least[str(blocks[0])] = min(measured, least.get(str(blocks[0]), measured))
+    if not least:
+        return ""
+    few = ", ".join(f"{block}: {count}" for block, count in least.items())
+    return (
+        f"Early and late share trials, and differ by less than what was learned: their block has fewer than {2 * _WINDOW} "
+        f"measured trials ({few}). Measure more of its trials, as by more force channels, or draw the curve."
+    )
 
 
 def _models(fits: pd.DataFrame, single: bool) -> pd.DataFrame:
