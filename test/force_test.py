@@ -3,6 +3,7 @@ outside by what its devices go on doing.
 
 Usage: force_test.py PROGRAM, from the project's folder.
 """
+import itertools
 import os
 import pathlib
 import signal
@@ -138,13 +139,14 @@ ERRORS = soak.of(["SIGSEGV", "SIGABRT"], ["SIGSEGV", "SIGABRT", "SIGBUS", "SIGFP
 
 class Signals(Program):
     def each(self, names, bar, then=lambda name, process: None):
-        """Each signal on each backend; `then` looks at what the process does after its force is gone."""
-        for backend in RIGS:
-            for name in names:
-                with self.subTest(backend=backend, signal=name):
-                    process, after = self.gone(backend, signalled(getattr(signal, name)), bar)
-                    print(f"{backend:15s} {name:8s} force gone after {after * 1e3:6.2f} ms", file=sys.stderr)
-                    then(name, process)
+        """Each signal and each backend; in the soak, each signal on each backend. `then` looks at what the process does after
+        its force is gone."""
+        once = [(backend, names[i % len(names)]) for i, backend in enumerate(RIGS)]
+        for backend, name in soak.of(once, list(itertools.product(RIGS, names))):
+            with self.subTest(backend=backend, signal=name):
+                process, after = self.gone(backend, signalled(getattr(signal, name)), bar)
+                print(f"{backend:15s} {name:8s} force gone after {after * 1e3:6.2f} ms", file=sys.stderr)
+                then(name, process)
 
     def test_that_end_the_program_end_force_first_and_the_session_in_order(self):
         def ends_in_order(_, process):
@@ -210,7 +212,7 @@ class Libraries(Program):
         self.failed("forcedimension", "crashes", 0.1)
 
     def test_that_cannot_be_stopped_leave_it_to_the_hardware_and_the_session_ends(self):
-        for how in ["hangs", "crashes"]:
+        for how in soak.of(["hangs"], ["hangs", "crashes"]):
             # what OpenHaptics' devices do by themselves nobody knows: the fake goes on pushing, and this notices a change
             self.assertIsNone(self.failed("openhaptics", how, None))
 

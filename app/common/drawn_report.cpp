@@ -46,15 +46,19 @@ Error no_page(const std::string& folder, const std::string& why, const std::stri
 
 }  // namespace
 
+std::string python_folder() {
+    const std::string facts = in_or_above_program(
+        {"python/dihaptic/facts.json", "lib/python3/dist-packages/dihaptic/facts.json"});
+    return facts.empty() ? "" : std::filesystem::path(facts).parent_path().parent_path().string();
+}
+
 void draw_page(const analysis::ReportResult& result, const std::string& command, PythonSays says) {
     const std::string folder = std::filesystem::path(result.page()).parent_path();
-    const std::string code = in_or_above_program(
-        {"python/dihaptic/facts.json", "lib/python3/dist-packages/dihaptic/facts.json"});
-    if (code.empty())
+    const std::string package = python_folder();
+    if (package.empty())
         throw no_page(folder, "the Python package draws it",
                       "Type sudo apt install python3-dihaptic or, in a checkout, ./dev build; or "
                       "add --tables, which needs no Python.");
-    const std::string package = std::filesystem::path(code).parent_path().parent_path();
     const Descriptor description = in_memory(analysis::report_json(result, command));
     const Descriptor said = in_memory("");
     // another Python, such as Anaconda's, does not have the package; -I keeps out what is in the

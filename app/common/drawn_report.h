@@ -7,6 +7,9 @@
 
 namespace dihaptic::app {
 
+/// The folder in which Python finds the package dihaptic, here or installed; "" if there is none.
+std::string python_folder();
+
 /// Where what Python says of itself goes: to the terminal as it is said, or into the Error, for a
 /// window that has no terminal.
 enum class PythonSays { on_terminal, in_error };

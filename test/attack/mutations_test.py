@@ -155,7 +155,7 @@ class Mutations(Attack):
         for files in (["meshes/pad.obj"], ["meshes/apple.ply"], stl[:1], stl[1:], off):
             with self.subTest(files=files):
                 # what reads a mesh has a limit of its own, 2 s, which one reaches whose head claims millions of faces
-                self.try_all(files, "mesh-*" + os.path.splitext(files[0])[1], scene.format, longest=patient(4), each=soak.of(30, EACH))
+                self.try_all(files, "mesh-*" + os.path.splitext(files[0])[1], scene.format, longest=patient(4), each=soak.of(15, EACH))
 
     def test_sounds(self):
         """Ogg has a checksum of each page, FLAC of each frame: few files of these can be read."""

@@ -260,7 +260,7 @@ class Doctor(FirstHour):
         for verdict, what, _, commands in found:
             if verdict == "lacks":
                 self.assertTrue(commands, what)
-        for what in ["room", "writing", "mesh", "decompose", "host", "gui", "ffmpeg", "shipped files"]:
+        for what in ["room", "writing", "mesh", "decompose", "host", "gui", "Python", "ffmpeg", "shipped files"]:
             self.assertEqual(self.verdict(found, what), "ok", what)
         self.assertEqual(os.listdir(self.folder), [])
 

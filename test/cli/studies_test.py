@@ -432,11 +432,11 @@ class Studies(unittest.TestCase):
     def test_a_session_that_was_killed_is_resumed_and_one_that_runs_is_left_alone(self):
         self.write(STUDY.replace("short.yaml", "slow.yaml"))
         text = pathlib.Path(self.folder, "short.yaml").read_text()
-        pathlib.Path(self.folder, "slow.yaml").write_text(text.replace("repeats: 1", "repeats: 25"))
+        pathlib.Path(self.folder, "slow.yaml").write_text(text.replace("repeats: 1", "repeats: 12"))
         self.add("S01")
         command = [PROGRAM, "run", self.study, "--participant", "S01", "--simulate"]
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-        wait_for_log(self.folder + "/rehearsal/sessions/S01/familiar", 1_000_000)
+        wait_for_log(self.folder + "/rehearsal/sessions/S01/familiar", 500_000)
         self.refused(self.simulate("S01"), "may not begin familiar", "is running now")
         process.kill()
         process.wait()

@@ -17,8 +17,8 @@ headset: { position_mm: [10, 20, 30] }
 """
 TASK = """task:
   states:
-    - { name: wait, message: Wait for the light, exits: [{ when: time, after_s: 1.5, to: look }] }
-    - { name: look, message: "", exits: [{ when: time, after_s: 1.5, outcome: seen }] }
+    - { name: wait, message: Wait for the light, exits: [{ when: time, after_s: 1, to: look }] }
+    - { name: look, message: "", exits: [{ when: time, after_s: 1, outcome: seen }] }
   blocks: [{ name: all, repeats: 2 }]
 """
 

@@ -23,6 +23,22 @@ constexpr std::array kParts{
     Part{"dihaptic-gui", "is the window", false},
 };
 
+/// Whether Dihaptic was installed from its packages, not built in its own folder.
+bool is_package(const std::string& shipped) {
+    return shipped.starts_with("/usr/");
+}
+
+Finding reports(const std::string& python, const std::string& shipped) {
+    if (!python.empty())
+        return {
+            Verdict::ok, "Python", "the package dihaptic draws reports; it is in " + python, {}};
+    return {Verdict::lacks,
+            "Python",
+            "the package dihaptic is missing, which draws the pages and figures of reports",
+            {is_package(shipped) ? "sudo apt install python3-dihaptic"
+                                 : "./dev build    # in Dihaptic's own folder"}};
+}
+
 Finding films(const std::string& paths) {
     if (!app::found_on(paths, "ffmpeg").empty())
         return {Verdict::ok, "ffmpeg", "makes videos of sessions", {}};
@@ -44,22 +60,22 @@ Finding path(const std::string& paths) {
 }  // namespace
 
 Findings parts(const std::function<std::string(const std::string&)>& companion,
-               const std::string& paths, const std::string& shipped) {
+               const std::string& paths, const std::string& shipped, const std::string& python) {
     Findings out;
     for (const Part& part : kParts) {
         const std::string name = std::string(part.program).substr(sizeof "dihaptic-" - 1);
         if (companion(part.program).empty()) {
-            out.push_back(
-                {Verdict::lacks,
-                 name,
-                 fmt::format("{} is missing, which {}", part.program, part.what),
-                 {shipped.starts_with("/usr/") ? "sudo apt install --reinstall dihaptic"
-                                               : "./dev build    # in Dihaptic's own folder"},
-                 part.needed});
+            out.push_back({Verdict::lacks,
+                           name,
+                           fmt::format("{} is missing, which {}", part.program, part.what),
+                           {is_package(shipped) ? "sudo apt install --reinstall dihaptic"
+                                                : "./dev build    # in Dihaptic's own folder"},
+                           part.needed});
         } else {
             out.push_back({Verdict::ok, name, fmt::format("{} {}", part.program, part.what), {}});
         }
     }
+    out.push_back(reports(python, shipped));
     out.push_back(films(paths));
     out.push_back(path(paths));
     if (shipped.empty()) {

@@ -10,8 +10,9 @@
 namespace dihaptic::doctor {
 
 /// `companion`: the path of one of Dihaptic's programs; "" if it is missing. `paths`: PATH.
-/// `shipped`: the folder with the shipped files; "" if it is missing.
+/// `shipped`: the folder with the shipped files; "" if it is missing. `python`: that of the Python
+/// package.
 Findings parts(const std::function<std::string(const std::string&)>& companion,
-               const std::string& paths, const std::string& shipped);
+               const std::string& paths, const std::string& shipped, const std::string& python);
 
 }  // namespace dihaptic::doctor

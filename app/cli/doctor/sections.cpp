@@ -18,6 +18,7 @@
 #include "cli/doctor/ports.h"
 #include "cli/doctor/real_time.h"
 #include "cli/doctor/sound.h"
+#include "common/drawn_report.h"
 #include "frame/settings.h"
 
 namespace dihaptic::doctor {
@@ -53,8 +54,10 @@ std::vector<Section> sections() {
     out.push_back({"graphics", "graphics", graphics});
     out.push_back({"sound", "sound", [] { return Findings{sound("", may_open)}; }});
     out.push_back({"disk", "disk", disk, {kAnotherDisk}});
-    out.push_back({"parts of Dihaptic", "parts",
-                   [] { return parts(companion, variable("PATH"), shipped_folder()); }});
+    out.push_back({"parts of Dihaptic", "parts", [] {
+                       return parts(companion, variable("PATH"), shipped_folder(),
+                                    app::python_folder());
+                   }});
     return out;
 }
 

@@ -400,7 +400,7 @@ TEST(Doctor, NamesPartsThatAreMissing) {
     const auto here = [](const std::string& name) { return "/opt/" + name; };
     const auto gone = [](const std::string&) { return std::string(); };
     const Machine machine;
-    Findings found = parts(gone, machine.root(), "");
+    Findings found = parts(gone, machine.root(), "", "");
     for (const char* needed : {"mesh", "decompose"}) {
         EXPECT_EQ(of(found, needed).verdict, Verdict::lacks);
         EXPECT_TRUE(of(found, needed).needed) << needed;
@@ -408,12 +408,16 @@ TEST(Doctor, NamesPartsThatAreMissing) {
     }
     EXPECT_FALSE(of(found, "host").needed);
     EXPECT_EQ(commands(of(found, "ffmpeg")), "sudo apt install ffmpeg\n");
+    EXPECT_EQ(commands(of(found, "Python")).find("./dev build"), 0u);
+    const Findings installed = parts(gone, machine.root(), "/usr/share/dihaptic", "");
+    EXPECT_EQ(commands(of(installed, "Python")), "sudo apt install python3-dihaptic\n");
     EXPECT_EQ(of(found, "shipped files").verdict, Verdict::note);
 
     machine.put("/ffmpeg", "");
     fs::permissions(machine.root() + "/ffmpeg", fs::perms::owner_all);
-    found = parts(here, "/nowhere:" + machine.root(), "/opt/dihaptic");
-    for (const char* what : {"mesh", "decompose", "host", "gui", "ffmpeg", "shipped files"})
+    found = parts(here, "/nowhere:" + machine.root(), "/opt/dihaptic", "/opt/python");
+    for (const char* what :
+         {"mesh", "decompose", "host", "gui", "Python", "ffmpeg", "shipped files"})
         EXPECT_EQ(of(found, what).verdict, Verdict::ok) << what;
 }
 
