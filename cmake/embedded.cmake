@@ -1,5 +1,6 @@
-# Files whose text the program has within it, so that it is found wherever the program runs. Writes the source FILE, which
-# defines in NAMESPACE what HEADER declares: for each NAME=PATH a std::string_view of that name with the file's text.
+# Embeds the text of files in the program, so that it is available wherever the program runs. Writes the source FILE,
+# which defines in NAMESPACE what HEADER declares: for each NAME=PATH a std::string_view of that name with the file's
+# text.
 #
 #   dihaptic_embed(${CMAKE_CURRENT_BINARY_DIR}/texts.cpp room/texts.h dihaptic::room kText=${PROJECT_SOURCE_DIR}/text.yaml)
 function(dihaptic_embed file header namespace)

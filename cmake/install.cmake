@@ -1,8 +1,8 @@
-# What an installation has: `cmake --install build/release --prefix FOLDER`, and the Debian packages (`./dev package`).
-# src/base/installed.h finds these folders from the program's own.
+# The contents of an installation: `cmake --install build/release --prefix FOLDER`, and the Debian packages
+# (`./dev package`). src/base/installed.h finds these folders from the program's own.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
-# CMake leaves folders to the umask, whatever permissions it is given for them.
+# The umask determines the permissions of folders, regardless of those given to CMake.
 install(CODE [[
     execute_process(COMMAND sh -c umask OUTPUT_VARIABLE mask OUTPUT_STRIP_TRAILING_WHITESPACE)
     if(NOT mask MATCHES "[02][02]$")
@@ -53,7 +53,7 @@ install(FILES cmake/dihaptic-config.cmake DESTINATION ${cmake_folder})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/dihaptic-config-version.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/dihaptic-config-version.cmake DESTINATION ${cmake_folder})
 
-# all of that, without the tests
+# all of the above, without the tests
 add_custom_target(installed DEPENDS dihaptic ${companions})
 foreach(room ${rooms})
     add_dependencies(installed dihaptic_${room})

@@ -1,6 +1,6 @@
 # The headers of other libraries that nearly every source includes are compiled once for all rooms and the program (by
 # dihaptic_base), and once for all tests (by dihaptic_testing): a quarter of the time of a first build. Each source
-# includes what it needs all the same.
+# nevertheless includes what it needs.
 function(dihaptic_precompile target by)
     if(CCACHE)
         return()
@@ -14,10 +14,11 @@ function(dihaptic_precompile target by)
         <thread> <variant> <vector>)
 endfunction()
 
-# The sources of a target are compiled as one, which takes a sixth to a fifth less time for a first build than ten at a time:
-# much of a compiler's work is to read the same headers, and to generate the same code from them. What one source keeps for itself (in its unnamed namespace) has a name that
-# no other source of the target gives to something else; NAME_test.cpp has a namespace NAME_test, and so may use any name.
-# For a day of changes to one room, cmake --preset release -DCMAKE_UNITY_BUILD_BATCH_SIZE=5 compiles less after each.
+# The sources of a target are compiled as one. A first build then takes a sixth to a fifth less time than ten at a time,
+# since much of a compiler's work is to read the same headers and to generate the same code from them. A name in one
+# source's unnamed namespace must not mean something else in another source of the target; NAME_test.cpp has a namespace
+# NAME_test, and may therefore use any name. For a day of changes to one room,
+# cmake --preset release -DCMAKE_UNITY_BUILD_BATCH_SIZE=5 compiles less after each change.
 if(NOT DEFINED CMAKE_UNITY_BUILD_BATCH_SIZE)
     set(CMAKE_UNITY_BUILD_BATCH_SIZE 0)
 endif()
@@ -26,26 +27,26 @@ function(dihaptic_together target)
         return()
     endif()
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON)
-    # what a class keeps behind a pointer to its Impl may be of a type of its source's own
+    # the Impl to which a class has a pointer may contain types from its source's unnamed namespace
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
 
 # A room is a folder of src/: one static library, its headers, its tests, its soaks (`./dev soak`), and
-# its fuzzers (fuzz/NAME_fuzz.cpp with NAME_corpus beside it; test/support/fuzz.h).
+# its fuzzers (fuzz/NAME_fuzz.cpp with NAME_corpus next to it; test/support/fuzz.h).
 #
 #   dihaptic_room(haptics DOORS proxy.h kinds/*.h USES dynamics LINKS Foo::foo)
 #
-# DOORS names the headers that other rooms may include, with all that these include of the room; USES the rooms
-# that it may include; LINKS the outside libraries, which stay private; SOURCES generated files.
-# A room's doors are reached through an include folder of their own, so that to include another header, or a room that is
-# not named (or used by one that is named), does not compile: arrows point down only, and end at doors. Tests may
-# look into every room. LEAKY: libraries that its tests load, and that are gone by the end, keep memory. TEST_LOCK: what
-# its tests use one at a time, with those of other rooms.
+# DOORS: the headers that other rooms may include, and the room's headers that these include. USES: the rooms that it
+# may include. LINKS: external libraries, which stay private. SOURCES: generated files. A room's doors are reached
+# through an include folder of their own, so including any other header, or a room that is not named (or used by a named
+# one), does not compile: arrows point down only, and end at doors. Tests may look into every room. LEAKY: its tests
+# load libraries that leak memory and are unloaded by the end. TEST_LOCK: a resource that only one test of this and
+# other rooms may use at a time.
 function(dihaptic_room name)
     cmake_parse_arguments(ROOM "LEAKY" "TEST_LOCK" "DOORS;USES;LINKS;SOURCES;TEST_USES" ${ARGN})
     set(folder ${CMAKE_CURRENT_SOURCE_DIR})
 
-    # relative: the folder that holds the project may be called test itself
+    # relative, since the folder that holds the project may itself be called test
     file(GLOB_RECURSE sources RELATIVE ${folder} CONFIGURE_DEPENDS ${folder}/*.cpp)
     list(FILTER sources EXCLUDE REGEX "(^|/)(test|soak|fuzz)/")
     list(TRANSFORM sources PREPEND ${folder}/)
@@ -135,8 +136,8 @@ function(dihaptic_room name)
     endforeach()
 endfunction()
 
-# A file of tests in Python that imports test/soak.py does a sample in `./dev test`, and everything in `./dev soak`, as
-# NAME/soak. Arguments after the file are the test's.
+# A file of tests in Python that imports test/soak.py runs a sample in `./dev test`, and everything in `./dev soak`, as
+# NAME/soak. Arguments after the file are passed to the test.
 function(dihaptic_soak_of name file)
     file(STRINGS ${file} imports REGEX "^(from|import) soak")
     set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${file})
@@ -154,8 +155,8 @@ function(dihaptic_soak_of name file)
 endfunction()
 
 # The table of a seam's implementations: each subfolder with a header KIND.h has a namespace of the
-# folder's name, in NAMESPACE, with a function KIND(); a KIND of test/NAME is for tests alone, and its function is
-# NAME(). FILE is made from FILE.in, which has @includes@ and @entries@. Adding one touches one folder.
+# folder's name, in NAMESPACE, with a function KIND(); a KIND test/NAME is for tests only, and its function is NAME().
+# FILE is made from FILE.in, which contains @includes@ and @entries@. Adding an implementation touches one folder.
 #
 #   dihaptic_table(device_table.cpp backend dihaptic::devices)
 function(dihaptic_table file kind namespace)

@@ -195,7 +195,7 @@ std::map<int, std::vector<std::string>> missing_of(const Found& found, const std
     return out;
 }
 
-/// Prints the command that does these shards of a rehearsal.
+/// Prints the command that runs these shards of a rehearsal.
 void print_command(const Wanted& wanted, const std::vector<int>& shards) {
     const auto command = command_of(wanted.folder, wanted.rehearsal);
     if (!command) {
@@ -211,7 +211,7 @@ void print_command(const Wanted& wanted, const std::vector<int>& shards) {
                command_for(wanted.folder, asked, shards));
 }
 
-/// Lists the people who are left out, and the command that does the requested ones.
+/// Lists the people who are left out, and the command for the requested ones.
 void print_left_out(const Found& found) {
     auto others = found.unfinished;
     for (const auto& [seed, wanted] : found.wanted) {

@@ -28,7 +28,7 @@ std::string why_failed(const CrowdWork& work, const std::string& id) {
                        shell_file(work.out));
 }
 
-/// Does people, as many at a time as requested.
+/// Does the work for people, as many at a time as requested.
 class Crowd {
   public:
     Crowd(const CrowdWork& work, const std::vector<std::string>& people)
@@ -60,7 +60,7 @@ class Crowd {
             fail(id, "failed", e.what());
         }
     }
-    /// Another program may have done this person in the meantime.
+    /// Another program may have done this person's work in the meantime.
     void look_again(const std::string& id) {
         try {
             if (work_.is_done(id)) {
@@ -107,7 +107,7 @@ class Crowd {
     const std::vector<std::string>& people_;
     ProgressLine line_;
     std::map<pid_t, std::string> running_;
-    std::vector<std::string> busy_;  ///< people that another program was doing at their turn
+    std::vector<std::string> busy_;  ///< people whose work another program was doing at their turn
     std::vector<std::string> failed_;
     size_t next_ = 0;
     size_t done_ = 0;

@@ -13,7 +13,7 @@ namespace dihaptic::cli {
 struct CrowdWork {
     int jobs = 1;
     std::string out;  ///< folder, for messages
-    /// Starts a person's process; nullopt: another program is doing this person.
+    /// Starts a person's process; nullopt: another program does it already.
     std::function<std::optional<pid_t>(const std::string& id)> start;
     std::function<bool(const std::string& id)> is_done;
     /// The message that a person's process left.
@@ -24,8 +24,8 @@ struct CrowdWork {
 /// that has been read, so that the others continue if it fails.
 pid_t start_process(const std::function<int()>& work);
 
-/// Does all people, and shows the progress. Returns the text about people whose work failed, and
-/// sets the exit code if there are any.
+/// Does the work for all people, and shows the progress. Returns the text about people whose work
+/// failed, and sets the exit code if there are any.
 std::vector<std::string> run_crowd(const CrowdWork& work, const std::vector<std::string>& people);
 
 }  // namespace dihaptic::cli

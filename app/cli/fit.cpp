@@ -138,7 +138,7 @@ struct PsychometricOptions {
     analysis::PsychometricFitSettings settings;
 };
 
-/// The answers of a table: yes is 1 or yes, and 0 or no.
+/// The answers of a table, whose column `yes` has 1 or yes, or else 0 or no.
 std::vector<analysis::Answer> read_answers(const std::string& file) {
     const CsvFile table =
         given(file, {"level", "yes"},

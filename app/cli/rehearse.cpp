@@ -36,7 +36,7 @@ struct RehearseOptions {
     int people = 1;
     int jobs = 1;
     int slurm = 0;          ///< number of shards for Slurm; 0: done here
-    std::string container;  ///< Apptainer file whose program does them; empty: this program
+    std::string container;  ///< Apptainer file whose program runs them; empty: this program
     bool real_objects = false;
     bool keep_recordings = false;
 };
@@ -145,7 +145,7 @@ CrowdWork work_of(const RehearseOptions& options) {
     return work;
 }
 
-/// The command that does all these people, from any folder.
+/// The command for all these people, from any folder.
 std::string command_again(const RehearseOptions& options) {
     return RehearseCommand{options.request.file,
                            options.people,
@@ -241,7 +241,7 @@ void rehearse_by_slurm(RehearseOptions& options) {
         *job, options.out, shell_file(options.out));
 }
 
-/// Rehearses a study, unless the file is none.
+/// Rehearses a study, unless the file is not one.
 bool rehearse_as_study(const RehearseOptions& options, const CLI::App& command) {
     if (task::kind_of(options.request.file) != task::FileKind::study) return false;
     for (const char* option : {"--shard", "--slurm", "--container"}) {

@@ -1,6 +1,7 @@
-// The command that does a rehearsal's people. It is kept in rehearsal.yaml so that `dihaptic
-// collect` can print it when people are missing. That file may come from a stranger, and the
-// command will be copied into a shell, so only a newly composed command of this form is ever shown.
+// The command that runs the sessions of a rehearsal's people. It is kept in rehearsal.yaml so that
+// `dihaptic collect` can print it when people are missing. That file may come from a stranger, and
+// the command will be copied into a shell, so only a newly composed command of this form is ever
+// shown.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +21,7 @@ struct RehearseCommand {
     bool real_objects = false;
     bool keep_recordings = false;
     int jobs = 1;
-    std::string container;  ///< Apptainer file whose program does it; empty: this one
+    std::string container;  ///< Apptainer file whose program runs them; empty: this one
 
     /// The command to type, from any folder, with the path of this program, which may itself be in
     /// a container, or of `container`.
@@ -30,7 +31,7 @@ struct RehearseCommand {
 /// The Python equivalent, in place of a command.
 inline constexpr const char* kByPython = "dihaptic.rehearse() of Python, as before";
 
-/// The command that does all people of the rehearsal in `folder`, composed from its rehearsal.yaml;
+/// The command for all people of the rehearsal in `folder`, composed from its rehearsal.yaml;
 /// nullopt if that has no command of this form.
 std::optional<std::string> command_of(const std::string& folder,
                                       const session::Rehearsal& rehearsal);

@@ -373,8 +373,8 @@ void add_settings(SessionOptions& options) {
     if (options.rate > 0) options.request.set.push_back(fmt::format("rate_Hz={}", options.rate));
 }
 
-/// Takes the next session of the participant in a study, unless the file is no study. Returns the
-/// folder of a session to be resumed; empty if there is none.
+/// Takes the next session of the participant in a study, unless the file is not a study. Returns
+/// the folder of a session to be resumed; empty if there is none.
 std::string take_turn(SessionOptions& options) {
     if (task::kind_of(options.request.file) != task::FileKind::study) {
         if (options.despite.empty()) return "";

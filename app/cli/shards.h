@@ -20,7 +20,7 @@ void write_slurm_script(const std::string& folder, const session::Asked& asked);
 std::optional<std::string> submit(const std::string& folder, const session::Asked& asked,
                                   const std::vector<int>& shards);
 
-/// The command that does these shards: with sbatch, if the folder's script is for them.
+/// The command that runs these shards: with sbatch, if the folder's script is for them.
 std::string command_for(const std::string& folder, const session::Asked& asked,
                         const std::vector<int>& shards);
 

@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first columns of each row. Experiments have columns of their own, so these say that they are
-/// the study's, apart from the names that no experiment may use.
+/// The first columns of each row. Experiments have columns of their own, so the names of these
+/// begin with study_, except for those that no experiment may use anyway.
 const std::vector<Table::Column> kFront{
     {"seed", "seed of the session"},
     {"group", "group of the study, or the code that conceals it"},
@@ -171,7 +171,7 @@ std::vector<std::string> strangers(const study::StudyFile& study, const study::R
     return out;
 }
 
-/// A session that is not there, with what its needs say if the session before is.
+/// Describes a missing session, with its unmet needs if the previous session is there.
 std::string missing_session(const study::SessionSpec& session, const study::Member& member,
                             const study::Visit* before) {
     std::string out = fmt::format("missing: {} of {}", session.name, member.id);
@@ -187,8 +187,8 @@ size_t column_of(const TextTable& table, const std::string& name) {
 }
 
 /// The tables of a session. Those of trials have the rows of all its parts; the lifts of earlier
-/// parts are added here, if trials.csv has their attempts. An attempt that was interrupted may be
-/// there again in the next part, which counts.
+/// parts are added here, if trials.csv has their attempts. An interrupted attempt may occur again
+/// in the next part, which counts.
 std::vector<TextTable> tables_of_parts(const CompleteSession& session) {
     std::vector<TextTable> out = tables_of(session.folder);
     if (session.parts.size() < 2) return out;

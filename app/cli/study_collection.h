@@ -58,7 +58,7 @@ std::vector<TextTable> tables_of(const study::StudyFile& study, const StudySessi
 /// Notes in the study's log that the groups have been named there, if they are concealed.
 void note_revealed(const study::StudyFile& study, const StudyData& data, const std::string& where);
 
-/// Writes the tables into a folder; empty: tables/ beside the participants.
+/// Writes the tables into a folder; empty: tables/ next to the participants' file.
 void collect_study(const StudyData& data, const std::string& out);
 
 }  // namespace dihaptic::cli

@@ -17,7 +17,8 @@ void tell_missing(const StudySessions& sessions) {
     for (const std::string& text : sessions.missing()) fmt::print("{}\n", text);
 }
 
-/// Throws Error when the recording of the motion is missing, as in a rehearsal of tables alone.
+/// Throws Error when the recording of the motion is missing, as in a rehearsal that keeps only
+/// tables.
 void check_recording(const std::string& folder, const StudyData& data) {
     if (is_there(folder + "/raw.log")) return;
     throw Error({folder, 0}, "", "has no recording of the motion: raw.log is missing",

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 constexpr const char* kRehearsed = "rehearsed";  // a person's recording in a session's folder
 
 /// Draws facts of a person who may take part: within the bounds of `include`, otherwise as they
-/// come in a group of students.
+/// occur in a group of students.
 class FactDraw {
   public:
     FactDraw(const study::StudyFile& study, uint64_t seed, const std::string& id)
@@ -68,8 +68,8 @@ class FactDraw {
     Random random_;
 };
 
-/// Adds people until there are as many as requested. With groups by a fact, those whose group is
-/// full are passed over.
+/// Adds people until there are as many as requested. If a fact determines the group, people whose
+/// group is full are skipped.
 void add_people(const study::StudyFile& study, const StudyRehearsal& rehearsal,
                 study::Roster& roster) {
     constexpr int kMostDraws = 100;  // for each person
@@ -118,7 +118,7 @@ class Rehearsing {
 
     bool is_done(const std::string& id) const { return all_complete(*roster_.find(id), 0); }
 
-    /// Before which session a person stops, and why: the session before does not meet its needs.
+    /// The session before which a person stops, and why: the previous one does not meet its needs.
     /// Empty: the person does all sessions.
     std::string stops(const std::string& id) const {
         const study::Member& member = *roster_.find(id);
@@ -140,9 +140,9 @@ class Rehearsing {
         return "";
     }
 
-    /// All sessions of a person that are not complete, each with what was learned in those before.
-    /// For this, a complete session before an incomplete one is done once more, and not kept.
-    /// Returns the exit status.
+    /// Runs all incomplete sessions of a person, each with what was learned in earlier ones. For
+    /// this, a complete session before an incomplete one is run again, and not kept. Returns the
+    /// exit status.
     int run(const std::string& id) const {
         const study::Member& member = *roster_.find(id);
         Memories learned;
@@ -165,8 +165,8 @@ class Rehearsing {
     bool is_complete(const study::Member& member, size_t session) const {
         return session::has_session(folder(member, session) + "/" + kRehearsed);
     }
-    /// Why a person does not go on from one complete session to the next; empty if it is done or
-    /// may be.
+    /// Why a person does not go on from a complete session to this one; empty if this one is done
+    /// or may be.
     std::vector<std::string> unmet_needs(const study::Member& member, size_t session) const {
         if (session == 0 || is_complete(member, session) || !is_complete(member, session - 1))
             return {};

@@ -25,7 +25,7 @@ struct StudyTurn {
     bool simulated = false;
 };
 
-/// What comes next for a participant, or for the simulated person in this one's place. `despite`:
+/// What comes next for a participant, or for the simulated person in that one's place. `despite`:
 /// reason to begin a session against the study's rules, which is logged; empty: such a session is
 /// refused. Throws Error when nothing may begin now, with a figure, or when the study's files have
 /// changed.

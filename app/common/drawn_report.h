@@ -1,4 +1,4 @@
-// Draws the page of a report with its figures, by the Python package.
+// Draws the page of a report with its figures, using the Python package.
 #pragma once
 
 #include <string>
@@ -10,11 +10,11 @@ namespace dihaptic::app {
 /// The folder in which Python finds the package dihaptic, here or installed; "" if there is none.
 std::string python_folder();
 
-/// Where what Python says of itself goes: to the terminal as it is said, or into the Error, for a
-/// window that has no terminal.
+/// Where Python's own messages go: to the terminal at once, or into the Error, for a window without
+/// a terminal.
 enum class PythonSays { on_terminal, in_error };
 
-/// Draws the result's page, report.html, and its figures beside it. `command`: the command line,
+/// Draws the result's page, report.html, and its figures next to it. `command`: the command line,
 /// shown on the page. Waits until Python is done. Throws Error when there is no page.
 void draw_page(const analysis::ReportResult& result, const std::string& command, PythonSays says);
 

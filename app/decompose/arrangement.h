@@ -33,8 +33,8 @@ struct Flat {
     }
 };
 
-/// Whether a triangle has the point that lies an infinitesimal step from p along the direction d,
-/// in the triangle's plane.
+/// Whether a triangle contains the point that lies an infinitesimal step from p along the direction
+/// d, in the triangle's plane.
 inline bool contains(const Triangle& t, const Point& p, const Vector& d) {
     const Flat flat(normal_of(t));
     std::array<CGAL::Sign, 3> side{};

@@ -126,7 +126,7 @@ void OperatorWindow::pick(size_t body) {
     if (!control_.plan() || !compose_dock_->isVisible()) return;
     const scene::Body& picked = control_.plan()->scene.bodies[body];
     if (composer_->go_to(picked.place)) {
-        composer_->move(picked.name, {});  // reports now if it cannot
+        composer_->move(picked.name, {});  // reports now if the body cannot be moved
     } else {
         composer_->tell(tr("%1 is in %2: open that file to change it.")
                             .arg(QString::fromStdString(picked.name),

@@ -12,7 +12,7 @@ namespace {
 
 const QColor kSheet(20, 24, 30, 235);
 constexpr double kSheetCorner = 8;  // [pixels]
-/// Number of items from which on each has its line beside its question, not below it.
+/// With this many items or more, each item's line is next to its question, not below it.
 constexpr size_t kMany = 9;
 
 }  // namespace

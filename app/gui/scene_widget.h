@@ -38,7 +38,7 @@ class SceneWidget : public QOpenGLWidget {
     void set_hand(MouseHand* hand, bool squeezes);
     /// The mouse drags this body, which is marked by a box, and keys move it; nullopt: none.
     void set_picked(std::optional<size_t> body);
-    /// Shows the picked body moved, until the next frame or scene.
+    /// Shows the picked body displaced, until the next frame or scene.
     void move_picked(const BodyWay& way);
     /// The squeezing by keys that are currently held.
     MouseHand::Squeeze keys() const { return keys_; }

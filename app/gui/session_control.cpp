@@ -108,7 +108,8 @@ SessionControl::Words SessionControl::words() const {
     return {"", said_, QString::fromStdString(page.spec.picture)};
 }
 
-/// What is typed so far: the number at the end of the scale in words, which is the line `scale`.
+/// What has been typed so far: the number at the end of the scale in words, which is the line
+/// `scale`.
 QString SessionControl::typed(const frame::TaskFrame& task, const task::TaskPlan& plan, int scale) {
     const std::vector<std::string> texts = frame::shown_texts(task, plan.messages);
     for (size_t i = 0; i < task.lines.size(); ++i) {

@@ -47,7 +47,7 @@ class SessionControl : public QObject {
     const QString& out() const { return out_; }
     void set_out(const QString& folder);
     const QString& file() const { return file_; }
-    /// Of the last version of the file without errors; nullopt: there has been none.
+    /// The plan of the last version of the file without errors; nullopt: there has been none.
     const std::optional<session::Plan>& plan() const { return plan_; }
     /// The plan's first frame.
     const frame::Frame& first_frame() const { return frame_; }

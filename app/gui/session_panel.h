@@ -27,7 +27,7 @@ class SessionPanel : public QWidget {
     void set_participant(const QString& id) { participant_->setText(id); }
     enum class Hand { mouse, script, person };
     Hand hand() const { return static_cast<Hand>(hand_->currentIndex()); }
-    /// Session time over time; 0: as fast as the machine allows. With the mouse it is 1.
+    /// Session time over wall time; 0: as fast as the machine allows. With the mouse it is 1.
     double pace() const;
 
   Q_SIGNALS:

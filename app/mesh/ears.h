@@ -21,7 +21,7 @@ inline double dot(const Corner& a, const Corner& b) {
 }
 
 /// The method is ear clipping. An ear is a corner whose triangle turns like the face and contains
-/// no other corner. Corners may lie in line. The widest ear is cut each time; if there is no ear,
+/// no other corner. Corners may be collinear. The widest ear is cut each time; if there is no ear,
 /// the next corner is cut, so that the triangles of any face join along edges.
 inline std::vector<Indices> ears(const std::vector<Corner>& face) {
     Corner normal{};

@@ -139,7 +139,7 @@ Status read(const std::string& format) {
     importer.SetIOHandler(new OneFile(bytes, name));  // the importer owns it from now on
     const auto read_with = [&](unsigned steps) { return importer.ReadFile(name, steps); };
     // counted first, because the library silently drops faces that it cannot triangulate, such as
-    // those with corners in line; STL has triangles only
+    // those with collinear corners; STL has triangles only
     const aiScene* scene = format == "stl" ? nullptr : read_with(kJoined);
     const size_t wanted = scene == nullptr ? 0 : count_triangles(*scene);
     scene = read_with(kJoined | aiProcess_Triangulate);

@@ -16,7 +16,7 @@ class BenchLog {
 
     /// Makes a recorder that overwrites this log; the previous one must be finished.
     recording::Recorder record(recording::Writing writing) const;
-    /// Path of a file beside the log.
+    /// Path of a file next to the log.
     std::string file(const std::string& name) const { return folder_.file(name); }
 
   private:

@@ -1,5 +1,5 @@
-// The command `dihaptic-bench chain`: chains of links on hinges in each solver and in the peers,
-// the time of a step, and its accuracy. docs/measures.md defines the figures.
+// The command `dihaptic-bench chain`: measures the time of a step and its accuracy, for chains of
+// links on hinges in each solver and in the peers. docs/measures.md defines the figures.
 #pragma once
 
 #include <string>

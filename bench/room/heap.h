@@ -1,5 +1,5 @@
-// The command `dihaptic-bench heap`: measures the effect of a heap beside a held block on the
-// hand's exactness and on the time of a tick. docs/measures.md defines the figures.
+// The command `dihaptic-bench heap`: measures the effect of a heap next to a held block on the
+// hand's accuracy and on the time of a tick. docs/measures.md defines the figures.
 #pragma once
 
 #include <vector>
@@ -27,7 +27,7 @@ struct HeapFigures {
     }
 };
 
-/// Holds the block in the air for 5 s beside a stirred heap.
+/// Holds the block in the air for 5 s next to a stirred heap.
 HeapFigures measure_heap(const measure::BenchSetup& setup, int loose);
 std::vector<HeapFigures> bench_heap(const measure::BenchSetup& setup, const std::vector<int>& loose,
                                     const measure::Progress& progress);

@@ -46,7 +46,7 @@ scene::Body block_of(double size, double mass) {
 }
 
 /// Mean speed of the first body along `way` from 1 s to 6 s [um/s], when soft contacts bear their
-/// load; none if it went further than a body that is held.
+/// load; none if it moved further than a held body.
 std::optional<double> creep(const Trial& trial, const Simulator& simulator, const Vec3& way) {
     const int settled = steps_in(1), all = steps_in(6);
     double at_first = 0, at_last = 0;
@@ -56,7 +56,7 @@ std::optional<double> creep(const Trial& trial, const Simulator& simulator, cons
         const double moved = (X_WB[0].p - trial.scene.bodies[0].position).dot(way);
         if (++step == settled) at_first = moved;
         at_last = moved;
-        kept = std::abs(moved) < kDropped;  // nor is it where a number is lost
+        kept = std::abs(moved) < kDropped;  // false for NaN too
         return kept;
     });
     if (!kept) return std::nullopt;

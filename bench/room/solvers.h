@@ -29,7 +29,7 @@ struct SolverCost {
     double p99_us = 0;
     double ratio_median = 0;  ///< median ratio of its time to Bullet's, problem by problem
     int fallbacks = 0;        ///< number of problems solved by another method or by sweeps
-    int missed = 0;           ///< number of problems with even the fallback above tolerance
+    int missed = 0;           ///< number of problems whose fallback also missed the tolerance
     double residual_p99 = 0;  ///< natural map over 1 + |q|
     int solves = 0;
 
@@ -69,7 +69,7 @@ struct ProblemFigures {
     }
 };
 
-/// Power of the number of contacts, from 8 to 200, at which a solver's time grows.
+/// Exponent with which a solver's time grows with the number of contacts, from 8 to 200.
 struct Growth {
     std::string solver;
     std::string family;

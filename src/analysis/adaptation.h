@@ -25,7 +25,7 @@
 
 namespace dihaptic::analysis {
 
-/// The last attempt at each trial, by its number, which alone counts: earlier ones had to be
+/// The last attempt at each trial, by trial number. Only that one counts: earlier ones had to be
 /// repeated.
 std::map<int, int> last_attempts(const rows::TrialFile& trials);
 

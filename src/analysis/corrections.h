@@ -1,6 +1,6 @@
-// Finds how soon a hand corrects its movement: from when the mean velocity in trials in which
-// something happens (a target or a cursor jumps, a force pushes) parts from that in matched trials
-// in which nothing does.
+// Finds how soon a hand corrects its movement: the time at which the mean velocity in trials in
+// which something happens (a target or a cursor jumps, a force pushes) departs from that in matched
+// trials in which nothing does.
 //
 //     d(t)  = mean v(t) in the trials - mean v(t) in the matched ones, along an axis, from the
 //             beginning of a state at t = 0 on

@@ -24,7 +24,7 @@ constexpr const char* kTrial = "trial";
 /// The values of one quantity in a tick: one number, or one for each component.
 struct Curve {
     std::string name;
-    std::string unit;   ///< as people write it
+    std::string unit;   ///< as usually written
     std::string parts;  ///< "xyz" of a vector, "wxyz" of a rotation, "" of a number
     size_t first = 0;   ///< index of its first number in the tick's row
 

@@ -11,8 +11,8 @@ namespace dihaptic::analysis {
 
 /// The columns of `file` (trials.csv, lifts.csv or corrections.csv) with these names, with unit and
 /// description: those that every session has, and in trials.csv the task's own factors, draws,
-/// variables, answers and measures. The description is empty where nothing is known of a name, as
-/// in tables of later versions.
+/// variables, answers and measures. The description of an unknown name, as in tables of later
+/// versions, is empty.
 std::vector<Table::Column> described_columns(const recording::SessionFolder& session,
                                              const std::string& file,
                                              const std::vector<std::string>& names);

@@ -15,7 +15,7 @@ class EventFinder {
     /// `object`: index of the body whose lift-off counts; -1 if none. `phases`: their names.
     EventFinder(const recording::LogHead& head, int object, std::vector<std::string> phases);
 
-    /// From the next frame on, the lift-off of this body counts; at first it stands.
+    /// From the next frame on, the lift-off of this body counts; it stands at first.
     void follow(int object) noexcept {
         supported_ = true;
         object_ = object;

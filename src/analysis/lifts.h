@@ -26,8 +26,7 @@
 //
 // hold          from 600 to 200 ms before the object is lowered, by either rule
 //
-// A pause takes the forces away, and hands close: a lift with a pause is marked, and has no
-// figures.
+// In a pause no forces act, and hands close: a lift with a pause is marked, and has no figures.
 //
 // A lift is dropped if the object stands again without having been carried there: in between no
 // digit touched it, or it slid along those that held it throughout by more than half of its height.

@@ -1,5 +1,5 @@
-// Finds what no person and no experimenter can have meant: a simulated hand that goes further than
-// an arm reaches, and a driven body that jumps.
+// Finds what neither a person nor an experimenter can have intended: a simulated hand that moves
+// further than an arm reaches, and a driven body that jumps.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ class Plausibility {
     std::vector<std::string> bodies_;
     double tick_;
     std::vector<Vec3> began_;   // where the handles were in the first frame [m]
-    std::vector<Vec3> before_;  // where the bodies were in the frame before [m]
+    std::vector<Vec3> before_;  // where the bodies were in the previous frame [m]
     int64_t sequence_ = -1;     // of that frame
     struct Largest {
         double way = 0;   // [m]

@@ -498,16 +498,16 @@ std::string SessionFigures::describe_imbalance() const {
 
 namespace {
 
-/// Makes the session, and thus its report, state how closely its contacts were solved, whether its
-/// objects moved inexplicably, and what else nobody can have meant.
+/// Notes in the session, and thus in its report, how closely its contacts were solved, whether its
+/// objects moved inexplicably, and what else nobody can have intended.
 void note_quality(recording::SessionInfo& info, const SessionFigures& figures) {
     info.convergence = figures.convergence;
     if (figures.ticks_with(kUnbalanced) > 0) add_note(info, figures.describe_imbalance());
     for (const std::string& what : figures.implausible) add_note(info, what);
 }
 
-/// Writes all tables except session.nwb. `conclude`: and the session's state, with which it is
-/// over.
+/// Writes all tables except session.nwb. `conclude`: then also the session's state, which completes
+/// it.
 SessionFigures write_tables(const recording::SessionFolder& folder, recording::SessionInfo info,
                             const Reading& reading, const recording::NwbContent& content,
                             const Table& events, bool conclude = true) {
@@ -595,7 +595,7 @@ SessionFigures finish_session(const recording::SessionFolder& folder, recording:
     try {
         recording::write_nwb(folder, content, part(0.4, 1));
     } catch (const Error&) {
-        // the error's own words are not to be lost in those of a full disk
+        // the error's own message must not be lost behind that of a full disk
         try {
             write_tables(folder, info, reading, content, events, false);
         } catch (const Error&) {

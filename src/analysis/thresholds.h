@@ -19,7 +19,7 @@ struct ThresholdTrack {
     std::string perturbation;
     std::string number;   ///< name of the number that it chooses; empty: the perturbation's share
     double standard = 0;  ///< standard value of the number; NaN: none
-    int skipped_reversals = 0;      ///< first ones, which do not count in their mean
+    int skipped_reversals = 0;      ///< initial ones, which do not count in their mean
     bool logarithmic = false;       ///< levels are log10 of shares, or of the number
     std::vector<Answer> answers;    ///< in order
     std::vector<int> trials;        ///< trial number of each answer in the session
@@ -31,21 +31,20 @@ struct ThresholdTrack {
     /// The levels of a staircase at which its direction changed, as shares or numbers; none for
     /// other procedures.
     std::vector<double> reversals() const;
-    /// The Weber fraction of a fitted function: what is just noticed, over the standard; NaN
-    /// without a standard. With a guess rate of 0.25 or more that is the threshold's distance from
-    /// the standard; otherwise half the distance of the function's quartiles, since its threshold
-    /// is the point of subjective equality.
+    /// The Weber fraction of a fitted function: the just noticeable difference over the standard;
+    /// NaN without a standard. With a guess rate of 0.25 or more that is the threshold's distance
+    /// from the standard; otherwise half the distance between the function's quartiles, since its
+    /// threshold is the point of subjective equality.
     double weber_fraction(const model::Psychometric& function) const;
 };
 
 /// One track per procedure; then one for each number, or share of a perturbation, that several
-/// procedures of one model chose: all of their answers. Answers that are neither yes nor no, and
-/// trials without a procedure, are left out.
+/// procedures of one model chose, with all of their answers. Answers that are neither yes nor no,
+/// and trials without a procedure, are left out.
 std::vector<ThresholdTrack> threshold_tracks(const rows::TrialFile& trials,
                                              const rows::ProcedureFile& procedures);
 
-/// Adds what a psychophysicist reads from a fitted function, and from a staircase, to a table's
-/// row.
+/// Adds to a table's row what a psychophysicist reads from a fitted function and from a staircase.
 void list_psychophysics(const ThresholdTrack& track, const model::Psychometric& function,
                         FigureLister& row);
 

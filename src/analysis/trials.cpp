@@ -61,7 +61,7 @@ void check_columns(const Table& table, const std::string& list) {
     }
 }
 
-/// Their values in the trial's first and last tick.
+/// Cells with the numbers' values in the trial's first and last tick.
 std::vector<Table::Cell> cells_of_numbers(const recording::SessionInfo& info,
                                           const std::vector<frame::VariableFrame>& first,
                                           const std::vector<frame::VariableFrame>& last,
@@ -198,7 +198,7 @@ void TrialFinder::measure_extent(Row& row, const Reach& reach, const frame::Fram
 Table TrialFinder::table(const recording::SessionInfo& info) const {
     Table table;
     add_columns<rows::TrialHead>(table);
-    // a trial's way of measurement is not repeated
+    // the columns on how a trial is measured are not repeated
     const size_t listed =
         std::min(column(list_, task::kFirstReachColumn), column(list_, task::kFirstMovementColumn));
     for (size_t k = 0; k < listed; ++k)

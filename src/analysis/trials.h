@@ -57,7 +57,7 @@ class TrialFinder {
         double share = 0;                             ///< share of the perturbation
         std::vector<frame::VariableFrame> variables;  ///< values at its start [SI]
         std::vector<frame::VariableFrame> last;       ///< values in its last tick
-        /// At the next trial's start; they differ if a program decides between trials.
+        /// Values at the next trial's start, which differ if a program decides between trials.
         std::vector<frame::VariableFrame> decided;
         rows::TrialMeasures measures;
         FirstStroke stroke;
@@ -80,7 +80,7 @@ class TrialFinder {
 
 /// Number of the last of the sessions that this one resumes; 0 if it resumes none.
 int sessions_before(const recording::SessionFolder& folder);
-/// Numbers a session that resumes others after those.
+/// Numbers a session after those that it resumes.
 void number_session(Table& own, const recording::SessionFolder& folder);
 /// Inserts the finished trials of the sessions that this one resumes before its own.
 Table with_earlier(const Table& own, const recording::SessionFolder& folder);

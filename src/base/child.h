@@ -15,14 +15,14 @@ namespace dihaptic {
 struct Launch {
     static constexpr int kNothing = -1;  ///< /dev/null
     static constexpr int kKept = -2;     ///< the file that has this number here
-    /// The child ignores and blocks no signals, whichever are ignored or blocked here.
+    /// The child ignores and blocks no signals, not even those that are ignored or blocked here.
     static constexpr short kFreshSignals = POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK;
 
     std::string program;  ///< a path, or a name to be found in PATH
     std::vector<std::string> arguments;
     /// The child's files 0, 1, 2 and so on: each a descriptor of ours, kNothing or kKept. It gets
-    /// no other of our files, which may be devices. As they are made in this order, no descriptor
-    /// may be smaller than its number in the child.
+    /// none of our other files, which may be devices. The child's files are made in this order, so
+    /// no descriptor may be smaller than its number in the child.
     std::vector<int> files;
     short flags = 0;  ///< for posix_spawnattr_setflags()
 };

@@ -46,10 +46,10 @@ using CompanionWait = void (*)(const std::string& what, int seconds, int most);
 void tell_companion_waits(CompanionWait tell) noexcept;
 
 /// Runs a companion with `input` as its standard input, and returns its standard output.
-/// Returns nullopt when it refuses the input, by an exit status other than
-/// 0; the exit status 3 is an error instead, and means that memory ran out. Throws Error when the
-/// companion is missing, cannot be started, crashes, exceeds its limits or is stopped. The
-/// companion has ended whenever this function returns or throws.
+/// Returns nullopt when it refuses the input, with an exit status other than 0; exit status 3 is an
+/// error instead, and means that memory ran out. Throws Error when the companion is missing, cannot
+/// be started, crashes, exceeds its limits or is stopped. The companion has ended whenever this
+/// function returns or throws.
 std::optional<std::string> run_companion(const CompanionTask& task, const std::string& input);
 
 }  // namespace dihaptic

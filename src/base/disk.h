@@ -13,7 +13,7 @@ void sync_to_disk(const std::string& name);
 /// Like sync_to_disk(name), for an open file that messages call `name`.
 void sync_to_disk(int descriptor, const std::string& name);
 
-/// The remedy for a write that failed with this errno, to stand within a sentence: "free some
+/// The remedy for a write that failed with this errno, for use within a sentence: "free some
 /// space".
 std::string make_room(int error);
 

@@ -86,7 +86,7 @@ void FieldWriter::operator()(std::string_view name, const bool& value, Field) {
 
 void FieldWriter::operator()(std::string_view name, const std::string& value, Field field) {
     if (value.empty()) return;
-    // a number that is stored as text because of its size has bounds
+    // a number that is stored as text because of its size is recognised by its bounds
     const bool number = std::isfinite(field.min) && is_as_written(value);
     mapping_.set(std::string(name), number ? Node::plain_word(value) : Node::of(value));
 }

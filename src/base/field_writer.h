@@ -1,7 +1,7 @@
-// Writes configuration structs (base/field.h) as YAML, every value resolved and in SI units;
-// sessions keep their inputs in this form. A formula is written as given, with its unit.
-// Reading the result gives the same struct, to the bit. An infinite value cannot be written and is
-// left out, so it must be the default of its field.
+// Writes configuration structs (base/field.h) as YAML, with every value resolved and in SI units;
+// sessions keep their inputs in this form. A formula is written as given, with its unit. Reading
+// the result gives the same struct, to the bit. An infinite value cannot be written and is left
+// out, so it must be the default of its field.
 #pragma once
 
 #include <optional>

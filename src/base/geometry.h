@@ -9,7 +9,7 @@ namespace dihaptic {
 
 using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
-/// Unit quaternion. Not over-aligned, so that records which hold one can be copied byte by byte.
+/// Unit quaternion. Not over-aligned, so that records that contain one can be copied byte by byte.
 using Quat = Eigen::Quaternion<double, Eigen::DontAlign>;
 
 /// Rigid pose X_AB of frame B in frame A.

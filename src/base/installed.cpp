@@ -11,8 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The shared library that contains this function, if there is one. The running program is then
-/// another one, such as Python.
+/// The shared library that contains this function, if there is one. The running program is then a
+/// different one, such as Python.
 fs::path file_of_this() {
     std::error_code ignored;
     const fs::path program = fs::read_symlink("/proc/self/exe", ignored);

@@ -22,8 +22,7 @@ std::string shipped_folder();
 /// files that come with the program. "" if neither has it, or if the path is absolute.
 std::string kept(const std::string& name);
 
-/// `name` if there is such a file or folder, or else kept(name); `name`, although missing, if
-/// neither exists.
+/// `name` if such a file or folder exists, otherwise kept(name); `name` again if neither exists.
 std::string given_or_kept(const std::string& name);
 
 /// The file with a name that a file in `folder` contains: relative to the folder or, if it is

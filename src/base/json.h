@@ -7,10 +7,10 @@
 
 namespace dihaptic {
 
-/// Depth of nesting: greater than that of any message or file of the program.
+/// Largest depth of nesting; no message or file of the program is nested as deeply.
 constexpr int kDeepestJson = 32;
 
-/// Discarded (is_discarded()) if the text is not JSON, or is nested too deeply.
+/// The value is discarded (is_discarded()) if the text is not JSON, or is nested too deeply.
 inline nlohmann::json parse_json(std::string_view text) {
     using Value = nlohmann::json;
     bool too_deep = false;

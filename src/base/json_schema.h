@@ -1,5 +1,5 @@
-// Makes JSON Schemas, draft 7, of configuration structs (base/field.h). An editor that has the
-// schema of a file completes the keys, explains each, and marks mistakes during typing.
+// Makes JSON Schemas, draft 7, from configuration structs (base/field.h). An editor that has the
+// schema of a file completes the keys, explains each, and marks mistakes as they are typed.
 //
 // A schema refuses nothing that FieldReader accepts. It is meant for YAML 1.2, in which yes and no
 // are words. Mistakes that a schema cannot express are left to `dihaptic check`: names of objects
@@ -63,8 +63,8 @@ class JsonSchema {
         };
     }
 
-    /// The schema of a file that is read into such a struct. `heading` names the kind of file
-    /// in a word or two.
+    /// The schema of a file that is read into this struct. `heading` names the kind of file in a
+    /// word or two.
     template <class Struct>
     Json of(const Struct& value, const std::string& heading) {
         return whole(object(value, heading), heading);

@@ -15,7 +15,7 @@ class Latest {
     /// All three copies start as `value`.
     explicit Latest(const T& value = {}) : values_{value, value, value} {}
 
-    /// All three copies, e.g. to reserve their memory. Only before the threads start.
+    /// All three copies, e.g. to reserve their memory. To be called only before the threads start.
     std::array<T, 3>& values() noexcept { return values_; }
 
     /// Writer: the copy to fill in, which still contains an old value. publish() hands it over.

@@ -1,5 +1,5 @@
-// Checks a file that another file names. If the file cannot be read, the name has to be corrected,
-// so the message refers to the place where the name is written.
+// Checks a file that another file names. If the file cannot be read, it is the name that has to be
+// corrected, so the message refers to the place where the name is written.
 #pragma once
 
 #include <string>

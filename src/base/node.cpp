@@ -269,7 +269,7 @@ bool reads_otherwise(std::string_view text) {
            is_one_of(text, {"y", "n", "null"});
 }
 
-/// Whether YAML 1.1 reads the same number as this program: not of 010, 1e3, 1_000.
+/// Whether YAML 1.1 reads the same number as this program: it does not for 010, 1e3 and 1_000.
 bool is_yaml_number(std::string_view word) {
     if (!finite_number(word)) return false;
     if (word[0] == '+' || word[0] == '-') word.remove_prefix(1);

@@ -20,7 +20,8 @@ std::optional<double> finite_number(std::string_view word);
 /// Like finite_number(), but also accepts "inf" and "-inf", which occur in tables.
 std::optional<double> any_number(std::string_view word);
 
-/// The whole number that a word of digits represents; nullopt if it is none or does not fit.
+/// The whole number that a word of digits represents; nullopt if it is not a whole number or does
+/// not fit.
 template <std::integral Whole>
 std::optional<Whole> whole_number(std::string_view word, int base = 10) {
     Whole value{};

@@ -35,7 +35,7 @@ uint32_t nobodys_guess() {
     return out;
 }
 
-/// Makes a new folder beside `file`, which only this user can enter.
+/// Makes a new folder next to `file`, which only this user can enter.
 std::string make_folder(const std::string& file) {
     for (int tries = 0; tries < 100; ++tries) {
         std::string folder =

@@ -1,7 +1,6 @@
 // A file or folder that is being made. It gets its name only when it is complete, so that a reader
 // finds no file, the old file or the new file. It is made in a folder whose name nobody else can
-// predict and that nobody else can enter, so that nothing put beside it can
-// redirect it.
+// predict and that nobody else can enter, so that nothing put next to it can redirect it.
 #pragma once
 
 #include <string>
@@ -10,7 +9,7 @@ namespace dihaptic {
 
 class Output {
   public:
-    /// Makes the folder `file`.PROCESS-RANDOM.part beside `file`, which must not be a link, a
+    /// Makes the folder `file`.PROCESS-RANDOM.part next to `file`, which must not be a link, a
     /// folder, or anything other than a file. Throws Error on failure.
     explicit Output(const std::string& file);
     /// Removes the file unless it was kept.

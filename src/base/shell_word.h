@@ -1,5 +1,5 @@
 // Quotes the words of a command that a person or a script will type into a shell, and splits such a
-// command again. File names may come from strangers: with any content, a shell reads each as
+// command again. File names may come from strangers: whatever a name contains, a shell reads it as
 // one word, and a terminal shows it.
 #pragma once
 

@@ -179,7 +179,7 @@ CsvFile::CsvFile(const std::string& file) : file_(file), rows_(read_csv(file)) {
 
 namespace {
 
-/// If two columns had the same name, one of them would be ignored, without a way to tell which.
+/// If two columns had the same name, one of them would be ignored, and nothing would show which.
 void check_names(const CsvFile& table) {
     std::set<std::string> seen;
     for (size_t i = 0; i < table.columns().size(); ++i) {

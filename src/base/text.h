@@ -23,8 +23,9 @@ struct TextFault {
 /// Whether a text may have several lines, or is a single one: a name, an answer, an argument.
 enum class Lines { several, one };
 
-/// The first thing in a text that is not UTF-8, or is a control character: of those, only tabs and
-/// line feeds belong in a text, and only in one of several lines.
+/// The first thing that does not belong in a text: bytes that are not UTF-8, a byte order mark or a
+/// noncharacter, a control character (except tabs and line feeds in a text of several lines) and,
+/// in a single line, a character that changes the order of those around it.
 std::optional<TextFault> find_fault(std::string_view text, Lines lines = Lines::several);
 
 /// Throws Error if find_fault() finds a fault. `name`: the text's name in the message.

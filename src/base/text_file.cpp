@@ -19,7 +19,7 @@
 namespace dihaptic {
 namespace {
 
-/// Length of the character that starts at i [bytes]; 0 if the bytes are no character, or are a
+/// Length of the character that starts at i [bytes]; 0 if the bytes are not a character, or are a
 /// control character that does not belong in a text file.
 size_t character(std::string_view text, size_t i) {
     const auto first = static_cast<unsigned char>(text[i]);

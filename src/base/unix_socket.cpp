@@ -33,7 +33,7 @@ Descriptor unix_socket(int type) noexcept {
 }
 
 std::pair<Descriptor, Descriptor> unix_socket_pair(int type) noexcept {
-    int ends[2] = {-1, -1};  // as they remain upon failure
+    int ends[2] = {-1, -1};  // unchanged if the call fails
     ::socketpair(AF_UNIX, type | SOCK_CLOEXEC, 0, ends);
     return {Descriptor(ends[0]), Descriptor(ends[1])};
 }

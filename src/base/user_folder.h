@@ -6,11 +6,11 @@
 
 namespace dihaptic {
 
-/// Folder for settings, ~/.config as a rule; "" if the user has no home.
+/// Folder for settings, usually ~/.config; "" if the user has no home.
 std::string user_config();
-/// Folder for files of all studies, ~/.local/share as a rule; "" if the user has no home.
+/// Folder for files of all studies, usually ~/.local/share; "" if the user has no home.
 std::string user_data();
-/// Folder for files that can be made again, ~/.cache as a rule; "" if the user has no home.
+/// Folder for files that can be made again, usually ~/.cache; "" if the user has no home.
 std::string user_cache();
 
 }  // namespace dihaptic

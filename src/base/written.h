@@ -1,5 +1,5 @@
-// A YAML document with the position of each part in its text. It serves to change a part of the
-// text and leave the rest unchanged, which is impossible by reading (node.h) and rewriting.
+// A YAML document with the position of each part in its text. With it, a part of the text can be
+// changed and the rest left as it is, which is impossible by reading (node.h) and rewriting.
 #pragma once
 
 #include <string>
@@ -30,9 +30,9 @@ Written read_written(const std::string& text);
 
 /// A part of a text that is replaced.
 struct TextChange {
-    size_t at = 0;      ///< of its first byte
+    size_t at = 0;      ///< position of its first byte
     size_t length = 0;  ///< [bytes]
-    std::string text;   ///< in its place
+    std::string text;   ///< its replacement
 };
 /// `changes`: in the order of the text, without overlaps.
 std::string changed(std::string text, const std::vector<TextChange>& changes);

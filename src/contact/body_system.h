@@ -70,8 +70,8 @@ class BodySystem {
     /// Block of W for contacts j (rows) and k (columns).
     Eigen::Matrix<double, Dim, Dim> delassus_block(size_t j, size_t k) const noexcept;
 
-    /// Computes the changes of all bodies' velocities by impulses; change() returns one: linear,
-    /// then angular.
+    /// Computes the changes of all bodies' velocities due to impulses; change() returns one body's:
+    /// linear, then angular.
     void body_velocity(std::span<const Vec> r) noexcept;
     Vec6 change(int body) const noexcept;
 

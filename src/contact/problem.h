@@ -56,9 +56,9 @@ using Impulse = Eigen::Vector4d;
 ///
 ///     low <= r <= high      u + compliance r  is 0 between the bounds, >= 0 at low, <= 0 at high
 ///
-/// Without bounds and compliance bodies do not move against each other; with low = 0 the row is a
-/// stop, with low = -high dry friction, with a compliance an implicit spring. A row without J and
-/// with bounds of 0 does nothing.
+/// Without bounds and compliance the bodies do not move relative to each other; with low = 0 the
+/// row is a stop, with low = -high dry friction, with a compliance an implicit spring. A row
+/// without J and with bounds of 0 does nothing.
 struct ProblemJoint {
     static constexpr int kRows = 3;
     using Rows = Eigen::Matrix<double, kRows, 6>;

@@ -15,9 +15,10 @@ namespace {
 
 constexpr int kMostStaggeredIterations = 200;
 constexpr size_t kFewPairs = 10;
-/// A problem with so few contacts that misses within its bound is given this many times as much
-/// work, unless the tick has already taken more than a little: an object that a finger is about to
-/// touch needs it once in several hundred thousand solves, the parts of a stirred heap in many.
+/// A problem with at most this many contacts that is not solved within its bound is allowed this
+/// many times as much work, unless the tick has already done more than a little: an object that a
+/// finger is about to touch needs this once in several hundred thousand solves, the parts of a
+/// stirred heap often.
 constexpr size_t kFewContacts = 12;
 constexpr int kMoreForFew = 15;
 constexpr int64_t kLittleWork = 20'000;  // visits: about half a millisecond
@@ -92,7 +93,8 @@ class Solve {
         stats_.missed = !own && !(residual.judged() <= kTolerance);
     }
 
-    /// Tries the exact methods on a small problem, and allows them more work for a second time.
+    /// Tries the exact methods on a small problem, and then allows them more work for a second
+    /// attempt.
     void try_if_few(std::span<const Route> routes, SolveSettings& settings, SolveDetail* detail) {
         if (contacts_ > kFewContacts) return;
         hand_on(routes.first(kExactWhenBounded), true, settings, detail);
@@ -115,8 +117,8 @@ class Solve {
         ask(Route::sequential_impulse, false, settings, detail);
     }
 
-    /// Whether the tick's work allows another pair of steps, of which all methods but sweeps
-    /// consist.
+    /// Whether the tick's work allows another pair of steps. All methods except sweeps consist of
+    /// such pairs.
     bool may_step() const { return system_.work().affords(2 * system_.step_visits()); }
 
     int64_t visits(int64_t of_each) const { return of_each * static_cast<int64_t>(r_.size()); }
@@ -212,9 +214,9 @@ class Solve {
     }
 
     /// Projects the impulses into the cone, so that a remaining error never pulls. Some problems
-    /// are so delicate that this small change is too much. Sweeps lead answers of staggered
-    /// projections into the cone then, as these also update the velocities; newton's remain as they
-    /// are, since they are orders of magnitude more exact than a few sweeps would leave them.
+    /// are so delicate that even this small change is too much. Answers of staggered projections
+    /// are then led into the cone by sweeps, which also update the velocities; newton's remain as
+    /// they are, since they are orders of magnitude more exact than a few sweeps would leave them.
     Residual end_inside_cone() {
         std::copy(r_.begin(), r_.end(), newton_memory_.best.begin());
         project();

@@ -22,7 +22,7 @@ namespace dihaptic::contact {
 /// Stewart-Trinkle, of its own complementarity problem.
 constexpr double kTolerance = 1e-8;
 
-/// Number of sweeps in every solve, however small its allowance of work.
+/// Least number of sweeps in every solve, however little work it is allowed.
 constexpr int kFewestSweeps = 4;
 /// Visits per contact: of a sweep over normals and one over friction, and of a step of Newton's
 /// method.
@@ -40,7 +40,7 @@ struct SolveStats {
     bool refused = false;   ///< whether the problem contained values that are not numbers; then
                             ///< there are no impulses
     bool ended =
-        false;  ///< whether the limit of work made sweeps end the solve, or ended its sweeps
+        false;  ///< whether the work ran out, so that sweeps ended the solve or were cut short
     Route route = Route::none;
     int64_t work = 0;  ///< work done [visits]
 

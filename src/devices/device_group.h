@@ -32,8 +32,8 @@ struct Reading {
     Vec3 p_DH = Vec3::Zero();  ///< endpoint [m]
     Vec3 v_DH = Vec3::Zero();  ///< [m/s]
     uint32_t buttons = 0;
-    /// Bits of kStatusByDevice. With kNotAnswering the rest of the reading is meaningless,
-    /// with kUncalibrated the positions are; kForceDropped is for a force that can be switched on
+    /// Bits of kStatusByDevice. With kNotAnswering the rest of the reading is meaningless; with
+    /// kUncalibrated only the positions are; kForceDropped is for a force that can be switched on
     /// again.
     uint32_t status = 0;
     /// Rotation of the endpoint from the device's neutral orientation, and its angular velocity

@@ -45,7 +45,7 @@ struct Patch {
     }
 };
 
-/// Eyes of a resting or a tracked head.
+/// The eyes of a head at rest, or of a tracked head.
 struct Eyes {
     Vec3 position = Vec3::Zero();  ///< midpoint between the eyes [m]
     Vec3 along = Vec3::UnitX();    ///< from the left eye to the right eye, of any length
@@ -85,7 +85,7 @@ struct Display {
     Mirrored mirrored = Mirrored::no;
     Eyes eyes;
     Stereo stereo = Stereo::none;
-    std::string registration;  ///< path of its file, from the rig file's folder; empty: none
+    std::string registration;  ///< path of its file, relative to the rig file's folder; empty: none
     std::optional<Registration> registered;  ///< its content, in world coordinates
     std::string monitor;  ///< its system name; empty: a monitor without the operator's window
     Place place{};

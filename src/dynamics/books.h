@@ -41,7 +41,7 @@ class Books {
         /// Whether its motion is prescribed, as for fingers and driven bodies; its energy is then
         /// not counted, and its effect on others is work.
         bool is_outside = false;
-        bool is_led = false;  ///< whether its velocities follow from no impulse
+        bool is_led = false;  ///< whether its velocities are not due to impulses
     };
 
     void reserve(size_t bodies, size_t joints);
@@ -53,12 +53,12 @@ class Books {
     /// at its centre of mass. A body that is `late` woke up after loads had acted, so it gets none.
     void open(size_t body, const Body& what, const Motion& before, const Wrench& load_W,
               bool late) noexcept;
-    /// To be called after the step. A bouncing body moved at velocities other than those at which
+    /// To be called after the step. A bouncing body moved at velocities other than those with which
     /// it leaves.
     void close(size_t body, const Motion& after, bool bounced) noexcept;
 
-    /// An impulse on b at p_W, and a moment, with opposite ones on a. A body that is not open, or
-    /// -1, does not move.
+    /// An impulse on b at p_W, and a moment, with the opposite ones on a. A body that is not open,
+    /// or -1, does not move.
     struct Exchange {
         int a = -1;
         int b = -1;
@@ -68,7 +68,7 @@ class Books {
         double given = 0;               ///< work of its motor [J]
         double stored_before = 0;       ///< in its springs [J]
         double stored_after = 0;
-        double found = 0;  ///< impossible work, as a contact gives no energy [J]
+        double found = 0;  ///< impossible work, since a contact gives no energy [J]
         /// Index of its joint, whose springs may owe energy from one step to the next; -1 for a
         /// contact.
         int joint = -1;

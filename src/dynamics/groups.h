@@ -16,7 +16,7 @@ class Groups {
     void join(size_t a, size_t b) noexcept {
         const size_t root_a = of(a);
         const size_t root_b = of(b);
-        // the smallest index represents the group, for any order of joining
+        // the smallest index represents the group, whatever the order of joining
         parent_[std::max(root_a, root_b)] = std::min(root_a, root_b);
     }
     /// The body that represents the group of this one.

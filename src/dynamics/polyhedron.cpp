@@ -348,7 +348,7 @@ ContactPatch collide_half_space(const Pose& X_WA, const Polyhedron& b, const Pos
                                 double margin) noexcept {
     ContactPatch patch;
     patch.n_W = X_WA.R * Vec3::UnitZ();
-    // the vertices within the margin make up the patch, for any faces
+    // the vertices within the margin make up the patch, whatever the faces
     Polygon corners;
     for (const Vec3& vertex : b.vertices) corners.add(X_WB * vertex);
     keep_near(corners, patch.n_W.dot(X_WA.p), margin, patch);

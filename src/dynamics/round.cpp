@@ -12,7 +12,7 @@ namespace {
 /// A cap is treated as a polygon with this many corners, the first of which is the lowest point of
 /// its rim.
 constexpr int kRim = 16;
-/// The whole rim of a cap counts if the axis is within some 25 degrees of the normal; otherwise
+/// The whole rim of a cap counts if the axis is within about 25 degrees of the normal; otherwise
 /// only the rim's lowest point does.
 constexpr double kCap = 0.9;
 /// Lines closer to parallel than this touch along their length.
@@ -283,7 +283,7 @@ struct Best {
             line_separation = sep;
             line_axis = u;
         }
-        // a face is kept unless another axis separates better by a little
+        // a face or cap is kept unless a line separates better by a margin
         const bool was_face = kind != line && k == line;
         if (sep <= separation + (was_face ? kFacePreference : 0)) return;
         separation = sep;

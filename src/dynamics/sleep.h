@@ -23,7 +23,7 @@ class SleepKeeper {
   public:
     explicit SleepKeeper(size_t bodies) : quiet_(bodies, 0.0), group_quiet_(bodies, true) {}
 
-    /// Notes that a body is not quiet, at any speed.
+    /// Notes that a body is not quiet, whatever its speed.
     void stir(size_t body) noexcept { quiet_[body] = 0; }
     /// Counts one step of an awake body.
     void observe(size_t body, const Vec3& v, const Vec3& w, double h) noexcept {

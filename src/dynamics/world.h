@@ -44,8 +44,8 @@ struct JointState {
     Vec3 torque_W = Vec3::Zero();  ///< including spring, friction and stops [N*m]
 };
 
-/// Factors between a body's properties and the scene's. Of a pair's surface in the
-/// scene, they change only the friction.
+/// Factors between a body's properties and the scene's. If the scene gives a surface for a pair,
+/// they change only its friction.
 struct BodyProperties {
     Vec3 mass = Vec3::Ones();  ///< for its inertia along the world's axes
     double weight = 1;

@@ -1,6 +1,6 @@
 // The islands of a step, and their impulses (stages 4 and 5 of world_step.cpp): an island is solved
-// for the velocities at the end of the step, guessed and solved again where joints or free turns
-// are not linear, and solved once more if something in it bounces. Neither a bounce nor a solve
+// for the velocities at the end of the step, again with better guesses of these where joints or
+// free turns are not linear, and once more if something in it bounces. Neither a bounce nor a solve
 // that missed may add energy (README.md of this room).
 #include <algorithm>
 #include <limits>

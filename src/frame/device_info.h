@@ -15,7 +15,7 @@ namespace dihaptic::frame {
 struct DeviceInfo {
     std::string model;
     std::string serial;  ///< "" if the device does not report one
-    /// Whether no person's hand holds the device, so a late force harms nobody.
+    /// Whether no person's hand holds the device; if so, a late force harms nobody.
     bool simulated = false;
     /// Peak force; infinite if unknown, as for a real device that has not been opened yet
     /// [N].

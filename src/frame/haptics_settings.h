@@ -12,7 +12,7 @@
 namespace dihaptic::frame {
 
 /// Upper limits: the stiffest admittance displays render about 5e4 N/m and 1e3 N*s/m, and no hand
-/// need bear more than a kilonewton.
+/// needs to bear more than a kilonewton.
 constexpr double kMostStiffness = 1e5;  // [N/m]
 constexpr double kMostDamping = 1000;   // [N*s/m]
 constexpr double kMostForce = 1000;     // [N]
@@ -163,7 +163,7 @@ constexpr auto enum_names(EnergyGuardMode) {
 
 /// Time within which a force that is no longer requested falls to zero; the Limiter ensures
 /// this. With a slower limit, a hand that no longer touches anything would be pushed for longer
-/// than the time to notice it [s].
+/// than it takes to notice this [s].
 constexpr double kLongestFall = 0.1;
 /// Rates that bring a Premium's 8.5 N and the sigma.7's 0.4 N*m to zero in that time.
 constexpr double kLeastForceRate = 85;  // [N/s]
@@ -177,7 +177,7 @@ struct SafetySettings {
     double max_torque_rate =
         150;                ///< magnitude of the change of torque: max_force_rate at 5 cm [N*m/s]
     double max_speed = 10;  ///< speed of a handle; a throwing hand reaches a few m/s [m/s]
-    /// Longest time from one tick to the next, during which a force is held; above any tick
+    /// Longest time from one tick to the next, during which a force is held; longer than any tick
     /// [s].
     double max_pause = 0.04;
     /// Longest delay of a tick's start; unset: only `max_pause` counts [s].

@@ -8,7 +8,7 @@
 //   loads             forces and torques on handles and bodies
 //
 // In addition, objects are hidden, coloured and scaled (looks), or shown at earlier poses
-// (displaced); texts stand over the scene (message, lines), or a page replaces the scene.
+// (displaced); texts appear over the scene (message, lines), or a page replaces the scene.
 #pragma once
 
 #include <cstdint>

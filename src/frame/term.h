@@ -1,6 +1,5 @@
-// Term describes a quantity of the Frame in a single place, the visit() that lists it. The schema
-// of the log, session.nwb, docs/quantities.md and the window's plots
-// use this name.
+// Term describes a quantity of the Frame in a single place, the visit() that lists it. The log's
+// schema, session.nwb, docs/quantities.md and the window's plots all use its name.
 #pragma once
 
 namespace dihaptic::frame {

@@ -1,4 +1,4 @@
-// The meaning of the cells in a movement's lines, according to its first lines.
+// The meaning of the cells in a movement's lines, as given by its first lines.
 #pragma once
 
 #include <array>

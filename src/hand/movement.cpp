@@ -204,8 +204,8 @@ void name_columns(Movement& movement, const Columns& columns, RecordingAxes axes
     }
 }
 
-/// Whether a line has the right number of cells; otherwise an error. Trackers' programs may add
-/// empty cells at its end.
+/// Whether a line has the right number of cells; reports an error if not. Trackers' programs may
+/// add empty cells at its end.
 bool check_count(const Columns& columns, const std::vector<std::string>& cells,
                  const GivenTable& table, Diagnostics& problems) {
     const size_t wanted = columns.keys.size();

@@ -3,9 +3,9 @@
 //
 //     p_WT = c + R (offset + a / 2 side),    R_WT = R
 //
-// Each finger has a centre c, an aperture a and a turn R of its own. A step changes these alike for
-// all fingers that it moves: fingers with equal c, a and R form one hand, and a scene may have
-// several.
+// Each finger has a centre c, an aperture a and a turn R of its own. A step changes these in the
+// same way for all fingers that it moves: fingers with equal c, a and R form one hand, and a scene
+// may have several.
 #pragma once
 
 #include "hand/driver.h"

@@ -60,8 +60,8 @@ class EnergyGuard {
     Wrench asked_;       // requested by the coupling since then
     Wrench damper_;      // added to this
     double stored_ = 0;  // in the spring
-    // generated [J], with the proxy's work by the force at the end of the tick, or by the force
-    // held
+    // energy generated [J], with the proxy's work done by the force at the end of the tick, and by
+    // the force held
     std::array<double, 2> since_step_{};
     std::array<double, 2> generated_{};
     // for feeding(): the window being filled

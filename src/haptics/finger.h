@@ -39,7 +39,7 @@ class Finger {
     void place(World& world, const frame::Handle& handle) noexcept;
 
     /// Turns a proxy that does not follow its handle's orientation along with the workspaces: by
-    /// R_WT from its initial orientation, turning on at w_WT [rad/s].
+    /// R_WT from its initial orientation, continuing to turn at w_WT [rad/s].
     void carry(World& world, const Quat& R_WT, const Vec3& w_WT) const noexcept;
 
     /// First call in every tick; `step` is the world's time step [s].

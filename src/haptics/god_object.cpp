@@ -13,8 +13,8 @@ constexpr double kTouching = 1e-6;
 constexpr double kMostSlip = 10;
 /// A path shorter than this is ignored [m].
 constexpr double kNoWay = 1e-10;
-/// Moves in a tick. A few are usual, some dozens if a round body is pressed nearly to its
-/// centre; the rest of the path follows in the next tick.
+/// Moves in a tick. A few are usual, a few dozen if a round body is pressed nearly to its centre;
+/// the rest of the path follows in the next tick.
 constexpr int kMostMoves = 64;
 
 }  // namespace

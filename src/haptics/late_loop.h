@@ -34,8 +34,8 @@ inline double held_stiffness(double b, double lateness) noexcept {
                         : std::numeric_limits<double>::infinity();
 }
 
-/// The settings reduced to the loop's limits; values within them are unchanged, so that
-/// softening twice is the same as once. `tick` [s].
+/// The settings reduced to the loop's limits; values within them are unchanged, so that softening
+/// twice has the same effect as softening once. `tick` [s].
 frame::CouplingSettings softened(frame::CouplingSettings asked, double b, double lateness,
                                  double tick) noexcept;
 

@@ -87,7 +87,7 @@ void PointProxy::resolve(const Vec3& f_W) noexcept {
     for (size_t i = 0; i < touched.size(); ++i)
         grip += point_.friction(touched[i].body) * walls.multiplier[i];
     if (point_.sliding()) {
-        // Coulomb's law: the magnitude is that of friction, for any force of spring and damper
+        // Coulomb's law: the magnitude is that of friction, whatever the force of spring and damper
         const double size = point_.held().norm();
         along = size > 0 ? Vec3(-point_.sliding_ratio() * grip / size * point_.held())
                          : Vec3(Vec3::Zero());

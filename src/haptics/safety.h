@@ -51,9 +51,8 @@ constexpr double kMostTurning = 100;
 ///     |v_WH| <= max_speed   and   |p_WH - p_WH,old| <= max_speed * (t - t_old)
 ///
 /// and likewise for rotations, with kMostTurning. The second condition detects a jump in position,
-/// for any reported velocity. A device that failed once is not trusted again: its handle
-/// stays at rest where it last was, so that neither NaN nor a blow reaches the world being
-/// recorded.
+/// whatever velocity is reported. A device that failed once is not trusted again: its handle stays
+/// at rest where it last was, so that neither NaN nor a blow reaches the world being recorded.
 class HandleGuard {
   public:
     /// Largest plausible speed of a hand [m/s].

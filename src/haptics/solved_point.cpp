@@ -6,7 +6,7 @@ namespace dihaptic::haptics {
 namespace {
 
 /// A point that moves more slowly than this along a surface is at rest [m/s]. Solvers leave errors
-/// of some nm/s.
+/// of a few nm/s.
 constexpr double kRest = 1e-6;
 
 /// The point starts each step on the surface, as if unloaded. In the step it yields at

@@ -23,8 +23,8 @@ bool force_off_now() noexcept;
 /// off; waits at most until kLastWait after `since`. Async-signal-safe.
 bool await_off(const SharedPage& page, int64_t since) noexcept;
 
-/// Adds a device host's page to the list for force_off_now(), and removes it; for the time while
-/// devices are active.
+/// Adds a device host's page to the list for force_off_now(), and removes it again; it is listed
+/// while devices are active.
 void watch_over(SharedPage* page) noexcept;
 void forget(SharedPage* page) noexcept;
 

@@ -22,8 +22,7 @@ namespace {
 
 using nlohmann::json;
 
-/// A device host is abandoned when its silence exceeds the program's tolerated silence
-/// by this time.
+/// A device host is abandoned when its silence is this much longer than the program's may be.
 constexpr Time kPatience = std::chrono::milliseconds(20);
 /// Limit for making and activating devices: opening and calibrating them is slow.
 constexpr Time kSetUp = std::chrono::seconds(60);
@@ -61,7 +60,7 @@ class Process {
     Process& operator=(const Process&) = delete;
 
     SharedPage& page() { return *page_; }
-    /// Remains false after a missing answer.
+    /// Whether the device host answers; remains false once an answer has failed to come.
     bool answers() const { return answers_; }
 
     /// Sends a message and waits for the answer. Throws Error with the device host's

@@ -1,8 +1,8 @@
 // The program's side of real devices owned by another process, the device host.
 //
 // The device host (host.h) is a small program in which nothing else runs. It takes force away when
-// this program dies, stops or hangs, for any cause. README.md describes the communication between
-// the two, and its times.
+// this program dies, stops or hangs, whatever the cause. README.md describes the communication
+// between the two, and its times.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,8 @@
 
 namespace dihaptic::host {
 
-/// Path of the device host's program, which is beside this one. Throws Error if it is missing.
+/// Path of the device host's program, a companion (base/companion.h). Throws Error if it is
+/// missing.
 std::string program();
 
 /// Starts a device host that makes the devices of `order`. Throws Error with their backend's

@@ -23,7 +23,7 @@ struct SharedPage {
         0};  ///< advances with each change below; the device host sleeps on it
     std::atomic<uint32_t> asked{0};    ///< number of requests
     std::atomic<uint32_t> replied{0};  ///< number of turns whose forces were given
-    std::atomic<uint32_t> ended{0};    ///< 1: no more force, for any request
+    std::atomic<uint32_t> ended{0};    ///< 1: no more force, whatever is requested
     std::atomic<uint32_t> closing{0};  ///< 1: pacing must end
     /// Also written by the device host when it ends; atomic, since its threads need no order here.
     std::atomic<Request> request{};

@@ -20,7 +20,7 @@ namespace dihaptic::model {
 /// teaches nothing.
 struct AdaptationTrial {
     double perturbation = 0;  ///< f
-    bool clamp = false;       ///< the person sees no error in any case
+    bool clamp = false;       ///< the person never sees an error
 };
 
 struct SingleRate {

@@ -25,7 +25,7 @@ constexpr auto enum_names(Sigmoid) {
     return std::array{"normal", "logistic", "weibull", "weibull_log10"};
 }
 
-/// Whether a sigmoid is defined at a level: `weibull` is not at 0 or below.
+/// Whether a sigmoid is defined at a level: `weibull` is undefined at 0 or below.
 constexpr bool takes(Sigmoid sigmoid, double level) {
     return sigmoid != Sigmoid::weibull || level > 0;
 }

@@ -15,7 +15,7 @@ struct Head {
 };
 
 constexpr auto kTend = std::chrono::milliseconds(1);
-/// Capacity of the ring [ticks]: some seconds, for an outlet that hangs.
+/// Capacity of the ring [ticks]: a few seconds, for an outlet that hangs.
 constexpr size_t kTicks = 8192;
 
 }  // namespace

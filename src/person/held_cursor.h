@@ -1,5 +1,5 @@
-// What a simulated person makes of a cursor that the display holds: it shows where the hand was at
-// an earlier moment, and what the hand has done since is only felt.
+// How a simulated person interprets a cursor that the display holds: it shows where the hand was at
+// an earlier moment, and the hand's motion since then is only felt.
 #pragma once
 
 #include <algorithm>

@@ -17,14 +17,14 @@
 namespace dihaptic::person {
 
 struct Learned {
-    /// Of movements in a state of the task. It is recalled in the state of the same name.
+    /// Learned from movements in a state of the task, and recalled in the state of the same name.
     struct InState {
         std::string state;
         RotationMemory rotation;
         GainMemory gain;
         ForceMemory force;
     };
-    /// Of an object. It is recalled for a body of the same name that looks as heavy.
+    /// Learned about an object, and recalled for a body of the same name that looks equally heavy.
     struct OfBody {
         std::string body;
         double looks = 0;  ///< weight that its appearance suggests [N]

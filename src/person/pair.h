@@ -1,4 +1,4 @@
-// Two simulated people who do a task together, one hand each: each sees and feels that hand alone.
+// Two simulated people who do a task together, one hand each: each sees and feels only that hand.
 #pragma once
 
 #include <memory>

@@ -351,7 +351,7 @@ void Person::follow_cues(const Sight& sight) noexcept {
     wait_until_ = begins;
 }
 
-/// Where the hand was felt when the current sight was true.
+/// Where the hand was felt to be at the time that the current sight shows.
 const Vec3& Person::felt_hand() const noexcept {
     return strains_.before(traits_.visual_delay).hand;
 }
@@ -361,7 +361,7 @@ const Vec3& Person::hand(const Sight& sight) const noexcept {
     return cursor_.is_held() ? felt_hand() : sight.hand;
 }
 
-/// Where the hand was felt at the moment that the display shows.
+/// Where the hand was felt to be at the moment that the display shows.
 const Vec3& Person::felt_where_shown() const noexcept {
     return cursor_.is_held() ? cursor_.shown().felt : felt_hand();
 }

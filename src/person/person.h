@@ -30,7 +30,7 @@ struct Situation {
     const hand::HandSpec& hand;
     double tick;  ///< [s]
     uint64_t seed;
-    size_t participant = 0;  ///< of a task for two: which of them, whose hand the person has
+    size_t participant = 0;  ///< in a task for two: index of the one whose hand the person has
 };
 
 class Person final : public task::SeeingDriver {
@@ -42,9 +42,9 @@ class Person final : public task::SeeingDriver {
     const std::vector<Phase>& phases() const override { return phases_; }
     void restart() override;
 
-    /// What the person has learned, the morning after.
+    /// What the person has learned and retained overnight.
     Learned learned() const;
-    /// Lets the person recall this from the session's beginning on.
+    /// Makes the person recall this from the session's beginning on.
     void recall(Learned before);
 
     const Grip& grip() const { return grip_; }

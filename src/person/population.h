@@ -1,5 +1,5 @@
 // Populations from which simulated people are drawn, and their files: the median and spread of each
-// trait with their source, correlations between traits, and differing groups.
+// trait with their source, correlations between traits, and groups that differ.
 //
 // A person's trait is drawn by its law from a normal number z, which is cut at 2.5. Correlated
 // traits have z = L u, with u independent and R = L L^T the matrix of correlations. Each u comes
@@ -120,7 +120,7 @@ Population population_of(const std::string& file, Objects objects);
 Traits median_person(const Population& population, const std::string& group = "");
 /// Draws person `id` of the population with this seed: always the same, whichever others are drawn.
 Traits draw_person(const Population& population, uint64_t seed, const std::string& id);
-/// The same of one of its groups.
+/// The same, for one of its groups.
 Traits draw_person(const Population& population, uint64_t seed, const std::string& id,
                    const std::string& group);
 

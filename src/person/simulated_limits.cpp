@@ -30,8 +30,8 @@ size_t keys_of(const task::TaskPlan::PlannedState& planned) {
     return keys.size();
 }
 
-/// The task's perturbations, and those that conditions and rounds put in their place, each name
-/// once for which `has` holds.
+/// Perturbations for which `has` holds, each name once, among the task's and those that conditions
+/// and rounds put in their place.
 template <class F>
 std::vector<const task::PerturbationSpec*> perturbations_with(const task::TaskPlan& plan,
                                                               const F& has) {

@@ -48,7 +48,7 @@ struct ChunkHeader1 {
 };
 static_assert(sizeof(ChunkHeader1) == 12);
 
-/// The session that all chunks of the log with this head carry.
+/// The value of `session` in all chunks of the log with this head.
 uint64_t session_of(std::span<const std::byte> head) noexcept;
 /// The checksum of a header, without its checksum, and of its payload.
 uint32_t checksum(const ChunkHeader& header, std::span<const std::byte> payload) noexcept;

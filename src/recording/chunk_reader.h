@@ -26,10 +26,10 @@ struct ChunkPlace {
 struct Chunk {
     enum class Place {
         own,        ///< the next one that exists
-        moved,      ///< the next one that exists, but stored behind later ones
+        moved,      ///< the next one that exists, but stored after later ones
         doubled,    ///< a chunk with its number was read before
         foreign,    ///< it belongs to another session
-        after_end,  ///< it lies behind the end mark
+        after_end,  ///< it lies after the end mark
     };
     uint32_t kind = 0;
     Place place = Place::own;
@@ -60,7 +60,7 @@ class ChunkReader {
     /// that may still be growing; nullopt as long as the chunk is incomplete.
     std::optional<ChunkPlace> following(const ChunkPlace* last);
 
-    /// After the end: number of bytes behind the last whole chunk.
+    /// After the end: number of bytes after the last whole chunk.
     int64_t tail() const { return file_.size() - end_; }
     /// After the end: whether these bytes begin an incompletely written chunk; `bytes` is its
     /// intended size, 0 if unknown.

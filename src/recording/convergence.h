@@ -1,4 +1,4 @@
-// How closely the contact solver answered over a whole session.
+// How well the contact solver converged over a whole session.
 #pragma once
 
 #include <limits>
@@ -12,7 +12,7 @@ namespace dihaptic::recording {
 struct Convergence {
     int ticks = 0;        ///< number of ticks recorded
     int missed = 0;       ///< number of ticks in which the solver missed its tolerance
-    int longest_run = 0;  ///< the most of them in a row
+    int longest_run = 0;  ///< largest number of consecutive ones
     /// Largest Frame::solver_held_residual, and the time of its tick [s]; none: it was not
     /// recorded.
     std::optional<double> held_residual, held_residual_time;

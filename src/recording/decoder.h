@@ -1,4 +1,4 @@
-// Reads frames by the schema that their log carries, so that recordings outlive the program that
+// Reads frames according to the schema in their log, so that recordings outlive the program that
 // made them. A field that is only in the log is skipped; a field that is only in Frame keeps its
 // default.
 #pragma once
@@ -36,7 +36,7 @@ class FrameDecoder {
     /// A list of a Frame, whatever the type of its items.
     struct Target {
         size_t at = 0;      ///< offset of the list in the Frame
-        size_t which = 0;   ///< offset of the list of changed indices, of lists that have one
+        size_t which = 0;   ///< offset of the list of changed indices, for lists that have one
         size_t stride = 0;  ///< bytes from one item to the next
         size_t (*size)(const std::byte* list) = nullptr;
         /// Resizes the list, and returns its first item.

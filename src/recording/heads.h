@@ -13,7 +13,7 @@ namespace dihaptic::recording {
 /// The head's pose in a picture.
 struct HeadSeen {
     int64_t tick = 0;           ///< the tick shown
-    double time = 0;            ///< predicted session time of its light [s]
+    double time = 0;            ///< predicted session time when its light appears [s]
     std::array<double, 3> p{};  ///< between the eyes, in the world [m]
     std::array<double, 4> R{};  ///< quaternion, w first: in a headset x is right, y up, z backward
                                 ///< of the head; for a screen, of the tracked body

@@ -18,8 +18,8 @@ class LogBrowser {
     /// Times of the first and of the last frame [s].
     double begin() const { return begin_; }
     double end() const { return end_; }
-    /// The newest frame at a time [s], or the first frame before there is any. Valid until the next
-    /// call.
+    /// The newest frame at a time [s]; the first frame, if the time is before it. Valid until the
+    /// next call.
     const frame::Frame& at(double time);
     /// The frame after the last one returned; null at the end.
     const frame::Frame* next();

@@ -23,10 +23,10 @@ struct Gap {
 /// Data in a log that are not the next part of its session.
 struct Stray {
     enum class Kind {
-        moved,      ///< chunks behind later ones; used in the order of their numbers
+        moved,      ///< chunks after later ones; used in the order of their numbers
         doubled,    ///< chunks that were read before; left out
         foreign,    ///< chunks of another session; left out
-        after_end,  ///< bytes behind the end mark; left out
+        after_end,  ///< bytes after the end mark; left out
         no_chunk,   ///< bytes between two consecutive chunks; left out
         no_frame,   ///< chunks with bytes that are not a frame; used up to those bytes
         backwards,  ///< frames no later than the previous one; left out

@@ -37,7 +37,7 @@ struct MovedBy {
     std::string simulated() const { return !known() ? "" : person() ? "no" : "yes"; }
     /// Name of the mover, e.g. "script"; "" if not recorded.
     std::string name() const { return known() ? std::string(enum_name(mover)) : ""; }
-    /// Says it in a sentence.
+    /// Describes the mover in a sentence.
     std::string describe() const;
 
     template <class Visitor>

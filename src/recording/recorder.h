@@ -18,7 +18,7 @@ namespace dihaptic::recording {
 enum class Writing { in_place, in_thread };
 
 /// A chunk is packed and passed to the operating system this often, so a crash can lose little more
-/// than that. Equally often a frame has all bodies, changed or not, so that the data after a
+/// than that. At the same interval a frame has all bodies, changed or not, so that the data after a
 /// damaged chunk can be read.
 constexpr Time kFlushEvery = std::chrono::milliseconds(50);
 /// How often the thread empties the ring.
@@ -62,7 +62,7 @@ class Recorder {
     std::exception_ptr error_;
     std::exception_ptr sync_error_;
     std::thread thread_;
-    std::mutex done_mutex_;  // for the waiting of the synchronising thread
+    std::mutex done_mutex_;  // on which the synchronising thread waits
     std::condition_variable done_condition_;
     std::thread sync_thread_;
 };

@@ -1,5 +1,5 @@
 // The schema of a log has a line for each field of its frames, in the order of their bytes, with
-// name, type and unit. It is in the head of the log, and decoder.h reads the log by it.
+// name, type and unit. It is in the head of the log, and decoder.h reads the log according to it.
 //
 //   grip_force float64 N
 //   fingers uint16 count, then each:

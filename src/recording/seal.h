@@ -1,6 +1,7 @@
 // Detects whether the tables of a session, its session.nwb, or its description in session.yaml
 // changed after it ended. Each chunk of raw.log has a checksum, but a rehearsal keeps no log, and
-// who analyses a session often has no log either. The files are therefore sealed in session.yaml:
+// those who analyse a session often have no log either. The files are therefore sealed in
+// session.yaml:
 //
 //   tables:                        for each table, its rows and a checksum of its bytes
 //     - { file: trials.csv, rows: 24, checksum: 0a1b2c3d }

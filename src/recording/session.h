@@ -43,7 +43,7 @@ struct Participant {
     }
 };
 
-/// What a study asks of its participants beside age, sex and handedness.
+/// What a study asks of its participants besides age, sex and handedness.
 struct Fact {
     std::string name;
     std::string value;

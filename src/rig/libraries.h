@@ -1,6 +1,7 @@
 // Libraries named in a rig. Loading them may have any effect, so they are
 // loaded only if the operator named the rig, or allows the library (base/allowed_libraries.h). A
-// rig that an experiment names, or that lies in a session, may be a stranger's. docs/adr/0023.
+// rig that an experiment names, or that is in a session's folder, may be a stranger's
+// (docs/adr/0023).
 #pragma once
 
 #include "rig/rig.h"

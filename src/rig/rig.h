@@ -91,7 +91,7 @@ struct Rig {
     std::optional<Wall> wall;
     std::vector<outlets::OutletConfig> outlets;
     std::string
-        calibration;  ///< path of the calibration file, from the rig file's folder; empty: none
+        calibration;  ///< the calibration file's path, from the rig file's folder; empty: none
     std::vector<JigPoint> jig;
     std::vector<display::Display> displays;
     std::optional<outlets::TrackedHead> head;
@@ -145,11 +145,11 @@ Rig read_rig_to_register(const std::string& file, Diagnostics& diagnostics,
 Rig read_rig_to_calibrate(const std::string& file, Diagnostics& diagnostics,
                           NamedBy named_by = NamedBy::a_file);
 
-/// Path of a rig's calibration: the file named in the rig, or else one beside the rig file.
+/// Path of a rig's calibration: the file named in the rig, or else one next to the rig file.
 std::string calibration_file(const Rig& rig, const std::string& rig_file);
 /// Throws Error if a calibration could not be stored in `file`; called before samples are taken.
 void check_calibration_file(const std::string& rig_file, const std::string& file);
-/// Writes a calibration, and a picture of its residuals beside it; returns the picture's name.
+/// Writes a calibration, and a picture of its residuals next to it; returns the picture's name.
 /// Throws Error when they cannot be written.
 std::string store_calibration(const Rig& rig, const CalibrationResult& result,
                               const std::string& file);
@@ -196,7 +196,7 @@ std::vector<devices::DeviceClaim> claim_devices(const Rig& rig,
 std::vector<std::string> held_fingers(const Rig& rig);
 /// The display of that name; if it is empty, the only one. Throws Error when there is none.
 const display::Display& display_of(const Rig& rig, const std::string& name);
-/// Path of a display's registration: the file named in the rig, or else one beside the rig file.
+/// Path of a display's registration: the file named in the rig, or else one next to the rig file.
 std::string registration_file(const display::Display& display, const std::string& rig_file);
 /// The line in a rig file with the name of a display's registration.
 std::string registration_line(const std::string& rig_file, const std::string& registration_file);

@@ -56,8 +56,8 @@ struct AskedRow {
     }
 };
 
-/// The measures of every attempt, in SI units; but reaches are in the units of their columns, so
-/// that every reader of the table computes the same results from them, to the last bit.
+/// The measures of every attempt, in SI units, except for reaches, which are in the units of their
+/// columns, so that every reader of the table computes the same results from them, to the last bit.
 struct TrialMeasures {
     int attempt = 0;  ///< 0: the session has no task
     std::string outcome;
@@ -87,7 +87,7 @@ struct TrialMeasures {
           "length that would have led to the target, from the handle's first displayed position");
     }
 };
-/// The outcome of an attempt that no outcome ended.
+/// The outcome of an attempt that ended without an outcome of its own.
 inline constexpr const char* kInterrupted = "interrupted";
 
 /// An attempt at a task's trial. Variables, levels, answers and the task's custom measures have

@@ -53,8 +53,9 @@ Sides sides_of(const Mesh& mesh) {
     return out;
 }
 
-/// The pairs of faces that bound the same wedge of solid at an edge of more than two faces: each
-/// face that starts a wedge, in order of angle about the edge, with the first that ends one.
+/// The pairs of faces that bound the same wedge of solid at an edge of more than two faces: in
+/// order of angle about the edge, each face that starts a wedge, with the first unpaired one that
+/// ends one.
 std::vector<std::pair<EdgeSide, EdgeSide>> wedges(const Mesh& mesh, const Edge& edge,
                                                   std::vector<EdgeSide> sides) {
     const Vec3 along = (corner(mesh, edge.second) - corner(mesh, edge.first)).normalized();

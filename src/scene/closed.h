@@ -1,7 +1,7 @@
-// Turns meshes from practice into solids. Files often give each triangle its own
-// corners, rounded separately; close gaps between differently subdivided faces with triangles
-// without area; end edges in the middle of others; or contain overlapping parts. Meshes that can be
-// felt as drawn are mended here; all others are refused.
+// Turns real-world meshes into solids. Files often give each triangle its own corners, rounded
+// separately; close gaps between differently subdivided faces with triangles without area; end
+// edges in the middle of others; or contain overlapping parts. Meshes that can be felt as drawn are
+// mended here; all others are refused.
 #pragma once
 
 #include <algorithm>

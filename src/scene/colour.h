@@ -9,7 +9,7 @@
 
 namespace dihaptic::scene {
 
-/// 65536 red + 256 green + blue of "#rrggbb"; none for any other text.
+/// 65536 red + 256 green + blue of "#rrggbb"; nullopt for any other text.
 std::optional<int32_t> colour_of(const std::string& text);
 
 /// The same, but -1 for an empty text, and for a text that is not a colour, with a report to

@@ -34,7 +34,7 @@ struct JointKindRow {
     /// For docs/files/joints.md: the free motion, and the coordinate.
     const char* leaves_free;
     const char* coordinate_is = "";
-    bool yields = false;  ///< it opposes all motion by springs and dampers, and prevents none
+    bool yields = false;  ///< it opposes all motion with springs and dampers, and prevents none
 
     constexpr bool has_coordinate() const { return coordinate != Coordinate::none; }
     /// Whether the coordinate is an angle about the axis or a displacement along it.

@@ -11,10 +11,10 @@
 namespace dihaptic::scene {
 
 /// Path of the MTL file that the OBJ mesh in `file` names (`text` is the mesh's content); "" if it
-/// names none. The file lies beside the mesh, under the name in the mesh or, as
-/// in sessions, under the mesh's own name.
+/// names none. The file is in the mesh's folder, under the name in the mesh or, as in sessions,
+/// under the mesh's own name.
 std::string materials_of(const std::string& file, std::string_view text);
-/// The name for a copy of an MTL file beside the copy of its mesh.
+/// The name for a copy of an MTL file next to the copy of its mesh.
 std::string materials_beside(const std::string& file);
 
 struct Materials {

@@ -34,8 +34,8 @@ std::string format_of(const std::string& file) {
     return "";
 }
 
-/// The parts that an OBJ file lacks for a solid, which the reader does not report; "" if none are
-/// missing, or for another format.
+/// What an OBJ file lacks for a solid, which the reader does not report; "" if nothing is missing,
+/// or for another format.
 std::string missing_in(const std::string& bytes, const std::string& format) {
     if (format != "obj") return "";
     std::istringstream in(bytes);
@@ -155,8 +155,8 @@ std::optional<MeshParts> mesh_of(const std::string& bytes, double unit,
     return out;
 }
 
-/// Gives vertices without a colour the colour of their material; the mesh has none if no vertex
-/// gets one.
+/// Gives vertices without a colour the colour of their material; the mesh has no colours if no
+/// vertex gets one.
 void add_materials(MeshParts& read) {
     Mesh& mesh = read.mesh;
     const Materials read_ones =

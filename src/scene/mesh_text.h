@@ -1,6 +1,6 @@
-// Cleans up mesh files from practice, with byte order marks, old line ends, capitals,
-// comments after numbers, spare bytes, or no count. The mesh reader handles none of
-// these, and does not report them.
+// Cleans up real-world mesh files, with byte order marks, old line ends, capitals, comments after
+// numbers, spare bytes, or no count. The mesh reader handles none of these, and does not report
+// them.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Largest length of a name of a body, finger or joint [bytes]: names become parts of paths in a
+// Greatest length of a name of a body, finger or joint [bytes]: names become parts of paths in a
 // session's recording.
 #pragma once
 

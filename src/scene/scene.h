@@ -51,7 +51,7 @@ struct Body {
     double torsion_radius = 0;  ///< a contact carries a moment about its normal up to friction x
                                 ///< radius x normal force; for a pair, the larger radius counts [m]
     Axes moves =
-        Axes::xyz;  ///< world axes along which it may move: z is a bead on an upright string
+        Axes::xyz;  ///< world axes along which it may move: z alone is a bead on an upright string
     Axes turns = Axes::xyz;  ///< world axes about which it may turn: none, one, or xyz
     Surface surface;
     std::string group;   ///< bodies of the same group do not touch each other; empty: no group
@@ -231,7 +231,7 @@ std::vector<std::string> finger_names(const Scene& scene);
 /// The recorded joints, which tasks can use; complete() puts them first.
 std::span<const Joint> recorded_joints(const Scene& scene);
 
-/// The file's entry for a pair of bodies or fingers, in any order, or null.
+/// The file's entry for a pair of bodies or fingers, in either order, or null.
 const Pair* find_pair(const Scene& scene, const std::string& a, const std::string& b);
 
 /// Coefficient of friction between two bodies or fingers: the file's value for the pair, or else

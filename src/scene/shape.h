@@ -28,7 +28,7 @@ constexpr auto enum_names(MeshUnit) {
 /// Length of one such unit [m].
 double metres(MeshUnit unit);
 
-/// Limits of lengths, radii and meshes; beyond them contacts vanish in rounding [m].
+/// Limits of lengths, radii and meshes; beyond them contacts are lost to rounding [m].
 constexpr double kSmallest = 1e-4;
 constexpr double kLargest = 100;
 /// Limit of rotations; beyond it a unit is wrong [rad].

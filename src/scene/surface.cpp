@@ -16,7 +16,7 @@ double larger(const std::optional<double>& a, const std::optional<double>& b) {
     return std::max(a.value_or(0), b.value_or(0));
 }
 
-/// Springs in series, each with a damper beside it: f = k x + c dx/dt for slow motion.
+/// Springs in series, each with a damper in parallel: f = k x + c dx/dt for slow motion.
 void in_series(const Surface& a, const Surface& b, PairSurface& out) {
     double give = 0;  // 1 / k
     double lag = 0;   // c / k^2

@@ -146,9 +146,9 @@ struct RealLoop {
         timing.overruns += pace.overruns;
     }
 
-    /// Time is measured here, because the devices' period is their own, although near the servo's.
-    /// An overrun is a tick that took longer than a period, or one that the devices called more
-    /// than half a period late: either way the last force was held longer than intended.
+    /// Time is measured here, because the devices' period is their own, although close to the
+    /// servo's. An overrun is a tick that took longer than a period, or one that the devices called
+    /// more than half a period late: either way the last force was held longer than intended.
     void run_by_devices(Time first, Time last) {
         Time due = first;
         bool begun = false;

@@ -21,7 +21,7 @@ namespace dihaptic::servo {
 class Watchdog {
   public:
     using Clock = std::chrono::steady_clock;
-    /// A tick that has not ended for this time after the stop never will.
+    /// A tick that has not ended this long after the stop is considered stuck.
     static constexpr Time kStuck = std::chrono::seconds(2);
 
     /// Calls `stop` once when no tick has ended for `limit`, and `stuck` once when none has ended

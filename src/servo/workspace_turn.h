@@ -3,7 +3,7 @@
 // through C,
 //
 //     p_WH = c + T (p_0H - c)               T: rotation by a about z
-//     v_WH = T v_0H + a' z x (p_WH - c)     and so for orientation and angular velocity
+//     v_WH = T v_0H + a' z x (p_WH - c) and likewise for orientation and angular velocity
 //     f_0H = T^-1 f_WH
 //
 // where 0 denotes the world without the turn. All checks in axes fixed to the devices

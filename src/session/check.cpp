@@ -81,7 +81,7 @@ Checked check_file(const std::string& file, Diagnostics& diagnostics, const std:
         const task::FileKind kind = task::kind_of(file);
         switch (kind) {
             case task::FileKind::rig: {
-                // an experiment's plan reads them over those of its scene
+                // only checks the settings: an experiment's plan reads them over those of its scene
                 const rig::Rig checked = rig::read_rig(file, diagnostics);
                 frame::Settings settings;
                 read_given_fields(settings, checked.settings, diagnostics);

@@ -68,7 +68,7 @@ const FileSchema& file_schema(const std::string& name) {
 
 namespace {
 
-/// The path as editors read it: they take a blank for its end.
+/// The path as editors read it: to them, a blank ends it.
 std::string as_address(const std::string& path) {
     constexpr std::string_view kPlain = "/._~-";
     const auto is_plain = [&](char c) {

@@ -100,7 +100,7 @@ class Freezer {
         return name;
     }
 
-    /// Freezes the materials that give a mesh its colours, beside the mesh's copy, which has this
+    /// Freezes the materials that give a mesh its colours, next to the mesh's copy, which has this
     /// name.
     void freeze_materials(const scene::Mesh* mesh, const std::string& name) {
         if (mesh == nullptr || mesh->colours.empty() || mesh->materials.empty()) return;

@@ -5,8 +5,8 @@
 
 namespace dihaptic::session {
 
-/// Warns of loads that shake or throw a handle, drive a hand on, exceed a device's or the safety
-/// limit, or make a body diverge. A torque on a handle that renders none is an error.
+/// Warns of loads that shake or throw a handle, keep driving a hand, exceed a device's or the
+/// safety limit, or make a body diverge. A torque on a handle that renders none is an error.
 void check_loads(const Plan& plan, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::session

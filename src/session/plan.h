@@ -87,8 +87,8 @@ bool is_for_two(const Plan& plan);
 std::string partner_of(const std::string& id);
 
 /// Puts a simulated person in place of the plan's hand, and returns the person, who belongs to the
-/// plan. The plan must have trials. `partner`: of a task for two; without one, somebody with the
-/// same traits, who differs in what happens by chance.
+/// plan. The plan must have trials. `partner`: in a task for two; if unset, somebody with the same
+/// traits, who differs only by chance.
 std::shared_ptr<person::Person> sit_down(Plan& plan, const person::Traits& traits,
                                          const std::optional<person::Traits>& partner = {});
 

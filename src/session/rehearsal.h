@@ -12,9 +12,9 @@
 namespace dihaptic::session {
 
 inline constexpr int kMostPeople = 9999;
-/// First columns of the tables that `dihaptic collect` makes: they say which person a row is of.
+/// First columns of the tables that `dihaptic collect` makes: they identify the person of a row.
 inline constexpr std::array kCollectedColumns = {"seed", "group", "id"};
-/// Those that a study's tables have too.
+/// Further columns of a study's tables.
 inline constexpr std::array kStudyColumns = {"study_number", "study_session", "study_condition",
                                              "study_version"};
 

@@ -64,7 +64,7 @@ class Look {
                    fmt::format("is {}: not all trials were done", enum_name(info_.state)));
     }
 
-    /// A simulated person's traits are an input like others, with a checksum.
+    /// A simulated person's traits are an input like any other, with a checksum.
     void check_person() {
         if (!is_input("person.yaml"))
             return refuse("session.yaml", "inputs",

@@ -28,7 +28,7 @@ Rest rest_of(const std::string& session, Seat seat, const std::function<void(dou
 
 /// Keeps other programs from resuming this session, so that the remaining trials are done only
 /// once. Throws Error when another program is resuming it, or when a session has already resumed
-/// it: one named in its folder, or one beside it or in the folder `out`.
+/// it: one named in its folder, or one next to it or in the folder `out`.
 recording::SessionLock claim(const std::string& session, const std::string& out);
 /// Notes in a session's folder the session that resumes it. Throws Error when this fails.
 void note_successor(const std::string& session, const std::string& next);

@@ -50,8 +50,8 @@ Node inputs_of(const std::string& experiment) {
     return out;
 }
 
-/// What was recorded in a folder. Throws Error when it is not a session of this participant, since
-/// one that is passed over would be done again.
+/// The recording in a folder. Throws Error when it is not a session of this participant, since a
+/// session that is skipped would be run again.
 study::Visit visit_in(const std::string& path, const study::StudyFile& study, size_t session,
                       const study::Member& member, std::string& resumes) {
     const auto folder = recording::SessionFolder::open_tables(path);
@@ -120,7 +120,7 @@ std::vector<study::Visit> visits_in(const study::StudyFile& study, size_t sessio
     return out;
 }
 
-/// Warns of experiments whose names tell a concealed group to whoever sees a recording.
+/// Warns of experiments whose names reveal a concealed group to anyone who sees a recording.
 void check_concealed(const study::StudyFile& study, Diagnostics& diagnostics) {
     for (const study::SessionSpec& session : study.sessions) {
         if (!study.allocation.concealed || session.experiment.find("{group}") == std::string::npos)
@@ -132,7 +132,7 @@ void check_concealed(const study::StudyFile& study, Diagnostics& diagnostics) {
     }
 }
 
-/// Warns of groups whose people do not meet every order of the conditions equally often.
+/// Warns of groups in which the orders of the conditions do not occur equally often.
 void check_balance(const study::StudyFile& study, Diagnostics& diagnostics) {
     const int orders = study.orders();
     for (const study::Group& group : study.groups) {

@@ -2,7 +2,7 @@
 // that affect a result.
 //
 // The study's folder has the study's file, participants.yaml, log.csv, versions.yaml, and the
-// recordings in sessions/PARTICIPANT/SESSION; its folder rehearsal/ has the same of simulated
+// recordings in sessions/PARTICIPANT/SESSION; its folder rehearsal/ has the same for simulated
 // people.
 #pragma once
 
@@ -19,14 +19,15 @@ namespace dihaptic::session {
 /// The folder with a participant's recordings of a session.
 std::string session_folder(const study::StudyFile& study, const study::Member& member,
                            size_t session);
-/// What a session's record says of its place in the study.
+/// What a session's record says about its place in the study.
 recording::InStudy place_in(const study::StudyFile& study, const study::Member& member,
                             size_t session);
-/// What was recorded of a participant, by session, each in the order of its start. Throws Error
-/// when a recording cannot be read or is another participant's.
+/// The recordings of a participant, by session, each in the order of its start. Throws Error when a
+/// recording cannot be read or is another participant's.
 std::vector<study::Visit> visits_of(const study::StudyFile& study, const study::Member& member);
 /// Recovers the recordings whose programs were killed, so that it is known how far they came;
-/// `tell` is called before each. Returns whether there were any. Throws Error when one cannot be.
+/// `tell` is called before each. Returns whether there were any. Throws Error when one cannot be
+/// recovered.
 bool recover_killed(const std::vector<study::Visit>& visits,
                     const std::function<void(const std::string& folder)>& tell);
 
@@ -71,9 +72,10 @@ StudyVersion present_version(const study::StudyFile& study);
 std::vector<StudyVersion> versions_of(const study::StudyFile& study);
 /// Adds a version to versions.yaml. Returns its number.
 int freeze(const study::StudyFile& study, StudyVersion version, const std::string& why);
-/// Where two versions differ first, in words; empty if they are the same.
+/// The first difference between two versions, in words; empty if they are the same.
 std::string changed(const StudyVersion& frozen, const StudyVersion& now);
-/// Throws Error when the files are not those of the study's last version, or when that is lost.
+/// Throws Error when the files are not those of the study's last version, or when that version is
+/// lost.
 void check_unchanged(const study::StudyFile& study, const StudyVersion& now);
 
 }  // namespace dihaptic::session

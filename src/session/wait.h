@@ -20,7 +20,7 @@ class Wait {
     /// Whether the wait is too long and the session must end.
     bool over() const noexcept { return over_; }
     /// Describes the wait and the remedy. `phases`: the session's phases; `in_the_way`: a sentence
-    /// about the finger because of which an object could not be put back.
+    /// about the finger that kept an object from being put back.
     std::string describe(const std::vector<recording::PhaseInfo>& phases,
                          const std::string& in_the_way) const;
 

@@ -1,4 +1,5 @@
-// Mixes sounds into a stream of samples. Each begins a fixed time after its request, to the sample.
+// Mixes sounds into a stream of samples. Each begins a fixed time after its request, accurate to
+// the sample.
 #pragma once
 
 #include <array>

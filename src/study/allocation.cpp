@@ -42,7 +42,7 @@ std::vector<std::string> block_of(const StudyFile& study) {
     return out;
 }
 
-/// The group at the first place of the sequence that nobody holds.
+/// The group at the first free place of the sequence.
 std::string next_in_sequence(const StudyFile& study, const Roster& roster) {
     std::map<std::string, int> seen;
     // long enough for every group's target number, even where it ends within a block
@@ -94,7 +94,7 @@ std::string minimising(const StudyFile& study, const Roster& roster, const Membe
     return from[std::min(i, from.size() - 1)];  // uniform() may round up to its bound
 }
 
-/// The group that is the person's by a fact.
+/// The group to which a fact assigns the person.
 std::string by_fact(const StudyFile& study, const Member& person,
                     const std::vector<std::string>& open) {
     const std::string group = person.fact(study.allocation.fact);
@@ -119,7 +119,7 @@ std::string chosen(const StudyFile& study, const Roster& roster, const Member& p
     return next_in_sequence(study, roster);
 }
 
-/// The smallest number in the group that nobody holds.
+/// The smallest free number in the group.
 int free_number(const Roster& roster, const std::string& group) {
     std::set<int> held;
     for (const Member& member : roster.participants) {

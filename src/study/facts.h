@@ -10,11 +10,11 @@
 namespace dihaptic::study {
 
 inline constexpr std::array<std::string_view, 3> kStandardFacts{"age", "sex", "handedness"};
-/// Columns of participants.csv beside the facts.
+/// Columns of participants.csv besides the facts.
 inline constexpr std::array<std::string_view, 6> kParticipantColumns{
     "id", "group", "number", "added", "version", "withdrawn"};
 
-/// A fact of the study's own; null if it is none.
+/// The study's own fact of this name; null if there is none.
 const FactSpec* spec_of(const StudyFile& study, const std::string& fact);
 /// Whether the study asks for the fact.
 bool is_known(const StudyFile& study, const std::string& fact);

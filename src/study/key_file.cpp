@@ -84,7 +84,7 @@ bool KeyFile::remove(const std::string& participant) {
 }
 
 void KeyFile::write() const {
-    // a new file belongs to its owner alone before it contains a name; replacing it keeps that
+    // a new file is accessible only to its owner before it contains a name; replacing it keeps this
     if (!fs::exists(file_)) {
         const Descriptor made(::open(file_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600));
         if (!made)

@@ -27,7 +27,7 @@ class KeyFile {
   public:
     enum class Missing { is_made, is_refused };
     /// Reads the file. Throws Error if it lies in the study's folder, if others may read it, if it
-    /// is not a key file or, unless a missing one is made, if there is none.
+    /// is not a key file or, unless a missing file is to be made, if it does not exist.
     KeyFile(const StudyFile& study, std::string file, Missing missing);
 
     /// Null if the participant has no name in it.

@@ -60,7 +60,7 @@ std::string in_small(std::string text) {
     return text;
 }
 
-/// Throws Error when an identifier cannot be one, or when an identifier or a place is there twice.
+/// Throws Error when an identifier is not valid, or when an identifier or a place occurs twice.
 void check_places(const Roster& roster, const std::string& file) {
     std::set<std::string> ids;
     std::set<std::pair<std::string, int>> places;
@@ -79,7 +79,7 @@ void check_places(const Roster& roster, const std::string& file) {
     }
 }
 
-/// The facts that the study uses: its own ones, and those on which a person's part depends.
+/// The facts that the study uses: its own, and those on which inclusion or the group depends.
 std::vector<std::string> needed_facts(const StudyFile& study) {
     std::vector<std::string> out;
     const auto add = [&](const std::string& name) {

@@ -1,5 +1,5 @@
-// The participants of a study, in participants.yaml beside the study's file, and the log of
-// everything that was done to them. Identifiers only: a list of names belongs elsewhere.
+// The participants of a study, in participants.yaml next to the study's file, and the log of every
+// action that concerns them. Identifiers only: a list of names belongs elsewhere.
 #pragma once
 
 #include <string>
@@ -61,26 +61,26 @@ struct Roster {
 };
 
 /// The study's participants; none if there is no file. Throws Error when the file is damaged, is
-/// another study's, names a group that the study lacks, or has a participant or a place twice.
+/// another study's, names a group that the study lacks, or contains a participant or a place twice.
 Roster read_roster(const StudyFile& study);
 void write_roster(const StudyFile& study, Roster roster);
 
-/// Checks an identifier and the facts of a person. Returns why the person cannot take part, which
-/// is empty if nothing speaks against it. Throws Error for an identifier or a value that cannot be
-/// used, and for a fact that is missing.
+/// Checks an identifier and the facts of a person. Returns the reasons why the person cannot take
+/// part; empty if there are none. Throws Error for an identifier or a value that cannot be used,
+/// and for a fact that is missing.
 std::vector<std::string> reasons_against(const StudyFile& study, const Member& person);
 
 /// Throws Error unless the text is an identifier: letters and digits, with a digit, so that it is
-/// no name.
+/// not a name.
 void check_identifier(const std::string& id);
 
-/// Adds a line to log.csv in the study's folder, with the time. It comes before what it tells of,
-/// so that nothing happens that the log cannot tell. Throws Error when it cannot be written.
+/// Adds a line to log.csv in the study's folder, with the time. Call it before the action, so that
+/// nothing happens that is not in the log. Throws Error when it cannot be written.
 void log(const StudyFile& study, const std::string& action, const std::string& participant,
          const std::string& detail);
 
-/// Keeps other programs from changing the study's participants. Waits for one that does, and throws
-/// Error after ten seconds.
+/// Keeps other programs from changing the study's participants. Waits for a program that is
+/// changing them, and throws Error after ten seconds.
 class StudyLock {
   public:
     explicit StudyLock(const StudyFile& study);

@@ -29,7 +29,7 @@ double share_of(const Visit& visit) {
                              : static_cast<double>(visit.done) / static_cast<double>(visit.trials);
 }
 
-/// Reasons of time against beginning a session now.
+/// Adds the reason if it is too early or too late to begin a session now.
 void check_gap(const SessionSpec& session, const Visit& before, double now, Next& next) {
     const double gap = (now - before.started) / 3600;
     if (session.least_gap && gap < *session.least_gap)

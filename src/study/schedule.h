@@ -38,8 +38,8 @@ double seconds_of(const std::string& iso);
 /// of its trials are done as the study's `resuming` asks for. Null: none.
 const Visit* counted(const StudyFile& study, const std::vector<Visit>& visits, size_t session);
 
-/// A seed from words, so that each participant's sessions have their own and keep it: 1 plus their
-/// CRC-32.
+/// A seed from words, with which each participant's sessions keep seeds of their own: 1 plus the
+/// words' CRC-32.
 uint64_t seed_of(const std::string& words);
 
 /// What comes next, by the study's rules; `visits` in the order of their start. `now`: [s].

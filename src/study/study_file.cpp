@@ -58,8 +58,8 @@ class Checker {
         diagnostics_.error(place, key, what, remedy);
     }
 
-    /// Reports a name that is empty, has other characters than letters, digits and `others`, or is
-    /// there twice.
+    /// Reports a name that is empty, has characters other than letters, digits and `others`, or
+    /// occurs twice.
     void check_name(const Place& place, const char* key, const std::string& name,
                     const char* others, std::set<std::string>& names) {
         if (!is_word(name, others)) {
@@ -113,7 +113,7 @@ class Checker {
         }
     }
 
-    /// With groups by a fact, its values are the names of the groups.
+    /// If a fact determines the groups, its values are the names of the groups.
     void check_group_fact() {
         const Allocation& a = study_.allocation;
         const bool by_fact = a.method == Method::fact;

@@ -36,7 +36,7 @@ constexpr auto enum_names(Method) {
 /// How the next participant's group is chosen (allocation.h).
 struct Allocation {
     Method method = Method::in_turn;
-    int block = 0;                  ///< people per block; 0: twice the smallest
+    int block = 0;                  ///< people per block; 0: twice the smallest block
     std::vector<std::string> over;  ///< facts that minimisation balances
     std::string fact;               ///< whose value is the name of the group
     double chance = 0.8;            ///< that minimisation follows the balance
@@ -197,22 +197,22 @@ struct StudyFile {
 
     int people() const;  ///< target number of participants
     const Group& group(const std::string& name) const;
-    /// Number of orders of the conditions that are to come up equally often; 0: the order does not
+    /// Number of orders of the conditions that should occur equally often; 0: the order does not
     /// depend on the participant's number.
     int orders() const;
     /// The conditions in the order of a participant, by the number in the group, from 1.
     std::vector<std::string> conditions_of(const std::string& group, int number) const;
     /// Path of the experiment of session `index`.
     std::string experiment_of(size_t index, const std::string& group, int number) const;
-    /// All experiments that some participant may meet in session `index`: the path of each, by its
+    /// All experiments that a participant may have in session `index`: the path of each, by its
     /// name in the study's file with placeholders replaced.
     std::map<std::string, std::string> experiments_of(size_t index) const;
-    /// The name of the experiment of session `index` there.
+    /// The name of the experiment of session `index`, as in experiments_of().
     std::string experiment_name(size_t index, const std::string& group, int number) const;
     /// Name of the session's condition; empty without conditions.
     std::string condition_of(size_t index, const std::string& group, int number) const;
-    /// The code that stands for a group while groups are concealed: "arm 3f2a". It depends on the
-    /// seed and the group's name alone, whichever other groups there are.
+    /// The code that stands for a group while groups are concealed: "arm 3f2a". It depends only on
+    /// the seed and the group's name, not on the other groups.
     std::string code_of(const std::string& name) const;
     /// The group's name, or its code while groups are concealed.
     std::string shown_group(const std::string& name) const;

@@ -28,7 +28,7 @@ Axes axes(const Vec3& thumb, const Vec3& index) {
     Axes out;
     out.a = (index - thumb).normalized();
     const Vec3 person(0, -0.85, 0.53), above(0, 0.3, 0.95);
-    // a grip along the forearm has its hand above
+    // if the grip is along the forearm, the hand is above it
     const Vec3& toward = std::abs(out.a.dot(person)) < 0.9 ? person : above;
     out.f = (toward - toward.dot(out.a) * out.a).normalized();
     out.n = out.a.cross(out.f);

@@ -42,7 +42,7 @@ struct Overlays {
     bool joints = false;                    ///< axes, points and springs of joints
     std::span<const Vec3> path;             ///< path of a body, in W [m]
     std::span<const Workspace> workspaces;  ///< workspaces of devices
-    std::optional<PatchLook> patch;         ///< drawn once, whatever the panes
+    std::optional<PatchLook> patch;         ///< drawn once, regardless of the panes
     bool drop_lines = false;                ///< from each proxy down to the table
     bool hand = false;             ///< a hand with the proxies as its thumb and index finger
     std::optional<size_t> picked;  ///< a body marked by a box

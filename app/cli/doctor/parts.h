@@ -1,4 +1,4 @@
-// Checks whether Dihaptic is complete: the programs beside this one, the other projects' programs
+// Checks whether Dihaptic is complete: the programs next to this one, the other projects' programs
 // that it calls, and the shipped files.
 #pragma once
 

@@ -26,7 +26,7 @@ struct Section {
 std::vector<Section> sections();
 
 /// The findings of a section, from a separate process: a driver that hangs or crashes there is a
-/// finding like others.
+/// finding like any other.
 Findings look_from_outside(const Section& section);
 
 /// In that process: writes the findings of the section with this name to standard output, for

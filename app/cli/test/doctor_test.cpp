@@ -108,8 +108,8 @@ TEST(Doctor, KnowsAKernelThatKeepsTimeByItsVersionToo) {
               std::string::npos);
 }
 
-// What Debian's packages of kernels say, by the version string in their /boot/vmlinuz-*. The
-// standard kernel of Debian 13 is built without PREEMPT_RT too, though the source has it.
+// Version strings in /boot/vmlinuz-* of Debian's kernel packages. The standard kernel of Debian 13
+// is also built without PREEMPT_RT, although the source has it.
 TEST(Doctor, TellsDebiansKernelsApart) {
     const GoodMachine machine;
     fs::remove(machine.root() + "/sys/kernel/realtime");
@@ -371,7 +371,7 @@ TEST(Doctor, FindsTheFileSystemOfAFolder) {
     EXPECT_EQ(file_system(kMounts, "/srv/study"), "ext4");
     EXPECT_EQ(file_system(kMounts, "/tmp"), "tmpfs");
     EXPECT_EQ(file_system(kMounts, "/tmpfiles"), "ext4");
-    EXPECT_EQ(file_system(kMounts, "/home/ada/study"), "nfs4");  // it lies over the other one
+    EXPECT_EQ(file_system(kMounts, "/home/ada/study"), "nfs4");  // it is mounted over the other one
     EXPECT_EQ(file_system(kMounts, "/mnt/my disk/study"), "cifs");
     EXPECT_EQ(file_system("", "/tmp"), "");
     EXPECT_EQ(file_system("damaged\n - \n", "/tmp"), "");

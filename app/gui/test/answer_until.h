@@ -1,4 +1,4 @@
-// Waiting for what the window's event loop brings.
+// Waits for events in the window's event loop.
 #pragma once
 
 #include <QCoreApplication>
@@ -9,7 +9,7 @@
 namespace dihaptic::gui {
 
 /// Handles events until `condition` holds, and calls `each_time` between them; false when that
-/// takes over twenty seconds.
+/// takes more than twenty seconds.
 template <class Condition, class Step>
 bool answer_until(const Condition& condition, const Step& each_time) {
     constexpr qint64 kPatience = 20000;  // [ms]

@@ -1,4 +1,4 @@
-// Tests that the window opens devices for a session only, which takes them over.
+// Tests that the window opens devices only for a session, which takes them over.
 #include "loader.h"
 
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@ class LoaderTest : public ::testing::Test {
         loader_.load(wanted);
         answer_until([this] { return opened_ || !problems_.isEmpty(); });
     }
-    /// A rig of real devices whose maker's library is not there.
+    /// A rig of real devices whose maker's library is missing.
     std::string missing() {
         std::string text = "devices:\n";
         for (const char* finger : {"thumb", "index"}) {

@@ -1,4 +1,5 @@
-// Tests what the window's thread, working or hanging, does to the force of a session beside it.
+// Tests what the window's thread, working or hanging, does to the force of a session that runs next
+// to it.
 #include "session_runner.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Tests what the panel of trials shows of attempts, and of what is measured of them a moment later.
+// Tests what the panel of trials shows of attempts, and of their measures a moment later.
 #include "trials_panel.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ class TrialsPanelTest : public ::testing::Test {
         panel_.add(end);
     }
     QTreeWidget& table() const { return *panel_.findChild<QTreeWidget*>(); }
-    /// What a row has in a column, by its name; "hidden" if that is not shown.
+    /// A row's text in the column with this name; "hidden" if the column is not shown.
     std::string text(int row, const char* name) const {
         for (int i = 0; i < table().columnCount(); ++i) {
             if (table().headerItem()->text(i) != name) continue;

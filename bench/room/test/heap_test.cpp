@@ -12,7 +12,7 @@ TEST(HeapBench, AHeapBesideItDoesNotCostTheHandItsExactness) {
     const HeapFigures figures = measure_heap(setup, 20);
     EXPECT_LE(figures.held_residual, 1e-8);
     EXPECT_GT(figures.held_residual, 0);
-    EXPECT_LE(figures.hf_force_n, 0.02);  // as a calm grasp
+    EXPECT_LE(figures.hf_force_n, 0.02);  // like a calm grasp
     EXPECT_GT(figures.ended, 500);
     EXPECT_LE(figures.ended, 1000);
     EXPECT_GT(figures.tick_median_us, 0);

@@ -22,7 +22,7 @@ TEST(PublicTests, ArePassedByTheDefaultSolver) {
 }
 
 TEST(PublicTests, TellThatABlockWasLost) {
-    // pads that nothing presses: all that is held must fall
+    // pads that nothing presses: everything that is held must fall
     const Simulator pressless{"pressless", [](const Trial& trial, int steps, const Watch& watch) {
                                   Trial loose = trial;
                                   for (Trial::Push& push : loose.pushes) push.force_W.x() = 0;

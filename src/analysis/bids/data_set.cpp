@@ -18,7 +18,7 @@
 namespace dihaptic::analysis::bids {
 namespace {
 
-/// Without the remains of a killed export.
+/// Writes the file, and removes the remains of a killed export.
 void write_anew(const std::string& text, const std::string& file) {
     remove_dead_parts(file);
     write_file(text, file);

@@ -40,7 +40,7 @@ struct Attempt {
     size_t row = 0;
 };
 
-/// Attempts of this session alone: trials.csv starts with the attempts of the sessions that it
+/// Attempts of this session only: trials.csv starts with the attempts of the sessions that it
 /// resumes.
 std::vector<Attempt> attempts_of(const rows::TrialFile& trials,
                                  const recording::SessionFolder& session) {
@@ -129,7 +129,7 @@ Json sidecar(const std::vector<Column>& columns, const recording::SessionInfo& i
     return json;
 }
 
-/// A HED label: the row's number, since HED takes equal tags at one time for a fault, and the
+/// A HED label: the row's number, since HED treats equal tags at the same time as an error, and the
 /// letters and digits of a text.
 std::string hed_label(size_t number, const std::string& text) {
     constexpr size_t kLongest = 60;
@@ -145,7 +145,7 @@ std::string hed_label(size_t number, const std::string& text) {
     return out;
 }
 
-/// The HED tags of a row, beside those that the sidecar gives its kind: its label, and the tags
+/// The HED tags of a row, besides those that the sidecar gives its kind: its label, and the tags
 /// that the task's file gives the state, the outcome or the perturbations.
 class HedTags {
   public:

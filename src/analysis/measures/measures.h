@@ -15,7 +15,7 @@
 namespace dihaptic::analysis {
 
 /// Columns of all measures that trials.csv may have in a session with this task: named measures,
-/// the task's custom measures, and unmeasured ones.
+/// the task's custom measures, and the list of unmeasured ones.
 std::vector<Table::Column> measure_columns_of(const task::Task& task);
 
 class MeasureFinder {

@@ -70,7 +70,7 @@ size_t columns_in(const task::MeasureRow& row) {
                       [](const task::MeasureColumn& c) { return c.name != nullptr; }));
 }
 
-/// Leaves out values outside their range of sense.
+/// Leaves out values outside their plausible range.
 void leave_out_nonsense(const task::MeasureRow& row, MeasuredValues& measured) {
     for (size_t i = 0; i < measured.values.size(); ++i) {
         const task::MeasureColumn& column = row.columns[i];
@@ -104,7 +104,7 @@ AttemptMeasures::AttemptMeasures(const Attempt& attempt, const task::Movement& o
 std::string AttemptMeasures::find_movement(const MeasurePhases& phases) {
     if (std::string why = find_run(phases); !why.empty()) return why;
     const std::span<const double> speed = speed_;
-    // a stroke that had begun before the states, or is too small, is passed over
+    // a stroke that had begun before the states, or is too small, is skipped
     bool before = false;
     for (size_t from = 0;;) {
         const Stroke stroke = first_stroke(speed.subspan(from));
@@ -218,7 +218,7 @@ std::string AttemptMeasures::why_missing(const task::MeasureRow& row) const {
     return attempt_.lift == nullptr ? "no lift" : "";
 }
 
-/// Why another value than the first is missing.
+/// Why a value other than the first is missing.
 std::string AttemptMeasures::why_in_part(const task::MeasureRow& row) const {
     return row.needs == task::kInChannel && !in_channel(peak_) ? "no channel acted at peak speed"
                                                                : "";

@@ -19,7 +19,7 @@ struct MotionSample {
     Vec3 v_W;
     Vec3 f_W;        ///< force of the hand on the channel that pushes it [N]
     double grip;     ///< [N]
-    bool continues;  ///< no tick is missing before it, and no pause
+    bool continues;  ///< neither a gap nor a pause precedes it
 };
 
 /// An attempt at a trial.
@@ -65,7 +65,7 @@ class AttemptMeasures {
     bool in_channel(size_t i) const {
         return in_channel() && (attempt_.plan.channel_states >> (run_[i].phase - 1) & 1u) != 0;
     }
-    /// Of the ticks from onset to end in which the channel acts.
+    /// The values in the ticks from onset to end in which the channel acts.
     Values while_in_channel(const Values& of_run) const;
     /// Largest distance from its place at onset that the movement reached; `along`: along the line.
     double extent(bool along) const;
@@ -99,14 +99,14 @@ class AttemptMeasures {
     bool continued_ = false;  // it had begun before its states
     size_t onset_ = 0, peak_ = 0, end_ = 0;
     Vec3 along_W_, left_W_;
-    /// In the run. The speed, by which the movement is found, is that along the line in a channel:
-    /// walls that catch the hand beside their line throw it onto it.
+    /// In the run. In a channel, the speed by which the movement is found is that along the line:
+    /// walls that catch the hand off their line throw it onto the line.
     std::vector<double> speed_, left_, force_, ideal_;
 };
 
 /// The first stroke of a movement: its fastest tick, and the tick before the next stroke begins.
 /// A stroke ends where the speed has fallen by a fifth and rises again by a tenth of the largest
-/// speed; one with less than a quarter of that speed is no stroke yet.
+/// speed; one with less than a quarter of that speed is not yet a stroke.
 struct Stroke {
     size_t peak = 0;
     size_t end = 0;
@@ -114,7 +114,7 @@ struct Stroke {
 Stroke first_stroke(std::span<const double> speed);
 
 /// Where x first turns back, after a change from its first value and before a return that are both
-/// at least a tenth of its range, and 2 mm; else where it is largest by magnitude [m].
+/// at least a tenth of its range, and 2 mm; otherwise where it is largest in magnitude [m].
 size_t first_turn(std::span<const double> x);
 
 /// Spectral arc length of a speed profile (Balasubramanian et al. 2015): over frequencies up to 10

@@ -112,7 +112,7 @@ Error none_ended(const std::string& folder, const std::vector<std::string>& left
     return Error(problems);
 }
 
-/// The sessions in a folder that can be read. Tells why others are left out.
+/// The sessions in a folder that can be read. Reports why others are left out.
 std::vector<SessionData> read_sessions(ReportResult& result, const std::string& folder,
                                        const std::function<void(double)>& progress) {
     std::vector<SessionData> out;

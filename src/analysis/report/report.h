@@ -18,7 +18,7 @@ struct ReportSample {
     std::string title;  ///< of the experiment
     recording::MovedBy moved_by;
     std::string not_measured;  ///< perturbations whose learning has no measure; empty: none
-    std::string contact;       ///< of a single session: how closely the contact solver answered
+    std::string contact;       ///< of a single session: how well the contact solver converged
     Table perturbations;
     std::string note;  ///< of a single session: what was written into note.txt by hand
     std::vector<std::string> folders;  ///< of the sessions

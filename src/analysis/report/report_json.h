@@ -1,5 +1,5 @@
-// Describes to the Python package, which draws the page of a report, what it cannot know from the
-// tables beside it.
+// Tells the Python package, which draws the page of a report, what the tables next to it do not
+// contain.
 #pragma once
 
 #include <string>

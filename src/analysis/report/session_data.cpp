@@ -38,7 +38,7 @@ rows::TrialFile trials_of(const recording::SessionFolder& folder,
     }
 }
 
-/// The recorded procedures do not have it.
+/// Takes them from the task, since the recorded procedures do not have them.
 void note_skipped_reversals(std::vector<ThresholdTrack>& tracks, const task::Task& task) {
     for (ThresholdTrack& track : tracks) {
         for (const task::ProcedureSpec& spec : task.procedures) {

@@ -1,4 +1,4 @@
-// Makes the tables of one session's learning and thresholds: what is fitted to them.
+// Makes the tables of one session's learning and thresholds, and of what is fitted to them.
 #pragma once
 
 #include <optional>

@@ -92,8 +92,7 @@ TEST(Bids, HasTheFilesAndColumnsThatTheSpecificationAsksFor) {
     EXPECT_EQ(json["MotionChannelCount"], columns(rows[0]));
     const auto events =
         lines(testing::read_file(motion + "/sub-S07_task-visuomotorrotation_run-01_events.tsv"));
-    // trials of this session alone, with what was asked for and measured; moments only have what
-    // was asked for
+    // trials of this session only, with their demands and measures; moments have only the demands
     ASSERT_EQ(events.size(), 4u);
     EXPECT_EQ(events[0],
               "onset\tduration\ttrial_type\tvalue\ttrial_num\tattempt\tblock\tcondition\toutcome"

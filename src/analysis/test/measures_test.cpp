@@ -122,7 +122,7 @@ TEST(Measures, SayWhyTheyAreMissing) {
     EXPECT_EQ(gap.take("grip_latency").why, "no load step");
 }
 
-/// A reach whose hand is pushed aside, and swings back beyond the line, by sizes [m].
+/// A reach whose hand is pushed aside, and swings back beyond the line, by these distances [m].
 Reach pushed_aside(double aside, double back) {
     Reach reach;
     for (MotionSample& s : reach.attempt.samples) {
@@ -139,7 +139,7 @@ TEST(Measures, LateralDeviationIsThatOfTheFirstStrokeWhateverTheSwingBack) {
     EXPECT_NEAR(reach.value("largest_lateral_deviation"), 0.05, 1e-5);
     EXPECT_NEAR(reach.value("early_lateral_deviation"),
                 -0.02 * std::sin(2 * std::numbers::pi * (rise() + 0.15) / 0.5), 3e-4);
-    // what shakes by less than 2 mm before is no turn
+    // shaking by less than 2 mm before it is not a turn
     Reach shaking = pushed_aside(0.02, 0.02);
     for (MotionSample& s : shaking.attempt.samples) s.p_W.y() -= 9e-4 * std::sin(300 * s.time);
     EXPECT_NEAR(shaking.value("lateral_deviation"), 0.02, 1.1e-3);
@@ -150,12 +150,13 @@ TEST(Measures, PeakSpeedIsThatOfTheFirstStrokeThoughACorrectionIsFaster) {
     for (size_t i = 2000; i < 2100; ++i) reach.attempt.samples[i].v_W = {0.6, 0, 0};
     EXPECT_NEAR(reach.value("peak_speed"), 0.375, 1e-12);
     EXPECT_NEAR(reach.value("reaction_time"), 0.3 + rise(), kTick);
-    // and that of the reach though the hand twitches before it, by 2 mm
+    // and that of the reach even if the hand twitches by 2 mm before it
     Reach twitching;
     for (size_t i = 1100; i < 1120; ++i) twitching.attempt.samples[i].v_W = {0.2, 0, 0};
     EXPECT_NEAR(twitching.value("peak_speed"), 0.375, 1e-12);
     EXPECT_NEAR(twitching.value("reaction_time"), 0.3 + rise(), kTick);
-    // and that of the reach though the hand still comes back from the last one as its state begins
+    // and that of the reach even if the hand is still returning from the last one as its state
+    // begins
     Reach coming;
     for (size_t i = 1000; i < 1100; ++i)
         coming.attempt.samples[i].v_W = {-0.3 * (1 - (static_cast<double>(i) - 1000) / 100), 0, 0};
@@ -164,7 +165,7 @@ TEST(Measures, PeakSpeedIsThatOfTheFirstStrokeThoughACorrectionIsFaster) {
 }
 
 TEST(Measures, AreLeftOutWhereTheyWouldBeNonsense) {
-    // walls that catch a hand beside their line throw it onto it, faster than it then reaches
+    // walls that catch a hand off their line throw it onto the line, faster than it then reaches
     Reach thrown;
     thrown.attempt.plan.channel = 1;
     thrown.attempt.plan.field_share = kUnmeasured;
@@ -310,7 +311,7 @@ std::string measure_table() {
     return out;
 }
 
-/// What stands before the table is written by hand.
+/// The text before the table is written by hand.
 TEST(Measures, PageHasTheTable) {
     const std::string page = testing::read_file(kPage);
     const std::string title = "\n## Table\n";

@@ -80,7 +80,8 @@ inline Reach spoilt(std::mt19937& random) {
     return reach;
 }
 
-/// Every measure of `count` spoilt reaches is within its range of sense, or says why it is missing.
+/// Every measure of `count` spoilt reaches is within its plausible range, or has a reason why it is
+/// missing.
 inline void expect_sense_of_spoilt(int count) {
     std::mt19937 random(1);
     int measured = 0;

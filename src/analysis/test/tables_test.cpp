@@ -1,4 +1,4 @@
-// docs/tables.md says of the columns of a session's tables what the code says of them.
+// Tests that docs/tables.md describes the columns of a session's tables as the code does.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -85,7 +85,7 @@ std::string tables() {
                people.measures.columns);
 }
 
-/// What stands before the tables is written by hand.
+/// The text before the tables is written by hand.
 TEST(Tables, AreTheReferences) {
     const std::string page = testing::read_file(kFile);
     const std::string made = page.substr(0, page.find("\n## ")) + tables();

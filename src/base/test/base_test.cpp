@@ -77,7 +77,7 @@ TEST(Ring, RefusesWhatDoesNotFitAndKeepsTheRest) {
     EXPECT_FALSE(ring.pop(out));
 }
 
-/// Keys, for instance: a ring that was full goes on as before.
+/// A ring that was full, e.g. of keys, goes on as before.
 TEST(ValueRing, RefusesWhatDoesNotFitAndGoesOn) {
     ValueRing<char> ring(64);
     int held = 0;

@@ -1,4 +1,5 @@
-// Tests what children are given, and that they are waited for. The shell stands in for them.
+// Tests what children are given, and that the program waits for them. The shell serves as the
+// child.
 #include "base/child.h"
 
 #include <fcntl.h>
@@ -24,7 +25,7 @@ Launch shell(const std::string& script) {
     return {"sh", {"-c", script}, {kNothing, kNothing, kNothing}};
 }
 
-/// What the shell writes; `files` follow its first three.
+/// The shell's output; `files` follow its first three.
 std::string said(const std::string& script, const std::vector<int>& files = {}, short flags = 0) {
     const Descriptor out(memfd_create("said", MFD_CLOEXEC));
     Launch launch = shell(script);

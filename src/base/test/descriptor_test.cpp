@@ -52,7 +52,7 @@ TEST(Descriptor, ClosesOnceAndLeavesErrnoAlone) {
     file.close();
     EXPECT_FALSE(file);
     const Descriptor next(opened());
-    EXPECT_EQ(next.get(), number);  // the kernel gives the lowest that is free
+    EXPECT_EQ(next.get(), number);  // the kernel gives the lowest free number
     file.close();
     EXPECT_TRUE(is_open(number));
 

@@ -283,7 +283,7 @@ TEST(Node, RefusesAliasesWithoutEnd) {
 
 TEST(Node, RefusesWhatIsNestedTooDeeply) {
     EXPECT_EQ(refusal_of(std::string(32, '[') + std::string(32, ']')), "nothing");
-    // brackets that nothing closes, and levels that an alias brings with it
+    // brackets that are never closed, and levels inside an alias
     const std::string half = std::string(17, '[') + "x" + std::string(17, ']');
     const std::string twice =
         "a: &a " + half + "\nb: " + std::string(17, '[') + "*a" + std::string(17, ']') + "\n";
@@ -314,7 +314,7 @@ TEST(Node, RefusesASecondDocument) {
 }
 
 TEST(Node, RefusesAStrayComma) {
-    EXPECT_THROW(parse_yaml(",", "comma.yaml"), Error);  // such text was once read for ever
+    EXPECT_THROW(parse_yaml(",", "comma.yaml"), Error);  // reading this once never ended
     EXPECT_THROW(parse_yaml("{ a: 1 }, { b: 2 }", "comma.yaml"), Error);
     EXPECT_EQ(parse_yaml("", "empty.yaml").kind, Node::Kind::null);
 }

@@ -1,4 +1,4 @@
-// Tests that numbers are read and written alike, and which words are none.
+// Tests that written numbers are read back unchanged, and which words are not numbers.
 #include "base/number.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Tests that output goes to no other place, whatever exists under the names of files.
+// Tests that output goes nowhere else, whatever already exists under the names of its files.
 #include "base/output.h"
 #include "base/number.h"
 

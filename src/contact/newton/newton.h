@@ -32,9 +32,9 @@ struct Residual {
     double given = std::numeric_limits<double>::infinity();   ///< over 1 + |q|
 
     /// The value to which tolerances apply: the given problem's residual or, if larger, a hundredth
-    /// of the scaled one, so that small units do not make the test easier. Not the whole scaled
-    /// value, because with very small loads the rounding in the gaps of four coplanar contacts may
-    /// contribute more.
+    /// of the scaled one, so that small units do not make the test easier. The whole scaled value
+    /// would be too strict: with very small loads, the rounding in the gaps of four coplanar
+    /// contacts may contribute more.
     double judged() const noexcept { return std::max(given, 0.01 * scaled); }
 };
 
@@ -100,10 +100,10 @@ struct NewtonStart {
     /// steps, each of which is easy while rho is large enough.
     int caution = 0;
 };
-/// The starts: two that are quick, and four with caution, which answer 99 of 100 problems that the
-/// quick ones do not. Caution was chosen on bodies thrown together of another seed than those of
-/// the soaks; from 6 to 20 steps before a proximal step is abandoned, and from 10 to 40 of caution,
-/// the choice hardly matters.
+/// The starts: two that are quick, and four with caution, which solve 99 of 100 problems that the
+/// quick ones do not. Caution was chosen on bodies thrown together with a seed other than those of
+/// the soaks; between 6 and 20 steps before a proximal step is abandoned, and between 10 and 40 of
+/// caution, the choice hardly matters.
 constexpr auto kNewtonStarts = [] {
     using From = NewtonStart::From;
     return std::array<NewtonStart, 6>{{

@@ -15,7 +15,7 @@ class Lemke {
   public:
     /// Reserves memory for problems of up to this many variables, without touching it: the system
     /// provides pages when problems first need them, and most programs never do. The page faults of
-    /// the first use are too cheap to be measurable beside the pivots.
+    /// the first use take too little time, compared with the pivots, to be measurable.
     void reserve(int variables);
     int capacity() const noexcept { return capacity_; }
 

@@ -28,9 +28,9 @@
 
 namespace dihaptic::contact {
 
-/// Starts of Newton's method on a polygon. Each turn of the polygons is a solve, so that none may
-/// take long: twelve short starts from random impulses in place of four with caution, which would
-/// leave less work for Lemke's method.
+/// Starts of Newton's method on a polygon. Each turn of the polygons is a solve, so none may take
+/// long: there are twelve short starts from random impulses instead of four with caution, which
+/// would leave less work for Lemke's method.
 constexpr auto kPolygonStarts = [] {
     using From = NewtonStart::From;
     std::array<NewtonStart, 14> out{};

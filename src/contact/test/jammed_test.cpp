@@ -1,6 +1,5 @@
-// Grasps jammed between fingers and table, from the soak of `measure`: each was missed by every
-// method before newton had caution (docs/adr/0034). Nothing moves, and the loads are not
-// determined.
+// Grasps jammed between fingers and table, from the soak of `measure`: no method solved any of them
+// before newton had caution (docs/adr/0034). Nothing moves, and the loads are not determined.
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -170,7 +170,7 @@ TEST_P(JointsOfEach, StopAndRubWithinTheirBounds) {
         problem.joints[0].bias[0] = 0.2;  // at a distance of 0.2 h
         EXPECT_NEAR(speed + answer(GetParam(), problem).change[0][0], std::max(-0.2, speed), 1e-10);
         problem.joints[0].bias[0] = 0;
-        problem.joints[0].low[0] = -0.1;  // dry friction: 0.1 N s reduce its velocity by 0.2 m/s
+        problem.joints[0].low[0] = -0.1;  // dry friction: 0.1 N s reduces its velocity by 0.2 m/s
         problem.joints[0].high[0] = 0.1;
         const double left = std::abs(speed) > 0.2 ? speed - std::copysign(0.2, speed) : 0;
         EXPECT_NEAR(speed + answer(GetParam(), problem).change[0][0], left, 1e-10) << speed;
@@ -178,8 +178,8 @@ TEST_P(JointsOfEach, StopAndRubWithinTheirBounds) {
 }
 
 TEST_P(JointsOfEach, AndContactsAreSolvedTogether) {
-    // two cubes on a slope steeper than the friction angle of one and less steep than that of the
-    // other, on a rod between them: both slide as one mass with the mean of the two coefficients
+    // two cubes, joined by a rod, on a slope steeper than the friction angle of one and less steep
+    // than that of the other: both slide as one mass with the mean of the two coefficients
     const double slope = 25 * kDegree;
     const Vec3 n(std::sin(slope), 0, std::cos(slope));
     ContactProblem problem = block_on_plane(n, 0.3);

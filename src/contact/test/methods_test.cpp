@@ -51,7 +51,7 @@ TEST(LemkeTest, SolvesProblemsThatEnumerationSolves) {
 TEST(LemkeTest, EndsOnDegenerateAndUnsolvableProblems) {
     Lemke lemke;
     lemke.reserve(4);
-    lemke.start(4);  // M = 0, all ratios alike
+    lemke.start(4);  // M = 0, all ratios equal
     for (int i = 0; i < 4; ++i) lemke.q(i) = -1;
     EXPECT_FALSE(lemke.solve(0));  // no z makes w positive
     lemke.start(4);

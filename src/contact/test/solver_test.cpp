@@ -492,7 +492,7 @@ TEST(SequentialImpulse, NearsTheAnswerOfTheOthersWithTorsionToo) {
 }
 
 TEST(Hold, TakesAwayOneMotionAndKeepsTheInertiaOfTheOthers) {
-    // a slanted rod that can turn about x alone has 1 / I_xx there, for any products of
+    // a slanted rod that can turn about x alone has 1 / I_xx there, whatever its products of
     // inertia
     const Mat3 R = Quat(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized())).toRotationMatrix();
     const Mat3 I = R * Vec3(1, 2, 0.1).asDiagonal() * R.transpose();

@@ -1,4 +1,4 @@
-// Tests that the work of all solves of a tick together is bounded, for any requested solver.
+// Tests that the work of all solves of a tick together is bounded, whichever solver is requested.
 #include <gtest/gtest.h>
 
 #include "contact/test/problems.h"

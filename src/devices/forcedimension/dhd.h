@@ -29,7 +29,7 @@ enum DhdForceOff : int {
     kDhdByDeadMan = 6,
 };
 
-/// dhdSetWatchdog() accepts a number of steps: the largest, and the length of a step [s]. 0
+/// dhdSetWatchdog() accepts a number of steps. The largest number, and the length of a step [s]; 0
 /// switches the watchdog off.
 constexpr unsigned char kDhdLongestWatchdog = 255;
 constexpr double kDhdWatchdogStep = 125e-6;

@@ -175,12 +175,12 @@ uint32_t Group::read(size_t i, Time now, Reading& reading) noexcept {
 }
 
 uint32_t Group::drop_status(Running& running, Time now) noexcept {
-    // in a pause nothing is written, and no force on the hand could be lost
+    // in a pause nothing is written, and there is no force on the hand to be lost
     if (running.cause == kDhdByWatchdog && running.quiet) {
         running.cause = 0;
         return 0;
     }
-    // it is not a fault, for any time that a person keeps force off
+    // it is not a fault, however long a person keeps force off
     if (running.cause == kDhdByButton || running.cause == kDhdByDeadMan) return kForceDropped;
     return running.drops.status(now, true);
 }

@@ -21,8 +21,8 @@ struct Options {
     bool orientation = true;                  ///< whether to use it, if the device measures it
     std::optional<double> peak_torque;        ///< limit for this device [N*m]
     std::optional<double> continuous_torque;  ///< that it can sustain [N*m]
-    /// Whether to set the watchdog by which the device ends its force without commands;
-    /// otherwise the watchdog is unchanged.
+    /// Whether to set the watchdog with which the device ends its force when commands stop;
+    /// otherwise the watchdog is left unchanged.
     bool watchdog = true;
 
     template <class Visitor>

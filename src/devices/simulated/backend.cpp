@@ -194,7 +194,7 @@ class SimulatedGroup final : public DeviceGroup {
     std::unique_ptr<AimingDriver> driver_;
     std::vector<Device> devices_;
     std::atomic<bool> stopped_{false};
-    bool begins_ = false;  // the plants start at the next reading, at any time
+    bool begins_ = false;  // the plants start at the next reading, whatever its time
 };
 
 std::vector<frame::DeviceInfo> describe(const std::vector<DeviceConfig>& configs,

@@ -114,7 +114,7 @@ TEST_P(Conformance, WhatCanBeStoppedCanBeFromAnyThreadAndStaysSoUntilActivated) 
         group->write(wrenches);
         now += std::chrono::milliseconds(1);
     };
-    // distance that 2 N push the hand in 50 ms, once it is still [m]
+    // distance by which 2 N push the hand in 50 ms, once it is still [m]
     const auto pushed = [&] {
         for (int i = 0; i < 2000; ++i) tick({2, Wrench{}});
         const Vec3 begin = readings[0].p_DH;

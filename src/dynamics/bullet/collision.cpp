@@ -20,8 +20,8 @@ constexpr double kApproach = 3e-3;  // [m]
 constexpr double kHullMargin = 2e-3;      // [m]
 constexpr double kMostHullMargin = 5e-2;  // [m]
 
-/// The search for bodies that enter each other makes strides no longer than this, nor than half of
-/// the combined thickness of both, so that no body can enter and leave unseen [m].
+/// The search for bodies that enter each other makes strides no longer than this, and no longer
+/// than half of the combined thickness of both, so that no body can enter and leave unseen [m].
 constexpr double kStride = 2e-3;
 constexpr double kMostStrides = 256;
 

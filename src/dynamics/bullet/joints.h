@@ -50,7 +50,7 @@ class Joints {
     void add(const scene::Joint& joint, const Side& a, const Side& b);
 
     size_t size() const noexcept { return joints_.size(); }
-    /// Number of elements of rows that problems need.
+    /// Number of ProblemJoints that a problem with all joints needs.
     size_t elements() const noexcept { return kElements * joints_.size(); }
     const Side& a(size_t i) const noexcept { return joints_[i].a; }
     const Side& b(size_t i) const noexcept { return joints_[i].b; }
@@ -151,8 +151,8 @@ class Joints {
     static void ask_of_bushing(const Joint& joint, const Gaps& then, double h,
                                const contact::Vec6& v_a, const contact::Vec6& v_b,
                                std::span<contact::ProblemJoint> rows) noexcept;
-    /// Energy of its springs half a step from the start of the step, moved at these rates; h is
-    /// negative for the time before [J].
+    /// Energy of its springs half a step after the start of the step, if moved at these velocities
+    /// [J]; before the start, for a negative h.
     static double stored(const Joint& joint, double h, const Vec3& v_W, const Vec3& w_W) noexcept;
     /// The row of a motor or, without one, of dry friction.
     static void ask_of_motor(const Joint& joint, double q, double h, int k,

@@ -28,8 +28,8 @@ class ManifoldProblem {
                std::span<btPersistentManifold*> manifolds, double h, double recovery,
                bool warm_start) noexcept;
 
-    /// To be called once the problem is solved: contacts that touched in the step and bounce shall
-    /// separate at the speed of Newton's law, and all other conditions shall hold as before. The
+    /// To be called once the problem is solved: contacts that touched in the step and bounce must
+    /// separate at the speed of Newton's law, and all other conditions must hold as before. The
     /// answer of the changed problem gives the velocities after the step. `by_loads` is the change
     /// of all bodies' velocities by the step's loads, by user index. False if nothing bounces.
     bool bounce(std::span<btPersistentManifold*> manifolds,

@@ -111,7 +111,7 @@ std::string ring(double radius, double thickness, int around, int across) {
 }
 
 TEST(Concave, RingsLieOnATableAsTheyFall) {
-    // their pieces have corners in line, and faces that hardly have an area
+    // their pieces have corners in line, and faces with hardly any area
     for (const auto& [around, across] : {std::pair{16, 8}, {24, 12}}) {
         SCOPED_TRACE(around);
         const testing::TemporaryFolder folder;

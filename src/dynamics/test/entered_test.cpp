@@ -40,7 +40,7 @@ INSTANTIATE_TEST_SUITE_P(Solvers, EnteredTest,
                          [](const auto& test) { return std::string(enum_name(test.param)); });
 
 TEST_P(EnteredTest, ABoxThatSpinsPastABlockStaysOutsideOfItAndGainsNoEnergy) {
-    // by 0.4 rad per step: a corner beside a face swings into it
+    // by 0.4 rad per step: a corner next to a face swings into it
     const Vec3 half = Vec3::Constant(0.02);
     for (uint64_t i = 0; i < 20; ++i) {
         Random random(i, "spin");
@@ -73,7 +73,8 @@ TEST_P(EnteredTest, ABoxThatSpinsPastABlockStaysOutsideOfItAndGainsNoEnergy) {
 }
 
 TEST_P(EnteredTest, ABodyStoppedInFrontOfAnotherIsNotEntered) {
-    // both move alike, so their contact is unforeseen; the support of the first holds the second
+    // both move in the same way, so their contact is unforeseen; the support of the first holds the
+    // second
     World world = weightless({slippery(box("wall", {0.1, 1, 1}, {0.05, 0, 0}, 0)),
                               slippery(block({-0.0210, 0, 0})), slippery(block({-0.0625, 0, 0}))});
     for (int i : {1, 2}) world.set_velocity({i}, {5, 0, 0});

@@ -145,7 +145,7 @@ TEST(Lattice, IsPressedAsABlockOfItsMaterial) {
     EXPECT_LT(world.states()[0].X_WB.p.tail<2>().norm(), 1e-7);
 }
 
-/// A cube of eight blocks, and two jaws beside it that are larger than its sides.
+/// A cube of eight blocks, and two jaws next to it that are larger than its sides.
 struct Squeezed {
     scene::Lattice lattice = sponge();
     World world;

@@ -38,8 +38,8 @@ double extent(const Polyhedron& shape, const Pose& X_W, const Vec3& u) {
     return out;
 }
 
-/// Distance between convex shapes: the largest separation along any direction, found by
-/// random steps from the best of many directions, or from the one given, that shrink.
+/// Distance between convex shapes: the largest separation along any direction, found by shrinking
+/// random steps from the best of many directions, or from the one given.
 template <class A, class B>
 double apart(const A& a, const Pose& X_WA, const B& b, const Pose& X_WB, std::mt19937& random,
              const Vec3& start = Vec3::Zero()) {
@@ -71,7 +71,7 @@ double gap(const ContactPatch& patch) {
     return out;
 }
 
-/// Moves B towards A or away until they are apart by some tenths of a millimetre, as in each step.
+/// Moves B towards A or away until they are a few tenths of a millimetre apart, as in each step.
 /// `off` is the tolerance of contacts [m].
 template <class A, class B>
 void compare(const A& a, const B& b, double off, std::mt19937& random) {

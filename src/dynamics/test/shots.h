@@ -69,7 +69,7 @@ inline std::vector<Vec3> points_of(const scene::Shape& shape, Random& random) {
     return out;
 }
 
-/// A body of any convex shape, including thin ones, some 2 to 40 mm large.
+/// A body of any convex shape, including thin ones, about 2 to 40 mm across.
 inline scene::Body any_body(const std::string& name, Random& random) {
     scene::Body body;
     body.name = name;

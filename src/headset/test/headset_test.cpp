@@ -1,5 +1,5 @@
-// Tests headsets on the tests' OpenXR runtime, with OpenXR's validation layer between, which has to
-// be silent; on a display of Xvfb, since pictures go by OpenGL of X11.
+// Tests headsets on the tests' OpenXR runtime, with OpenXR's validation layer in between, which has
+// to be silent; on a display of Xvfb, since pictures are drawn by OpenGL on X11.
 #include "headset/headset.h"
 #include "base/number.h"
 
@@ -86,7 +86,7 @@ class HeadsetTest : public ::testing::Test {
             GTEST_SKIP() << "Xvfb does not start; it is in the Debian package xvfb";
     }
 
-    /// What the validation layer found. Newer ones also say that they begin and end.
+    /// The findings of the validation layer. Newer ones also report that they begin and end.
     std::string messages() const {
         std::istringstream all(testing::read_file(messages_));
         std::string out;
@@ -135,7 +135,7 @@ RuntimePose to_runtime(const Pose& X) {
             {out.orientation.x, out.orientation.y, out.orientation.z, out.orientation.w}};
 }
 
-/// A person's head at a place, that looks at another.
+/// A person's head at one place, looking at another.
 Pose head_at(const Vec3& at, const Vec3& looked_at) {
     const Vec3 backward = (at - looked_at).normalized();
     const Vec3 right = Vec3::UnitZ().cross(backward).normalized();
@@ -144,7 +144,8 @@ Pose head_at(const Vec3& at, const Vec3& looked_at) {
     return {Quat(R), at};
 }
 
-/// A head somewhere before the table, and eyes that look a little outward, as in wide headsets.
+/// A head somewhere in front of the table, and eyes that look a little outward, as in wide
+/// headsets.
 struct Seen {
     Pretence pretence;
     std::array<Pose, 2> X_WE;
@@ -174,7 +175,7 @@ Seen random_head(Random& random, const Pose& X_WS) {
     return out;
 }
 
-/// Where a pinhole camera at an eye has a point, in pixels from the picture's upper left.
+/// Where a pinhole camera at an eye sees a point, in pixels from the picture's upper left.
 Eigen::Vector2d pinhole(const RuntimeEye& eye, const Pose& X_WE, const Vec3& p_W, int width,
                         int height) {
     const Vec3 p_E = X_WE.inverse() * p_W;
@@ -389,7 +390,7 @@ TEST_F(HeadsetTest, HangsWordsUprightBeforeTheHead) {
     EXPECT_EQ(with.words.rgba[upper_left], 255);
     EXPECT_EQ(with.words.rgba[upper_left + 1], 0);
     EXPECT_EQ(with.words.rgba[0], 0);
-    // a metre before the head, and turned to it
+    // a metre in front of the head, and turned to it
     const auto& X = with.words_pose;
     const Pose X_SP{Quat(X.R[3], X.R[0], X.R[1], X.R[2]), {X.p[0], X.p[1], X.p[2]}};
     const Vec3 ahead = seen.X_WV.R * Vec3(0, 0, -1);

@@ -1,7 +1,7 @@
-// An OpenXR runtime for the tests: it does what the specification asks of one with a stereo headset
-// and OpenGL, and shows nothing. Into the folder that DIHAPTIC_TEST_RUNTIME_PICTURES names it
-// writes every tenth picture, as left.ppm, right.ppm and words.ppm; a file called end, put there,
-// ends the session.
+// An OpenXR runtime for the tests: it does what the specification requires of one with a stereo
+// headset and OpenGL, but shows nothing. It writes every tenth picture to the folder that
+// DIHAPTIC_TEST_RUNTIME_PICTURES names, as left.ppm, right.ppm and words.ppm; a file called end in
+// that folder ends the session.
 #include "runtime.h"
 
 #include <chrono>
@@ -38,7 +38,7 @@ struct Runtime {
     std::mutex guard;
     std::condition_variable handed_over;
     Pretence pretence;
-    int64_t pretended = 0;  // pictures begun when that was said
+    int64_t pretended = 0;  // number of pictures begun when it was set
     Handed handed;
     int64_t begun = 0;
     int64_t begun_of_handed = 0;
@@ -424,7 +424,7 @@ XRAPI_ATTR XrResult XRAPI_CALL proc_address(XrInstance, const char* name, PFN_xr
     return found == all.end() ? XR_ERROR_FUNCTION_UNSUPPORTED : XR_SUCCESS;
 }
 
-// What the loader and a runtime agree on, after the loader's own specification.
+// What the loader and a runtime agree on, according to the loader's own specification.
 struct LoaderInfo {
     int type;
     uint32_t version;

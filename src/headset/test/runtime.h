@@ -1,5 +1,5 @@
-// What a test asks of the test runtime, and gets from it: an OpenXR runtime that has no headset,
-// and keeps the pictures that one would show.
+// The interface between a test and the test runtime: an OpenXR runtime that has no headset, and
+// keeps the pictures that one would show.
 #pragma once
 
 #include <cstdint>
@@ -33,14 +33,14 @@ struct Pretence {
 struct RuntimePicture {
     int width = 0, height = 0;
     std::vector<uint8_t> rgba;  ///< rows from bottom to top
-    RuntimeEye eye;             ///< with which the program says that it drew
+    RuntimeEye eye;             ///< the eye for which the program says that it drew
 };
 
 /// What the program handed over last.
 struct Handed {
-    int64_t count = 0;  ///< of pictures so far
+    int64_t count = 0;  ///< number of pictures so far
     int layers = 0;
-    int64_t time = 0;  ///< for which it is, on the runtime's clock [ns]
+    int64_t time = 0;  ///< when it should appear, on the runtime's clock [ns]
     RuntimePicture eyes[2];
     RuntimePicture words;  ///< empty: none
     RuntimePose words_pose;

@@ -259,7 +259,7 @@ TEST_P(Kept, DevicesOfAKeeperThatWasStoppedLoseTheirForceAtOnceWhenItGoesOn) {
         gone = felt.gone_after(begin);
         return false;
     });
-    // half of the further holding time of the force, on an idle machine
+    // on an idle machine; a new request would hold the force for twice this time
     EXPECT_LT(gone, order.hosting.longest_silence / 2);
 }
 

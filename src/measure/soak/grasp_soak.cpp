@@ -4,8 +4,8 @@
 //
 // The first, quick starts of newton (kNewtonStarts) were chosen on the first family, so that
 // family shows the fit, and the others test the choice. The seeds and ranges of the others were
-// fixed before their first run. That the later starts are cautious was found on five misses of the
-// third family (docs/adr/0034-caution.md); how cautious, on other problems.
+// fixed before their first run. Five misses of the third family showed that the later starts must
+// be cautious (docs/adr/0034-caution.md); other problems showed how cautious.
 #include <gtest/gtest.h>
 
 #include <cmath>

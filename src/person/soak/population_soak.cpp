@@ -86,7 +86,7 @@ TEST(Population, OfTwoHundredAdaptsAndDiffersAsPeopleDo) {
         EXPECT_NEAR(m, kFigures[f].mean, kClose) << kFigures[f].what;
         EXPECT_NEAR(sd, kFigures[f].sd, kAsSpread * kFigures[f].sd) << kFigures[f].what;
     }
-    // printed, not tested: parameters of fits are known badly in people too
+    // printed, not tested: fits determine parameters poorly in people too
     const auto quartiles = [&](const char* what, auto value, const char* published) {
         std::vector<double> all;
         for (const analysis::TwoRateFit& fit : people.fits) all.push_back(value(fit));

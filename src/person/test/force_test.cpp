@@ -1,5 +1,5 @@
-// Tests that simulated people learn force fields as forces: what they press against a channel, by
-// how much it follows the model of adaptation, and that vision and force are not mixed up.
+// Tests that simulated people learn force fields as forces: what they press against a channel, how
+// closely this follows the model of adaptation, and that vision and force are not confused.
 #include <gtest/gtest.h>
 
 #include "analysis/fits/two_rate_fit.h"
@@ -52,7 +52,7 @@ TEST(Forces, OfAPersonWithoutNoisePressAgainstAChannelAsTheTwoRateModelSays) {
         most = std::max(most, x[i]);
         if (reach.perturbed == "channel") {
             EXPECT_NEAR(reach.index, x[i], 0.04);
-            // the force has the course of the speed, as no hand has that goes elsewhere
+            // the force follows the course of the speed, unlike that of a hand that goes elsewhere
             if (x[i] > 0.3) {
                 EXPECT_GT(reach.likeness, 0.97);
             }
@@ -105,7 +105,7 @@ TEST(Forces, AreLearnedAsForcesAndRotationsAsRotations) {
 
     const auto [both_turn, both_force] = learned("turned curl");
     EXPECT_NEAR(both_turn.z(), of_turn, 2 * kDegree);
-    // the hand goes to the right of the way by then, and so does what pushes it
+    // by then, the hand goes to the right of the way, and so does the force that pushes it
     EXPECT_NEAR(both_force.norm(), kCurl * of_force, 0.15 * kCurl);
 }
 
@@ -139,7 +139,7 @@ Traits noisy_person(double noise) {
     return out;
 }
 
-/// Channels are one trial in eight, and come alone at the end.
+/// One trial in eight is a channel; at the end all are.
 constexpr const char* kLongSchedule = R"(
     - { name: no field, kind: baseline, conditions: [away], repeats: 14, insert: [{ kind: force_channel, perturb: channel, count: 2 }] }
     - { name: curl, kind: perturbed, conditions: [away], perturb: curl, repeats: 140, insert: [{ kind: force_channel, perturb: channel, count: 20 }] }
@@ -148,7 +148,7 @@ constexpr const char* kLongSchedule = R"(
 )";
 
 struct Measured {
-    std::vector<double> index;  ///< NaN but in channels; of walls that yield to nothing
+    std::vector<double> index;  ///< NaN except in channels; as if their walls did not yield
     std::vector<model::AdaptationTrial> trials;
 };
 
@@ -200,7 +200,7 @@ TEST(Forces, OfANoisyPersonWithOneProcessGiveBackItsRates) {
 TEST(Forces, OfNoLearnerAreNone) {
     Traits traits = noisy_person(1.5 * kDegree);
     traits.force_fast_learning = traits.force_slow_learning = 0;
-    // nor does the hand drift off the start with what the way back seems to teach
+    // nor does the hand drift off the start because of what the way back seems to teach
     traits.fast_learning = traits.slow_learning = 0;
     double sum = 0, squares = 0, n = 0;
     for (const double index : measured(traits).index) {

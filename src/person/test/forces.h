@@ -95,7 +95,8 @@ inline double yielding(const session::Plan& plan) {
     return k / (k + kChannel);
 }
 
-/// Index in each trial, as the model of adaptation has it: a channel shows only how far it yields.
+/// Index in each trial, according to the model of adaptation: a channel shows only how far it
+/// yields.
 template <class Rates, class State>
 std::vector<double> model_index(const Rates& rates, State state, auto&& output,
                                 const std::vector<ForceReach>& reaches, double yields) {

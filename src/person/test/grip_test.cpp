@@ -34,7 +34,7 @@ class Held : public ::testing::Test {
             run(kTick);
         }
     }
-    /// A person whose skin does not tell the friction: only slips do.
+    /// A person whose skin does not reveal the friction: only slips do.
     static Traits numb() {
         Traits out = median_person(Objects::real);
         out.skin_time = 0;

@@ -9,7 +9,7 @@
 namespace dihaptic::recording::log_browser_test {
 namespace {
 
-/// Reads it at moments to and fro, and on from each.
+/// Reads it at moments back and forth, and continues from each.
 void expect_all_moments(const std::string& file, int64_t frames) {
     LogBrowser browser(file);
     EXPECT_EQ(browser.begin(), 0);

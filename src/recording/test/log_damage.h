@@ -1,4 +1,5 @@
-// Logs that were damaged, and read: what is given is the session's own, or it is told.
+// Damages logs, and reads them: each frame returned must be the session's own, and each fault
+// reported.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -21,7 +22,7 @@ inline LogHead damage_head(const std::string& identity) {
     return out;
 }
 
-/// A frame that says by all it has which it is, and of which session.
+/// A frame whose values all show which frame it is, and of which session.
 inline frame::Frame damage_frame(int64_t sequence, double session) {
     frame::Frame f;
     f.sequence = sequence;
@@ -48,7 +49,7 @@ inline std::string damage_log(const testing::TemporaryFolder& folder, double ses
 }
 
 /// Reads a log of `session` to its end. Every frame has to be one that was written, later than the
-/// one before, with every body where it was or NaN.
+/// previous one, with every body where it was or NaN.
 inline LogHealth read_damaged(const std::string& file, double session) {
     RawLogReader reader(file);
     int64_t last = -1;
@@ -80,7 +81,7 @@ inline void expect_mischief_is_told(int cases) {
             const LogHealth health = read_damaged(folder.write("damaged.log", text), 1);
             EXPECT_TRUE(health.damaged(0));
             EXPECT_FALSE(describe(health, 0, 0).empty());
-            // what is there is used, wherever it stands
+            // what is there is used, wherever it is
             const bool lost = what == static_cast<int>(testing::Mischief::dropped) ||
                               what == static_cast<int>(testing::Mischief::foreign_instead);
             EXPECT_GE(health.frames, lost ? 550 : 600);
@@ -89,8 +90,8 @@ inline void expect_mischief_is_told(int cases) {
     }
 }
 
-/// Random damage, and chunks made up with right checksums: no crash, no hang, and no frame that was
-/// not written.
+/// Random damage, and invented chunks with correct checksums: no crash, no hang, and no frame that
+/// was not written.
 inline void expect_mutations_are_borne(int cases, uint64_t first_seed) {
     const testing::TemporaryFolder folder;
     const std::string log = damage_log(folder, 1);
@@ -116,7 +117,7 @@ inline void expect_mutations_are_borne(int cases, uint64_t first_seed) {
         }
         if (::testing::Test::HasFailure()) return;
     }
-    EXPECT_GT(read, cases / 2);  // else most of them test the head's reading alone
+    EXPECT_GT(read, cases / 2);  // otherwise most of them only test how the head is read
 }
 
 }  // namespace dihaptic::recording

@@ -115,7 +115,7 @@ TEST(DamagedLog, WhatIsMadeToKeepItsReaderBusyEnds) {
     EXPECT_TRUE(reader.read_to_end().damaged(0));
 }
 
-/// As programs before version 2 wrote it.
+/// A log as programs before version 2 wrote it.
 std::string old_log(const testing::TemporaryFolder& folder, double session) {
     return testing::as_version_1(testing::take_apart(damage_log(folder, session)));
 }

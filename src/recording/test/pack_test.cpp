@@ -12,7 +12,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-/// Records as an unpacker gives them: each with its length before it.
+/// Records as an unpacker returns them: each after its length.
 Bytes listed(const std::vector<Bytes>& records) {
     Bytes out;
     for (const Bytes& record : records) {
@@ -48,7 +48,7 @@ bool is_refused(const Bytes& pack) {
     return !Unpacker().unpack(pack).has_value();
 }
 
-/// A whole zstd frame of what somebody made up.
+/// A whole zstd frame with invented content.
 Bytes compressed(const std::vector<uint32_t>& words) {
     Bytes out(ZSTD_compressBound(words.size() * sizeof(uint32_t)));
     out.resize(

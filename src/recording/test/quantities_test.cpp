@@ -1,4 +1,4 @@
-// Every quantity of the Frame is described, and docs/quantities.md says the same.
+// Tests that every quantity of the Frame is described, and that docs/quantities.md says the same.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -114,7 +114,7 @@ std::string tables() {
     return out;
 }
 
-/// What stands before the tables is written by hand.
+/// The text before the tables is written by hand.
 TEST(Quantities, AreTheReferences) {
     const std::string page = testing::read_file(kFile);
     const std::string made = page.substr(0, page.find("## tick")) + tables();

@@ -119,8 +119,8 @@ std::vector<std::byte> encoded(const frame::Frame& in) {
     return bytes;
 }
 
-/// The same without what differs in the other, whose `size` bytes begin at the first difference;
-/// from each of so many items.
+/// The same without a field that differs in the other: `size` bytes from the first difference on,
+/// removed from each of so many items.
 std::vector<std::byte> without(const frame::Frame& in, const frame::Frame& other, size_t size,
                                size_t items = 1) {
     std::vector<std::byte> bytes = encoded(in);
@@ -305,7 +305,7 @@ TEST(RawLog, CutAnywhereItGivesAllWholeChunksBefore) {
     EXPECT_GE(last, 250);  // at most a chunk of 50 ms is lost
 }
 
-/// 300 frames in six chunks of 50; body 1 moves in frame 0 and in frame 120 alone.
+/// 300 frames in six chunks of 50; body 1 moves only in frames 0 and 120.
 std::string log_of_300(const testing::TemporaryFolder& folder) {
     Recorder recorder(folder.file("raw.log"), head(), Writing::in_place);
     for (int i = 0; i < 300; ++i) {

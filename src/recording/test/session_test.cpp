@@ -92,7 +92,7 @@ TEST(SessionFolder, AnInfoThatWasCutAnywhereGivesWhatItStillSays) {
         EXPECT_EQ(back.phases.size(), 2u);
         EXPECT_TRUE(back.ticks == 0 || back.ticks == 1234) << back.ticks;
         EXPECT_TRUE(back.participant.id.empty() || back.participant.id == "S07");
-        EXPECT_EQ(back.started.substr(0, 10), iso_now().substr(0, 10));  // by the folder's name
+        EXPECT_EQ(back.started.substr(0, 10), iso_now().substr(0, 10));  // from the folder's name
         knew += back.participant.id == "S07";
     }
     EXPECT_GT(knew, 100);

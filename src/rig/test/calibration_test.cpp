@@ -69,7 +69,7 @@ Vec3 some_place(Random& random) {
                 random.uniform(0.01, 0.13));
 }
 
-/// Samples of the link of 50 mm, moved about; a fraction `outliers` of them slipped by some
+/// Samples of the link of 50 mm, moved about; a fraction `outliers` of them slipped by a few
 /// millimetres.
 void move_link(const Faulty& rig, double outliers, CalibrationInput& input, Vec3 extent = {1, 1, 1},
                size_t count = 2000) {

@@ -1,4 +1,4 @@
-// What a session's tables were written from is read from them again.
+// Tests that reading a session's tables gives the rows from which they were written.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -78,7 +78,7 @@ TEST(RowFile, LeavesOutWhatAnEarlierVersionDidNotWrite) {
     EXPECT_TRUE(std::isnan(trials[0].asked.share));
     EXPECT_EQ(trials[0].asked.kind, TrialKind::baseline);
     EXPECT_TRUE(std::isnan(trials[1].measures.hand_angle_deg));
-    EXPECT_EQ(trials[1].asked.trial, 0);  // what is no number is none
+    EXPECT_EQ(trials[1].asked.trial, 0);  // the cell is not a number
     EXPECT_EQ(trials[1].asked.share, 0.5);
 }
 

@@ -66,7 +66,7 @@ TEST(BodyText, EveryBodyOfEveryShippedSceneMovesAndNothingElseChanges) {
             const Vec3 wanted = body.position + Vec3(0.0123, -0.007, 0.0401);
             EXPECT_LT((position - wanted).cwiseAbs().maxCoeff(), 0.5e-4 + 1e-12);
             EXPECT_EQ(others(after, body.name), others(before, body.name));
-            // back again, so that all that was not its own is as it was, to the byte
+            // and back again: everything that is not the body's own is as it was, to the byte
             if (text.size() < after_text.size() + 60 &&
                 without_numbers(text) == without_numbers(after_text)) {
                 EXPECT_EQ(moved(after_text, body.name, {-12.3, 7, -40.1}), text);

@@ -1,4 +1,4 @@
-// Tests of concave meshes and compounds: their weight, and their convex pieces, cut and kept.
+// Tests of concave meshes and compounds: their weight, and their convex pieces, cut and stored.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -75,7 +75,7 @@ TEST(Look, OfAFileIsRead) {
     EXPECT_DOUBLE_EQ(b.picture->width, 0.06);
     EXPECT_EQ(b.picture->image->height, 20);
     EXPECT_EQ(b.seen->mesh->vertices.size(), 4u);
-    EXPECT_TRUE(b.seen->mesh->colours.empty());  // the picture is in their place
+    EXPECT_TRUE(b.seen->mesh->colours.empty());  // the picture replaces them
     // the felt shape is the box
     EXPECT_DOUBLE_EQ(integrate(b.shape).volume, 8e-6);
 }

@@ -32,7 +32,7 @@ TEST(MeshColours, AreThoseOfTheFile) {
         EXPECT_EQ(corner_colours(mesh), wanted) << name;
     }
     EXPECT_TRUE(read_mesh("meshes/stone.obj", 1, {}).colours.empty());
-    // those of the vertices count, and a file that is not there gives none
+    // the colours of the vertices count, and a missing file gives none
     const Mesh both = read_mesh(folder.write("b.obj", "mtllib gone.mtl\n" + obj), 1e-3, {});
     EXPECT_EQ(corner_colours(both), wanted);
     EXPECT_EQ(both.materials, "");

@@ -43,7 +43,7 @@ TEST(Hull, OfPointsInAPlaneIsEmpty) {
 }
 
 TEST(Hull, HasAllPointsBehindEachFaceHoweverNearTheyAre) {
-    // corners in line and in planes, and such as are apart by nanometres to tenths of a millimetre
+    // corners in lines and planes, and corners that are nanometres to tenths of a millimetre apart
     std::mt19937 random(7);
     const auto draw = [&](int from, int to) {
         return std::uniform_int_distribution<>(from, to)(random);
@@ -150,7 +150,7 @@ TEST(Integrals, OfAConeAreThoseOfItsClosedFormAndOfItsFinePolyhedron) {
 }
 
 TEST(Depth, OfAConeIsFromTheNearestOfSideAndBase) {
-    // a cone of 3, 4 and 5: how far points are from its side is whole
+    // a cone of 3, 4 and 5: the distances of these points from its side are whole
     const Shape shape = cone(0.03, 0.04);
     EXPECT_NEAR(depth(shape, {0, 0, 0.02}), 0, 1e-15);
     EXPECT_NEAR(depth(shape, {0.03, 0, -0.02}), 0, 1e-15);
@@ -230,7 +230,7 @@ TEST(PairSurface, FallsByStribecksCurveAndRisesByItsFilm) {
     EXPECT_NEAR(surface.friction_at(1, 0), 0.4, 1e-12);
 }
 
-/// The messages that reading a scene gives.
+/// The messages from reading a scene.
 std::string problems_of(const std::string& yaml) {
     const testing::TemporaryFolder folder;
     Diagnostics diagnostics;
@@ -462,7 +462,7 @@ TEST(SceneFile, ANameThatNoRecordingCanHaveIsAnError) {
         std::string::npos);
 }
 
-/// A scene with so many fingers, and one with so many bodies.
+/// A scene with this many fingers, and one with this many bodies.
 std::string scene_with_fingers(size_t count) {
     std::string out = kBlock + "fingers:\n";
     for (size_t i = 0; i < count; ++i)

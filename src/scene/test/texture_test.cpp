@@ -12,8 +12,8 @@
 namespace dihaptic::scene::texture_test {
 namespace {
 
-/// A picture of 8 x 6 pixels that is black but for one white pixel, in the second row from the top
-/// and the seventh column.
+/// A picture of 8 x 6 pixels that is black except for one white pixel, in the second row from the
+/// top and the seventh column.
 ReliefPicture one_bump() {
     std::vector<float> grey(48, 0.f);
     grey[1 * 8 + 6] = 1;
@@ -73,7 +73,7 @@ TEST(ReliefPicture, IsAsHighAsItsGreyWhereThatIsEven) {
     EXPECT_NEAR(picture.steepest(), 0, 1e-12);
 }
 
-/// Writes a picture of so many pixels, black but for its last column.
+/// Writes a picture of this many pixels, black except for its last column.
 std::string write(const std::string& name, int width, int height) {
     Image image{width, height, {}};
     for (int y = 0; y < height; ++y) {

@@ -358,7 +358,8 @@ TEST(Run, VirtualTimeStopsWhenToldAndCountsTicks) {
 }
 
 TEST(Servo, HoldsTheSameGraspAtEveryRate) {
-    // the hand feels statics only, at any rate: the block's weight, and the two springs in series
+    // the hand feels statics only, whatever the rate: the block's weight, and the two springs in
+    // series
     for (const double rate : {1000.0, 2000.0, 4000.0}) {
         frame::Settings settings;
         settings.rate = rate;

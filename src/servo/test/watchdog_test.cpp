@@ -52,7 +52,7 @@ TEST(Watchdog, GivesAProgramThatStoodStillTheTimeToEndATick) {
     EXPECT_FALSE(stuck);
 }
 
-/// A servo that spins on the only processor that it and its watchdog may use. With only its
+/// A servo that spins on the only processor that it and its watchdog may use. With only the servo's
 /// priority, the watchdog would wait forever.
 TEST(Watchdog, StopsAServoThatSpinsOnTheOnlyProcessor) {
     std::atomic<bool> stopped{false};

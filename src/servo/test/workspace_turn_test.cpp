@@ -209,7 +209,7 @@ TEST(WorkspaceTurn, TheWallStaysWithTheDevice) {
     for (int i = 0; i < 4000; ++i) {
         const frame::Frame& frame = air.tick(2.5);
         if (i > 10) {
-            // as for a handle at rest, for any turn of the world around it
+            // as for a handle at rest, however the world turns around it
             EXPECT_LT((air.desk->told[0].force - Vec3(-1, 0, 0)).norm(), 1e-9) << i;
         }
         EXPECT_EQ(frame.fingers[0].status & kTooFast, 0u);

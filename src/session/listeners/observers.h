@@ -36,8 +36,8 @@ namespace dihaptic::session {
 /// is running.
 std::string socket_name(const std::string& folder);
 
-/// Lets programs connect. If the session has a window, that turns the knobs, so that no observer
-/// can. Throws Error when no socket can be made.
+/// Lets programs connect. If the session has a window, only the window can turn the knobs. Throws
+/// Error when no socket can be made.
 std::unique_ptr<Listener> let_observe(const Opening& opening);
 
 }  // namespace dihaptic::session

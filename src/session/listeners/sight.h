@@ -5,7 +5,7 @@
 
 namespace dihaptic::session {
 
-/// Null if the plan's hand does not act on its sight.
+/// Null if the plan's hand does not act on what it sees.
 std::unique_ptr<Listener> show_to_person(const Opening& opening);
 
 }  // namespace dihaptic::session

@@ -10,7 +10,7 @@
 //   it       {"number": 8, "set": {"force_N": 1.5}, "next": 12, "message": 0}
 //   it       {"number": 8, "failed": "division by zero"}
 //
-// The first line lists the messages that the program may show, and comes at once; each of an
+// The first line lists the messages that the program may show, and comes at once; any of an
 // answer's last three keys may be missing.
 //
 // Question 1, on trial 0, comes before the first trial. Decisions are recorded as values of

@@ -1,5 +1,5 @@
-// Sessions whose files were damaged, through all that reads them: what is wrong is told, or refused
-// with an Error, and nothing else is thrown.
+// Passes sessions with damaged files to everything that reads them: what is wrong must be reported,
+// or refused with an Error, and nothing else thrown.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace dihaptic::session {
 
 namespace fs = std::filesystem;
 
-/// Two short sessions without files made of their logs, and what they have.
+/// Two short sessions without the files made from their logs, and their contents.
 class TwoSessions {
   public:
     TwoSessions() {
@@ -89,7 +89,7 @@ inline void expect_all_tell(int cases) {
                 EXPECT_FALSE(replay_session(session.path(), kGoOn, {}).good());
             }
             if (seed % 5 == 0) {
-                fs::remove_all(sessions.file("study"));  // a data set has a session once
+                fs::remove_all(sessions.file("study"));  // a data set contains a session only once
                 EXPECT_FALSE(analysis::write_tables(session.path(), {}).log.empty());
                 EXPECT_FALSE(
                     analysis::export_bids(session, sessions.file("study"), {}).log.empty());
@@ -99,7 +99,8 @@ inline void expect_all_tell(int cases) {
     }
 }
 
-/// What reads a session, one after the other. An Error is an answer; what else is thrown fails.
+/// Calls everything that reads a session. An Error is an answer; anything else that is thrown is a
+/// failure.
 inline void read_all_ways(const std::string& path, const std::string& study) {
     const auto attempt = [](const char* what, const std::function<void()>& read) {
         try {
@@ -122,7 +123,7 @@ inline void read_all_ways(const std::string& path, const std::string& study) {
             [&] { analysis::recover_session(recording::SessionFolder::open(path), {}); });
 }
 
-/// Random damage to one file of a session of trials after the other.
+/// Damages the files of a session with trials at random, one after the other.
 inline void expect_mutated_files_are_borne(int cases, uint64_t first_seed) {
     Files files;
     const RunResult result = files.run(make_plan(files.request()));
@@ -155,7 +156,7 @@ inline void expect_mutated_files_are_borne(int cases, uint64_t first_seed) {
         std::ofstream(copy + "/" + name, std::ios::binary) << text;
         const std::string checked = i % 2 == 0 ? name : "";
         if (!checked.empty() && name != "raw.log" && name != "session.yaml") {
-            // also as if the change were not known: the checksum says that it is right
+            // also with a checksum that matches the changed file, as if nothing had changed
             auto info = recording::SessionFolder::open(result.folder).read_info();
             for (recording::InputFile& input : info.inputs) {
                 if (input.file == name) input = recording::SessionFolder::open(copy).input(name);

@@ -1,5 +1,5 @@
-// Tests that a session is run by what is in its folder: a file that changes after it was read ends
-// the start, and leaves no folder.
+// Tests that a session runs on the files in its folder: if a file changes after it was read, the
+// session does not start, and leaves no folder.
 #include <sndfile.h>
 
 #include <filesystem>
@@ -83,7 +83,7 @@ void change(const std::string& file, int how, std::mt19937_64& random) {
     std::ofstream(file, std::ios::binary) << text;
 }
 
-/// What starting the plan says, and whether a folder is left of it.
+/// The error when the plan is started, and whether a folder is left.
 std::string refusal(Files& files, const Plan& plan) {
     std::string said = "nothing";
     try {
@@ -171,7 +171,7 @@ TEST(FrozenInputs, AChangedTableOfASessionIsNotResumed) {
     EXPECT_NE(said.find("when the session ended. Rebuild it from raw.log: dihaptic recover"),
               std::string::npos)
         << said;
-    // the window offers to go on with it all the same, and then says this
+    // the window nevertheless offers to continue it, and then says this
     EXPECT_EQ(find_unfinished(sessions.files.folder.file("sessions"), "Reaches", "S07").size(), 1u);
     analysis::recover_session(recording::SessionFolder::open(cut), {});
     EXPECT_NO_THROW(rest_of(cut, Seat::terminal, {}));

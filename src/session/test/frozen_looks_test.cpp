@@ -1,4 +1,4 @@
-// Tests that a session keeps what its bodies look like, also when it is resumed.
+// Tests that a session keeps the looks of its bodies, also when it is resumed.
 #include <algorithm>
 #include <filesystem>
 
@@ -11,8 +11,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// An OBJ file of one material, whose colour the file beside it has under a name that is the same
-/// in all folders.
+/// An OBJ file of one material, whose colour is in the file next to it, under a name that is the
+/// same in all folders.
 void write_mesh(const fs::path& folder, const std::string& colour) {
     fs::create_directory(folder);
     std::ofstream(folder / "a.obj") << "mtllib parts.mtl\nv 0 0 0\nv 20 0 0\nv 0 20 0\nv 0 0 20\n"
@@ -20,7 +20,7 @@ void write_mesh(const fs::path& folder, const std::string& colour) {
     std::ofstream(folder / "parts.mtl") << "newmtl one\nKd " << colour << "\n";
 }
 
-/// The names of a session's files that looks are made of.
+/// The names of a session's files from which looks are made.
 std::vector<std::string> kept(const std::string& session) {
     std::vector<std::string> out;
     for (const recording::InputFile& input :

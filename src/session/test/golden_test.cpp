@@ -18,7 +18,7 @@ namespace dihaptic::session::golden_test {
 namespace {
 
 constexpr const char* kFile = "src/session/test/golden.txt";
-/// Of each file, and of those in which many contacts make the slowest solvers take minutes.
+/// Ticks run of each file, and of those whose many contacts make the slowest solvers take minutes.
 constexpr int64_t kTicks = 3000;
 constexpr int64_t kFewTicks = 300;
 

@@ -411,7 +411,7 @@ TEST(Live, EasesWhatHoldsSomethingAndTurnsTheRestAtOnce) {
         for (int i = 0; i < ticks; ++i) live.knobs.turn(last, kTick, now);
     };
     turn(10);
-    EXPECT_EQ(now.stiffness, 1000);  // nobody wants anything yet
+    EXPECT_EQ(now.stiffness, 1000);  // nothing has been requested yet
     frame::Knobs wanted = now;
     wanted.stiffness = 2000;
     wanted.smoothing = 0.5;
@@ -421,15 +421,15 @@ TEST(Live, EasesWhatHoldsSomethingAndTurnsTheRestAtOnce) {
     EXPECT_NEAR(now.stiffness, 1500, 1e-6);
     EXPECT_TRUE(std::isnan(now.damping));
     EXPECT_EQ(now.smoothing, 0.5);
-    EXPECT_EQ(now.proxy, scene::ProxyKind::rigid);  // the session lets none change
-    wanted.friction_scale = 2;                      // on the way, which begins not anew
+    EXPECT_EQ(now.proxy, scene::ProxyKind::rigid);  // the session does not allow changes
+    wanted.friction_scale = 2;                      // on the way, which does not start again
     live.knobs.publish(wanted);
     turn(1);
     EXPECT_EQ(now.friction_scale, 2);
     EXPECT_NEAR(now.stiffness, 1505, 1e-6);
     turn(100);
     EXPECT_EQ(now.stiffness, 2000);
-    wanted.damping = 3;  // from k h / 2, which is no number
+    wanted.damping = 3;  // from k h / 2, which is not given as a number
     live.knobs.publish(wanted);
     turn(1);
     EXPECT_EQ(now.damping, 3);

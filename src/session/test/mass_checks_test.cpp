@@ -8,7 +8,7 @@
 namespace dihaptic::session::mass_checks_test {
 namespace {
 
-/// What planning says of a scene.
+/// The messages about a scene when it is planned.
 std::string said_of(const std::string& bodies, const std::string& more = "") {
     testing::TemporaryFolder folder;
     Request request;
@@ -62,7 +62,7 @@ TEST(MassChecks, SayWhichSolverHoldsWhichRatio) {
 }
 
 TEST(MassChecks, SayWhatAChainOfLightLinksCannotCarry) {
-    // what was measured: links of 1 g hold 200 g at 1 kHz and come apart with 500 g, at 2 kHz not
+    // as measured: links of 1 g hold 200 g at 1 kHz; with 500 g they come apart, but not at 2 kHz
     EXPECT_EQ(said_of(chain(1, 200)), "");
     EXPECT_EQ(said_of(chain(10, 500)), "");
     const std::string said = said_of(chain(1, 500));

@@ -1,6 +1,6 @@
 // Tests what other programs cannot see of a session that they watch: that a tick shows its frame
-// without allocating, and what becomes of them in its pauses and after its end. What they see and
-// do is tested where they are: python/test/live_test.py.
+// without allocating, and what happens to them in its pauses and after its end. What they see and
+// do is tested in python/test/live_test.py.
 #include "session/listeners/observers.h"
 
 #include <gtest/gtest.h>

@@ -31,8 +31,7 @@ TEST(ShippedFiles, AreInOrder) {
             Diagnostics diagnostics;
             EXPECT_NE(check_file(file, diagnostics).what, "unknown");
             for (const Problem& p : diagnostics.problems()) {
-                // what simulated people cannot judge is to be rehearsed all the same: its file says
-                // so
+                // what simulated people cannot judge can still be rehearsed: its file says so
                 const bool arbitrary =
                     p.severity == Severity::warning &&
                     p.text().find("do not treat its figures as human data") != std::string::npos;
@@ -479,7 +478,7 @@ TEST(Plan, WarnsOfTrialsThatTheirMeasuresWillNotShow) {
     EXPECT_NE(warnings("distance_mm: 30", "distance_mm: 51")
                   .find("distance: is 51 mm, but the nearest target is 50 mm away"),
               std::string::npos);
-    // what a formula gives is not known before the trial
+    // a formula's value is not known before the trial
     EXPECT_EQ(warnings("name: target, position_mm: [50, 0, 120]",
                        "name: target, position_mm: [start.x + 50 mm, 0, 120]")
                   .find("is not measured"),

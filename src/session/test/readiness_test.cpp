@@ -1,4 +1,4 @@
-// Tests what is looked at before a session.
+// Tests what is checked before a session.
 #include "session/readiness.h"
 
 #include <gtest/gtest.h>

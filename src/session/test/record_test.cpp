@@ -36,7 +36,7 @@ TEST(Record, MakesAllFilesOfASessionAndSetsItsState) {
         EXPECT_TRUE(fs::exists(folder + "/" + name)) << name;
     const auto made = recording::SessionFolder::open(folder);
     EXPECT_EQ(made.read_info().state, recording::SessionState::complete);
-    EXPECT_NO_THROW(recording::SessionLock{made});  // given back
+    EXPECT_NO_THROW(recording::SessionLock{made});  // released
 }
 
 TEST(Record, WithoutALogMakesTheTablesOnly) {

@@ -1,4 +1,4 @@
-// Tests that a session is resumed with what moved its hand before, or not at all.
+// Tests that a session is resumed with the same mover of its hand as before, or not at all.
 #include "session/resume.h"
 
 #include "session/test/sessions.h"
@@ -81,7 +81,7 @@ TEST(Rest, IsDoneOnce) {
     const Rest one = rest_of(cut, Seat::terminal, {});
     const Rest other = rest_of(cut, Seat::terminal, {});
     const std::string next = sessions.files.run(one.plan).folder;
-    // who was about to go on with it, and who comes later
+    // one that was about to continue it, and one that comes later
     const auto told = [&](const auto& tried) -> std::string {
         try {
             tried();
@@ -96,7 +96,7 @@ TEST(Rest, IsDoneOnce) {
     EXPECT_NE(refusal(cut, Seat::terminal).find("dihaptic resume " + next), std::string::npos);
     std::filesystem::rename(next, sessions.files.folder.file("elsewhere"));
     EXPECT_EQ(refusal(cut, Seat::terminal), "");
-    // a session that was made elsewhere is seen by who names that folder
+    // a session that was made elsewhere is seen if that folder is named
     EXPECT_THROW(claim(cut, sessions.files.folder.path()), Error);
     EXPECT_NO_THROW(claim(cut, sessions.files.folder.file("nothing")));
 }

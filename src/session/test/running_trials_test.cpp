@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Cells of a table that trials.csv has otherwise.
+/// Number of cells in which a table differs from trials.csv.
 size_t differences(const Table& table, const CsvFile& whole) {
     size_t out = 0;
     for (size_t row = 0; row < table.rows.size(); ++row) {

@@ -1,4 +1,4 @@
-// Tests that the mixer begins and ends sounds at the sample that is asked for, and says when.
+// Tests that the mixer begins and ends sounds at the requested sample, and reports when.
 #include "sound/mixer.h"
 
 #include <gtest/gtest.h>

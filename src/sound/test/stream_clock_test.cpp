@@ -1,4 +1,5 @@
-// Tests that the times of a stream's buffers are as even as its samples, whatever is said of them.
+// Tests that the times of a stream's buffers are as even as its samples, however uneven the
+// reported ones.
 #include "sound/stream_clock.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Tests the samples of tones, noise and files against what they are defined to be.
+// Tests the samples of tones, noise and files against their definitions.
 #include "sound/wave.h"
 
 #include <gtest/gtest.h>
@@ -179,7 +179,7 @@ std::string file_of(const testing::TemporaryFolder& folder, const std::string& n
     return read_bytes(file, 1'000'000);
 }
 
-/// What make_wave() says of a sound file of these bytes; "" if it takes it.
+/// The error of make_wave() for a sound file of these bytes; "" if it accepts the file.
 std::string refusal_of(const testing::TemporaryFolder& folder, const std::string& bytes) {
     task::SoundSpec sound;
     sound.name = "cut";

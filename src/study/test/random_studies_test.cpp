@@ -1,4 +1,4 @@
-// Studies made at random, filled with people of whom some withdraw: each is allocated as designed.
+// Tests random studies filled with people, some of whom withdraw: each is allocated as designed.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

@@ -83,7 +83,7 @@ class Perturbation {
     Perturbation(const PerturbationSpec& spec, const Names& names, const scene::Scene& scene,
                  Diagnostics& diagnostics);
 
-    /// Factor on its share at `t` since entry into its first state [s].
+    /// Factor on its share at time `t` since entry into its first state [s].
     double share_at(double t) const noexcept { return profile_ ? profile_->share(t) : 1; }
     /// Adds the perturbation's commands to `out`. `regions_W`: centres of the regions [m].
     void order(double share, std::span<const Vec3> regions_W, const Motions& motions,

@@ -65,7 +65,7 @@ class Expression {
     double operator()(std::span<const double> values) const noexcept;
 
     /// The statistics over earlier trials that it names, each after those that it depends on.
-    /// Whoever evaluates it sets their slots.
+    /// The caller sets their slots before evaluating it.
     const std::vector<LookBack>& look_backs() const;
 
   private:

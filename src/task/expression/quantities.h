@@ -76,10 +76,10 @@ class Quantities {
     Symbol define(std::string name, Dimension dimension, Kind kind);
     /// Defines a text with these possible values; its value is the index of a text, see text().
     Symbol define_text(std::string name, std::vector<std::string> levels, Kind kind);
-    /// Defines a number without a name, which expressions reach by what they were compiled from.
+    /// Defines a number without a name, which expressions find by its slot.
     Symbol define_unnamed(Dimension dimension);
-    /// Whether expressions may look back over earlier trials (LookBack). Only what is evaluated
-    /// when a trial has ended may.
+    /// Whether expressions may look back over earlier trials (LookBack). Only expressions that are
+    /// evaluated at the end of a trial may.
     bool looks_back() const { return looks_back_; }
     void let_look_back(bool allowed) { looks_back_ = allowed; }
     /// Index of a text in comparisons.
@@ -113,8 +113,8 @@ class Quantities {
     int contact_force(const Thing& a, const Thing& b);
 
     /// Slot of the rate at which the number in a slot changes: its difference over the last
-    /// kRateTicks ticks, divided by their duration [1/s]. NaN until so many ticks followed one
-    /// another. nullopt if the number is not measured in the tick.
+    /// kRateTicks ticks, divided by their duration [1/s]. NaN until there have been that many
+    /// consecutive ticks. nullopt if the number is not measured in the tick.
     std::optional<int> rate(int slot);
     static constexpr size_t kRateTicks = 10;
 
@@ -130,8 +130,8 @@ class Quantities {
     /// Updates the values that change with the tick.
     void update(const frame::Frame& last, std::span<const frame::Handle> handles) noexcept;
     std::span<const double> values() const { return values_; }
-    /// Turns a copy of values(), made before update(), into those of the Frame `last` itself, in
-    /// which the handles are of the same tick as all else. `handles`: of that Frame.
+    /// Turns a copy of values(), made before update(), into those of the Frame `last` itself, whose
+    /// handles are from the same tick as everything else. `handles`: of that Frame.
     void read_frame(const frame::Frame& last, std::span<const frame::Handle> handles,
                     std::span<double> values) const noexcept;
 
@@ -166,7 +166,7 @@ class Quantities {
     struct Rate {
         int of = -1;  ///< slot
         int slot = -1;
-        bool of_handle = false;  ///< whose last rate is of the handles in the last Frame
+        bool of_handle = false;  ///< a handle's: its rate before update() is that of the last Frame
         std::array<double, kRateTicks> past{};  ///< a ring of values
     };
     struct Member;
@@ -202,7 +202,7 @@ class Quantities {
     std::vector<double> values_;
     std::vector<Rate> rates_;
     std::array<double, kRateTicks> times_{};  // of the past values of rates [s]
-    size_t ticks_ = 0;                        // that followed one another
+    size_t ticks_ = 0;                        // number of consecutive ones
     int64_t sequence_ = -1;                   // of the last one
     bool looks_back_ = false;
 };

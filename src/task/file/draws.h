@@ -7,7 +7,7 @@
 //                   `to` it rises before the end, like that of every bounded distribution
 //     normal        mean + sd z, drawn again until it lies between from and to
 //     permutation   the values in random order, then in a new random order, restarted in each
-//                   block: in n trials each of k values occurs n / k times, or once more
+//                   block: in n trials, each of k values occurs n / k times or once more
 #pragma once
 
 #include <cstdint>

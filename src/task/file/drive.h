@@ -64,7 +64,7 @@ class Drive {
     Drive(const DriveSpec& spec, int body, Quantities& quantities, Diagnostics& diagnostics);
 
     int body() const noexcept { return body_; }
-    /// Pose of the body at `t` since the beginning of the state [s], where it was at `from`.
+    /// Pose of the body at time `t` since the beginning of the state [s], when it was at `from`.
     /// `of(Formula)` returns the formula's value in this trial; `values`: of the quantities.
     template <class Of>
     Pose at(double t, const Pose& from, const Of& of,

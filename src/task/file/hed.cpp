@@ -11,14 +11,14 @@
 namespace dihaptic::task {
 namespace {
 
-/// What a character that no tag may have is, in words; "" if a tag may have it.
+/// The words for a character that no tag may have; "" for any other character.
 std::string foreign(char c) {
     if (c == '\t' || c == '\n') return "of a tab or a line break";
     return std::string_view("[]{}~\"").find(c) == std::string_view::npos ? ""
                                                                          : fmt::format("'{}'", c);
 }
 
-/// Tags that only definitions and whole events may have, or that mean another column's cell.
+/// Tags that only definitions and whole events may have, or that refer to another column's cell.
 constexpr std::array<std::string_view, 10> kNotHere{
     "onset",      "offset",   "inset", "def", "def-expand",
     "definition", "duration", "delay", "n/a", "event-context"};

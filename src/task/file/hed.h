@@ -1,5 +1,5 @@
 // Tags of the Hierarchical Event Descriptors (HED, www.hedtags.org), by which programs compare
-// events of different experiments. The export to BIDS writes them beside each event.
+// events of different experiments. The export to BIDS writes them with each event.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace dihaptic::task {
 
-/// Reports tags that no HED schema accepts beside an event: with unbalanced parentheses, a missing
+/// Reports tags that no HED schema accepts for an event: with unbalanced parentheses, a missing
 /// comma, an empty or a repeated tag, or a character or a tag that has another meaning. Whether a
-/// tag exists depends on the schema, which a HED validator of the exported data set knows.
+/// tag exists depends on the schema; a HED validator checks this in the exported data set.
 void check_hed(const std::string& tags, const Place& place, Diagnostics& diagnostics);
 
 }  // namespace dihaptic::task

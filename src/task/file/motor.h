@@ -69,7 +69,7 @@ class Motor {
           Diagnostics& diagnostics);
 
     int joint() const noexcept { return joint_; }
-    /// Command of the motor at `t` since the beginning of the state [s], when the joint was at
+    /// Command of the motor at time `t` since the beginning of the state [s], when the joint was at
     /// `from`. `of(Formula)` returns the formula's value in this trial; `values`: of the
     /// quantities.
     template <class Of>

@@ -39,7 +39,7 @@ struct Profile {
         v("shape", shape, says("Shape of the rise and the fall."));
     }
 
-    /// The factor at `t` since the onset [s], from 0 to 1.
+    /// The factor at time `t` since the onset [s], from 0 to 1.
     double share(double t) const noexcept {
         constexpr double kRounding = 1e-9;  // times are sums of ticks, with rounding errors
         t += kRounding - delay;
@@ -63,8 +63,8 @@ struct Course {
     Formula duration{};  ///< [s]
     ProfileShape shape = ProfileShape::minimum_jerk;
 
-    /// The share at `t` since the beginning [s]; `of(Formula)` returns the formula's value in this
-    /// trial.
+    /// The share at time `t` since the beginning [s]; `of(Formula)` returns the formula's value in
+    /// this trial.
     template <class Of>
     double share(double t, const Of& of) const noexcept {
         Profile course;

@@ -64,7 +64,7 @@ void check_by(const AskSpec& spec, Diagnostics& diagnostics) {
                           "Leave it out, or write by: cursor.");
 }
 
-/// The simulated answer must lie on the scale, and is typed.
+/// Checks that the simulated answer lies on the scale and can be typed.
 void check_simulated(const AskSpec& spec, double simulated, Diagnostics& diagnostics) {
     std::array<char, Rating::kLongest> keys{};
     const bool typed =

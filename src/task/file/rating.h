@@ -23,7 +23,7 @@ enum class Scale { numbers, vas, likert, magnitude };
 constexpr auto enum_names(Scale) {
     return std::array{"numbers", "vas", "likert", "magnitude"};
 }
-/// The end of a scale of magnitudes that names none.
+/// The upper end of a scale of magnitudes that does not state one.
 constexpr double kMostMagnitude = 1e6;
 
 enum class AnswerBy { key, mouse, cursor };

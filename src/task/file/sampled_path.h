@@ -44,9 +44,9 @@ struct SampledPath {
     void read_file(const std::string& folder, Diagnostics& diagnostics);
     /// Whether the path is valid; problems go to `diagnostics`.
     bool check(Diagnostics& diagnostics) const;
-    /// Displacement from the first position at `t` since the first time [s]: a cubic curve through
-    /// all positions, whose slope at each is that between its neighbours (Catmull and Rom 1974), at
-    /// rest at both ends. Requires a valid path.
+    /// Displacement from the first position at time `t`, counted from the first time [s]: a cubic
+    /// curve through all positions, whose slope at each is that between its neighbours (Catmull and
+    /// Rom 1974), at rest at both ends. Requires a valid path.
     Vec3 way(double t) const noexcept;
 
   private:

@@ -43,8 +43,8 @@ enum class When {
 /// Properties of conditions: a row for each When, in the same order.
 struct WhenRow {
     /// Fields of an Exit. any_finger: a finger whose default is any finger, all fingers or their
-    /// middle, not the first finger. comes: not a field; the condition does not depend on the
-    /// hand's motion.
+    /// middle, rather than the first finger. comes: not a field; the condition does not depend on
+    /// the hand's motion.
     enum Has : unsigned {
         region = 1,
         body = 2,
@@ -116,7 +116,7 @@ struct Exit {
     int chooses = 0;            ///< ends the trial with the answer that chooses this interval
     bool redo = false;          ///< the trial is to be repeated
     bool ends_session = false;  ///< the remaining trials are left out
-    std::string feedback;       ///< shown for Task::feedback at least, then until the next message
+    std::string feedback;       ///< shown for at least Task::feedback, then until the next message
     Ref<SoundSpec> sound;       ///< starts when the exit is taken
     std::string hed;            ///< HED tags of the outcome
     Place place;
@@ -420,7 +420,7 @@ struct Insert {
     int count = 1;
     int gap = 1;  ///< smallest number of other trials between two of them
     Refs<PerturbationSpec> perturb;
-    RefList<Condition> conditions;  ///< empty: that of the trial before
+    RefList<Condition> conditions;  ///< empty: that of the previous trial
     Place place;
 
     template <class Visitor>
@@ -437,7 +437,7 @@ struct Insert {
     }
 };
 
-/// Whether a block is done in each round, or once beside them: before the first or after the last.
+/// Whether a block is run in each round, or only once: before the first round or after the last.
 enum class Once { no, before, after };
 constexpr auto enum_names(Once) {
     return std::array{"no", "before", "after"};
@@ -610,7 +610,7 @@ struct Task {
     int most_attempts = 3;  ///< largest number of attempts at a trial
     /// Time for which feedback stays: no message replaces it, and no trial starts [s].
     double feedback = 1;
-    bool feedback_beside = false;    ///< it is a line below the message for this time
+    bool feedback_beside = false;    ///< it appears below the message for this time
     std::vector<std::string> lines;  ///< texts below the message throughout the session
     std::optional<ReachMeasure> reach;
     std::vector<std::string> measures;  ///< names from kMeasureTable

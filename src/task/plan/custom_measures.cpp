@@ -139,7 +139,7 @@ void CustomMeasures::add_to_window(size_t i, double now, double value) {
     const double from = now - plan_.custom_measures[i].window;  // of the tick before the window
     while (window.front().first <= from + kTolerance) window.pop_front();
     if (window.front().first > from + step + kTolerance) return;
-    double sum = 0;  // anew each time: a running sum would keep what was once too large
+    double sum = 0;  // anew each time: a running sum would stay wrong after a value too large
     for (const auto& [time, one] : window) sum += one;
     taken_[i].add(sum / static_cast<double>(window.size()));
 }

@@ -27,7 +27,7 @@ class CustomMeasures {
     explicit CustomMeasures(TaskPlan plan);
     CustomMeasures(const CustomMeasures&) = delete;
 
-    /// `frame`: belongs to an attempt at a trial. The tick that ends it does not count.
+    /// `frame`: belongs to an attempt at a trial. The tick that ends the attempt does not count.
     void add(const frame::Frame& frame);
     /// Ends the attempt and returns its values in the units of the columns; NaN if no tick of the
     /// attempt was in the measure's states.

@@ -28,8 +28,8 @@ struct MeasureColumn {
     const char* name = nullptr;
     const char* unit = "";
     const char* what = "";
-    /// Bounds of its range of sense, in the column's unit: a value outside it says something about
-    /// the recording or the rule, not about the person, and is left out.
+    /// Bounds of its plausible range, in the column's unit: a value outside it reflects the
+    /// recording or the rule, not the person, and is left out.
     double least = 0;
     double most = 0;
 };
@@ -189,7 +189,7 @@ struct State;
 struct CustomMeasure {
     std::string name;  ///< its column in trials.csv, with the unit
     std::string of;    ///< an expression, evaluated in each tick
-    std::string when;  ///< a condition: other ticks do not count; empty: all count
+    std::string when;  ///< condition for the ticks that count; empty: all do
     Take take = Take::max;
     std::optional<double> window;  ///< the statistic is of moving means over this time [s]
     RefList<State> during;         ///< empty: all

@@ -45,7 +45,7 @@ class Definer {
     }
 
   private:
-    /// Whether the name can be used in a formula, and as a column beside the others.
+    /// Whether the name can be used in a formula, and as a column next to the others.
     bool check_name(const std::string& name, const Place& place, const char* key) {
         const std::string plain(split_unit(name).name);
         Diagnostics ignored;
@@ -119,7 +119,7 @@ class Definer {
                                    : unit.si * *finite_number(level));
         }
         const bool of_rounds = &owners == &plan_.task.rounds;
-        if (of_rounds) levels.push_back(kUnmeasured);  // beside the rounds
+        if (of_rounds) levels.push_back(kUnmeasured);  // outside the rounds
         plan_.symbols.factors.push_back({symbol.slot, levels, of_rounds});
     }
 

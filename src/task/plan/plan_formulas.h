@@ -18,7 +18,7 @@ void plan_rules(TaskPlan& plan, Diagnostics& diagnostics);
 Formula formula_of(const std::string& text, const std::string& name, const char* key,
                    const Place& place);
 
-/// Compiles a condition; empty if the text is empty or, with a problem in the diagnostics, no
+/// Compiles a condition; empty if the text is empty or, with a problem in the diagnostics, is not a
 /// condition.
 std::optional<Expression> compile_condition(const std::string& text, Quantities& quantities,
                                             const Place& place, const char* key,

@@ -1,4 +1,4 @@
-// The measurement of each trial's reach (ReachMeasure): frozen in trial-list.csv, beside the trial,
+// How each trial's reach is measured (ReachMeasure), frozen in the trial's row of trial-list.csv,
 // in columns named reach_...
 #pragma once
 

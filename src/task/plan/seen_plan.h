@@ -14,13 +14,13 @@ class SeenPlanner : Planning {
     int text(const std::string& text, const Place& place, const char* key);
     /// Plans the display in the state, apart from its message.
     void plan_state(const State& state, TaskPlan::PlannedState& out);
-    /// The lines while the state asks a question, the number-th from 1.
+    /// The lines shown while the state asks its question `number`, counted from 1.
     std::vector<int> question(const AskSpec& ask, size_t number, const State& state);
-    /// The lines while a filled form awaits its confirmation.
+    /// The lines shown while a completed form awaits confirmation.
     std::vector<int> confirmation(const State& state);
     /// Problems with looks themselves go to `found`.
     static void check_looks(const std::vector<LookSpec>& specs, Diagnostics& found);
-    /// Adds looks to the existing ones, apart from those that name other states than this one.
+    /// Adds looks to the existing ones, except those that name only other states.
     void add_looks(const std::vector<LookSpec>& specs, int state, TaskPlan::Looks& out) const;
     static constexpr int kAnyState = -1;
     /// The task's own lines, breaks and pages.

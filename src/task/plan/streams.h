@@ -1,7 +1,7 @@
 // Names of the random streams (base/random.h) that generate a participant's trials: each
 // participant has individual orders and draws, since otherwise a carry-over from trial to trial
-// would be the same in all and look like an effect. The first participant, and participants without
-// a number, use the streams of the seed itself.
+// would be the same in everyone and look like an effect. The first participant, and participants
+// without a number, use the streams of the seed itself.
 #pragma once
 
 #include <fmt/format.h>

@@ -9,7 +9,7 @@
 
 namespace dihaptic::task {
 
-/// For all statistics but the median it allocates nothing.
+/// Allocates nothing, except for the median.
 class Taken {
   public:
     explicit Taken(Take take) : take_(take) {}
@@ -28,8 +28,8 @@ class Taken {
     std::vector<double> all_;  // for the median
 };
 
-/// The median, the mean of the middle two of an even number of values. Reorders them; NaN if there
-/// are none.
+/// The median; for an even number of values, the mean of the middle two. Reorders the values; NaN
+/// if there are none.
 double median_of(std::span<double> x) noexcept;
 
 }  // namespace dihaptic::task

@@ -22,7 +22,7 @@
 namespace dihaptic::task {
 namespace {
 
-/// What is shown while a finger is in the way of an object: how far it has to go.
+/// The text shown while a finger is in the way of an object: how far the finger has to move.
 std::string move_away(const scene::Scene& scene) {
     double most = 0;
     for (const scene::Finger& finger : scene.fingers) most = std::max(most, reach_of(finger));
@@ -99,7 +99,7 @@ class Planner : Planning {
                                       .joints = names.all<scene::Joint>(),
                                       .regions = names.all<Region>(),
                                       .hands = hands()});
-        // bodies that no trial places stay there
+        // bodies that no trial places start where the scene has them
         for (size_t i = 0; i < scene.bodies.size(); ++i)
             plan.quantities.set(plan.quantities.start(i), scene.bodies[i].pose().p);
         plan.bodies = scene.bodies.size();
@@ -123,7 +123,7 @@ class Planner : Planning {
         return out;
     }
 
-    /// Each participant has a hand, whose fingers follow those of the participant before.
+    /// Each participant has a hand, whose fingers follow those of the previous participant.
     void plan_participants() {
         const RefList<Hand>& hands = plan.task.participants;
         if (hands.empty()) return;

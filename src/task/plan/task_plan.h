@@ -129,7 +129,7 @@ struct TaskPlan {
         Looks looks;
         bool holds_cursor = false;
         int held_from =
-            -1;  ///< state at whose end the cursor was where it is held; -1: the one before
+            -1;  ///< the cursor is held where it was at the end of this state; -1: the one before
         std::vector<int> lines;  ///< messages
         int message = -1;
         int marker = 0;
@@ -159,7 +159,7 @@ struct TaskPlan {
             return state >= 0 && (during[static_cast<size_t>(perturbation)] >> state & 1u) != 0;
         }
     };
-    std::vector<Cell> cells;            ///< by round, and those beside all rounds; then condition
+    std::vector<Cell> cells;            ///< by round, last those outside all; then by condition
     size_t bodies = 0;                  ///< number in the scene
     std::vector<double> finger_radius;  ///< radius of the sphere around each finger's shape [m]
     double longest_delay = 0;           ///< in the loads [s]
@@ -226,7 +226,7 @@ struct TaskPlan {
         }
     };
     Quantities measured;  ///< `quantities`, and further ones for measures
-    /// A custom measure that rules name: measure.hold, of hold_N.
+    /// A custom measure that rules use, e.g. measure.hold for hold_N.
     struct RuleMeasure {
         Measured measured;  ///< with the slots of `quantities`
         int slot = -1;      ///< of its value when a trial has ended
@@ -239,14 +239,15 @@ struct TaskPlan {
         std::optional<Expression> when;
         size_t variable = 0;
         CompiledFormula to;
-        size_t look_backs = 0;  ///< where its look-backs end in the plan's list; they begin where
-                                ///< those of the rule before end
+        size_t look_backs = 0;  ///< end of its look-backs in the plan's list; they begin where
+                                ///< those of the previous rule end
     };
     Quantities between;  ///< quantities for the end of a block: only variables
     Symbols symbols;
     std::vector<CompiledFormula> formulas;
     std::vector<int> in_states;  ///< formulas
-    /// The first finger of each participant's hand, which has all fingers up to the next one's.
+    /// The first finger of each participant's hand, which includes all fingers up to the next
+    /// hand's.
     std::vector<size_t> first_fingers{0};
     /// A number that procedures choose. In frames, levels come after the variables.
     struct Level {

@@ -15,7 +15,7 @@ struct Trial {
     int block = 0;     ///< index of the block in the task
     int number = 1;    ///< number of the block in the session, from 1
     int in_block = 1;  ///< number of the trial in the block, from 1
-    int round = 0;     ///< index; the number of rounds for a trial beside them, or without any
+    int round = 0;     ///< index; for a trial outside all rounds, the number of rounds
     int condition = 0;
     TrialKind kind = TrialKind::baseline;
     std::vector<int> perturb;     ///< indices of perturbations in the task

@@ -17,7 +17,7 @@ constexpr size_t kMostKeys = 64;
 
 /// A click on a question's line.
 struct Click {
-    int32_t item = -1;  ///< the question, or their number for a click on "done"; -1: no click
+    int32_t item = -1;  ///< index of the question; their number: a click on "done"; -1: no click
     int32_t place = 0;  ///< in millionths of the line's length, from its left end
 
     /// `share`: of the line's length, from 0 to 1.
@@ -39,13 +39,13 @@ class Answering {
     /// Uses the hand's position on the line from `from_W` to `to_W` as the answer.
     void point(const Vec3& p_W, const Vec3& from_W, const Vec3& to_W) noexcept;
 
-    /// The messages of the present question.
+    /// The messages of the current question.
     std::span<const int> lines() const noexcept;
     /// Whether the only question is answered, or the form is confirmed.
     bool answered() const noexcept;
-    /// The question that is asked now; their number, once all are answered.
+    /// Index of the question being asked; the number of questions, once all are answered.
     size_t item() const noexcept { return item_; }
-    /// Of a question, in the unit of its name; NaN while it has none.
+    /// The answer to a question, in the unit of its name; NaN until it is given.
     double answer(size_t item) const noexcept { return answers_[item]; }
     /// The number typed so far, or the answer.
     double shown() const noexcept { return rating_.shown(); }
@@ -57,7 +57,7 @@ class Answering {
     void ask_next() noexcept;
 
     const TaskPlan::Questions* questions_ = nullptr;
-    Rating rating_;  // the answer to the present question
+    Rating rating_;  // the answer to the current question
     std::array<double, frame::TaskFrame::kMostVariables> answers_{};
     std::array<bool, frame::TaskFrame::kMostVariables> given_{};
     size_t item_ = 0;

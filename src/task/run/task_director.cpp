@@ -48,7 +48,7 @@ double coordinate_of(int joint, const frame::Frame& last) noexcept {
     return std::isnan(frame.angle) ? frame.displacement : frame.angle;
 }
 
-/// Of the values at the ends of the last trials; `sorted`: memory for as many.
+/// The statistic of the values at the ends of the last trials; `sorted`: memory for as many values.
 double statistic_of(LookBack::Statistic statistic, const std::vector<double>& x,
                     std::vector<double>& sorted) noexcept {
     if (x.empty()) return kUnmeasured;
@@ -483,8 +483,8 @@ bool TaskDirector::is_done() noexcept {
     return trial().procedure >= 0 && procedures_[static_cast<size_t>(trial().procedure)].done();
 }
 
-/// Unlike exits, which see the present handles, measures see the last Frame alone, as the columns
-/// of the same names do.
+/// Unlike exits, which see the present handles, measures see only the last Frame, as the columns of
+/// the same names do.
 void TaskDirector::take_measures(const frame::Frame& last) noexcept {
     handles_of(last, frame_handles_);
     numbers_.quantities().read_frame(last, frame_handles_, in_frame_);
@@ -546,7 +546,7 @@ void TaskDirector::take_answers(std::span<const frame::Handle> handles, const In
     if (questions.items.empty()) return;
     const Question& first = questions.items.front().question;
     if (questions.is_form && now - entered_ < kUnread) {
-        // what is typed belongs to the page before
+        // what is typed belongs to the previous page
     } else if (first.by != AnswerBy::cursor) {
         answering_.press(input.key);
         answering_.click(input.clicked);

@@ -28,7 +28,7 @@ class TaskDirector {
     void operator()(const frame::Frame& last, std::span<const frame::Handle> handles,
                     frame::Commands& commands) noexcept;
 
-    /// Passes on a key that the operator pressed; from one thread. It waits for its tick.
+    /// Queues a key that the operator pressed, for a tick to take; from one thread.
     void press(char key) noexcept { keys_.push(key); }
     /// Passes on a click on a question's line; from any thread.
     void click(const Click& click) noexcept { clicked_.store(click, std::memory_order_relaxed); }
@@ -51,8 +51,7 @@ class TaskDirector {
     /// The numbers of the trials so far, with a record of formulas that had to be kept within
     /// bounds.
     const TrialNumbers& numbers() const noexcept { return numbers_; }
-    /// A finger because of which a body cannot be put back where a trial begins. Call between
-    /// ticks.
+    /// A finger that keeps a body from being placed at its start pose. Call between ticks.
     struct Obstacle {
         int body = -1;    ///< -1: there was none yet
         int finger = -1;  ///< -1: a finger presses the body

@@ -39,7 +39,7 @@ class TrialNumbers {
     std::span<const double> values() const noexcept { return quantities_.values(); }
     /// Sets the variables for the expressions that use them.
     void set(std::span<const frame::VariableFrame> variables) noexcept;
-    /// Only the answers among them, which change within an attempt.
+    /// Sets only the answers among them, which change within an attempt.
     void set_answers(std::span<const frame::VariableFrame> variables) noexcept;
     /// Number of values outside the bounds of a formula, and index of the last such formula; -1:
     /// none.

@@ -42,7 +42,7 @@ TEST(Bounds, AreOfExperimentsTasksAndProcedures) {
     }
 }
 
-/// Problems of reading a line of settings.
+/// The problems in reading a line of settings.
 std::string said_of(const std::string& line) {
     Diagnostics diagnostics;
     frame::Settings settings;

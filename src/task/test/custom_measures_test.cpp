@@ -1,5 +1,4 @@
-// Tests measures of a task's own against what the recorded frames say, and the error for every
-// mistake.
+// Tests a task's own measures against the recorded frames, and the error for every mistake.
 #include "task/plan/custom_measures.h"
 
 #include <gtest/gtest.h>
@@ -65,7 +64,7 @@ TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
         int phase = 0, ticks = 0;
         std::vector<double> x;       // [mm]
         std::vector<double> speeds;  // in the reach [m/s]
-        std::vector<double> later;   // x from 50 to 100 ms after the reach's begin [mm]
+        std::vector<double> later;   // x from 50 to 100 ms after the reach's start [mm]
         double fast = -1;            // when the reach exceeds 0.1 m/s [s]
     };
     std::map<int, Expected> expected;  // by trial

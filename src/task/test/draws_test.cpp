@@ -1,5 +1,5 @@
 // Tests what is drawn for trials: the distributions against their closed forms, and that the seed
-// decides.
+// determines them.
 #include "task/file/draws.h"
 #include "base/number.h"
 
@@ -29,7 +29,7 @@ std::vector<double> drawn_10000(const DrawSpec& draw, uint64_t seed) {
 }
 
 /// Probability of a distance as great as this sample's from the distribution, by Kolmogorov and
-/// Smirnov; the sample size enters as Stephens (1970) has it.
+/// Smirnov; the sample size enters as in Stephens (1970).
 template <class Cdf>
 double p_of(std::vector<double> sample, const Cdf& cdf) {
     std::sort(sample.begin(), sample.end());
@@ -90,7 +90,7 @@ TEST(Draws, TenThousandForeperiodsAreFrozenInTheListAndRepeatedByTheSeed) {
     };
     EXPECT_NE(list(1), list(2));
     EXPECT_EQ(list(1), list(1));
-    std::vector<double> waits;  // as a session that goes on has them: from the list
+    std::vector<double> waits;  // as in a resumed session: from the list
     for (const Trial& trial : read_trial_list(plan.task, folder.file("trial-list.csv")))
         waits.push_back(trial.draws.at(0));
     ASSERT_EQ(waits.size(), kTrials);

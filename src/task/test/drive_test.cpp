@@ -16,7 +16,7 @@ using session::Mistake;
 
 constexpr double kTick = 1e-3;
 
-/// A scene with a platform beside the table.
+/// A scene with a platform next to the table.
 struct WithPlatform : session::Files {
     WithPlatform() {
         scene.insert(scene.find("  - { name: block"),
@@ -103,7 +103,8 @@ TEST(Drive, FollowsATable) {
         return frames[static_cast<size_t>(std::lround(t / kTick))].bodies[kPlatform].X_WB.p;
     };
     EXPECT_LT((at(0.04) - Vec3(0.2, 0, 0.1)).norm(), 1e-12);
-    // a platform that goes at up to 0.45 m/s is a tick's way off by when a state begins
+    // at up to 0.45 m/s, a state that begins a tick later or earlier shifts the platform by a
+    // tick's way
     EXPECT_NEAR(at(0.15).z(), 0.13, 1e-3);
     EXPECT_NEAR(at(0.2).z(), 0.1 + 0.03 - 0.01, 1e-3);  // halfway, and slopes of 50 and 0 mm/s
     EXPECT_LT((at(0.28) - Vec3(0.2, 0, 0.11)).norm(), 1e-9);

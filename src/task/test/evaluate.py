@@ -1,9 +1,9 @@
 #!/usr/bin/python3
 """evaluate.py FILE: evaluates expressions as Python reads them, for expression_test.cpp.
 
-The first line of FILE has the names; each line after it their values, and behind a tab the
-expression. Prints the value of each, in that form. What binds what, and what chains, is Python's; where Python
-raises an error, a number of IEEE 754 takes its place.
+The first line of FILE has the names; each further line has their values and, after a tab, the expression. Prints the
+value of each, in that form. Precedence and chaining are Python's; where Python raises an error, an IEEE 754 number takes
+its place.
 """
 import ast
 import math

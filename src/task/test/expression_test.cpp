@@ -174,12 +174,12 @@ TEST(Expression, EveryQuantityOfTheFrameHasAName) {
         ++found;
     }
     EXPECT_GT(found, 100);
-    // one device does not measure its handle's orientation: which, the list does not say
+    // one device does not measure its handle's orientation: the list does not say which one
     EXPECT_TRUE(std::isnan(grasp.value("index.torque_sent.x")));
     grasp.last.turns.resize(2);
     grasp.last.turns[1].t_sent_W.x() = 0.25;
     EXPECT_EQ(grasp.value("index.torque_sent.x"), 0.25);
-    // what two expressions name is read once
+    // a quantity in two expressions is read once
     EXPECT_EQ(grasp.quantities.pressing(1, 3), grasp.quantities.pressing(1, 3));
     EXPECT_NE(grasp.quantities.pressing(1, 3), grasp.quantities.pressing(1, 1));
     // before the first tick nothing is known
@@ -284,7 +284,7 @@ TEST(Expression, NestingAndLengthHaveLimits) {
     std::string wide = "score";
     for (int i = 0; i < 200; ++i) wide += " + score";
     EXPECT_EQ(said(wide), "");
-    // what chains is computed twice, and what is in it four times, and so on
+    // a part of a chain is computed twice, a part within that part four times, and so on
     std::string chain = "score";
     for (int i = 0; i < 15; ++i) chain = "(1 if 1 < " + chain + " < 2 else 2)";
     EXPECT_NE(said(chain).find("is too long"), std::string::npos);
@@ -345,8 +345,8 @@ class Writer {
     }
 
   private:
-    /// In brackets, or once in `often` times left to bind as it does, unless that would change what
-    /// is a number and what a condition.
+    /// The text in brackets or, once in `often` times, without them, unless that would change which
+    /// part is a number and which a condition.
     std::string bracketed(const std::string& text, size_t often) {
         const bool binds =
             text.find(" if ") == std::string::npos && text.find(" or ") == std::string::npos &&
@@ -366,7 +366,7 @@ class Writer {
     Random& random_;
 };
 
-/// Whether two values are equal as the test asks.
+/// Whether two values are as equal as the test requires.
 bool agree(double a, double b) {
     if (std::isnan(a) || std::isnan(b)) return std::isnan(a) && std::isnan(b);
     return a == b || std::abs(a - b) <= 1e-12 * std::max(std::abs(a), std::abs(b));
@@ -473,7 +473,7 @@ TEST(Expression, AllocatesNothingInTheTick) {
     EXPECT_EQ(sum, 1000);
 }
 
-/// Each of many fingers is itself, and no other one of the same remainder.
+/// Each of many fingers differs from every other one, even of the same remainder.
 TEST(Expression, AnyNumberOfFingersAreToldApart) {
     for (const size_t count : {2, 31, 32, 33, 64, 65, 200}) {
         SCOPED_TRACE(count);

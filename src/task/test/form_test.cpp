@@ -131,7 +131,7 @@ TEST(Form, EnterAfterANumberThatIsCompleteLeavesNothingOut) {
     EXPECT_EQ(answers(end), (std::vector<double>{20, 1, 7}));
 }
 
-/// A window that draws slowly passes on what was typed meanwhile all at once.
+/// A window that draws slowly passes on all keys typed meanwhile at once.
 TEST(Form, LosesNoKeyOfThoseThatComeAtOnce) {
     Forms files;
     const session::Plan plan = files.plan();

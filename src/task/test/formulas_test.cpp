@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using session::Mistake;
 
-/// Waits of drawn durations, then reaches to a target that moves on by what was reached.
+/// Waits of drawn durations, then reaches to a target that moves on depending on what was reached.
 const char* const kFormulas = R"(title: Formulas
 scene: scene.yaml
 hand: { centre_mm: [0, 0, 120] }

@@ -223,8 +223,8 @@ TEST(Motions, KeepWhatWasADelayAgo) {
     EXPECT_EQ(motions.of(1, 0), nullptr);
 }
 
-/// A block 0.5 m up in the air, where the region `there` is, and states of one trial under what
-/// `perturbations` lists.
+/// A block 0.5 m up in the air, where the region `there` is, and the states of one trial under the
+/// listed `perturbations`.
 struct InTheAir : session::Files {
     explicit InTheAir(
         const std::string& perturbations, const std::string& perturb,
@@ -239,7 +239,7 @@ struct InTheAir : session::Files {
             perturbations + "  states:\n" + states +
             "  blocks: [{ name: all, kind: perturbed, perturb: " + perturb + " }]\n";
     }
-    /// Frames of the trial but its last, in which nothing acts any more.
+    /// Frames of the trial except its last, in which nothing acts any more.
     std::vector<frame::Frame> run() {
         const session::RunResult result = Files::run(session::make_plan(request()));
         std::vector<frame::Frame> out;

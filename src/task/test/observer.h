@@ -60,7 +60,7 @@ struct IntervalTrial {
     Attempt attempt;
 };
 
-/// Runs trials, from after those of `done`, until the session is over or `most` are done.
+/// Runs trials, starting after those of `done`, until the session is over or `most` are done.
 inline std::vector<IntervalTrial> observe(const session::Plan& plan,
                                           const model::Psychometric& observer, Random& random,
                                           const std::vector<Attempt>& done = {},

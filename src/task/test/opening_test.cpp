@@ -126,7 +126,7 @@ TEST(Opening, ASimulatedSessionGoesOnByItselfRestsAndReplays) {
         if (row[2] == "page") pages.insert(row[3]);
     }
     EXPECT_EQ(pages, (std::multiset<std::string>{"bead.png", "Now it turns"}));
-    // the folder has the picture, under the name that its task has
+    // the folder has the picture, under the name in its task
     EXPECT_TRUE(std::filesystem::exists(result.folder + "/page-1-bead.png"));
     EXPECT_NE(testing::read_file(result.folder + "/task.yaml").find("page-1-bead.png"),
               std::string::npos);

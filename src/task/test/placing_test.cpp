@@ -21,8 +21,8 @@ std::string state(const std::string& name, const std::string& next, const std::s
            more + " }\n";
 }
 
-/// Frames of the first trial of an experiment with these states, but the session's first, in which
-/// no state puts anything yet.
+/// Frames of the first trial of an experiment with these states, except the session's first, in
+/// which no state has put anything yet.
 std::vector<frame::Frame> frames_of(session::Files& files, const std::string& states) {
     files.experiment = "scene: scene.yaml\nhand: { centre_mm: [0, 0, 220] }\ntask:\n  states:\n" +
                        states + "  blocks: [{ name: all, repeats: 2 }]\n";

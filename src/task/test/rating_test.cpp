@@ -73,7 +73,7 @@ TEST(Rating, IsTyped) {
     EXPECT_EQ(typed("15", numbers(12, 90)), 15);
     EXPECT_TRUE(std::isnan(typed("abc\r", numbers(0, 100))));
     EXPECT_EQ(typed("12345678901\r", numbers(0, 1e8)), 12345678);
-    EXPECT_EQ(typed("72", numbers(1, 9)), 7);  // what comes later counts no more
+    EXPECT_EQ(typed("72", numbers(1, 9)), 7);  // later keys do not count
     Rating rating;
     rating.press('4', numbers(0, 100));
     EXPECT_EQ(rating.shown(), 4);

@@ -1,4 +1,4 @@
-// Tests that how a trial's reach is measured comes out of trial-list.csv as it went in.
+// Tests that trial-list.csv returns unchanged how a trial's reach is measured.
 #include "task/plan/reach_plan.h"
 
 #include <cmath>

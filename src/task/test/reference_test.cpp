@@ -1,4 +1,4 @@
-// Every key of a file is described in visit(), and docs/reference.md says the same.
+// Tests that every key of a file is described in visit(), and that docs/reference.md says the same.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
@@ -32,7 +32,7 @@ struct Key {
     std::string type;
     std::string bounds;
     std::string what;
-    std::string preset;                ///< what holds if it is left out
+    std::string preset;                ///< the default
     std::vector<std::string> kinds{};  ///< of the struct that have it
 
     bool same(const Key& other) const {
@@ -83,7 +83,7 @@ class Page {
   public:
     std::string text;
 
-    /// Heading of the struct's section, unless it is to be that of the key that has it first.
+    /// Heading of the struct's section, if not that of the first key that has it.
     template <class Struct>
     void name(const std::string& heading) {
         headings_[typeid(Struct)] = heading;
@@ -204,7 +204,7 @@ class Lister {
     void operator()(std::string_view name, std::vector<Struct>&, Field field = {}) {
         add(name, "list of " + page_.section(Struct{}, inner(name)), field, Node{});
     }
-    /// What may be a list alone, or keys, is described as keys.
+    /// A value that may be either only a list or keys is described as keys.
     static bool is_list(std::string_view) { return false; }
 
   private:
@@ -301,7 +301,7 @@ std::string tables() {
     return page.text;
 }
 
-/// What stands before the tables is written by hand.
+/// The text before the tables is written by hand.
 TEST(Reference, HasEachKeyOfFiles) {
     const std::string page = testing::read_file(kFile);
     const std::string made = page.substr(0, page.find("## Experiment")) + tables();

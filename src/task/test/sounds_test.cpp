@@ -1,5 +1,5 @@
-// Tests a task's sounds: in which ticks they begin and end, and the errors for every mistake in
-// what a file says of them.
+// Tests a task's sounds: in which ticks they begin and end, and the error for every mistake in
+// their keys.
 #include <gtest/gtest.h>
 
 #include <set>
@@ -23,7 +23,8 @@ const char* const kSounds = R"(  sounds:
   states:
 )";
 
-/// Reaches that begin with a tone, end with another, hum from first to last, and a wind throughout.
+/// Reaches that begin with a tone and end with another, with a hum from first to last, and a wind
+/// throughout.
 struct WithSounds : session::Files {
     WithSounds() {
         replace("  states:\n", kSounds);

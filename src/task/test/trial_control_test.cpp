@@ -1,4 +1,5 @@
-// What decides between trials is asked once for each attempt, and late answers count for nothing.
+// Tests that what decides between trials is asked once for each attempt, and that late answers do
+// not count.
 #include "task/run/trial_control.h"
 
 #include <gtest/gtest.h>
@@ -58,7 +59,7 @@ TEST(TrialControl, OnTheVirtualClockTheDirectorWaits) {
     EXPECT_EQ(answer->next, 3);
 }
 
-/// In real time, and though nobody ever answers.
+/// In real time, and even if nobody ever answers.
 TEST(TrialControl, NoTickAllocatesOrWaits) {
     session::Files files;
     TrialControl between(0.1, false);

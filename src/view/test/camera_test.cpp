@@ -68,7 +68,7 @@ TEST(Camera, AnOrbitOverTheTopStopsThereAndRemembersWhereItCameFrom) {
 TEST(Camera, APanMovesTheSceneWithTheMouse) {
     const Camera camera = in_front();
     const Camera moved = panned(camera, 0.1, 0.2);
-    // the point in the middle went a tenth of the height right and a fifth up
+    // the point in the middle moved by a tenth of the height to the right and a fifth up
     const Eigen::Vector2d at = seen(moved, camera.look_at);
     EXPECT_NEAR(at.x(), 2 * 0.1 / 1.5, 1e-12);
     EXPECT_NEAR(at.y(), 2 * 0.2, 1e-12);

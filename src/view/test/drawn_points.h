@@ -1,4 +1,4 @@
-// Points of the world as small black balls, and where a picture has them.
+// Draws points of the world as small black balls, and finds them in a picture.
 #pragma once
 
 #include <cmath>
@@ -15,7 +15,7 @@ struct Balls {
     scene::Scene scene;
     frame::Frame frame;
 
-    /// Adds one there, of that radius [m].
+    /// Adds a ball there, of this radius [m].
     void add(const Vec3& p_W, double radius = 0.0025) {
         scene::Body ball;
         ball.name = "ball " + number_text(scene.bodies.size());
@@ -34,7 +34,7 @@ struct Balls {
     }
 };
 
-/// The middle of what a picture has within 12 pixels of a place that the empty one has not, in the
+/// The middle of what a picture, but not the empty one, shows within 12 pixels of a place, in the
 /// colour `channel` [pixels from the upper left]; far off if there is nothing.
 inline Eigen::Vector2d middle_of(const Image& picture, const Image& empty, int channel,
                                  const Eigen::Vector2d& around) {

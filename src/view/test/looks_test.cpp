@@ -1,4 +1,4 @@
-// Tests that a picture shows what the Frame says of how things look: hidden, coloured, displaced.
+// Tests that a picture shows things as the Frame says: hidden, coloured, displaced.
 #include <gtest/gtest.h>
 
 #include <cstdlib>

@@ -16,7 +16,8 @@ namespace {
 constexpr int kDisplays = 20;
 constexpr int kWidth = 960, kHeight = 720;
 
-/// A display somewhere before the person, tilted and off to a side, in any way that a rig may be.
+/// A display somewhere in front of the person, tilted and off to a side, in any way that a rig may
+/// be.
 display::Display random_display(Random& random, int i) {
     const auto vector = [&](double most) {
         return Vec3(random.uniform(-most, most), random.uniform(-most, most),
@@ -61,7 +62,7 @@ Eigen::Vector2d drawn_at(const Pane& pane, const Vec3& p_W) {
     return {(pane.left + pane.width * u) * kWidth, (1 - pane.bottom - pane.height * v) * kHeight};
 }
 
-/// A point before or behind the screen that both eyes see on it.
+/// A point in front of or behind the screen that both eyes see on it.
 Vec3 random_point(Random& random, const display::Display& display) {
     const Vec3 on_screen = display.lower_left + random.uniform(0.2, 0.8) * display.right() +
                            random.uniform(0.2, 0.8) * display.up();

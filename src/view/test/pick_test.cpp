@@ -77,7 +77,7 @@ TEST(Pick, TellsWhereARayMeetsTheBody) {
     balls.add({0.01, 0.1, 0}, 0.05);
     const auto seen = seen_first(balls.scene, balls.frame, {{0.01, -0.5, 0}, Vec3::UnitY()});
     ASSERT_TRUE(seen);
-    EXPECT_NEAR((seen->p_W - Vec3(0.01, 0.05, 0)).norm(), 0, 1e-4);  // the ball is of triangles
+    EXPECT_NEAR((seen->p_W - Vec3(0.01, 0.05, 0)).norm(), 0, 1e-4);  // a ball of triangles
 }
 
 Ray from_to(const Vec3& eye, const Vec3& p_W) {

@@ -9,7 +9,7 @@
 #include "software_renderer.h"
 
 #ifdef __SANITIZE_ADDRESS__
-/// LeakSanitizer stops all threads to look at their memory, and falls over those of Mesa.
+/// LeakSanitizer stops all threads to look at their memory, and fails on those of Mesa.
 extern "C" const char* __asan_default_options();   // NOLINT
 extern "C" const char* __asan_default_options() {  // NOLINT
     return "detect_leaks=0";

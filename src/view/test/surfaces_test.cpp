@@ -76,7 +76,7 @@ Image checker(int square) {
 }
 
 /// Every pixel of a plate with squares of 10 mm is as light or dark as the place that a pinhole
-/// has there, but for those along the squares' edges.
+/// has there, except those along the squares' edges.
 TEST(Pictures, HaveTheirEdgesWhereAPinholePutsThem) {
     scene::Scene scene = one_body({0.3, 0.3, 0.01});
     scene::Body& plate = scene.bodies[0];
@@ -105,7 +105,7 @@ TEST(Pictures, HaveTheirEdgesWhereAPinholePutsThem) {
                 if (place_B(x, y).cwiseAbs().maxCoeff() > 0.145 || is_light(x - 1, y) != light ||
                     is_light(x + 1, y) != light || is_light(x, y - 1) != light ||
                     is_light(x, y + 1) != light)
-                    continue;  // beside the plate, or within a pixel of an edge
+                    continue;  // off the plate, or within a pixel of an edge
                 ++inside;
                 const double seen = light_at(image, x, y).y();
                 ASSERT_TRUE(light ? seen > 0.3 : seen < 0.1) << x << " " << y << " " << seen;
@@ -198,8 +198,8 @@ TEST(Finishes, ReflectAsTheirFormulasSay) {
     }
 }
 
-/// A flat mesh of two triangles whose left is of one colour and whose right is of another; of none,
-/// where both are -1.
+/// A flat mesh of two triangles, the left one of one colour and the right one of another; without
+/// colours if both are -1.
 std::shared_ptr<const scene::Mesh> flag(int32_t left, int32_t right) {
     scene::Mesh mesh;
     mesh.vertices = {{-0.03, -0.03, 0}, {0.03, -0.03, 0}, {0.03, 0.03, 0}, {-0.03, 0.03, 0}};

@@ -451,7 +451,7 @@ TEST(Adaptation, ToAFieldIsThatOfTheIndexInChannelsAndNeverAnAngle) {
         EXPECT_NEAR(fits->two_rate.rates.slow.retention, 0.992, 0.003);
         EXPECT_NEAR(fits->two_rate.rates.slow.learning, 0.02, 0.005);
     }
-    // without the index a channel shows nothing, whatever its trials are called with
+    // without the index a channel shows nothing, whatever kind its trials have
     const rows::TrialFile blind(folder.write(
         "blind.csv",
         "trial_num,block,kind,round,perturbation,share,hand_angle_deg,shown_angle_deg\n"
@@ -461,7 +461,7 @@ TEST(Adaptation, ToAFieldIsThatOfTheIndexInChannelsAndNeverAnAngle) {
     EXPECT_TRUE(std::isnan(curve.trials[1].compensation));
 }
 
-/// trials.csv of carries in two directions, in which the error shows what is not learned yet.
+/// trials.csv of carries in two directions, in which the error shows what has not been learned yet.
 std::string errors_of(double effect, double noise) {
     Random random(5, "errors");
     std::vector<model::AdaptationTrial> schedule;

@@ -10,10 +10,9 @@
 //
 // p and v are the position and velocity of the handle or body; d is the vector to p from a point,
 // or from the nearest point of a line or plane, and v_d is the component of v that changes d. In a
-// link d leads from the other thing: a spring or rod joins them, a rope pulls alone, and a wall
-// between two hands pushes alone.
-// Beyond a zone around p0, or around the point, line or plane, a load fades to zero: its factor
-// falls linearly with the distance.
+// link, d leads from the other thing: a spring or rod pulls and pushes, a rope only pulls, and a
+// wall between two hands only pushes. Beyond a zone around p0, or around the point, line or plane,
+// a load fades to zero: its factor falls linearly with the distance.
 #pragma once
 
 #include <array>
@@ -227,7 +226,7 @@ class Load {
     struct Demand {
         double stiffness = 0;  ///< including the contribution of its fading [N/m]
         double damping = 0;    ///< [N*s/m]
-        double driving = 0;    ///< largest damping with which it drives motion on [N*s/m]
+        double driving = 0;    ///< largest negative damping, which amplifies motion [N*s/m]
         double force = 0;      ///< at rest; infinite if it grows with the distance [N]
         double torque = 0;     ///< [N*m]
         bool holds = false;    ///< it holds a hand in place, and may be as stiff as possible

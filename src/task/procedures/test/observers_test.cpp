@@ -1,5 +1,5 @@
 // Tests procedures and fits on two hundred simulated observers: estimates have no bias, and
-// intervals hold the truth as often as they claim.
+// intervals contain the truth as often as they claim.
 #include <gtest/gtest.h>
 
 #include <cmath>
