@@ -29,14 +29,14 @@ _MOST_HEAD = 1 << 24  # bytes
 MOST_YAML = 16_000_000
 #: The remedy for a damaged file that the program wrote.
 _BACKUP = "Restore it from a backup."
-#: The last line of session.yaml, without which it is cut off.
+#: The last line of session.yaml; a file without it has been cut off.
 _END = "...\n"
-#: More lists and keys within each other than any file of the program has. The parser, written in C, does not survive a
+#: More levels of nested lists and keys than any file of the program has. The parser, written in C, does not survive a
 #: hundred thousand of them.
 _MOST_NESTED = 200
 #: What is wrong with a part of a file that is not of this kind.
 _WRONG: dict[type, str] = {dict: "has no keys", list: "is not a list of items with keys", str: "is not a single value"}
-#: A kind of part: keys with values, a list of such, or a single value.
+#: A kind of part: keys with values, a list of these, or a single value.
 _Part = TypeVar("_Part", dict[str, Any], list[Any], str)
 
 
@@ -50,8 +50,8 @@ class Head:
 
 
 def why_unreadable(file: Path, most: float = math.inf) -> str:
-    """Why a file cannot be read: it is not there, is larger than `most` [bytes], or is not a regular file: a pipe or a
-    device keeps its reader waiting, or reading, for ever. Empty: it can be read."""
+    """Why a file cannot be read: it is not there, is larger than `most` [bytes], or is not a regular file (a pipe or a
+    device would keep its reader waiting, or reading, for ever). Empty if it can be read."""
     try:
         status = os.stat(file)
         if not stat.S_ISREG(status.st_mode):
@@ -65,7 +65,7 @@ def why_unreadable(file: Path, most: float = math.inf) -> str:
 
 
 def most_of_recording(ticks: int) -> float:
-    """A size that neither raw.log nor session.nwb reaches, whose ticks take some hundred bytes each [bytes]."""
+    """A size [bytes] that neither raw.log nor session.nwb reaches: their ticks take some hundred bytes each."""
     return 1e9 + 1e5 * ticks
 
 

@@ -1,4 +1,4 @@
-# What the module has that is made of native/*.cpp. It is for this package alone.
+# The contents of the module that is made from native/*.cpp, for this package alone.
 from collections.abc import Callable, Sequence
 from typing import Any
 

@@ -1,4 +1,4 @@
-"""Opens session.nwb, and says of a damaged one that it is damaged, in whichever call this is found."""
+"""Opens session.nwb, and reports damage to it in whichever call finds the damage."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .errors import Error, error
 #: What h5py raises on reading a damaged file, depending on which of its bytes are damaged.
 _DAMAGE = (ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError)
 
-#: More names than any session.nwb has: some hundred.
+#: More names than any session.nwb has: they have some hundred.
 _MOST_LINKS = 100_000
 
 
@@ -93,7 +93,7 @@ def head_of_nwb(file: h5py.File) -> Head | None:
 
 
 def _text(value: str | bytes) -> str:
-    """A text from HDF5, which h5py returns as bytes since its version 3."""
+    """A text from HDF5, which h5py has returned as bytes since version 3."""
     return value.decode("utf-8") if isinstance(value, bytes) else value
 
 

@@ -17,13 +17,13 @@ _NWB = "session.nwb"
 _MOST_TABLE = 200_000_000
 #: Keys that every version writes into session.yaml before the first tick.
 _ALWAYS = ["state", "program", "started", "title", "experiment", "clock", "seed", "inputs"]
-#: How the programs begin that wrote no seals; some of 0.2 did not, either.
+#: The start of the names of programs that wrote no seals; some of 0.2 wrote none either.
 _BEFORE_SEALS = "dihaptic 0.1."
 _REPEAT = "Restore it from a backup. If there is none, the session has to be repeated."
 
 
 def faults(folder: Path, info: dict[str, Any], name: str = "") -> list[str]:
-    """What is known to be lost or changed of session.yaml and of one of the session's files, in sentences.
+    """Known losses from, and changes to, session.yaml and one of the session's files, in sentences.
 
     `info`: the content of session.yaml; `name`: that of the file; empty: none. Raises Error when the seals cannot be
     read.

@@ -23,8 +23,8 @@ _LIFT_MOMENTS = ["touch", "load_onset", "lift_off", "replacement", "release", "f
 _RESTORE = "Restore the table, or rebuild it from raw.log: dihaptic recover."
 #: Quantities with the same colour everywhere.
 _COLOURS: dict[str, str] = facts()["colours"]
-#: Colours for all others, and of figures, distinct with any kind of colour vision (Okabe and Ito, 2008), in the order of
-#: their use.
+#: Colours for all others, and for figures: distinct with any kind of colour vision (Okabe and Ito, 2008), in the order
+#: of use.
 COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"]
 
 
@@ -39,11 +39,10 @@ def plot(
 ) -> Axes:
     """Draws quantities of a session against time, and returns matplotlib's axes.
 
-    Without `align`, over the session. With it, each lift or trial from `before` to `after` [s]
-    about a moment of it: a column of lifts.csv (`touch`, `load_onset`, `lift_off`, `replacement`,
-    `release`, `first_slip`), or `start_time` or `stop_time` of trials.csv. Each is a thin line,
-    their mean a thick one; `by`, a column such as "condition", makes a mean for each of its values.
-    A vector has a line for each component. Raises NotThere or Error.
+    Without `align`, draws the whole session. With it, draws each lift or trial from `before` to `after` [s] about one
+    of its moments: a column of lifts.csv (`touch`, `load_onset`, `lift_off`, `replacement`, `release`, `first_slip`),
+    or `start_time` or `stop_time` of trials.csv. Each is a thin line, their mean a thick one; `by`, a column such as
+    "condition", makes a mean for each of its values. A vector has a line for each component. Raises NotThere or Error.
 
     >>> import dihaptic as dh
     >>> axes = dh.load(lift_session).plot("block.position.z", align="lift_off", before=0.2, after=0.4)

@@ -77,7 +77,7 @@ class NotThere(Error, KeyError):
     dihaptic.errors.NotThere: gripforce: is not recorded. Did you mean 'grip_force'? Session.quantities lists them.
     """
 
-    __str__ = Exception.__str__  # a KeyError would put quotes about its text
+    __str__ = Exception.__str__  # a KeyError would put quotes around its text
 
     def __init__(self, name: str, what: str, candidates: list[str], remedy: str) -> None:
         import difflib

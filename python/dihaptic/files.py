@@ -179,7 +179,7 @@ class File(Part):
         return out
 
     def save(self, file: str | Path) -> Path:
-        """Writes the file and, beside it, a scene and a rig given as objects.
+        """Writes the file and, next to it, a scene and a rig given as objects.
 
         Nothing but comments is lost. The paths of other files are adapted if it is written to another folder. Raises
         OSError when it cannot be written, and Error when load() could not read it again.

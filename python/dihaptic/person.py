@@ -21,8 +21,7 @@ class Seen:
     """A person's sight and touch in a tick; valid only within Person.act().
 
     The display may differ from the truth, because it includes perturbations.
-    `seen["block.position"]` gives the truth, by the names of docs/quantities.md, which no person
-    could see.
+    `seen["block.position"]` gives the truth, which no person could see, by the names of docs/quantities.md.
 
     >>> import dihaptic as dh
     >>> sorted(name for name in vars(dh.Seen) if not name.startswith("_"))

@@ -22,7 +22,7 @@ class Rehearsal(Collected):
     """
 
     def __init__(self, folder: str | Path) -> None:
-        self.folder = Path(os.path.abspath(folder))  # still the same when the program changes its own
+        self.folder = Path(os.path.abspath(folder))  # stays valid when the program changes its working folder
         there = _names_in(self.folder)
         if not there & {"rehearsal.yaml", "people.csv"} and not self.sessions:
             raise error(
@@ -53,7 +53,7 @@ class Rehearsal(Collected):
 
 
 def _names_in(folder: Path) -> set[str]:
-    """Names of what is in a folder. Raises Error."""
+    """Names of the items in a folder. Raises Error."""
     try:
         return set(os.listdir(folder))
     except (OSError, ValueError) as why:  # a ValueError: no folder can have this name
@@ -62,5 +62,5 @@ def _names_in(folder: Path) -> set[str]:
 
 
 def _is_person(folder: Path) -> bool:
-    """Whether a folder is one person's. Raises Error when it cannot be told."""
+    """Whether a folder is one person's. Raises Error when this cannot be determined."""
     return os.path.isdir(folder) and bool(_names_in(folder) & {"person.yaml", "session.yaml"})

@@ -131,7 +131,7 @@ class _Study:
 
         if min(jobs, len(waiting)) <= 1:
             for number in waiting:
-                self._do(number)  # here, where a debugger stops in it
+                self._do(number)  # in this process, so that a debugger can stop in it
                 tell()
         else:
             self._in_processes(waiting, jobs, tell)

@@ -60,7 +60,7 @@ class Session:
     """
 
     def __init__(self, folder: str | Path) -> None:
-        path = Path(os.path.abspath(folder))  # still the same folder when the program changes its own
+        path = Path(os.path.abspath(folder))  # stays valid when the program changes its working folder
         self.folder = path.parent if os.path.isfile(path) else path
         file = self.folder / "session.yaml"
         try:
@@ -69,7 +69,7 @@ class Session:
             remedy = "Name a folder made by dihaptic."
             raise error("is not a session: it has no session.yaml", remedy, file=str(folder)) from None
         except (OSError, ValueError):
-            pass  # the next one names the reason
+            pass  # the next check names the reason
         if why := why_unreadable(file, MOST_YAML):
             remedy = "Name a folder made by dihaptic, and mend its permissions if they are wrong."
             raise error(f"cannot be opened: {why}", remedy, file=str(file))
@@ -126,7 +126,7 @@ class Session:
             head = read_head(log)
             self._check_log(head)
             return head
-        # it may not have been copied, as the largest file
+        # raw.log, the largest file, may not have been copied
         with reading(self.folder):
             return head_of_nwb(self._file) or read_head(log)
 
@@ -183,8 +183,7 @@ class Session:
         return read_table(self.folder / file)
 
     def _tell_changes(self, file: str, stacklevel: int = 3) -> None:
-        """Warns of session.yaml, and of a file, that changed since the session ended, or of which this cannot be
-        known."""
+        """Warns if session.yaml or a file has changed since the session ended, or if this cannot be known."""
         try:
             found = faults(self.folder, self._info, file)
         except Error as why:

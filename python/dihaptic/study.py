@@ -61,7 +61,7 @@ class Study(Collected):
     """
 
     def __init__(self, file: str | Path, *, rehearsed: str | Path = "") -> None:
-        self.file = Path(os.path.abspath(file))  # still the same when the program changes its folder
+        self.file = Path(os.path.abspath(file))  # stays valid when the program changes its working folder
         spec = read_info(self.file, f"Name a study's file. {_CHECK}")
         for key in ("title", "groups", "sessions"):
             if not spec.get(key):
@@ -83,7 +83,7 @@ class Study(Collected):
         concealed = is_yes(allocation, "concealed", self.file, _CHECK, "allocation.")
         seed = part_of(allocation, "seed", str, self.file, _CHECK, "allocation.") or "1"
         codes = {name: _code_of(name, seed) for name in self.groups}
-        #: What stands for a group that participants.yaml names, or has the code of.
+        #: What is shown for a group, by the name or the code that participants.yaml has.
         self._shown = {name: codes[name] if concealed else name for name in self.groups}
         self._shown.update({codes[name]: shown for name, shown in self._shown.items()})
 
@@ -131,7 +131,7 @@ class Study(Collected):
 
         The columns are `participant`, `group` (as in `participants`), `study_session`, `study_condition` (NaN: the
         session has none), `complete` and `folder` (path of the recording, for `dihaptic.load()`). A session has several
-        rows if it was interrupted, and then resumed or begun anew.
+        rows if it was interrupted, and then resumed or started again.
 
         `complete` means that the recording went on to its end, or that no trial was left when it broke off. `dihaptic
         collect` takes the first complete recording of each session into the tables or, if there is none, the last one
@@ -251,7 +251,7 @@ class Study(Collected):
         session would then seem not to have been done."""
         folder = self.folder / "sessions" / participant / study_session
         try:
-            # a hidden file is none, such as .DS_Store
+            # a hidden file, such as .DS_Store, is not a recording
             paths = [path for path in folder.iterdir() if not path.name.startswith((_UNFINISHED, "."))]
         except FileNotFoundError:
             return
@@ -301,7 +301,7 @@ def _names(study: dict[str, Any], key: str, file: Path) -> list[str]:
 
 
 def _check_members(members: list[dict[str, Any]], file: Path) -> None:
-    """Raises Error when a participant is there twice, or has something other than single values and facts."""
+    """Raises Error when a participant is listed twice, or has something other than single values and facts."""
     there = set()
     for member in members:
         who = member["id"]
@@ -318,7 +318,7 @@ def _check_members(members: list[dict[str, Any]], file: Path) -> None:
 
 
 def _enough(study: dict[str, Any], file: Path) -> float:
-    """The share of its trials from which on an interrupted session counts. Raises Error."""
+    """The least share of its trials with which an interrupted session counts. Raises Error."""
     resuming = part_of(study, "resuming", dict, file, _CHECK)
     text = part_of(resuming, "complete", str, file, _CHECK, "resuming.") or "1"
     try:
@@ -364,7 +364,7 @@ def _is_complete(session: Session) -> bool:
 
 def _share_done(session: Session) -> float:
     """The share of a recording's trials that are done, from 0 to 1. It is 0 while the session runs, and when its files
-    do not tell, or have been changed since; and less than 1 when a procedure ended before its trials did."""
+    do not show it or have been changed since; it is less than 1 when a procedure ended before its trials did."""
     state = session.info.get("state")
     if state == "complete":
         return 1
@@ -377,7 +377,7 @@ def _share_done(session: Session) -> float:
 
 
 def _share_told(session: Session) -> float:
-    """The share of its trials that an interrupted recording's files tell."""
+    """The share of its trials that are done, according to an interrupted recording's files."""
     folder = session.folder
     if broken_seals(folder, session.info, "trials.csv"):
         return 0

@@ -55,7 +55,7 @@ def read_table(file: str | Path) -> pd.DataFrame:
 
 
 def parse_table(source: Path | TextIO, name: str) -> pd.DataFrame:
-    """The table in a file or a text in the form of CSV; `name`: that of its file."""
+    """The table in a CSV file or text; `name`: that of its file."""
     texts = dict.fromkeys(facts()["text_columns"], str)
     table = pd.read_csv(source, keep_default_na=False, na_values=[""], dtype=texts)
     if "simulated" in table:

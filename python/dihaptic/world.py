@@ -22,8 +22,8 @@ _UPRIGHT = (1.0, 0.0, 0.0, 0.0)
 class World:
     """A scene with simulated devices that a simulated hand holds.
 
-    `file` is a scene, or an experiment without trials, as a file or an object; `rig` one of simulated devices, ideal ones if
-    left out; `settings` such as {"coupling.stiffness_N_m": 600}. Until a finger is led, it follows the scene's own
+    `file` is a scene, or an experiment without trials, as a file or an object; `rig` is a rig of simulated devices, ideal
+    ones if left out; `settings` such as {"coupling.stiffness_N_m": 600}. Until a finger is led, it follows the scene's own
     hand, and each tick is identical to the bit to that of `dihaptic run`. Raises Error for every fault that `dihaptic
     check` finds.
 
