@@ -1,6 +1,6 @@
 # The headers of other libraries that nearly every source includes are compiled once for all rooms and the program (by
-# dihaptic_base), and once for all tests (by dihaptic_testing): a quarter of the time of a first build. Each source
-# nevertheless includes what it needs.
+# dihaptic_base), and once for all tests (by dihaptic_testing), which saves a quarter of the time of a first build.
+# Each source nevertheless includes what it needs.
 function(dihaptic_precompile target by)
     if(CCACHE)
         return()

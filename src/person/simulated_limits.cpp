@@ -166,6 +166,20 @@ void warn_of_ratings(const task::TaskPlan& plan, std::vector<Problem>& out) {
     }
 }
 
+void warn_of_pushes(const task::TaskPlan& plan, std::vector<Problem>& out) {
+    for (const task::State& state : plan.task.states) {
+        const auto pushes = [](const task::MotorSpec& motor) { return !motor.push.empty(); };
+        const auto motor = std::ranges::find_if(state.motors, pushes);
+        if (motor == state.motors.end()) continue;
+        out.push_back({Severity::warning, motor->place, state.name,
+                       "pushes with a motor: simulated people do not judge forces, so that what "
+                       "they do in answer is the same whatever the force, and measures of it are "
+                       "arbitrary",
+                       kRemedy});
+        return;  // once: it is about the people, not about this motor
+    }
+}
+
 void warn_of_buttons(const task::TaskPlan& plan, std::vector<Problem>& out) {
     for (size_t i = 0; i < plan.states.size(); ++i) {
         for (const task::TaskPlan::Transition& transition : plan.states[i].transitions) {
@@ -188,6 +202,7 @@ std::vector<Problem> simulated_limits(const task::TaskPlan& plan) {
     warn_of_thresholds(plan, out);
     warn_of_answers(plan, out);
     warn_of_ratings(plan, out);
+    warn_of_pushes(plan, out);
     warn_of_buttons(plan, out);
     return out;
 }

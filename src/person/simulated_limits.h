@@ -10,7 +10,7 @@
 namespace dihaptic::person {
 
 /// Warnings of force fields that no reach meets, then of thresholds and answers that are not
-/// judgements of length, then of buttons; each kind in the file's order.
+/// judgements of length, of motors that push, then of buttons; each kind in the file's order.
 std::vector<Problem> simulated_limits(const task::TaskPlan& plan);
 
 }  // namespace dihaptic::person

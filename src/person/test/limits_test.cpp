@@ -63,5 +63,12 @@ TEST(Limits, SayThatLearningTakesNoNoticeOfADelay) {
     EXPECT_NE(found[0].text().find("changed: is shown late"), std::string::npos) << found[0].text();
 }
 
+TEST(Limits, SayOnceThatForcesOfMotorsAreNotMatched) {
+    const auto found = simulated_limits(*Sitting("force-matching").plan().task);
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_NE(found[0].text().find("target: pushes with a motor"), std::string::npos)
+        << found[0].text();
+}
+
 }  // namespace
 }  // namespace dihaptic::person::limits_test

@@ -83,7 +83,7 @@ inline void expect_all_tell(int cases) {
             EXPECT_TRUE(recovery.figures.log.damaged(recovery.info.ticks));
             EXPECT_EQ(session.read_info().state, recording::SessionState::recovered);
             EXPECT_FALSE(session.read_info().notes.empty());
-            // of a recovered session it is known that it has no end: then all of it is there
+            // a recovered session has no end, so a log whose records are all there can be replayed
             const recording::LogHealth& left = recovery.figures.log;
             if (left.complete || !left.gaps.empty() || !left.strays.empty()) {
                 EXPECT_FALSE(replay_session(session.path(), kGoOn, {}).good());

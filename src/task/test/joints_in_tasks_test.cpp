@@ -41,7 +41,7 @@ struct Jointed : session::Files {
             "  - { name: scale, kind: slider, between: [pan], position_mm: [-200, 100, 200], "
             "axis: [0, 0, 1], stiffness_N_m: 50, damping_Ns_m: 3 }\n";
     }
-    /// What a state does, and with it a perturbation of conditions.
+    /// Writes a task whose state has these keys, with a perturbation and its conditions, if any.
     void does(const std::string& what, const std::string& perturbation = "",
               const std::string& conditions = "") {
         experiment = "scene: scene.yaml\nhand: { centre_mm: [0, 0, 220] }\ntask:\n" +
