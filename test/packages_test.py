@@ -1,4 +1,4 @@
-"""The packages of the last commit: two builds of them, bare Debians that have them, a container, and a machine that boots them.
+"""The packages of the last commit: two builds, bare Debian systems that install them, a container, and a machine that boots them.
 
 Usage: packages_test.py [TEST ...], from the project's folder; half an hour each.
 """

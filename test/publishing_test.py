@@ -17,7 +17,7 @@ FORMS = sorted(pathlib.Path(".github/ISSUE_TEMPLATE").glob("*.yml"))
 
 
 def read(path):
-    return yaml.load(pathlib.Path(path).read_text(), Loader=yaml.BaseLoader)  # on: is no truth value
+    return yaml.load(pathlib.Path(path).read_text(), Loader=yaml.BaseLoader)  # so that `on` is not read as a truth value
 
 
 class Workflows(unittest.TestCase):

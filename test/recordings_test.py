@@ -45,7 +45,7 @@ def figures(session, said=""):
 
 
 def outcomes(session):
-    """Trial, attempt and outcome of the rows of trials.csv, as far as it has them."""
+    """Trial, attempt and outcome of the rows of trials.csv, as far as the file has them."""
     with open(session / "trials.csv", newline="") as file:
         return [[row.get(key, "") for key in ("trial", "attempt", "outcome")] for row in csv.DictReader(file)]
 

@@ -41,7 +41,7 @@ class Pages(unittest.TestCase):
     out = ""
 
     def drawn(self, page):
-        """Opens a page in a browser: it draws its figures, and nothing goes wrong. Returns what the browser made of it."""
+        """Opens a page in a browser: it draws its figures, and nothing goes wrong. Returns the page as rendered."""
         text = pathlib.Path(page).read_text()
         # what goes wrong is written into the page
         probe = "<script>window.onerror = (why) => { document.documentElement.dataset.wrong = why; };</script>"

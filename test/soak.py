@@ -1,16 +1,16 @@
-"""What `./dev soak` does of a file of tests, and `./dev test` only samples. A file that imports this is a test NAME of both,
-as CMake reads it: of `./dev test`, and, with everything, as NAME/soak of `./dev soak`."""
+"""Tests of which `./dev test` runs a sample, and `./dev soak` everything. CMake makes two tests of a file that imports this:
+NAME, in `./dev test`, and NAME/soak, with everything, in `./dev soak`."""
 import os
 
-#: Whether everything is done. By hand: DIHAPTIC_SOAK=1 python3 FILE PROGRAM.
+#: Whether to run everything rather than a sample. To set it by hand: DIHAPTIC_SOAK=1 python3 FILE PROGRAM.
 EVERYTHING = "DIHAPTIC_SOAK" in os.environ
 
 
 def of(sample, everything):
-    """How many, or which, are tried."""
+    """How many cases are tried, or which ones."""
     return everything if EVERYTHING else sample
 
 
 def alone(test):
-    """A test, or a class of tests, of the soak alone."""
+    """Marks a test, or a class of tests, as part of the soak only."""
     return test if EVERYTHING else None

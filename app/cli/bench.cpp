@@ -46,9 +46,9 @@ void run_grasp(GraspOptions options) {
 }
 
 void add_grasp(CLI::App& bench) {
-    auto* command = bench.add_subcommand(
-        "grasp",
-        "Two fingers lift and hold a block: how steadily, how accurately, up to which stiffness");
+    auto* command = bench.add_subcommand("grasp",
+                                         "Two fingers lift and hold a block: how steadily, how "
+                                         "accurately, and how stiff the coupling may be");
     auto options = std::make_shared<GraspOptions>();
     frame::Settings& settings = options->setup.settings;
     add_choice(*command, "--solver", settings.dynamics.solver, "contact solver");

@@ -50,9 +50,10 @@ void add_calibrate(CLI::App& app) {
     command->add_option("RIG", options->rig, "rig file, with the jig's points if a jig is used")
         ->transform(given_or_kept())
         ->required();
-    command->add_option("-o,--out", options->out,
-                        "calibration file; default: the rig's own, beside it. The picture of the "
-                        "residuals gets its name");
+    command->add_option(
+        "-o,--out", options->out,
+        "calibration file; default: the rig's own, next to the rig file. The picture of the "
+        "residuals gets its name");
     command->footer(
         "\nExample:\n  dihaptic calibrate rigs/premium-misplaced.yaml -o "
         "calibration.yaml");

@@ -113,7 +113,7 @@ void add_person(Found& found, const std::string& folder, const std::string& id,
     const std::string session = folder + "/" + id;
     const auto [there, is_new] = found.people.emplace(Key{rehearsal.seed, id}, session);
     if (!is_new) {
-        throw Error({session, 0}, "", "is there twice: " + there->second,
+        throw Error({session, 0}, "", "appears twice: " + there->second,
                     "Name folders of different shards or different seeds.");
     }
     const session::Rehearsed looked = session::look_at(folder, id, rehearsal);
@@ -167,12 +167,13 @@ Found find_people(const CollectOptions& options) {
 void check_whole(Found& found) {
     if (!found.unsealed.empty() && found.unsealed.size() < found.identities.size()) {
         for (const std::string& session : found.unsealed) {
-            found.problems.push_back({Severity::error,
-                                      {session + "/session.yaml", 0},
-                                      "seal",
-                                      "is missing, although others of this rehearsal have theirs",
-                                      "Restore the folder, or remove it: the rehearsal's command "
-                                      "then repeats this person."});
+            found.problems.push_back(
+                {Severity::error,
+                 {session + "/session.yaml", 0},
+                 "seal",
+                 "is missing, although other sessions of this rehearsal have one",
+                 "Restore the folder, or remove it: the rehearsal's command "
+                 "then repeats this person."});
         }
     }
     if (!found.problems.empty()) throw Error(found.problems);
@@ -274,7 +275,7 @@ class Contacts {
             out +=
                 fmt::format("; its largest residual at touched objects was {:.1g}", held_residual_);
         if (known_ < sessions_)
-            out += fmt::format("; {} of {} do not say it", sessions_ - known_,
+            out += fmt::format("; {} of {} do not say this", sessions_ - known_,
                                counted(sessions_, "session"));
         return out;
     }
@@ -411,7 +412,7 @@ void add_collect(CLI::App& app) {
     command->add_flag("--reveal-groups", study->reveal_groups,
                       "with a study: name groups that are concealed; the log notes it");
     command->footer(
-        "\nA study's tables go to tables/ beside its participants, each row with the person's "
+        "\nA study's tables go to tables/ next to participants.yaml, each row with the person's "
         "group,\n"
         "session and condition; participants.csv has the people.\n"
         "\nExamples:\n"

@@ -13,15 +13,15 @@ namespace dihaptic::cli {
 struct CrowdWork {
     int jobs = 1;
     std::string out;  ///< folder, for messages
-    /// Starts a person's process; nullopt: another program does it already.
+    /// Starts a person's process; nullopt: another program is already doing this person's work.
     std::function<std::optional<pid_t>(const std::string& id)> start;
     std::function<bool(const std::string& id)> is_done;
     /// The message that a person's process left.
     std::function<std::string(const std::string& id)> messages;
 };
 
-/// Starts a process that does `work` and ends with its result. It is a copy of this one, with all
-/// that has been read, so that the others continue if it fails.
+/// Starts a process that does `work` and ends with its result. It is a copy of this process
+/// and of everything it has read, so that the others continue if one fails.
 pid_t start_process(const std::function<int()>& work);
 
 /// Does the work for all people, and shows the progress. Returns the text about people whose work

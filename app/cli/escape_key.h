@@ -23,7 +23,7 @@ class EscapeKey {
 
     /// Whether keys are read.
     bool listens() const { return listens_; }
-    /// Restores the terminal, from any thread: for a program that must end at once.
+    /// Restores the terminal; for a program that must end at once. May be called from any thread.
     void restore() noexcept;
 
   private:

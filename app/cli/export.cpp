@@ -92,7 +92,7 @@ void add_export(CLI::App& app) {
     auto* csv =
         command
             ->add_option("--csv", options->names,
-                         "quantities with their names in docs/quantities.md, separated by commas: "
+                         "quantities, by their names in docs/quantities.md, separated by commas: "
                          "a row for each tick, with its time, its trial and these, in SI units")
             ->excludes(bids);
     command

@@ -191,7 +191,8 @@ void add_psychometric(CLI::App& fit) {
     auto json = std::make_shared<bool>(false);
     command->add_option("FILE", options->file, "CSV, one row per answer: level, yes (1 or 0)")
         ->required();
-    add_choice(*command, "--sigmoid", options->settings.sigmoid, "its shape; default: normal");
+    add_choice(*command, "--sigmoid", options->settings.sigmoid,
+               "shape of the function; default: normal");
     command->add_option("--guess", options->settings.guess, "share of yes by guessing")
         ->check(CLI::Range(0.0, 0.99))
         ->capture_default_str();
@@ -200,7 +201,8 @@ void add_psychometric(CLI::App& fit) {
         ->capture_default_str();
     command
         ->add_option("--shape", options->settings.shape,
-                     "its shape, if known; it must be known after an adaptive procedure")
+                     "slope or spread of the function, if known; it must be known after an "
+                     "adaptive procedure")
         ->check(CLI::PositiveNumber);
     add_json(*command, *json);
     command->footer("\nExample:\n  dihaptic fit psychometric answers.csv --guess 0 --json");

@@ -66,8 +66,8 @@ int main(int argc, char** argv) {
         "simulated hand.");
     app.set_version_flag("--version", recording::program_version());
     app.footer(
-        "\nExample:\n  dihaptic run experiments/lift-block.yaml\n\nEach command has --help of its "
-        "own.");
+        "\nExample:\n  dihaptic run experiments/lift-block.yaml\n\nEach command has its own "
+        "--help.");
     cli::add_run(app);
     cli::add_replay(app);
     cli::add_recover(app);

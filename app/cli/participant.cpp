@@ -80,7 +80,7 @@ void add(ParticipantOptions& options) {
     if (names && options.name.find_first_not_of(' ') == std::string::npos)
         throw Error({"--name", 0}, "", "is empty", "Give the participant's name.");
     if (names && names->find(person.id) != nullptr) {
-        throw Error({options.key_file, 0}, person.id, "belongs to a name already",
+        throw Error({options.key_file, 0}, person.id, "already belongs to a name",
                     "Choose another identifier, or correct the file.");
     }
     freeze_or_check(study, person.id);
@@ -271,7 +271,7 @@ void accept(const ParticipantOptions& options) {
     for (const study::Member& member : roster.participants) {
         for (const std::string& folder : session::uncounted(study, member))
             fmt::print(stderr,
-                       "WARNING: {} counts no longer: the study has no session of this name\n",
+                       "WARNING: {} no longer counts: the study has no session with this name\n",
                        folder);
     }
 }
@@ -307,9 +307,9 @@ void add_adding(CLI::App& parent, const Shared& options) {
         ->check(CLI::IsMember({"right", "left", "both"}));
     command->add_option("--fact", options->facts,
                         "a fact that the study asks for, NAME=VALUE; may be repeated");
-    auto* key = add_key(*command, options, "the name is added to it");
-    auto* name = command->add_option("--name", options->name, "name, for the key file alone");
-    command->add_option("--contact", options->contact, "contact, for the key file alone")
+    auto* key = add_key(*command, options, "the name is added to this file");
+    auto* name = command->add_option("--name", options->name, "name, written only to the key file");
+    command->add_option("--contact", options->contact, "contact, written only to the key file")
         ->needs(name);
     name->needs(key);
     key->needs(name);
@@ -325,7 +325,7 @@ void add_withdrawing(CLI::App& parent, const Shared& options) {
     data->add_flag("--delete-data", options->delete_data, "recordings are deleted for ever");
     data->require_option(1);
     command->add_option("--reason", options->reason, "reason, for the log");
-    add_key(*command, options, "the name is deleted from it");
+    add_key(*command, options, "the name is deleted from this file");
     command->callback([options] { withdraw(*options); });
 }
 
@@ -345,7 +345,7 @@ void add_participant(CLI::App& app) {
         ->callback([options] { list(*options); });
     auto* showing = add_action(*command, options, "show", "Show one participant",
                                "my-study.yaml S07 --key ~/names/my-study.csv", true);
-    add_key(*showing, options, "the name is shown too");
+    add_key(*showing, options, "the name in this file is shown too");
     showing->callback([options] { show(*options); });
     add_withdrawing(*command, options);
     auto* accepting =

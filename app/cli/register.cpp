@@ -79,7 +79,7 @@ void add_register(CLI::App& app) {
                                        "Find the position at which the person sees a rig's "
                                        "display, by touching crosses with a finger");
     auto options = std::make_shared<RegisterOptions>();
-    command->add_option("RIG", options->rig, "rig file, with the display")
+    command->add_option("RIG", options->rig, "rig file that defines the display")
         ->transform(given_or_kept())
         ->required();
     command->add_option("--display", options->display,
@@ -90,7 +90,7 @@ void add_register(CLI::App& app) {
                         "only draw the crosses: an SVG file, for any program that shows it on the "
                         "whole screen");
     command->add_option("-o,--out", options->out,
-                        "registration file; default: the display's own, beside the rig file");
+                        "registration file; default: the display's own, next to the rig file");
     command->footer(
         "\nExamples:\n  dihaptic register rigs/mirror-rig.yaml --crosses crosses.svg\n"
         "  dihaptic register rigs/mirror-rig.yaml -o registration.yaml");

@@ -53,7 +53,7 @@ Shard parse_shard(const std::string& text) {
         whole_number<int>(std::string_view(text).substr(std::min(slash + 1, text.size())))
             .value_or(0)};
     if (shard.number < 1 || shard.number > shard.of) {
-        throw Error({"--shard", 0}, text, "is not a part of a whole",
+        throw Error({"--shard", 0}, text, "is not a valid part",
                     "Write e.g. --shard 3/20: the third of twenty parts.");
     }
     return shard;
@@ -194,8 +194,10 @@ void print_next(const RehearseOptions& options, const Shard& shard) {
                    all ? "" : fmt::format(", shard {}/{}", shard.number, shard.of),
                    all ? "" : ", when the other shards are", shell_file(options.out));
     } else {
-        fmt::print("some people are missing in {}: the same command continues with them\n",
-                   options.out);
+        fmt::print(
+            "some people are still missing from {}: "
+            "run the same command again to continue with them\n",
+            options.out);
     }
 }
 

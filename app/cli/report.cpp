@@ -40,8 +40,9 @@ void check_options(const ReportOptions& options) {
                     "Leave it out, and name the folder sessions of the rehearsal as a path.");
     }
     if (!options.out.empty() && options.tables)
-        throw Error({"--out", 0}, "", "is for the page, and --tables draws none",
-                    "Leave out one of them: tables stand in the folders of their sessions.");
+        throw Error(
+            {"--out", 0}, "", "is for the page, and --tables draws none",
+            "Leave out one of the two: tables are written to the folders of their sessions.");
     if (!options.out.empty() && one)
         throw Error({"--out", 0}, "", "is valid only with several paths",
                     "Leave it out: the page of one path goes into its folder.");

@@ -39,7 +39,8 @@ void add_resume(CLI::App& app) {
         "resume", "Continue an interrupted session with trials, at the right trial");
     auto options = std::make_shared<ResumeOptions>();
     command->add_option("SESSION", options->session, "folder of the session")->required();
-    command->add_option("--out", options->out, "folder for the new session; default: beside it");
+    command->add_option("--out", options->out,
+                        "folder for the new session; default: next to the old one");
     command->add_option("--sync", options->sync, "as in dihaptic run [s]")
         ->check(CLI::Range(0.05, 3600.0));
     command->footer(

@@ -378,11 +378,12 @@ void add_settings(SessionOptions& options) {
 std::string take_turn(SessionOptions& options) {
     if (task::kind_of(options.request.file) != task::FileKind::study) {
         if (options.despite.empty()) return "";
-        throw Error({"--despite", 0}, "", "is about the rules of a study",
+        throw Error({"--despite", 0}, "", "concerns the rules of a study",
                     "Leave it out, or name a study's file.");
     }
     if (!options.unstudied.empty()) {
-        throw Error({options.unstudied, 0}, "", "is not possible for a study, whose files say it",
+        throw Error({options.unstudied, 0}, "",
+                    "is not possible for a study, whose files determine it",
                     "Leave it out, or run the experiment itself.");
     }
     const StudyTurn turn = study_turn(options.request.file, options.run.participant.id,
@@ -401,7 +402,7 @@ std::string take_turn(SessionOptions& options) {
     if (!options.run.partner.id.empty()) study::check_identifier(options.run.partner.id);
     if (!turn.resume.empty() && !options.run.partner.id.empty())
         throw Error({"--partner", 0}, options.run.partner.id,
-                    "is named by the session that goes on", "Leave it out.");
+                    "is known from the session that is resumed", "Leave it out.");
     turn.log_begin();
     return turn.resume;
 }

@@ -126,10 +126,12 @@ void check_no_input(const ViewOptions& options) {
 
 void add_view_options(CLI::App& command, const std::shared_ptr<ViewOptions>& options) {
     command.add_option("--camera", options->camera,
-                       "front, above, side, or another of the scene's; otherwise its first");
+                       "camera: front, above, side, or one of the scene's own; default: the "
+                       "scene's first, or front");
     command
         .add_option("--display", options->display,
-                    "as the person sees the scene on this display of the rig; empty: its only one")
+                    "draw the scene as the person sees it on this display of the rig; empty: the "
+                    "rig's only one")
         ->excludes("--camera");
     command.add_option("--size", options->size, "width and height in pixels")
         ->capture_default_str();

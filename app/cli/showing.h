@@ -20,7 +20,7 @@ struct Showing {
     std::string title;
     scene::Scene scene;
     rig::Rig rig;
-    std::vector<view::Workspace> workspaces;    ///< workspaces of devices, as far as known
+    std::vector<view::Workspace> workspaces;    ///< workspaces of devices, where known
     double duration = 0;                        ///< planned [s]; 0: not known
     bool recorded = false;                      ///< whether it is a session
     std::function<const frame::Frame*()> next;  ///< the next frame; null at the end

@@ -31,8 +31,8 @@ const std::vector<Table::Column> kFront{
     {"study_condition", "condition of the session; empty: it has none"},
     {"study_version", "version of the study's files, from 1"}};
 
-/// Tables of different experiments under one another: a cell is empty where its session lacks the
-/// column.
+/// Tables of different experiments, one below the other: a cell is empty where its session lacks
+/// the column.
 class JoinedTable {
   public:
     void add(const std::vector<std::string>& front, const TextTable& table) {
@@ -61,8 +61,8 @@ class JoinedTable {
     size_t place_of(const Table::Column& column) {
         if (std::ranges::find(kFront, column.name, &Table::Column::name) != kFront.end()) {
             throw Error({"", 0}, column.name,
-                        "is a column that the joined tables have of the study",
-                        "Rename the factor, draw, variable or measure of this name.");
+                        "is a column that the joined tables take from the study",
+                        "Rename the factor, draw, variable or measure with this name.");
         }
         const auto [at, is_new] = places_.emplace(column.name, columns_.size());
         if (is_new) columns_.push_back(column);
@@ -150,7 +150,7 @@ std::vector<std::string> parts_of(const std::string& folder) {
         if (!fs::is_directory(earlier))
             throw Error({out.front(), 0}, "resumes",
                         fmt::format("{}, which is missing", earlier.string()),
-                        "Restore that recording: it has the first part of the session.");
+                        "Restore that recording: it contains the first part of the session.");
         out.insert(out.begin(), earlier.string());
     }
 }

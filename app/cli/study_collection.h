@@ -21,8 +21,8 @@ struct StudyData {
 /// Whether a file is a study.
 bool is_study(const std::string& file);
 
-/// The study, with the rehearsal's folder as that of its data if one is named. Throws Error when
-/// the study cannot be read or the folder does not exist.
+/// The study. If a rehearsal's folder is named, the study's data are read from there. Throws Error
+/// when the study cannot be read or the folder does not exist.
 study::StudyFile study_of(const StudyData& data);
 
 /// A complete session of a participant.

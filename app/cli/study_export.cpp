@@ -24,7 +24,7 @@ void check_recording(const std::string& folder, const StudyData& data) {
     throw Error({folder, 0}, "", "has no recording of the motion: raw.log is missing",
                 data.rehearsed.empty()
                     ? "Restore it, or export the tables alone: --psych-ds."
-                    : "Rehearse the study anew: dihaptic rehearse STUDY --keep-recordings --out "
+                    : "Rehearse the study again: dihaptic rehearse STUDY --keep-recordings --out "
                       "FOLDER. Or export the tables alone: --psych-ds.");
 }
 

@@ -118,7 +118,7 @@ class Rehearsing {
 
     bool is_done(const std::string& id) const { return all_complete(*roster_.find(id), 0); }
 
-    /// The session before which a person stops, and why: the previous one does not meet its needs.
+    /// The session that a person may not begin, and why: the previous one does not meet its needs.
     /// Empty: the person does all sessions.
     std::string stops(const std::string& id) const {
         const study::Member& member = *roster_.find(id);
@@ -307,8 +307,10 @@ void rehearse_study(const StudyRehearsal& given) {
         fmt::print("complete: {}\nnext: dihaptic collect {} --rehearsed {}\n", study.data,
                    shell_file(rehearsal.file), shell_file(study.data));
     else
-        fmt::print("some people are missing in {}: the same command continues with them\n",
-                   study.data);
+        fmt::print(
+            "some people are still missing from {}: "
+            "run the same command again to continue with them\n",
+            study.data);
 }
 
 }  // namespace dihaptic::cli

@@ -16,7 +16,7 @@ struct StudyTurn {
     recording::Participant participant;
     recording::InStudy in_study;
     uint64_t seed = 1;         ///< its own for each participant and session
-    uint64_t person_seed = 1;  ///< with which the simulated person is drawn, for all sessions
+    uint64_t person_seed = 1;  ///< for drawing the simulated person; the same in all sessions
 
     /// Notes in the study's log that the session begins.
     void log_begin() const;
@@ -25,10 +25,10 @@ struct StudyTurn {
     bool simulated = false;
 };
 
-/// What comes next for a participant, or for the simulated person in that one's place. `despite`:
-/// reason to begin a session against the study's rules, which is logged; empty: such a session is
-/// refused. Throws Error when nothing may begin now, with a figure, or when the study's files have
-/// changed.
+/// What comes next for a participant, or for the simulated person who takes the participant's
+/// place. `despite`: reason to begin a session against the study's rules, which is logged; empty:
+/// such a session is refused. Throws Error when no session may begin now, with the figures that
+/// forbid it, or when the study's files have changed.
 StudyTurn study_turn(const std::string& file, const std::string& participant,
                      const std::string& despite, bool simulated);
 

@@ -140,7 +140,7 @@ void print_trials(const Table& trials) {
     }
     fmt::print("\n");
     if (!reaches) return;
-    fmt::print("hand: mean {}, in trials.csv one by one\n",
+    fmt::print("hand: mean {}; trials.csv has that of each trial\n",
                extents ? "length of the handle's first stroke toward the target"
                        : "angle of the handle from the target's direction");
 }

@@ -28,7 +28,7 @@ class BodyDrag {
     /// Starts a drag: the body is held at the point where the ray to the pointer meets it.
     BodyDrag(const view::Seen& held, const view::Ray& ray) : held_W_(held.p_W), ray_(ray) {}
 
-    /// The pointer moved by this many pixels, and this is the ray to it.
+    /// The pointer moved by this many pixels; `ray` is now the ray to it.
     void follow(const view::Ray& ray, const QPointF& pixels, Qt::KeyboardModifiers keys);
     const BodyWay& way() const { return way_; }
 

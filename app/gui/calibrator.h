@@ -19,7 +19,7 @@ class Calibrator : public QObject {
     /// `window`: parent of its dialogs.
     explicit Calibrator(QWidget* window) : QObject(window), window_(window) {}
 
-    /// At the end asks whether to store the result. `named_by`: origin of that file's name.
+    /// At the end asks whether to store the result. `named_by`: who named the rig file.
     void calibrate(const QString& rig_file, rig::NamedBy named_by);
     /// Shows crosses on the rig's first display, and at the end asks whether to store their touched
     /// positions.

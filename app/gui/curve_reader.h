@@ -39,7 +39,7 @@ class CurveReader : public QObject {
     void read(const Wanted& wanted);
 
   Q_SIGNALS:
-    /// All curves, as far as they have been read; `share`: of the stretch.
+    /// All curves, each up to the point that was reached; `share`: of the stretch that was read.
     void progressed(const std::vector<dihaptic::gui::RecordedCurve>& curves, double share);
 
   private:

@@ -27,8 +27,8 @@ class MouseHand {
     explicit MouseHand(const hand::Posture& start, double most_grip = kMostGrip)
         : start_(start), goal_(start), pointer_(start.centre), most_grip_(most_grip) {}
 
-    /// Grip force up to which a mouse squeezes with devices of this peak force: half of it, so that
-    /// the rest suffices to lift [N].
+    /// The highest grip force with which a mouse squeezes, for devices with this peak force: half
+    /// of it, so that the rest suffices to lift [N].
     static double grip_of(double peak_force);
 
     /// Moves the hand as the pointer moved by `pixels` (x right, y down) in a picture of `height`

@@ -60,7 +60,7 @@ class OperatorWindow : public QMainWindow {
     void connect_mirror(ParticipantMirror* mirror);
     void make_file_menu();
     void make_session_menu();
-    /// Enables an action while the control may do that.
+    /// Enables an action while the session's state allows `act`.
     void enable(QAction* action, SessionControl::Act act);
     /// To be called after make_docks(), whose docks it lists.
     void make_view_menu();

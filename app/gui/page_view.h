@@ -17,7 +17,7 @@ class PageView : public QWidget {
     /// `picture`: a file, or empty. Without text and picture there is no page. Returns whether the
     /// page changed.
     bool set_page(const QString& text, const QString& picture);
-    /// Calls this whenever the picture has moved.
+    /// Calls `moved` whenever the picture has moved.
     void on_move(std::function<void()> moved) { moved_ = std::move(moved); }
 
   protected:

@@ -36,7 +36,7 @@ class ParticipantWindows : public QObject {
     }
 
   Q_SIGNALS:
-    /// Other windows are open now, or none.
+    /// A different set of windows is open now; there may be none.
     void changed();
     void closed();
     void key_pressed(char key);

@@ -99,11 +99,11 @@ void QuestionsView::place(const QSize& room) {
     fit();
 }
 
-/// A rating stands at the bottom of the scene, a form in place of it.
+/// A rating stands at the bottom of the scene, a form in place of the scene.
 void QuestionsView::fit() {
     const int width = room_.width(), height = room_.height();
     if (is_form_) {
-        // legible from a chair, as far as all items have room
+        // legible from a chair, if this leaves room for all items
         const int rows = static_cast<int>(count_) * (count_ >= kMany ? 2 : 4) + 6;
         const int letters = std::clamp(height / rows, 11, std::max(12, height / 30));
         setStyleSheet(QString("QLabel { color: white; font-size: %1px; } "

@@ -23,7 +23,7 @@ struct Asked {
     std::span<const task::AskSpec> items;
     QString title;                ///< of the form
     bool is_form = false;         ///< all items are shown, with a button that confirms them
-    size_t now = 0;               ///< the item whose answer is awaited; their number: none
+    size_t now = 0;               ///< the item whose answer is awaited; items.size(): none
     std::vector<double> answers;  ///< by item, in the unit of its name; NaN: none yet
     QString typed;                ///< of the awaited answer
 };

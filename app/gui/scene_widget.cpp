@@ -162,7 +162,7 @@ void SceneWidget::ask(const std::optional<Asked>& asked) {
     show_banner();
 }
 
-/// A form has all texts of its own.
+/// A form shows all its texts itself.
 void SceneWidget::show_banner() {
     banner_->setVisible(!banner_->text().isEmpty() && !questions_->shows_form());
 }

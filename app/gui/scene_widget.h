@@ -40,7 +40,7 @@ class SceneWidget : public QOpenGLWidget {
     void set_picked(std::optional<size_t> body);
     /// Shows the picked body displaced, until the next frame or scene.
     void move_picked(const BodyWay& way);
-    /// The squeezing by keys that are currently held.
+    /// The squeeze commanded by the keys that are held down.
     MouseHand::Squeeze keys() const { return keys_; }
 
     const std::vector<view::Camera>& cameras() const { return cameras_; }

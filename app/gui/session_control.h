@@ -97,7 +97,7 @@ class SessionControl : public QObject {
     void stop();
     void skip();
     void pause(bool paused);
-    /// Pauses a session that runs. `why`: the reason, if the operator must be told.
+    /// Pauses the session, if one is running. `why`: the reason, if the operator must be told.
     void take_force_away(const QString& why = "");
     void set_pace(double pace);
     void turn_knobs(const frame::Knobs& knobs, const QString& what);

@@ -39,7 +39,7 @@ namespace {
 constexpr int kSliderSteps = 100000;
 constexpr int kPicture = 16;  // between pictures while it plays [ms]
 
-/// The rows of a session's table; none if it has no table of that name.
+/// The rows of a session's table; none if it has no table with that name.
 template <class Row>
 std::vector<Row> rows_of(const recording::SessionFolder& folder, const char* name) {
     const std::string file = folder.file(name);

@@ -12,8 +12,8 @@ namespace {
 constexpr int kBeat = 100;        // a tenth of Live::kLongestSilence [ms]
 constexpr int kFirstBeat = 5000;  // latest first beat, even if there is no picture [ms]
 
-/// Waits for the display: a key can take force away only if the display answers too. Asking X for
-/// the pointer's position waits for the answer.
+/// Waits for the display: a key can switch the force off only if the display answers too. Asking
+/// X for the pointer's position returns only once it has answered.
 void ask_display() {
     QCursor::pos();
 }

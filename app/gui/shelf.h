@@ -25,7 +25,8 @@ class Shelf : public QObject {
     static QString picture_of(const QString& file);
 
   Q_SIGNALS:
-    /// `length`: "45 trials", "8 s"; empty if the user ends it. A file with an error has none.
+    /// `length`: "45 trials", "8 s"; empty if the user decides when it ends. A file with an error
+    /// has no length.
     void told(const QString& file, const QString& title, const QString& length);
     void drawn(const QString& file, const QString& picture);
 

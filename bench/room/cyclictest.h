@@ -25,7 +25,7 @@ class Wakeups {
 };
 
 /// Options of cyclictest, which should run like our thread: with the same priority and locked
-/// memory, or without if our thread was refused these.
+/// memory, or without whichever of them our thread was refused.
 struct Cyclictest {
     frame::Settings settings;
     bool priority = true;

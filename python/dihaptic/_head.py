@@ -51,7 +51,7 @@ class Head:
 
 def why_unreadable(file: Path, most: float = math.inf) -> str:
     """Why a file cannot be read: it is not there, is larger than `most` [bytes], or is not a regular file (a pipe or a
-    device would keep its reader waiting, or reading, for ever). Empty if it can be read."""
+    device would keep its reader waiting, or reading, forever). Empty if it can be read."""
     try:
         status = os.stat(file)
         if not stat.S_ISREG(status.st_mode):
@@ -65,7 +65,7 @@ def why_unreadable(file: Path, most: float = math.inf) -> str:
 
 
 def most_of_recording(ticks: int) -> float:
-    """A size [bytes] that neither raw.log nor session.nwb reaches: their ticks take some hundred bytes each."""
+    """A size [bytes] that neither raw.log nor session.nwb reaches: their ticks take a few hundred bytes each."""
     return 1e9 + 1e5 * ticks
 
 

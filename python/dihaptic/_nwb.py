@@ -16,7 +16,7 @@ from .errors import Error, error
 #: What h5py raises on reading a damaged file, depending on which of its bytes are damaged.
 _DAMAGE = (ArithmeticError, AttributeError, LookupError, MemoryError, OSError, RuntimeError, TypeError, ValueError)
 
-#: More names than any session.nwb has: they have some hundred.
+#: More names than any session.nwb has: they have a few hundred.
 _MOST_LINKS = 100_000
 
 
@@ -49,7 +49,7 @@ def open_nwb(folder: Path) -> h5py.File:
         opened.close()
         raise error(
             f"has {leads_out[0]} in another file, which HDF5 would read without asking",
-            "No session of Dihaptic has that: check its source. 'dihaptic recover' rebuilds it.",
+            "Dihaptic never writes such links: find out where this file came from. 'dihaptic recover' rebuilds it.",
             file=str(file),
         )
     return opened
@@ -64,7 +64,7 @@ def _without_nwb(folder: Path) -> Error:
     if state not in ("", "running") and not os.path.lexists(folder / "raw.log"):
         return error(
             "has neither session.nwb nor raw.log, only tables: a rehearsal keeps no recordings",
-            "With --keep-recordings, dihaptic rehearse keeps them; those of a real session are to be copied here.",
+            "With --keep-recordings, dihaptic rehearse keeps them. For a real session, copy its recordings here.",
             file=str(folder),
         )
     what = "the session is still running, or was killed" if state in ("", "running") else "it has been removed"

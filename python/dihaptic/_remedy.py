@@ -40,7 +40,7 @@ def needs_program(name: str, why: ImportError | None) -> str:
         remedy = (
             "Type pip uninstall dihaptic-read: then Python finds the whole package, python3-dihaptic"
             if there
-            else "Install Dihaptic on a Debian 12 or 13, which its README shows"
+            else "Install Dihaptic on Debian 12 or 13, as its README shows"
         )
         return f"dihaptic.{name} needs the program, and this is dihaptic-read, which only reads. {remedy}."
     built_for = _versions_of_the_module()

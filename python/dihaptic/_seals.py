@@ -23,7 +23,7 @@ _REPEAT = "Restore it from a backup. If there is none, the session has to be rep
 
 
 def faults(folder: Path, info: dict[str, Any], name: str = "") -> list[str]:
-    """Known losses from, and changes to, session.yaml and one of the session's files, in sentences.
+    """Known losses from, and changes to, session.yaml and a file of the session, in sentences.
 
     `info`: the content of session.yaml; `name`: that of the file; empty: none. Raises Error when the seals cannot be
     read.
@@ -54,7 +54,7 @@ def broken_seals(folder: Path, info: dict[str, Any], name: str = "") -> list[str
 
 
 def gone_tables(folder: Path, info: dict[str, Any]) -> dict[str, Problem]:
-    """What is wrong with each table that was sealed, or was an input, and is no longer there. Raises Error."""
+    """What is wrong with each table that was sealed, or was an input, and no longer exists. Raises Error."""
     file = folder / "session.yaml"
     names = [str(each.get("file")) for key in ("tables", "inputs") for each in part_of(info, key, list, file)]
     gone = [name for name in names if name.endswith(".csv") and not os.path.lexists(folder / name)]

@@ -12,7 +12,7 @@ class Plain(str):
 
 
 def to_json(value: Any) -> str:
-    r"""One line of JSON. Half of a surrogate pair, which is not a character and by which Python represents an
+    r"""One line of JSON. Half of a surrogate pair, which is not a character, and with which Python represents an
     unreadable byte, is written as Python's own escape for it.
 
     >>> from dihaptic._text import to_json

@@ -54,9 +54,9 @@ class BetweenTrials:
     """Decisions between trials, to be passed to run(); derive from it.
 
     decide() is called before the first trial, and after each attempt. It runs outside the session's process, so no tick
-    is late, however slow or wrong it is. In real time its answer counts for a second, in which no trial starts; after a
-    later answer, or an exception, the trials stay as in the file, and the session's notes report it. On the virtual
-    clock the session waits for the answer.
+    is late, however slow or wrong it is. In real time no trial starts for up to a second, while its answer is
+    awaited; after a later answer, or an exception, the trials stay as in the file, and the session's notes report it.
+    On the virtual clock the session waits for the answer.
 
     The variables are those of the task: `variables: [{ name: load }]` in the experiment's file, whose formulas use
     them, as in `body: { body: block, weight_scale: load }` of a perturbation. Decisions are recorded, so that a replay

@@ -39,9 +39,9 @@ def plot(
 ) -> Axes:
     """Draws quantities of a session against time, and returns matplotlib's axes.
 
-    Without `align`, draws the whole session. With it, draws each lift or trial from `before` to `after` [s] about one
-    of its moments: a column of lifts.csv (`touch`, `load_onset`, `lift_off`, `replacement`, `release`, `first_slip`),
-    or `start_time` or `stop_time` of trials.csv. Each is a thin line, their mean a thick one; `by`, a column such as
+    Without `align`, draws the whole session. With it, draws each lift or trial from `before` [s] before to `after` [s]
+    after one of its moments: a column of lifts.csv (`touch`, `load_onset`, `lift_off`, `replacement`, `release`,
+    `first_slip`), or `start_time` or `stop_time` of trials.csv. Each is a thin line, their mean a thick one; `by`, a column such as
     "condition", makes a mean for each of its values. A vector has a line for each component. Raises NotThere or Error.
 
     >>> import dihaptic as dh
@@ -118,10 +118,10 @@ def _with_trials(session: Session, lifts: pd.DataFrame, trials: pd.DataFrame) ->
     for name, table in (("trials", trials), ("lifts", lifts)):
         for key in keys:
             if key not in table or not pd.api.types.is_integer_dtype(table[key]):
-                what = f"has no whole number of each row in its column {key}"
+                what = f"has a row without a whole number in its column {key}"
                 raise error(what, _RESTORE, file=str(session.folder / f"{name}.csv"))
     if trials.duplicated(keys).any():
-        raise error("has an attempt twice", _RESTORE, file=str(session.folder / "trials.csv"))
+        raise error("lists an attempt twice", _RESTORE, file=str(session.folder / "trials.csv"))
     more = trials[[*keys, *trials.columns.difference(lifts.columns)]]
     return lifts.merge(more, on=keys, how="left")
 
@@ -135,7 +135,7 @@ def _aligned(
     after: float,
 ) -> None:
     if not np.isfinite([before, after]).all():
-        raise error(f"from -{before} to {after} s is no interval", "Give finite times.", key="before, after")
+        raise error(f"from -{before} to {after} s is not an interval", "Give finite times.", key="before, after")
     ticks = np.arange(-round(before / session.tick), round(after / session.tick) + 1)
     groups = sorted({group for group, _ in moments})
     for name, label, values in _curves(session, names):

@@ -144,7 +144,7 @@ P = TypeVar("P", bound=Part)
 
 
 class File(Part):
-    """The base class of scenes, rigs and experiments: they are files."""
+    """The base class of scenes, rigs and experiments, which are files."""
 
     _folder: Path
     _name: str
@@ -181,7 +181,7 @@ class File(Part):
     def save(self, file: str | Path) -> Path:
         """Writes the file and, next to it, a scene and a rig given as objects.
 
-        Nothing but comments is lost. The paths of other files are adapted if it is written to another folder. Raises
+        Only comments are lost. The paths of other files are adapted if it is written to another folder. Raises
         OSError when it cannot be written, and Error when load() could not read it again.
 
         >>> import dihaptic as dh
@@ -214,7 +214,7 @@ class File(Part):
         return out
 
     def check(self) -> list[Problem]:
-        """Finds its faults, like `dihaptic check`, with the object's path in place of a line.
+        """Finds the faults of this object, like `dihaptic check`, with the object's path in place of a line.
 
         >>> import dihaptic as dh
         >>> scene = dh.Scene.load("scenes/block-on-table.yaml")

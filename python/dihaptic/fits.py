@@ -102,7 +102,7 @@ def fit_two_rate(
 
     `compensation`: the compensation in each trial, NaN if not measured; `perturbation`: the perturbation that acted, in
     the same unit and with the sign of the compensation; `clamp`: true if no error was shown, whatever the person did.
-    The least squares are the global ones within
+    The least sum of squares is the global one within
     0 <= A_fast <= A_slow <= 1, 0 <= B_slow <= B_fast <= 1. Raises Error for fewer than five measured
     trials, or arrays of different lengths.
 

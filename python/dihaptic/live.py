@@ -194,9 +194,9 @@ def observe(
 ) -> Live:
     """Watches a running session.
 
-    `session`: its folder, or a folder of sessions, of which the newest running one is used; the wait for it lasts up to
-    `patience_s`. `expressions`: the content of its moments, see Live.watch(). The session may come from the window,
-    from `dihaptic run` or from run(); a rehearsal cannot be watched.
+    `session`: its folder, or a folder of sessions, of which the newest running one is used. A session that is not yet
+    running is awaited for up to `patience_s`. `expressions`: the content of its moments; see Live.watch(). The session
+    may come from the window, from `dihaptic run` or from run(); a rehearsal cannot be watched.
 
     >>> import dihaptic as dh
     >>> dh.observe(folder, patience_s=0)

@@ -180,7 +180,7 @@ def _setting(value: Any) -> Any:
 
 
 class _Answer:
-    """The output of a command, and its exit."""
+    """The output of a command, and its exit code."""
 
     def __init__(self, code: int, output: list[str], said: list[str]) -> None:
         self.code = code
@@ -189,8 +189,8 @@ class _Answer:
 
 
 def call(command: Sequence[str], progress: bool, echo: bool = False) -> _Answer:
-    """Runs a command to its end. Raises Error when its input was bad. `echo`: shows its output, since with real devices
-    it asks questions, and explains how to switch force off."""
+    """Runs a command to its end. Raises Error when its input was invalid. `echo`: shows the output, since with real
+    devices a command asks questions, and explains how to switch force off."""
     with subprocess.Popen(
         [program(), *command], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, errors="replace"
     ) as process:

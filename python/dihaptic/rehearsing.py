@@ -47,7 +47,7 @@ def rehearse(
     """Lets simulated people do an experiment, like `dihaptic rehearse`, and collects their tables.
 
     People who are already in the folder are not done again. The tables do not depend on `jobs`.
-    `person`: makes your own simulated person, by number, from 1; default: people are drawn from `population`.
+    `person`: makes your own simulated person for a number, from 1; default: people are drawn from `population`.
     `between`: makes the rules that decide between a person's trials. Random numbers that these draw from `random` and
     `numpy.random` depend on `seed` and the number; your own generator must be made from the number too, since people
     may be done in separate processes. An exception in one of these ends the rehearsal, and so does an invalid decision;
@@ -188,7 +188,7 @@ class _Study:
 
     @contextlib.contextmanager
     def _drawing(self, number: int) -> Iterator[None]:
-        """Random numbers drawn here are a person's own, without effect on the caller's later draws."""
+        """Random numbers drawn within this context are a person's own, and do not affect the caller's later draws."""
         before, of_numpy = random.getstate(), np.random.get_state()
         random.seed(f"{self.seed} {number}")
         np.random.seed([self.seed & 0xFFFFFFFF, self.seed >> 32, number])
@@ -243,7 +243,7 @@ def _made(make: Callable[[int], Made] | None, number: int, kind: type[Made]) -> 
         return None
     it = make(number)
     if not isinstance(it, kind):
-        raise error(f"{it!r} is not one", "Give a function of a number that returns one.", key=kind.__name__)
+        raise error(f"{it!r} is not a {kind.__name__}", "Give a function of a number that returns one.", key=kind.__name__)
     return it
 
 

@@ -71,7 +71,7 @@ class Session:
         except (OSError, ValueError):
             pass  # the next check names the reason
         if why := why_unreadable(file, MOST_YAML):
-            remedy = "Name a folder made by dihaptic, and mend its permissions if they are wrong."
+            remedy = "Name a folder made by dihaptic, and correct its permissions if they are wrong."
             raise error(f"cannot be opened: {why}", remedy, file=str(file))
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -138,7 +138,7 @@ class Session:
             return
         if own and head.identity and own != head.identity:
             raise error(
-                "belongs to a different session from the session.yaml beside it",
+                "belongs to a different session from the session.yaml next to it",
                 "Restore this session's own log, or the session.yaml that belongs to the log.",
                 file=str(self.folder / "raw.log"),
             )
@@ -331,8 +331,9 @@ class Session:
         return self._place_of(name).quantity.unit
 
     def between(self, begin: float, end: float) -> slice:
-        """The ticks from `begin` to before `end` [s], as a slice for the session's arrays. Raises Error when one is not a
-        number, such as the time of something that did not happen.
+        """The ticks from `begin` until just before `end` [s], as a slice for the session's arrays.
+
+        Raises Error when either is not a number, such as the time of something that did not happen.
 
         >>> import dihaptic as dh
         >>> session = dh.load(lift_session)
@@ -340,7 +341,7 @@ class Session:
         500
         """
         if np.isnan(begin) or np.isnan(end):
-            raise error(f"from {begin} to {end} s is no interval", "Leave out what did not happen.", key="between")
+            raise error(f"from {begin} to {end} s is not an interval", "Leave out what did not happen.", key="between")
         half = self.tick / 2
         return slice(*(int(i) for i in np.searchsorted(self.t, [begin - half, end - half])))
 

@@ -256,7 +256,7 @@ class Study(Collected):
         except FileNotFoundError:
             return
         except OSError as why:
-            remedy = "Recordings in it would not count: mend its permissions."
+            remedy = "Recordings in it would not count: correct its permissions."
             raise error(f"cannot be read: {why.strerror}", remedy, file=str(folder)) from None
         found = [_recording(path, participant, study_session) for path in paths]
         # names have local time
@@ -275,12 +275,12 @@ class Study(Collected):
             what = f"has no recording of {study_session}"
             there = ""
         if self._rehearsed:
-            remedy = "Repeat the command that rehearsed the study: it does what is missing."
+            remedy = "Repeat the command that rehearsed the study: it completes what is missing."
         elif member.get("withdrawn"):
             what += f", and withdrew on {member['withdrawn']}"
             remedy = "" if recordings else "Study.sessions lists the recordings."
         else:
-            remedy = f"{command_of('run', self.file, '--participant', who)} does what comes next."
+            remedy = f"{command_of('run', self.file, '--participant', who)} runs the next session."
         return error(what, (remedy + there).strip(), key=who)
 
 
@@ -306,7 +306,7 @@ def _check_members(members: list[dict[str, Any]], file: Path) -> None:
     for member in members:
         who = member["id"]
         if who.lower() in there:
-            raise error("is there twice", _ROSTER, file=str(file), key=who)
+            raise error("is listed twice", _ROSTER, file=str(file), key=who)
         there.add(who.lower())
         for key in _LAST:
             if key not in member:

@@ -25,7 +25,7 @@ def read_table(file: str | Path) -> pd.DataFrame:
     """Reads a table of the program (docs/tables.md), or any CSV file of your own.
 
     `attrs["units"]` has the unit of each column whose name ends in one, and `attrs["meanings"]` a
-    few words on each column of trials, phases, events, episodes and lifts. Cells that are empty
+    few words about each column of trials, phases, events, episodes and lifts. Cells that are empty
     or missing are NaN. Raises Error when the file cannot be read, or a row has more cells than the header.
 
     >>> import dihaptic as dh
@@ -49,7 +49,7 @@ def read_table(file: str | Path) -> pd.DataFrame:
         if isinstance(why, Error):
             raise
         if longer := re.search(r"Expected \d+ fields in line (\d+)", str(why)):
-            remedy = "Correct this line, or make the table anew."
+            remedy = "Correct this line, or make the table again."
             raise error("has more cells than the header", remedy, file=str(path), line=int(longer[1])) from None
         raise error(f"cannot be read as a table: {why}", "Name a CSV file.", file=str(path)) from None
 
@@ -74,7 +74,7 @@ def _logical(column: pd.Series, name: str) -> pd.Series:
         row = int(wrong.argmax())
         line = row + 2  # after the header
         what = f"is '{column.iloc[row]}', which is neither yes nor no"
-        raise error(what, "Correct this line, or make the table anew.", file=name, line=line, key=str(column.name))
+        raise error(what, "Correct this line, or make the table again.", file=name, line=line, key=str(column.name))
     return words.map(_YES)
 
 

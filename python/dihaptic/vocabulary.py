@@ -58,7 +58,7 @@ def of_list(name: str) -> list[Quantity]:
 
 
 def find(name: str, list_name: str = "") -> Quantity | None:
-    """The quantity of that name in a list, or None."""
+    """The quantity with that name in a list, or None."""
     return _BY_LIST.get(list_name, {}).get(name)
 
 

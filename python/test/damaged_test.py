@@ -240,7 +240,7 @@ class Damaged(unittest.TestCase):
             ("trials.csv", lambda text: text.replace("trial_num", "number", 1), "trials.csv: error: has no whole number"),
             ("lifts.csv", lambda text: text.replace("attempt", "try", 1), "lifts.csv: error: has no whole number"),
             ("lifts.csv", lambda text: text.replace("\n1,", "\none,", 1), "lifts.csv: error: has no whole number"),
-            ("trials.csv", lambda text: text + text.splitlines()[-1] + "\n", "trials.csv: error: has an attempt twice"),
+            ("trials.csv", lambda text: text + text.splitlines()[-1] + "\n", "trials.csv: error: lists an attempt twice"),
             ("lifts.csv", lambda text: text.replace("lift_off_s", "lift_off", 1), "is not a moment for alignment"),
             ("trials.csv", lambda text: "", "cannot be read as a table"),
         ):
@@ -251,7 +251,7 @@ class Damaged(unittest.TestCase):
                 with self.assertRaisesRegex(dh.Error, said):
                     dh.load(folder).plot("grip_force", align="lift_off")
 
-    # What is no file, or far too large
+    # What is not a file, or far too large
 
     def test_what_is_no_file_is_refused_at_once(self):
         calls = {
@@ -311,7 +311,7 @@ class Damaged(unittest.TestCase):
             os.chmod(folder, 0o700)
             os.seteuid(65534)
             back.callback(os.seteuid, 0)
-            with self.assertRaisesRegex(dh.Error, "cannot be opened: .*Permission denied.* mend its permissions"):
+            with self.assertRaisesRegex(dh.Error, "cannot be opened: .*Permission denied.* correct its permissions"):
                 dh.load(folder)
             os.seteuid(0)
             os.chmod(folder, 0o711)
@@ -383,9 +383,9 @@ class Damaged(unittest.TestCase):
                     session.exact("grip_force")
 
     def test_times_that_are_none_are_refused(self):
-        with self.assertRaisesRegex(dh.Error, "from nan to 1 s is no interval"):
+        with self.assertRaisesRegex(dh.Error, "from nan to 1 s is not an interval"):
             self.good.between(np.nan, 1)
-        with self.assertRaisesRegex(dh.Error, "is no interval"):
+        with self.assertRaisesRegex(dh.Error, "is not an interval"):
             self.good.plot("grip_force", align="lift_off", before=np.inf)
 
     def test_a_session_that_kept_tables_alone_says_so(self):

@@ -24,7 +24,7 @@ NAMES = ["outcomes", "timing-and-force"]
 
 
 class Few:
-    """Data of tables alone, as the functions of points ask for them."""
+    """Data that consist only of tables, as the functions that make points need them."""
 
     def __init__(self, trials, sessions=(), blocks=()):
         self.trials, self.sittings, self.blocks, self.mark = trials, list(sessions), list(blocks), "simulated"

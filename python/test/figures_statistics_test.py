@@ -1,4 +1,4 @@
-"""The scripts of mixed models find an effect that was planted, in Python and in R alike, and need nothing of the package."""
+"""The scripts of mixed models find an effect that was planted, both in Python and in R, and need nothing from the package."""
 
 import contextlib
 import functools
@@ -124,7 +124,7 @@ def fitted(printed):
 
 class Statistics(unittest.TestCase):
     def setUp(self):
-        # the sessions, which are no real ones, lack seals and more, and reading says so
+        # the sessions are made up and lack seals, among other things; reading says so
         warnings.filterwarnings("ignore", ".*session.yaml: warning: has (lost keys|no seals)")
         self.temporary = tempfile.TemporaryDirectory()
         self.addCleanup(self.temporary.cleanup)

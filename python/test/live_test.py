@@ -150,7 +150,7 @@ class Live(unittest.TestCase):
                 (lambda: live.turn(solver="bisection"), "solver must be one of"),
                 (lambda: live.press("yes"), 'key: "yes" is not understood'),
                 (lambda: live.trigger(256), "trigger: 256 is not understood"),
-                (lambda: live.watch("grip_force", every_ms=-1), "every_ms a number"),
+                (lambda: live.watch("grip_force", every_ms=-1), "'every_ms' a number"),
             ]:
                 with self.subTest(why), self.assertRaisesRegex(dh.Error, why):
                     steer()
@@ -236,7 +236,7 @@ class Live(unittest.TestCase):
         with dh.observe(self.out) as live:
             late = self.raw(live.session)
             late.send(b'{"watch": ["grip_force"], "every_ms": 0}')
-            time.sleep(1.5)  # by then there is no room for it any more
+            time.sleep(1.5)  # by then there is no room for more messages
             ends, moments = [], 0
             while (text := late.recv(1 << 20)) and "over" not in (message := json.loads(text)):
                 moments += "values" in message

@@ -22,7 +22,7 @@ from pages import MANUAL, blocks, unlike  # noqa: E402
 
 PACKAGE = pathlib.Path(os.environ["PYTHONPATH"]).absolute() / "dihaptic"
 PROJECT = pathlib.Path.cwd()
-#: Of another system than Linux, or of none but it.
+#: Modules that exist only on Unix.
 OF_UNIX = ["fcntl", "grp", "pwd", "resource", "syslog", "termios"]
 EXAMPLES = """
 import doctest, importlib, sys
@@ -64,7 +64,7 @@ class Reader(unittest.TestCase):
         return done.stdout + done.stderr
 
     def recorded(self, experiment, name, **options):
-        """A folder that has a session of that name."""
+        """A folder with a session of that name in it."""
         folder = self.here / f"{experiment}-{name}"
         folder.mkdir()
         session = dh.run(f"experiments/{experiment}.yaml", out=folder, progress=False, **options)
@@ -101,7 +101,7 @@ class Reader(unittest.TestCase):
         said = self.read("import dihaptic as dh; print(dh.__version__, dh.__file__); dh.run('lift.yaml')", self.here, code=1)
         self.assertIn(str(self.here / "python/lib"), said)
         self.assertEqual(said.strip().splitlines()[-1], "ImportError: dihaptic.run needs the program, and this is "
-                         "dihaptic-read, which only reads. Install Dihaptic on a Debian 12 or 13, which its README shows.")
+                         "dihaptic-read, which only reads. Install Dihaptic on Debian 12 or 13, as its README shows.")
         folder, session = self.recorded("lift-block", "exact")
         said = self.read("import dihaptic as dh; dh.load('exact').exact('grip_force')", folder, code=1)
         self.assertIn("ImportError: dihaptic.Session.exact needs the program", said)

@@ -254,8 +254,8 @@ class Rehearsals(unittest.TestCase):
 
     def test_what_is_wrong_is_told_before_anybody_begins(self):
         for given, why in (
-            ({"person": lambda number: 3}, "Person: 3 is not one"),
-            ({"between": lambda number: Every(1)}, "BetweenTrials: .* is not one"),
+            ({"person": lambda number: 3}, "Person: 3 is not a Person"),
+            ({"between": lambda number: Every(1)}, "BetweenTrials: .* is not a BetweenTrials"),
             ({"person": Every, "population": "populations/adults.yaml"}, "given twice"),
             ({"person": Every, "jobs": 0}, "jobs: is 0"),
             ({"person": Every, "people": 10000}, "people: is 10000"),

@@ -1,4 +1,4 @@
-"""A study is read as a whole: its people, recordings and tables, like `dihaptic participant` and `collect` see them."""
+"""A study is read as a whole: its people, recordings and tables, as `dihaptic participant` and `collect` see them."""
 
 import os
 import pathlib
@@ -188,7 +188,7 @@ class Studies(Case):
         self.assertTrue(pd.isna(row.study_condition), "it was not run by the study")
         said = self.assert_refused("S04: has no complete recording of day1: .*sessions/S04/day1/.* broke off",
                                    lambda: self.study.session("S04", "day1"))  # fmt: skip
-        self.assertIn(f"dihaptic run {self.file} --participant S04 does what comes next.", said)
+        self.assertIn(f"dihaptic run {self.file} --participant S04 runs the next session.", said)
         # it began anew
         whole = self.folder / "sessions/S04/day1/0_earlier_by_name"
         shutil.copytree(self.recording("S01", "day1"), whole)
@@ -202,7 +202,7 @@ class Studies(Case):
     def test_an_error_says_why_there_is_no_session(self):
         self.assertEqual(
             self.assert_refused("", lambda: self.study.session("S03", "day2")),
-            f"S03: has no recording of day2. dihaptic run {self.file} --participant S03 does what comes next.",
+            f"S03: has no recording of day2. dihaptic run {self.file} --participant S03 runs the next session.",
         )
         self.assert_refused(r"S02: has no recording of day2, and withdrew on \d{4}-",
                             lambda: self.study.session("S02", "day2"))  # fmt: skip
@@ -282,8 +282,8 @@ class Studies(Case):
             ("facts:", "facts: 3\n    older:", "S01.facts: is not a list of items with keys"),
             ("facts:", "facts: [3]\n    older:", "S01.facts: is not a list of items with keys"),
             ("value: normal", "value: [normal]", "S01.vision.value: is not a single value"),
-            ("id: S02", "id: S01", "S01: is there twice. Restore the file: log.csv says who was added."),
-            ("id: S02", "id: s01", "s01: is there twice"),
+            ("id: S02", "id: S01", "S01: is listed twice. Restore the file: log.csv says who was added."),
+            ("id: S02", "id: s01", "s01: is listed twice"),
             ("id: S02", "id: S09", "lacks S02, who had been added. Restore the file: log.csv says who was added."),
             ("data_deleted:", "data_there:", "S01.data_deleted: is missing: the file was cut off. Restore the file"),
         ):
@@ -375,7 +375,7 @@ class Studies(Case):
             with self.subTest(text):
                 table.write_text(text)
                 said = self.assert_refused("", lambda: self.study.trials)
-                remedy = "Correct this line, or make the table anew."
+                remedy = "Correct this line, or make the table again."
                 self.assertEqual(said, f"{table}:{line}: error: has more cells than the header. {remedy}")
         table.write_text("a,b\n1\n3,4\n")
         self.assertEqual(self.study.trials.fillna(0).values.tolist(), [[1, 0], [3, 4]])

@@ -90,8 +90,8 @@ bool has_both_signs(const Stretch& s) {
     return any(1) && any(-1);
 }
 
-/// Compensations that show the learning in a block's trials of one kind: those of the channels
-/// among them or, without channels, of all.
+/// Compensations that show learning in a block's trials of one kind: those measured in its channel
+/// trials or, if the session has no channels, in all its trials.
 std::vector<double> learned_in(const Stretch& stretch, TrialKind kind, bool in_channels) {
     if (!in_channels) return measured_kind(stretch, kind);
     return has_kind(stretch, kind) ? stretch.compensation : std::vector<double>{};
@@ -109,7 +109,7 @@ std::string under(const Stretch& s) {
     return "";
 }
 
-/// Whether both have the same perturbation, as far as known.
+/// Whether both have the same perturbation, as far as is known.
 bool alike(const Stretch& a, const Stretch& b) {
     return under(a) == under(b) && std::abs(a.perturbation - b.perturbation) < kSame;
 }

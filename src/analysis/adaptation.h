@@ -94,7 +94,7 @@ struct AdaptationCurve {
     /// The reason why learning is not measured, or only in part; empty if it is measured.
     std::string note() const;
     /// Why a first perturbed block in which the perturbation has both signs has no means: they
-    /// would be means of opposite learning. Empty if it does not.
+    /// would be means of opposite learning. Empty if it has one sign only.
     std::string mixed() const;
     /// Lists the unit, the perturbation, and the windows with their intervals.
     void list_landmarks(FigureLister& row) const;

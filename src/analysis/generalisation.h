@@ -1,5 +1,6 @@
 // Generalisation: how far learning in one direction of reaching carries over to other directions,
-// from trials without seen errors (clamps and catch trials) in conditions that were not trained.
+// measured in trials in which no error was visible (clamps and catch trials), in untrained
+// conditions.
 #pragma once
 
 #include <string>

@@ -11,8 +11,8 @@
 
 namespace dihaptic::analysis {
 
-/// A session's frozen task, as far as readable: keys from another version are left out. An empty
-/// task if the file is missing or is not YAML.
+/// A session's frozen task, as far as it is readable: keys from another version are left out. An
+/// empty task if the file is missing or is not YAML.
 task::Task read_frozen_task(const std::string& file);
 
 /// Maps the name of each perturbation whose learning is not measured to a description: "a force

@@ -1,4 +1,4 @@
-// Reads a running session, as far as its log has been written, for the results of its trials: the
+// Reads what has been written of a running session's log, for the results of its trials: the
 // figures that trials.csv will contain.
 #pragma once
 

@@ -378,7 +378,8 @@ void find_heard(std::vector<rows::EventRow>& events,
 /// The table of events in NWB's form: intervals, with a start and an end.
 Table as_intervals(const Table& events) {
     Table table;
-    table.columns = {{"start_time", "in the session", "s"}, {"stop_time", "in the session", "s"}};
+    table.columns = {{"start_time", "from the session's start", "s"},
+                     {"stop_time", "from the session's start", "s"}};
     table.columns.insert(table.columns.end(), events.columns.begin() + 1, events.columns.end());
     for (const std::vector<Table::Cell>& event : events.rows) {
         std::vector<Table::Cell> row{event[0]};
@@ -506,8 +507,8 @@ void note_quality(recording::SessionInfo& info, const SessionFigures& figures) {
     for (const std::string& what : figures.implausible) add_note(info, what);
 }
 
-/// Writes all tables except session.nwb. `conclude`: then also the session's state, which completes
-/// it.
+/// Writes all tables except session.nwb. `conclude`: then also the session's state, which marks the
+/// session as complete.
 SessionFigures write_tables(const recording::SessionFolder& folder, recording::SessionInfo info,
                             const Reading& reading, const recording::NwbContent& content,
                             const Table& events, bool conclude = true) {

@@ -41,7 +41,8 @@ void append(std::vector<T>& list, const More& more) {
     list.insert(list.end(), more.begin(), more.end());
 }
 
-/// A number if it is written as one: a block may be called 007, or nan.
+/// A number only if the text is exactly how we would write that number; blocks may be called 007 or
+/// nan, and stay text.
 Table::Cell cell(const std::string& text) {
     const auto value = any_number(text);
     return value && to_csv(Table::Cell(*value)) == text ? Table::Cell(*value) : Table::Cell(text);

@@ -126,7 +126,7 @@ Ended run(const CompanionTask& task, const std::string& path, int in, int out) {
                errno == EINTR)
             continue;
     }
-    // only from now on may another program get its process number
+    // reaped only here: from this point on, its PID may be reused
     if (const auto status = child.wait()) ended.status = *status;
     if (!limited) throw failed(EPERM);
     return ended;

@@ -25,7 +25,7 @@ constexpr int64_t kMostPixels = 64'000'000;
 void check_whole(const std::string& bytes, const std::string& file) {
     if (!bytes.starts_with("\x89PNG") || bytes.rfind("IEND") != std::string::npos) return;
     throw Error({file, 0}, "", "was cut short: its end is missing",
-                "Copy it again, or export it anew.");
+                "Copy it again, or export it again.");
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ std::string in_or_above_program(std::initializer_list<std::string> names);
 /// they need. "" if the folder is missing.
 std::string shipped_folder();
 
-/// The file of this name, e.g. scenes/block-on-table.yaml, in the folder where a user keeps files
+/// The file with this name, e.g. scenes/block-on-table.yaml, in the folder where a user keeps files
 /// for all studies ($XDG_DATA_HOME/dihaptic or ~/.local/share/dihaptic) or, failing that, among the
 /// files that come with the program. "" if neither has it, or if the path is absolute.
 std::string kept(const std::string& name);

@@ -41,7 +41,7 @@ struct SchemaKeys {
 /// The schema of one kind of file. Each struct is defined once; keys refer to the definition.
 class JsonSchema {
   public:
-    /// Describes a part that is read elsewhere (a Node of this name in a visit()), by the
+    /// Describes a part that is read elsewhere (a Node with this name in a visit()), by the
     /// keys of a struct, or by a schema. Call it before of(). A Node without a description may be
     /// any mapping.
     template <class Struct>

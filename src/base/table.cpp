@@ -162,12 +162,12 @@ std::vector<std::vector<std::string>> read_csv(const std::string& file) {
             throw Error({file, 1}, "",
                         fmt::format("is separated by {}: another program has saved it", name),
                         "Replace it by a backup; dihaptic recover makes a session's tables "
-                        "anew from raw.log.");
+                        "again from raw.log.");
     }
     if (rows.empty()) {
         throw Error({file, 0}, "", "is empty, without the line that names its columns",
                     "Replace it by a backup; dihaptic recover makes a session's tables "
-                    "anew from raw.log.");
+                    "again from raw.log.");
     }
     return rows;
 }

@@ -64,7 +64,7 @@ class CsvFile {
     Place head() const { return {file_, head_}; }
     const std::vector<std::string>& columns() const { return header_; }
     size_t rows() const { return rows_.size(); }
-    /// Position of the column of that name; nullopt if there is none.
+    /// Position of the column with that name; nullopt if there is none.
     std::optional<size_t> column(const std::string& name) const;
     bool has(const std::string& name) const { return column(name).has_value(); }
     const std::string& text(size_t row, std::optional<size_t> column) const;

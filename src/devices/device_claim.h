@@ -2,9 +2,9 @@
 // that its own force acts. A program that activates a real device claims it by its backend and
 // serial number; the kernel releases the claim when the owner ends, for any reason.
 //
-// A claim is an abstract UNIX socket of that name. It is valid for all users of the machine, needs
-// no file that could be left behind or replaced, and reveals its owner. Another user could claim a
-// device without using it, just as they could open it; the message names them.
+// A claim is an abstract UNIX socket named after both. It is valid for all users of the machine,
+// needs no file that could be left behind or replaced, and reveals its owner. Another user could
+// claim a device without using it, just as they could open it; the message names them.
 #pragma once
 
 #include <string>

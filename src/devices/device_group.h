@@ -182,7 +182,7 @@ struct Backend {
 
 /// All backends.
 std::span<const Backend> backends();
-/// The backend of that name; null if there is none.
+/// The backend with that name; null if there is none.
 const Backend* find_backend(const std::string& name);
 
 }  // namespace dihaptic::devices

@@ -63,7 +63,7 @@ void check(const Display& display, Diagnostics& diagnostics) {
                           fmt::format("makes an angle of {:.1f} degrees at lower_left, but screens "
                                       "have right angles",
                                       90 - skew / kDegree),
-                          "Measure the corners anew, or register the display.");
+                          "Measure the corners again, or register the display.");
         return;
     }
     if (display.eyes.along.norm() < 1e-9) {

@@ -134,7 +134,7 @@ void Books::check_gap(const Exchange& exchange, const Meeting& meeting, const Ve
         const double inside = -std::max(gap, 0.0) - way.dot(n_W);
         return inside > kLeast && inside > kLeast + kShareOfWay * way.norm();
     };
-    // the velocities show clearly enough that there is no fault
+    // a fault only if both the velocities and the paths clearly show one body entering the other
     if (enters(h_ * meeting.v_after) && enters(way(exchange.a, exchange.b, exchange.p_W)))
         balance_.unbalanced = true;
 }

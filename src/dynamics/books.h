@@ -140,9 +140,9 @@ class Books {
     double h_ = 0;
     bool has_last_ = false;
     double before_ = 0;        // energy of the open bodies at the start of the step
-    double last_energy_ = 0;   // of the same bodies, and all springs, after the step before
+    double last_energy_ = 0;   // of the same bodies, and all springs, after the previous step
     double springs_ = 0;       // after the step
-    double last_springs_ = 0;  // after the step before
+    double last_springs_ = 0;  // after the previous step
     double gains_ = 0;         // in the step, by contacts and joints
     double by_contacts_ = 0;   // energy released by all contacts together in the step
     double owed_by_contacts_ = 0;

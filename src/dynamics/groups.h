@@ -19,7 +19,7 @@ class Groups {
         // the smallest index represents the group, whatever the order of joining
         parent_[std::max(root_a, root_b)] = std::min(root_a, root_b);
     }
-    /// The body that represents the group of this one.
+    /// The body that represents the group of `body`.
     size_t of(size_t body) noexcept {
         while (parent_[body] != body) {
             parent_[body] = parent_[parent_[body]];

@@ -302,8 +302,8 @@ double missed(const ContactPatch& patch, double separation) {
     return least - separation;
 }
 
-/// Whether a face's contact is the contact between the shapes. If they are apart or touch, no other
-/// axis then separates them better.
+/// Whether the contact found on a face is that of the shapes: true only if they are apart or just
+/// touching, and the face meets the closest feature. No other axis then separates them better.
 bool settles(const ContactPatch& patch, double separation) {
     constexpr double kTouching = -1e-6;  // [m]
     return separation > kTouching && missed(patch, separation) < 1e-9;

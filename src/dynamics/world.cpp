@@ -9,7 +9,7 @@
 namespace dihaptic::dynamics {
 namespace {
 
-/// Gives a solid the mean of its moments about B for all axes, with B as its mass frame.
+/// Replaces each of a solid's moments of inertia by their mean about B, and makes B its mass frame.
 void lump(scene::Solid& solid) {
     const double about_centre = solid.inertia.sum() / 3;
     solid.inertia.setConstant(about_centre + 2 * solid.mass / 3 * solid.X_BM.p.squaredNorm());

@@ -185,7 +185,7 @@ struct World::Impl {
                                            std::vector<BodyState>& states);
     /// Widens the bounds of bodies whose velocities contacts changed much.
     void widen_bounds(double h);
-    /// Lets bodies that would still enter others wait in front of them.
+    /// Makes bodies that would still enter others wait in front of those.
     void hold_back(double h, contact::Work& search);
     /// If one body of a joint waits, makes the other wait too, since the joint would tear
     /// otherwise. False if nothing changed.

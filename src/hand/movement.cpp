@@ -260,7 +260,7 @@ void choose_markers(Columns& columns, const std::vector<std::string>& fingers, c
     const std::string wanted = fmt::format("{}", fmt::join(fingers, ", "));
     if (others.size() == columns.fingers.size()) {
         problems.error(
-            place, names, "are the markers, but no finger of the scene has such a name",
+            place, names, "are the markers, but no finger of the scene has any of these names",
             fmt::format("Give the markers the names of the scene's fingers: {}.", wanted));
         return;
     }

@@ -1,6 +1,6 @@
-// Finds and bridges gaps and errors of a tracker: missing frames, markers frozen at their last
-// positions, single wild positions, jumps. The result is a smooth path at 1 kHz that a hand could
-// follow.
+// Finds gaps and errors in a tracker's data, and bridges them: missing frames, markers frozen at
+// their last positions, isolated wild positions, jumps. The result is a smooth path at 1 kHz that a
+// hand could follow.
 #pragma once
 
 #include <array>

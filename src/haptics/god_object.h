@@ -101,7 +101,7 @@ class GodObject {
     void pull(const Vec3& p_WH, bool rubs) noexcept;
     /// The end of a straight path: at most one of `meets` and `crosses`.
     struct Event {
-        double share = 1;                     ///< of the path covered by then
+        double share = 1;                     ///< of the path up to the event
         std::optional<PointContact> meets;    ///< a body in the path
         std::optional<PointContact> crosses;  ///< an edge, with the face beyond
     };

@@ -200,7 +200,7 @@ void Eyes::make_pictures() {
         },
         xr::made<XrViewConfigurationView>(XR_TYPE_VIEW_CONFIGURATION_VIEW));
     if (views.size() != kCount)
-        throw Error(fmt::format("{} does not show separate pictures to two eyes", runtime_),
+        throw Error(fmt::format("{} does not show a separate picture to each eye", runtime_),
                     "Use another headset.");
     // the same size, since both are drawn at once
     const auto width =

@@ -1,4 +1,4 @@
-// Takes force away from all kept devices when the program crashes, and reports this.
+// Switches the force of all kept devices off when the program crashes, and reports this.
 #pragma once
 
 namespace dihaptic::host {

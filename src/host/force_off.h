@@ -1,4 +1,4 @@
-// Takes force away from all kept devices when this program is about to die.
+// Switches the force of all kept devices off when this program is about to die.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ inline constexpr std::array kErrors{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGSYS, SIG
 /// Longest wait of a dying program for the report that force is off.
 constexpr Time kLastWait = std::chrono::milliseconds(2);
 
-/// Tells every device host of this program to take force away, and waits for at most kLastWait
+/// Tells every device host of this program to switch the force off, and waits for at most kLastWait
 /// until they confirm this. Returns false if one has not, in which case only its devices' own
 /// guards are left. Returns true if there is no device host. Async-signal-safe, from any thread.
 bool force_off_now() noexcept;

@@ -1,5 +1,5 @@
-// The device host: a separate process that owns real devices and takes force away when the program
-// that uses them dies, stops or hangs.
+// The device host: a separate process that owns real devices and switches the force off when the
+// program that uses them dies, stops or hangs.
 //
 // The device host serves the program's requests, over a socket outside the cycle and over a shared
 // page in it. It sets the force of every device to zero at the program's request, when the

@@ -1,7 +1,7 @@
 // The program's side of real devices owned by another process, the device host.
 //
-// The device host (host.h) is a small program in which nothing else runs. It takes force away when
-// this program dies, stops or hangs, whatever the cause. README.md describes the communication
+// The device host (host.h) is a small program in which nothing else runs. It switches the force off
+// when this program dies, stops or hangs, whatever the cause. README.md describes the communication
 // between the two, and its times.
 #pragma once
 

@@ -8,7 +8,7 @@ namespace {
 
 /// Time between the watcher's checks if nothing wakes it.
 constexpr Time kLook = std::chrono::milliseconds(5);
-/// Time for the serving thread to take force away, before the watcher does.
+/// Time that the serving thread has to switch the force off, before the watcher does so.
 constexpr Time kOwnWay = std::chrono::milliseconds(1);
 /// Interval at which an idle serving thread wakes up.
 constexpr Time kIdle = std::chrono::seconds(1);

@@ -150,7 +150,7 @@ double measure_torsion_limit(const BenchSetup& setup);
 /// [deg].
 double measure_soft_turn(const BenchSetup& setup, double share);
 
-/// Highest K of the list up to which every K is calm; 0 if there is none.
+/// Highest K of the list that is calm, as are all below it; 0 if there is none.
 double highest_calm(const std::function<bool(double k)>& calm);
 
 using Progress = std::function<void(const std::string& what, double share)>;

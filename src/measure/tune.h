@@ -104,8 +104,8 @@ BenchSetup hold_setup(const TuneSetup& setup, const TunePoint& point, Burden bur
 
 TuneResult tune(const TuneSetup& setup, const std::atomic<bool>& stop, const Progress& progress);
 
-/// Highest K of a row of the map (one damping and smoothing) up to which every K is calm, both
-/// without and with the burden; 0 if there is none.
+/// Highest K of a row of the map (one damping and smoothing) that is calm, both without and with
+/// the burden, as are all below it; 0 if there is none.
 double calm_limit(const TuneResult& result, double damping, double smoothing, Burden burden);
 
 std::string to_json(const TuneResult& result, const TuneSetup& setup);

@@ -74,7 +74,7 @@ struct Kind {
 };
 
 std::span<const Kind> kinds();
-/// The kind of that name; null if there is none.
+/// The kind with that name; null if there is none.
 const Kind* find_kind(const std::string& name);
 
 /// Checks a rig's outlets; every problem goes to `diagnostics`.

@@ -597,7 +597,7 @@ Strain Person::strain(const frame::Frame& frame) const noexcept {
         out.push_W -= grip_.inertial() / count;
         out.push_W.z() = 0;  // an object's weight has its own memory
     }
-    // a push that the hand pressed against is no longer felt, but acted nevertheless
+    // a push against which the hand pressed is no longer felt, but has acted nevertheless
     out.push_W -= rate.centre.dot(reach_.along) * reach_.presses;
     out.speed = v_WH.dot(reach_.along);
     out.reach = reach_.number;
@@ -640,8 +640,8 @@ void Person::watch_reach(const Sight& sight) noexcept {
     reach_.error = rotation_between(wanted.normalized(), arm.normalized());
 }
 
-/// Judges the extent of a reach whose first stroke has ended, and learns from it. A cursor that is
-/// held shows how far the hand had come by then, not where it ended.
+/// Judges the extent of a reach whose first stroke has ended, and learns from it. A held cursor
+/// shows how far the hand had come when the cursor froze, not where the hand stopped.
 void Person::judge_extent(const Sight& sight) noexcept {
     if (!reach_.going || reach_.ended || !sight.hand_shown || shows_earlier_reach()) return;
     reach_.ended = true;

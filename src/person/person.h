@@ -30,7 +30,7 @@ struct Situation {
     const hand::HandSpec& hand;
     double tick;  ///< [s]
     uint64_t seed;
-    size_t participant = 0;  ///< in a task for two: index of the one whose hand the person has
+    size_t participant = 0;  ///< in a task for two: index of the participant whose hand this is
 };
 
 class Person final : public task::SeeingDriver {
@@ -148,7 +148,7 @@ class Person final : public task::SeeingDriver {
         bool mended = false;  // the reach was corrected in its course
         bool seen = false;    // its direction error was seen
         bool ended = false;   // its first stroke has ended, and its extent was judged
-        bool pushed = false;  // a push was felt by then
+        bool pushed = false;  // a push was felt before its error was judged
         int number = 0;       // from 1
         size_t state = 0;
         Vec3 from = Vec3::Zero();       // displayed position of the hand at the start [m]

@@ -113,7 +113,7 @@ Population read_population(const std::string& file);
 /// program.
 const Population& shipped_population(Objects objects);
 
-/// The population of a file; "": the shipped one.
+/// The population in a file; "": the shipped one.
 Population population_of(const std::string& file, Objects objects);
 
 /// The median person of a group, without noise and mistakes.
@@ -124,7 +124,7 @@ Traits draw_person(const Population& population, uint64_t seed, const std::strin
 Traits draw_person(const Population& population, uint64_t seed, const std::string& id,
                    const std::string& group);
 
-/// A person of a shipped population.
+/// A person from a shipped population.
 Traits median_person(Objects objects);
 Traits draw_person(Objects objects, uint64_t seed, const std::string& id);
 

@@ -358,7 +358,7 @@ Table items_of(const LogHead& head) {
     return out;
 }
 
-/// The subject, as far as known.
+/// The study, as far as it is known.
 void write_study(hid_t general, const Study& study) {
     if (!study.experimenters.empty()) write_dataset(general, "experimenter", study.experimenters);
     if (!study.institution.empty()) write_dataset(general, "institution", study.institution);

@@ -222,7 +222,7 @@ void SessionFolder::check_log(const SessionInfo& info, const Setup& setup) const
     // sessions of earlier versions have no identity
     if (info.identity.empty() || setup.identity.empty() || info.identity == setup.identity) return;
     throw Error({raw_log(), 0}, "",
-                "belongs to a different session from the session.yaml beside it",
+                "belongs to a different session from the session.yaml next to it",
                 "Restore this session's own log, or the session.yaml that belongs to the log.");
 }
 

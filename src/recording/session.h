@@ -6,8 +6,8 @@
 //   raw.log                            every tick
 //
 // and at its end (or after `dihaptic recover`) also session.nwb, trials.csv, phases.csv,
-// episodes.csv and events.csv. Last of all, the state in session.yaml changes from running; by then
-// all files exist.
+// episodes.csv and events.csv. The state in session.yaml changes from running last of all, when all
+// files exist.
 #pragma once
 
 #include <climits>

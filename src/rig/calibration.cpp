@@ -74,7 +74,7 @@ void check_movement(const CalibrationInput& input, const CalibrationSolver& solv
     }
     const double least = Eigen::SelfAdjointEigenSolver<Mat3>(turned).eigenvalues()[0];
     if (least < kLeastTurned) {
-        throw Error("the link pointed nearly the same way, or in one plane, all the time",
+        throw Error("the link pointed nearly the same way all the time, or stayed in one plane",
                     "Turn it while moving it: along the table to all sides, and upright.");
     }
 }

@@ -20,9 +20,11 @@ class CalibrationSampler {
     void deactivate() { devices_->deactivate(); }
     DeviceReader& reader() { return reader_; }
 
-    /// Adds the last tick's endpoints of the first device and another, joined by the link.
+    /// Adds the endpoints, at the last tick, of the first device and of device `other`, which the
+    /// link joins.
     void add_link(size_t other);
-    /// Adds the last tick's endpoints of the first device and another, held together.
+    /// Adds the endpoints, at the last tick, of the first device and of device `other`, which are
+    /// held together.
     void add_together(size_t other);
     /// Largest minus smallest distance of endpoints held together, from sample `from` on [m].
     double moved_apart(size_t from) const;

@@ -1,4 +1,4 @@
-// Reads devices without force: it never writes a force other than zero.
+// Reads devices with the force off: it never writes a force other than zero.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// Guides a person through steps, on devices without force.
+// Guides a person through steps while the devices exert no force.
 #pragma once
 
 #include <functional>

@@ -119,7 +119,7 @@ void read_registration(const Rig& rig, display::Display& display, const std::str
     display::Registration registration;
     const bool read =
         read_named(file, display.place, "registration", display.registration,
-                   "Register the display (dihaptic register), or leave out registration.",
+                   "Register the display (dihaptic register), or leave out 'registration'.",
                    registration, diagnostics);
     if (!read || diagnostics.has_errors()) return;
     check_date(registration.date, registration.place, diagnostics);
@@ -132,7 +132,7 @@ void read_registration(const Rig& rig, display::Display& display, const std::str
 void read_calibration(Rig& rig, const std::string& file, Diagnostics& diagnostics) {
     Calibration calibration;
     if (!read_named(file, rig.place, "calibration", rig.calibration,
-                    "Calibrate the rig (dihaptic calibrate), or leave out calibration.",
+                    "Calibrate the rig (dihaptic calibrate), or leave out 'calibration'.",
                     calibration, diagnostics))
         return;
     check_date(calibration.date, calibration.place, diagnostics);
@@ -252,7 +252,7 @@ std::string picture_of(const std::string& calibration_file) {
 
 void check_calibration_file(const std::string& rig_file, const std::string& file) {
     if (picture_of(file) == file) {
-        throw Error({file, 0}, "", "is a name for the picture beside the calibration",
+        throw Error({file, 0}, "", "is the name of the picture next to the calibration",
                     "Name the calibration *.yaml.");
     }
     for (const std::string& out : {file, picture_of(file)})

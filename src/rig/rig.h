@@ -194,7 +194,7 @@ std::vector<devices::DeviceClaim> claim_devices(const Rig& rig,
                                                 const devices::DeviceGroup& devices);
 /// The fingers with a device, in the file's order.
 std::vector<std::string> held_fingers(const Rig& rig);
-/// The display of that name; if it is empty, the only one. Throws Error when there is none.
+/// The display with that name; if it is empty, the only one. Throws Error when there is none.
 const display::Display& display_of(const Rig& rig, const std::string& name);
 /// Path of a display's registration: the file named in the rig, or else one next to the rig file.
 std::string registration_file(const display::Display& display, const std::string& rig_file);

@@ -27,8 +27,8 @@ struct EpisodeRow {
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
-        v("start_time", f.start, "s", "in the session");
-        v("stop_time", f.end, "s", "in the session");
+        v("start_time", f.start, "s", "from the session's start");
+        v("stop_time", f.end, "s", "from the session's start");
         v("episode", f.kind, "", "hold, slide or flight of the object");
         v("fingers", f.finger_names, "",
           "fingers that pressed the object; flight: fingers that let it go");

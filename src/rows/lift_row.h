@@ -43,7 +43,7 @@ struct LiftRow {
           "complete, or the missing event: no touch, not lifted, dropped, no hold, not put down, "
           "not released; paused; place not known, if ticks are missing");
         v("events_by", f.rule, "", "rule by which the times were found: contact or force");
-        v("touch", f.touch, "s", "touch of the first digit, in the session");
+        v("touch", f.touch, "s", "time of the first digit's touch, from the session's start");
         v("load_onset", f.load_onset, "s", "load onset of the first digit");
         v("lift_off", f.lift_off, "s", "when the object left its support");
         v("replacement", f.replacement, "s", "when the object stood on its support again");
@@ -73,7 +73,8 @@ struct LiftRow {
         v("overshoot", f.overshoot, "mm", "largest height above that mean");
         v("slip", f.slip, "mm", "slip of the digit that slipped most, from lift-off to lowering");
         v("slips", f.slips, "1", "number of times that a digit slid faster than 5 mm/s");
-        v("first_slip", f.first_slip, "s", "start of the first of these slips, in the session");
+        v("first_slip", f.first_slip, "s",
+          "time of the first of these slips, from the session's start");
     }
 
     bool complete() const { return mark == "complete"; }

@@ -17,8 +17,8 @@ struct PhaseRow {
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
-        v("start_time", f.start, "s", "in the session");
-        v("stop_time", f.end, "s", "in the session");
+        v("start_time", f.start, "s", "from the session's start");
+        v("stop_time", f.end, "s", "from the session's start");
         v("trial", f.trial, "1", "trial number, from 1");
         v("phase", f.name, "", "name of the phase");
         v("mean_grip", f.mean_grip, "N",

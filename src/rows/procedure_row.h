@@ -36,7 +36,8 @@ struct ProcedureRow {
         v("guess", f.guess, "1", "lower end of that function");
         v("guess_is_lapse", f.guess_is_lapse, "", "whether the lower end is the lapse rate");
         v("level", f.level, "",
-          "column of trials.csv with the number that it chooses; empty: share");
+          "column of trials.csv that holds the number chosen by the procedure; empty: the column "
+          "`share`");
         v("standard", f.standard, "1", "standard value of that number");
     }
 };

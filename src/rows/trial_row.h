@@ -18,8 +18,8 @@ struct TrialHead {
 
     template <class Self, class Visitor>
     static void visit(Self& f, Visitor& v) {
-        v("start_time", f.start, "s", "in the session");
-        v("stop_time", f.end, "s", "in the session");
+        v("start_time", f.start, "s", "from the session's start");
+        v("stop_time", f.end, "s", "from the session's start");
         v("experiment", f.experiment, "", "title");
         v("ppid", f.participant, "", "participant");
         v("session_num", f.session, "1",

@@ -15,12 +15,12 @@ namespace dihaptic::scene {
 /// not valid YAML at the moment.
 std::string body_at(const std::string& text, size_t at);
 
-/// The changes to the text, in its order, that move the body of this name by `way` [m] and turn it
-/// by `turn` about the vertical [rad]. Coordinates that change are rounded to 0.1 mm, angles to 0.1
-/// degrees. A position or rotation that the text lacks is added. A zero `way` changes nothing but
-/// shows whether the body can be moved. Throws Error, with reason and remedy, when the text lacks
-/// the body, or when its numbers are not plain: they have an alias or an anchor, are in quotes, or
-/// come from a lattice.
+/// The changes to the text, in its order, that move the body with this name by `way` [m] and turn
+/// it by `turn` about the vertical [rad]. Coordinates that change are rounded to 0.1 mm, angles to
+/// 0.1 degrees. A position or rotation that the text lacks is added. A zero `way` changes nothing
+/// but shows whether the body can be moved. Throws Error, with reason and remedy, when the text
+/// lacks the body, or when its numbers are not plain: they have an alias or an anchor, are in
+/// quotes, or come from a lattice.
 std::vector<TextChange> moved_body(const std::string& text, const std::string& name,
                                    const Vec3& way, double turn = 0);
 

@@ -200,8 +200,9 @@ class Nesting {
         for (const Shell& shell : solid.shells) all_.push_back(look_at(solid.mesh, shell));
         for (size_t i = 0; i < all_.size(); ++i) all_[i].around = around(i);
     }
-    /// Reverses shells whose faces point into the solid, and finds the shell out of which each
-    /// cavity is cut. Returns the number of reversed shells if others face outward.
+    /// Reverses shells whose faces point into the solid, and finds the solid that contains each
+    /// cavity. Returns the number of shells reversed, or 0 if the mesh was merely inside out as a
+    /// whole.
     size_t sort_out() {
         std::vector<size_t> order(all_.size());
         std::iota(order.begin(), order.end(), size_t{0});
@@ -344,8 +345,8 @@ Error not_closed(const Mesh& mesh, const Mesh& best, double rounding, const Mesh
                     count_faulty(mesh), name.place(corner(best, first.first)),
                     name.place(corner(best, first.second)), fault_at(best, first), miss),
         miss.empty() ? "Close its holes, orient its faces alike and delete duplicate "
-                       "faces in a mesh editor, or leave out concave."
-                     : "Merge its close corners in a mesh editor, or leave out concave.");
+                       "faces in a mesh editor, or leave out 'concave'."
+                     : "Merge its close corners in a mesh editor, or leave out 'concave'.");
 }
 
 }  // namespace
@@ -380,7 +381,7 @@ ClosedMesh closed(const Mesh& mesh, const MeshName& name, Diagnostics& diagnosti
         throw not_closed(out.mesh, better.mesh, rounding, name);
     }
     if (out.mesh.faces.empty())
-        throw name.refused("encloses no volume", "Give it some thickness, or leave out concave.");
+        throw name.refused("encloses no volume", "Give it some thickness, or leave out 'concave'.");
     out.shells = separate(out.mesh);
     if (const size_t turned = Nesting(out).sort_out(); turned > 0) {
         diagnostics.warning(

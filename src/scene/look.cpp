@@ -30,7 +30,7 @@ void check_size(double seen, double felt, const SeenMesh& mesh, Diagnostics& dia
     if (felt <= 0 || (seen < 2 * felt && felt < 2 * seen)) return;
     diagnostics.warning(
         mesh.place, "unit",
-        fmt::format("the mesh {} is {:g} mm large, but the felt shape measures {:g} mm", mesh.file,
+        fmt::format("the mesh {} measures {:g} mm, but the felt shape measures {:g} mm", mesh.file,
                     1e3 * seen, 1e3 * felt),
         "Check the unit of its coordinates.");
 }
@@ -41,7 +41,7 @@ void load_seen(Body& body, const std::string& file, Diagnostics& diagnostics,
     Mesh mesh = read_mesh(file, metres(seen.unit), seen.place, stop);
     const double size = extent_of(mesh);
     if (size < kSmallest || size > kLargest)
-        throw Error(seen.place, "unit", fmt::format("the mesh {} is {:g} m large", file, size),
+        throw Error(seen.place, "unit", fmt::format("the mesh {} measures {:g} m", file, size),
                     "Give the unit of its coordinates: m, cm, mm or inch.");
     check_size(size, extent(body.shape), seen, diagnostics);
     if (has_own_colours(body)) {
@@ -93,7 +93,7 @@ void check_materials(const Mesh& mesh, const std::string& file, const Place& pla
         fmt::format(
             "the mesh {} takes its colours from {}, which {}", file, mesh.materials,
             is_there(mesh.materials) ? "has no colour (Kd) for its materials" : "does not exist"),
-        "Put the materials file beside it, or give the body a colour.");
+        "Put the materials file next to it, or give the body a colour.");
 }
 
 void load_looks(Scene& scene, const std::string& folder, Diagnostics& diagnostics,

@@ -231,7 +231,7 @@ Cut cut_by(const std::string& way, const ClosedMesh& solid, const MeshName& name
         {way},
         kLimits,
         "cutting " + name.file + " into convex pieces",
-        "Repair faces that intersect, or give it fewer, in a mesh editor, or leave out concave.",
+        "Repair faces that intersect, or give it fewer, in a mesh editor, or leave out 'concave'.",
         name.asked_at,
         "concave",
         stop};
@@ -244,7 +244,7 @@ struct Fault {
     std::string why;
     std::string remedy =
         "Repair the faces there in a mesh editor, or unite its parts there, or "
-        "leave out concave.";
+        "leave out 'concave'.";
 };
 
 Fault fault_of(const Cut& cut, const ClosedMesh& solid, const MeshName& name) {
@@ -260,7 +260,7 @@ Fault fault_of(const Cut& cut, const ClosedMesh& solid, const MeshName& name) {
         return {fmt::format("{}: faces that should be flat are bent by rounding{}, and parts "
                             "too thin to be felt are lost",
                             both, cut.lost ? ", near " + name.place(*cut.lost) : ""),
-                "Export it with more digits, or leave out concave."};
+                "Export it with more digits, or leave out 'concave'."};
     if (!reach(cut.hulls, solid.mesh)) return {"extends further than its convex pieces"};
     return {""};
 }
@@ -373,7 +373,7 @@ Pieces convex_pieces(const ClosedMesh& solid, const MeshName& name, Diagnostics&
         diagnostics.warning(name.asked_at, "file",
                             fmt::format("the convex pieces of {} cannot be kept: {} {}", name.file,
                                         kept, e.problems().front().what),
-                            "They are cut anew in each run until that folder can be written to.");
+                            "They are cut again in each run until that folder can be written to.");
     }
     return pieces;
 }

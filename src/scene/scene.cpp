@@ -97,7 +97,7 @@ void Meshes::load_file(Shape& shape, bool coloured, const std::string& file) {
         return;
     }
     if (const double size = extent(shape); size < kSmallest || size > kLargest) {
-        diagnostics_.error(place, "unit", fmt::format("the mesh {} is {:g} m large", file, size),
+        diagnostics_.error(place, "unit", fmt::format("the mesh {} measures {:g} m", file, size),
                            "Give the unit of its coordinates: m, cm, mm or inch.");
         return;
     }
@@ -157,7 +157,7 @@ bool has_volume(const Shape& shape) {
 
 void check_plausible(const Shape& shape, const Place& place, Diagnostics& diagnostics) {
     if (extent(shape) > kImplausibleSize) {
-        diagnostics.warning(place, "", fmt::format("this shape is {:g} m large", extent(shape)),
+        diagnostics.warning(place, "", fmt::format("this shape measures {:g} m", extent(shape)),
                             "Check the unit of its size; a tabletop is about 1 m.");
     }
 }

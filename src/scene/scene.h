@@ -250,7 +250,7 @@ bool flies(const Scene& scene, const Body& body);
 Scene read_scene(const std::string& file, Diagnostics& diagnostics,
                  const std::stop_token& stop = {});
 
-/// Reports the error that the scene has no body of this name, with a suggestion.
+/// Reports the error that the scene has no body with this name, with a suggestion.
 void report_unknown_body(const std::string& name, const Scene& scene, const Place& place,
                          const char* key, Diagnostics& diagnostics);
 

@@ -1,8 +1,8 @@
-// RealTime requests the resources that a thread needs to keep time: to run before ordinary programs
+// RealTime requests the resources that a thread needs to keep time: priority over ordinary programs
 // (SCHED_FIFO), memory that is never fetched from disk or created on first touch, and processors
-// that do not enter a sleep with slow wake-up. Each needs a permission that ordinary
-// users lack. Refusals are reported together with the way to allow them, and the thread runs
-// without.
+// that do not enter a sleep with slow wake-up. Each needs a permission that ordinary users lack.
+// Any refusal is reported, with how to grant the permission, and the thread then runs without that
+// resource.
 #pragma once
 
 #include <string>

@@ -26,7 +26,7 @@
 
 namespace dihaptic::servo {
 
-/// Time for which a run continues after a fault, without force, to record the motion of the
+/// Time for which a run continues after a fault, with the force off, to record the motion of the
 /// objects.
 constexpr Time kGrace = std::chrono::seconds(1);
 
@@ -66,8 +66,8 @@ class Servo {
     const haptics::Fault& fault() const { return faults_.fault(); }
     /// Makes the devices call `tick` as described for devices::DeviceGroup::pace().
     void pace(const std::function<bool()>& tick) { devices_->pace(tick); }
-    /// Switches force off on all devices at once, from any thread; false if they do not support
-    /// this.
+    /// Switches force off on all devices at once; false if they do not support this. May be called
+    /// from any thread.
     bool stop_devices() noexcept;
     /// Energy that a finger's coupling generated, as counted by haptics::EnergyGuard [J].
     double generated(int finger) const {

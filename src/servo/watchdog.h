@@ -1,5 +1,5 @@
 // Watchdog switches force off when the loop stalls. When a call to a device blocks, or the system
-// keeps the servo's thread waiting, devices hold the last force until it is taken away. The
+// keeps the servo's thread waiting, devices hold the last force until it is switched off. The
 // watchdog has a thread of its own and calls only a stop function that may be called from any
 // thread; it does not touch the servo's data.
 //

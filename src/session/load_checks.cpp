@@ -86,8 +86,9 @@ class LoadChecks {
         const double stiffest = model::passive_stiffness(info.damping, period);
         if (info.damping > 0 && demand.stiffness > stiffest) {
             warn(load, "stiffness",
-                 fmt::format("{} of {:.4g} N/m is above {:.0f} N/m (2 b / T), up to which the "
-                             "hand's damping of {:g} N*s/m surely keeps {} calm",
+                 fmt::format("{} of {:.4g} N/m is above {:.0f} N/m (2 b / T), the highest "
+                             "stiffness at which the hand's damping of {:g} N*s/m is certain to "
+                             "keep {} calm",
                              a(load), demand.stiffness, stiffest, info.damping, info.model),
                  "Lower it, or check whether the handle shakes; if a load fades, raise fade_mm.");
         }
@@ -162,7 +163,7 @@ class LoadChecks {
         if (demand.stiffness * h * h + 2 * demand.damping * h < 4 * mass) return;
         warn(load, demand.stiffness > 0 ? "stiffness" : "damping",
              fmt::format(
-                 "{} of {:.4g} N/m and {:.4g} N*s/m throws about a body of {:.4g} g in steps "
+                 "{} of {:.4g} N/m and {:.4g} N*s/m throws a body of {:.4g} g about in steps "
                  "of {:g} ms (k h^2 + 2 b h is not below 4 m)",
                  a(load), demand.stiffness, demand.damping, mass * 1e3, h * 1e3),
              "Lower it, or make the body heavier.");

@@ -46,8 +46,8 @@ void check_ratio(const Plan& plan, Diagnostics& diagnostics) {
     const bool other = ratio <= most_ratio(contact::Solver::staggered_projections);
     diagnostics.warning(
         heavy->place, heavy->name,
-        fmt::format("has {:.3g} times the mass of {}: above {:g} times, with {}, a body on "
-                    "something so light may push it aside, or through its support",
+        fmt::format("has {:.3g} times the mass of {}: above {:g} times, the solver {} may let "
+                    "a body push one so light aside, or through its support",
                     ratio, light->name, most_ratio(solver), enum_name(solver)),
         other ? "Choose the solver staggered_projections, or make their masses more alike."
               : "Make their masses more alike.");

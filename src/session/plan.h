@@ -107,9 +107,9 @@ bool trials_left(const std::string& session);
 /// Opens the plan's devices, which its session takes over. If they report more than their rig does,
 /// the plan is checked against their report: settings given as shares of their maximum are
 /// resolved, and warnings added. `host`: the program that owns real devices (host::program())
-/// and removes force when this process dies; "": this process owns them. The plan's driver must
-/// outlive the devices. `given_up`: returns whether to stop waiting for a device host that does not
-/// answer; may be empty. Throws Error.
+/// and switches the force off when this process dies; "": this process owns them. The plan's driver
+/// must outlive the devices. `given_up`: returns whether to stop waiting for a device host that
+/// does not answer; may be empty. Throws Error.
 std::unique_ptr<devices::DeviceGroup> open_devices(Plan& plan, const std::string& host = "",
                                                    const std::function<bool()>& given_up = {});
 

@@ -93,8 +93,8 @@ void check_stiffness(const Plan& plan, Diagnostics& diagnostics) {
         if (coupling.stiffness <= limit) continue;
         diagnostics.warning(
             place, "coupling.stiffness",
-            fmt::format("{:g} N/m is above {:.0f} N/m (2 b / T), up to which the hand's damping of "
-                        "{:g} N*s/m surely keeps {} calm",
+            fmt::format("{:g} N/m is above {:.0f} N/m (2 b / T), the highest stiffness at which "
+                        "the hand's damping of {:g} N*s/m is certain to keep {} calm",
                         coupling.stiffness, limit, info.damping, info.model),
             "It may be calm above this limit too, as in bench grasp, or shake: check the forces, "
             "or lower it.");
@@ -107,8 +107,8 @@ void check_stiffness(const Plan& plan, Diagnostics& diagnostics) {
         if (coupling.turn_stiffness <= limit) continue;
         diagnostics.warning(
             place_of(plan, "coupling.turn_stiffness"), "coupling.turn_stiffness",
-            fmt::format("{:g} N*m/rad is above {:.3g} N*m/rad (2 b / T), up to which the hand's "
-                        "damping of {:g} N*m*s/rad surely keeps {} calm",
+            fmt::format("{:g} N*m/rad is above {:.3g} N*m/rad (2 b / T), the highest stiffness at "
+                        "which the hand's damping of {:g} N*m*s/rad is certain to keep {} calm",
                         coupling.turn_stiffness, limit, info.turn_damping, info.model),
             "Lower it, or check the torques.");
         break;
@@ -119,8 +119,8 @@ void check_stiffness(const Plan& plan, Diagnostics& diagnostics) {
         diagnostics.warning(
             place, "coupling.stiffness",
             fmt::format(
-                "{:g} N/m is more than an explicit spring can hold with a proxy of {:g} g: about "
-                "{:.0f} N/m (m / h^2)",
+                "{:g} N/m is too stiff for an explicit spring with a proxy of {:g} g; the limit is "
+                "about {:.0f} N/m (m / h^2)",
                 coupling.stiffness, coupling.body_mass * 1e3, explicit_limit),
             "Lower it, raise coupling: body_mass_g, or use coupling: kind: implicit.");
     }
@@ -418,7 +418,7 @@ void check_measures(const task::TaskPlan& plan, Diagnostics& diagnostics) {
         diagnostics.warning(block.place, "kind",
                             "is baseline, but its trials are perturbed: means and fits treat them "
                             "as trials without a perturbation",
-                            "Write kind: perturbed, or leave out perturb.");
+                            "Write kind: perturbed, or leave out 'perturb'.");
     }
     if (!plan.task.reach || plan.task.reach->measure != task::Measure::angle) return;
     const task::ReachMeasure& reach = *plan.task.reach;

@@ -98,7 +98,7 @@ class Look {
         for (const Node::Entry& wanted : rehearsal_.inputs.entries) {
             if (!is_input(wanted.key))
                 refuse(wanted.key, "",
-                       "is not an input of this session, although it is one of its rehearsal");
+                       "is not an input of this session, but was an input of its rehearsal");
         }
     }
     bool is_same(const recording::InputFile& input, const Node& wanted) const {

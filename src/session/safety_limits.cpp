@@ -100,13 +100,12 @@ void check_switch(const Plan& plan, const RigLimits& rig, Diagnostics& diagnosti
     if (finger == rig.set_by.end() || rig.allowed.dead_man_finger.empty()) return;
     if (asked.dead_man_finger != rig.allowed.dead_man_finger) {
         refuse(plan, "dead_man_finger", "dead_man_finger",
-               fmt::format(
-                   "'{}' removes the dead-man switch of the {}'s device, which {} requires for",
-                   asked.dead_man_finger, rig.allowed.dead_man_finger, finger->second),
+               fmt::format("'{}' removes the dead-man switch of the {}'s device, which {} requires",
+                           asked.dead_man_finger, rig.allowed.dead_man_finger, finger->second),
                diagnostics);
     } else if (asked.dead_man_button != rig.allowed.dead_man_button) {
         refuse(plan, "dead_man_button", "dead_man_button",
-               fmt::format("{} differs from the button {} of {}", asked.dead_man_button,
+               fmt::format("{} differs from button {} of {}", asked.dead_man_button,
                            rig.allowed.dead_man_button, finger->second),
                diagnostics);
     }

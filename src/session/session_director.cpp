@@ -45,7 +45,7 @@ std::string SessionDirector::endless_wait(const std::vector<recording::PhaseInfo
         return wait_->describe(phases, fmt::format("A finger presses {}.", body));
     const auto finger = static_cast<size_t>(in_the_way.finger);
     return wait_->describe(
-        phases, fmt::format("{} is less than {:.1f} mm, to its centre, from the box around the "
+        phases, fmt::format("The centre of {} is less than {:.1f} mm from the box around the "
                             "place of {}.",
                             scene.fingers[finger].name,
                             1e3 * (plan_.task->finger_radius[finger] + task::kClearance), body));
@@ -84,7 +84,7 @@ void SessionDirector::direct_task(const frame::Frame& last, std::span<const fram
         (*task_)(last, handles, commands);
         return;
     }
-    // without force there are no trials: the current one is over
+    // with the force off there are no trials: the current one is over
     commands.trial = last.trial;
     commands.phase = last.phase;
     commands.task.attempt = last.task.attempt;

@@ -29,7 +29,7 @@ class SessionDirector {
     void interrupt() {
         if (task_) task_->interrupt();
     }
-    /// Share of the trials that are done, from any thread; unset without trials.
+    /// Share of the trials that are done; unset without trials. May be called from any thread.
     std::optional<double> share() const noexcept {
         return task_ ? std::optional(task_->share()) : std::nullopt;
     }

@@ -338,7 +338,7 @@ void Run::listen(std::unique_ptr<Listener> listener) {
     others_.push_back(std::move(listener));
 }
 
-/// A session that cannot have such a listener runs without it.
+/// Opens a listener; if that fails, notes the reason, and the session runs without it.
 void Run::try_to_listen(std::unique_ptr<Listener> (*open)(const Opening&)) {
     try {
         listen(open(opening_));
@@ -411,7 +411,8 @@ void Run::run_virtual_ticks(const frame::Director& director, const frame::FrameS
     servo::run_virtual(*servo_, director, paced, whole_, stop_, &result_.timing.ticks);
 }
 
-/// Runs the ticks once; if the session is steered, from pause to pause and from fault to remedy.
+/// Runs the ticks in one go or, if an operator controls the session, in stretches that end at each
+/// pause or fault.
 void Run::run_real_ticks(const frame::Director& director, const frame::FrameSink& sink) {
     const auto stuck = [this](const servo::Timing::Stall& stall) {
         if (options_.stuck) options_.stuck(stall_text(stall));

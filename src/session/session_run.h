@@ -34,7 +34,7 @@ struct RunOptions {
     std::function<void(const std::string& message)> warn;
     /// Called from another thread, repeatedly, with a message about the session's wait.
     std::function<void(const std::string& message)> waiting;
-    /// Called on active devices, before the first tick and without force; returns warnings. An
+    /// Called on active devices, before the first tick and with the force off; returns warnings. An
     /// exception from it ends the session, and its folder is removed.
     std::function<std::vector<Problem>(devices::DeviceGroup& devices)> check;
     /// For record(), on the virtual clock only: when false, the session has no raw.log and no

@@ -104,7 +104,7 @@ std::vector<study::Visit> visits_in(const study::StudyFile& study, size_t sessio
         paths.push_back(at->path().string());
     if (failed) {
         throw Error({folder, 0}, "", "cannot be read: " + failed.message(),
-                    "Recordings in it would not count: mend its permissions.");
+                    "Recordings in it would not count: correct its permissions.");
     }
     for (const std::string& path : paths) {
         const std::string name = fs::path(path).filename().string();
@@ -126,7 +126,7 @@ void check_concealed(const study::StudyFile& study, Diagnostics& diagnostics) {
         if (!study.allocation.concealed || session.experiment.find("{group}") == std::string::npos)
             continue;
         diagnostics.warning(session.place, "experiment",
-                            "names the concealed group in the recordings: their folders are called "
+                            "names the concealed group in the recordings: their folders are named "
                             "after the experiment's file",
                             "Give the groups names that say nothing, such as a and b.");
     }

@@ -14,7 +14,7 @@ inline constexpr std::array<std::string_view, 3> kStandardFacts{"age", "sex", "h
 inline constexpr std::array<std::string_view, 6> kParticipantColumns{
     "id", "group", "number", "added", "version", "withdrawn"};
 
-/// The study's own fact of this name; null if there is none.
+/// The study's own fact with this name; null if there is none.
 const FactSpec* spec_of(const StudyFile& study, const std::string& fact);
 /// Whether the study asks for the fact.
 bool is_known(const StudyFile& study, const std::string& fact);

@@ -55,7 +55,7 @@ KeyFile::KeyFile(const StudyFile& study, std::string file, Missing missing)
     const rows::RowFile<Key> table(file_);
     for (const Table::Column& column : figure_table<Key>(keys_).columns) {
         if (table.column(column.name)) continue;
-        throw Error({file_, 1}, column.name, "is no column, so this is not a key file",
+        throw Error({file_, 1}, column.name, "is missing as a column, so this is not a key file",
                     "Name another file, which is made if it does not exist.");
     }
     keys_.assign(table.begin(), table.end());
@@ -69,7 +69,7 @@ const Key* KeyFile::find(const std::string& participant) const {
 void KeyFile::add(const Key& key) {
     if (const Key* const known = find(key.participant)) {
         if (known->name == key.name && known->contact == key.contact) return;
-        throw Error({file_, 0}, key.participant, "belongs to another name already",
+        throw Error({file_, 0}, key.participant, "already belongs to another name",
                     "Choose another identifier, or correct the file.");
     }
     keys_.push_back(key);

@@ -43,9 +43,10 @@ void check_fact(const StudyFile& study, const Member& person, const std::string&
     }
     if (is_number(study, name)) {
         if (!finite_number(value))
-            throw Error({"participant", 0}, person.id,
-                        fmt::format("has '{}' for '{}', which is a number", shortened(value), name),
-                        fmt::format("Write {} with a number.", option));
+            throw Error(
+                {"participant", 0}, person.id,
+                fmt::format("has '{}' for '{}', which must be a number", shortened(value), name),
+                fmt::format("Write {} with a number.", option));
     } else if (!standard) {
         const auto& values = spec_of(study, name)->values;
         if (std::ranges::find(values, value) == values.end())
@@ -72,10 +73,11 @@ void check_places(const Roster& roster, const std::string& file) {
             return std::isalnum(c) != 0 || c == '-';  // sim-001
         });
         if (!word) throw fault(member.id, "is not an identifier");
-        if (!ids.insert(in_small(member.id)).second) throw fault(member.id, "is there twice");
+        if (!ids.insert(in_small(member.id)).second) throw fault(member.id, "is listed twice");
         if (member.takes_part() && !places.emplace(member.group, member.number).second)
-            throw fault(member.id, fmt::format("has number {} in its group, and so has another one",
-                                               member.number));
+            throw fault(member.id,
+                        fmt::format("has number {} in its group, as does another participant",
+                                    member.number));
     }
 }
 
@@ -179,10 +181,10 @@ std::vector<std::string> reasons_against(const StudyFile& study, const Member& p
             out.push_back(fmt::format("{} is {}, not {}", c.fact, value, listed(c.is)));
         if (c.at_least && number && *number < *c.at_least)
             out.push_back(
-                fmt::format("{} is {}, at least {} is asked for", c.fact, value, *c.at_least));
+                fmt::format("{} is {}; at least {} is required", c.fact, value, *c.at_least));
         if (c.at_most && number && *number > *c.at_most)
             out.push_back(
-                fmt::format("{} is {}, at most {} is asked for", c.fact, value, *c.at_most));
+                fmt::format("{} is {}; at most {} is allowed", c.fact, value, *c.at_most));
     }
     return out;
 }

@@ -34,13 +34,13 @@ void check_gap(const SessionSpec& session, const Visit& before, double now, Next
     const double gap = (now - before.started) / 3600;
     if (session.least_gap && gap < *session.least_gap)
         next.against.push_back(
-            fmt::format("{:.1f} h after the start of the session before; at least {:g} h are asked "
-                        "for: {:.1f} h too early",
+            fmt::format("{:.1f} h after the start of the previous session; at least {:g} h are "
+                        "required: {:.1f} h too early",
                         gap, *session.least_gap, *session.least_gap - gap));
     if (session.most_gap && gap > *session.most_gap)
         next.against.push_back(
-            fmt::format("{:.1f} h after the start of the session before; at most {:g} h are asked "
-                        "for: {:.1f} h too late",
+            fmt::format("{:.1f} h after the start of the previous session; at most {:g} h are "
+                        "allowed: {:.1f} h too late",
                         gap, *session.most_gap, gap - *session.most_gap));
 }
 
@@ -111,7 +111,7 @@ Next next_for(const StudyFile& study, const std::vector<Visit>& visits, double n
             if (counted(study, visits, i) == nullptr) {
                 next.act = Act::begin;
                 next.note = fmt::format(
-                    "{} was interrupted {:.1f} h ago with {} of {} trials: it begins anew, and "
+                    "{} was interrupted {:.1f} h ago with {} of {} trials: it starts again, and "
                     "both recordings stay",
                     visit->folder, age, visit->done, visit->trials);
                 break;
@@ -130,7 +130,7 @@ std::string unmet(const Condition& condition, const std::string& trials) {
     const rows::TrialFile table(trials);
     const auto column = table.column(condition.column);
     if (!column) {
-        return fmt::format("{} has no column '{}', on which the session depends", trials,
+        return fmt::format("{} has no column '{}', on which this session depends", trials,
                            condition.column);
     }
     std::map<int, size_t> last;  // row of each trial's last attempt
@@ -151,11 +151,11 @@ std::string unmet(const Condition& condition, const std::string& trials) {
     if (count == 0) return fmt::format("{} is not known: no trial of {} has it", what, trials);
     const double value = sum / count;
     if (condition.at_least && value < *condition.at_least)
-        return fmt::format("{} is {:.4g} in {} trials; at least {:g} is asked for", what, value,
+        return fmt::format("{} is {:.4g} in {} trials; at least {:g} is required", what, value,
                            count, *condition.at_least);
     if (condition.at_most && value > *condition.at_most)
-        return fmt::format("{} is {:.4g} in {} trials; at most {:g} is asked for", what, value,
-                           count, *condition.at_most);
+        return fmt::format("{} is {:.4g} in {} trials; at most {:g} is allowed", what, value, count,
+                           *condition.at_most);
     return "";
 }
 
@@ -163,9 +163,9 @@ std::vector<std::string> unmet_needs(const SessionSpec& session, const std::stri
     const std::string trials = before + "/trials.csv";
     std::vector<std::string> out;
     for (const Condition& need : session.needs) {
-        const std::string why = is_there(trials)
-                                    ? unmet(need, trials)
-                                    : fmt::format("{} is missing, on which it depends", trials);
+        const std::string why =
+            is_there(trials) ? unmet(need, trials)
+                             : fmt::format("{}, on which this session depends, is missing", trials);
         if (!why.empty()) out.push_back(why);
     }
     return out;

@@ -25,7 +25,7 @@ struct Next {
     Act act = Act::none;  ///< none: all sessions are complete
     size_t session = 0;
     std::string folder;                ///< of the session to be resumed
-    std::string after;                 ///< folder of the session before; empty: none
+    std::string after;                 ///< folder of the previous session; empty: none
     std::string note;                  ///< about an interrupted session; may be empty
     std::vector<std::string> against;  ///< why it may not begin now; each with a figure
 };
@@ -49,7 +49,7 @@ Next next_for(const StudyFile& study, const std::vector<Visit>& visits, double n
 /// they do. `trials`: its trials.csv.
 std::string unmet(const Condition& condition, const std::string& trials);
 
-/// Why the recording of the session before does not meet the needs of a session, each with a
+/// Why the recording of the previous session does not meet the needs of a session, each with a
 /// figure; none if it does. `before`: its folder.
 std::vector<std::string> unmet_needs(const SessionSpec& session, const std::string& before);
 

@@ -68,7 +68,7 @@ class Checker {
                       "Use letters and digits{}{}, because the name becomes part of files' names.",
                       *others == 0 ? "" : ", and any of ", others));
         } else if (!names.insert(name).second) {
-            error(place, key, fmt::format("'{}' is there twice", name), "Give each its own name.");
+            error(place, key, fmt::format("'{}' is listed twice", name), "Give each its own name.");
         }
     }
 
@@ -159,7 +159,7 @@ class Checker {
             } else if (c.at_least && c.at_most && *c.at_least > *c.at_most) {
                 error(c.place, "at_least", "is greater than at_most", "Exchange the two.");
             } else if (c.is.empty() && !bounds) {
-                error(c.place, "fact", "has no condition", "Add is, at_least or at_most.");
+                error(c.place, "fact", "has no condition", "Add 'is', 'at_least' or 'at_most'.");
             } else if (bounds && !is_number(study_, c.fact)) {
                 error(c.place, "fact", fmt::format("'{}' is not a number", c.fact),
                       "Use is: [value].");
@@ -200,8 +200,9 @@ class Checker {
             check_name(session.place, "name", session.name, "", names);
             check_placeholders(session);
             if (i == 0 && (session.least_gap || session.most_gap || !session.needs.empty()))
-                error(session.place, "name", "has conditions on a session before, but is the first",
-                      "Leave out least_gap_h, most_gap_h and needs.");
+                error(session.place, "name",
+                      "has conditions on a previous session, but is the first",
+                      "Leave out least_gap_h, most_gap_h and 'needs'.");
             if (session.least_gap && session.most_gap && *session.least_gap > *session.most_gap)
                 error(session.place, "least_gap_h", "is greater than most_gap_h",
                       "Exchange the two.");

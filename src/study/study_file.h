@@ -95,7 +95,7 @@ struct Criterion {
     }
 };
 
-/// A condition on the session before. A text's share or a number's mean is taken over the last
+/// A condition on the previous session. A text's share or a number's mean is taken over the last
 /// attempts at its trials.
 struct Condition {
     std::string column;  ///< of trials.csv
@@ -133,12 +133,12 @@ struct SessionSpec {
               "participant's group and the session's condition."));
         v("least_gap_h", least_gap,
           Field::number().within(0, 1e5).says(
-              "Least time from the start of the session before to the start of this one [h]."));
+              "Least time from the start of the previous session to the start of this one [h]."));
         v("most_gap_h", most_gap,
           Field::number().within(0, 1e5).says(
-              "Most time from the start of the session before to the start of this one [h]."));
+              "Most time from the start of the previous session to the start of this one [h]."));
         v("needs", needs,
-          says("Conditions on the session before, without which this one does not "
+          says("Conditions on the previous session, without which this one does not "
                "begin."));
     }
 };
@@ -154,7 +154,7 @@ struct Resuming {
         v("within_h", within,
           Field::number().within(0, 1e5).says(
               "An interrupted session is resumed within this time after its start [h]; later it "
-              "begins anew."));
+              "starts again."));
         v("complete", complete,
           Field::number().within(0.01, 1).says(
               "Share of trials with which an interrupted session counts as complete once it is too "

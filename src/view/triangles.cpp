@@ -143,8 +143,8 @@ Triangles cone(double radius, double length) {
     return lathe(profile);
 }
 
-/// Each face's corner gets the mean normal, weighted by area, of the faces there that are nearly
-/// parallel to the corner's own.
+/// Each corner of a face gets the area-weighted mean normal of those faces meeting there that are
+/// nearly parallel to this face.
 Triangles polyhedron(std::span<const Vec3> vertices, std::span<const std::vector<int>> faces) {
     struct At {
         Vec3 area;

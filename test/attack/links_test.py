@@ -85,7 +85,7 @@ class Made:
         self.cut()
 
     def cut(self):
-        """Makes a session of which the second half is lost, as a kill leaves it."""
+        """Makes a session whose second half is lost, as after a kill."""
         for name in ("session.nwb", "trials.csv", "phases.csv", "episodes.csv", "lifts.csv", "events.csv"):
             (self.unfinished / name).unlink(missing_ok=True)
         os.truncate(self.unfinished / "raw.log", (self.unfinished / "raw.log").stat().st_size // 2)
@@ -159,7 +159,7 @@ class Links(unittest.TestCase):
             # what the user names may be the user's link; a session's folder gets another name each time
             names = [trap for trap in names if trap not in arguments or "." in trap]
             names = [trap for trap in names if not re.match(r"(s|\.)/\d{4}-|\d{4}-", trap) or trap in more]
-            # of the figures of a report, which are written alike, one
+            # only one of a report's figures, since all are written in the same way
             names = [trap for trap in names if "/figures/" not in trap or "/outcomes." in trap]
             out += [(name, kind, trap) for trap, kind in itertools.product(names, TRAPS)]
         return out

@@ -211,7 +211,7 @@ class Mutations(Attack):
         self.try_all(glob.glob("textures/*.png")[:3], "picture-*.png", scene.format, has_checksums=True)
 
 class Sessions(Attack):
-    """Recorded sessions of which one file is mutated, and what each command says of them."""
+    """Recorded sessions with one mutated file, and what each command says about them."""
 
     def setUp(self):
         super().setUp()

@@ -88,7 +88,7 @@ task:
     - { name: shown, kind: perturbed, perturb: late, until: score >= 100 }
     - { name: held, kind: force_channel, perturb: channel }
 """
-# what stands in the good file, the mistake in its place, the key that the error names, and how to mend it
+# what stands in the good file, the mistake in its place, the key that the error names, and how to correct it
 MISTAKES = [
     # draws
     ("    - { name: wait_s, exp", "    - { nam: wait_s, exp", "nam", "Did you mean name?"),
@@ -101,18 +101,18 @@ MISTAKES = [
     ("uniform: { from: -2", "uniform: { from: left", "from", "Write a number"),
     ("uniform: { from: -2, to: 2 }", "uniform: { from: -2 }", "to", "Add to"),
     ("sd: 0.1", "sd: 0", "sd", "Correct the value"),
-    ("from: 0.5, to: 1.5", "from: 8, to: 9", "normal", "Move from and to closer to the mean, or increase sd"),
-    ("weights: [3, 1]", "weights: [3]", "weights", "Give each value of choice a weight, not all of them 0"),
-    ("weights: [3, 1]", "weights: [0, 0]", "weights", "Give each value of choice a weight, not all of them 0"),
+    ("from: 0.5, to: 1.5", "from: 8, to: 9", "normal", "Move 'from' and 'to' closer to the mean, or increase 'sd'"),
+    ("weights: [3, 1]", "weights: [3]", "weights", "Give each value of 'choice' a weight, not all of them 0"),
+    ("weights: [3, 1]", "weights: [0, 0]", "weights", "Give each value of 'choice' a weight, not all of them 0"),
     ("weights: [3, 1]", "weights: heavy", "weights", "Write weights: [0.2, 0.1]"),
     ("choice: [-1, 1], weights: [3, 1]", "choice: 1", "choice", "Start each of its items"),
     ("permutation: [small, large]", "permutation: []",
-     "name", "Give it one of uniform, normal, exponential, choice, permutation and"),
+     "name", "Give it one of 'uniform', 'normal', 'exponential', 'choice', 'permutation' and"),
     ("participant: yes", "participant: 7", "participant", "Write yes or no"),
     ("participant: yes", "participant: yes, choice: [1, 2]",
-     "name", "Give it one of uniform, normal, exponential, choice, permutation and"),
+     "name", "Give it one of 'uniform', 'normal', 'exponential', 'choice', 'permutation' and"),
     ("- { name: person, participant: yes }", "- { name: person }",
-     "name", "Give it one of uniform, normal, exponential, choice, permutation and"),
+     "name", "Give it one of 'uniform', 'normal', 'exponential', 'choice', 'permutation' and"),
     ("- { name: person, ", "- { name: side, ", "name", "Give each a different name"),
     ("- { name: person, ", "- { name: trial_num, ", "name", "Use another name, of letters, digits and _, e.g. wait_s"),
     ("- { name: person, ", "- { name: block, ", "name", "Use another name, of letters, digits and _, e.g. wait_s"),
@@ -165,7 +165,7 @@ MISTAKES = [
     ("delay_ms: 80, noise", "delay_ms: 8000, noise", "delay_ms", "Correct the value"),
     ("noise_mm: [1, 1, 1]", "noise_mm: 1", "noise_mm", "Write noise_mm: [x, y, z]"),
     ("noise_mm: [1, 1, 1]", "noise_mm: [1, -1, 1]", "noise_mm", "Correct the value"),
-    ("moves: [proxies], delay", "moves: [target], delay", "delay", "Add proxies to moves"),
+    ("moves: [proxies], delay", "moves: [target], delay", "delay", "Add 'proxies' to 'moves'"),
     # during and profile
     ("during: [reach]\n      profile", "during: [rech]\n      profile", "during", "Did you mean reach?"),
     ("during: [reach]\n      profile", "during: [home]\n      profile", "during", "Leave out one or the other"),
@@ -221,7 +221,7 @@ MISTAKES = [
     ('colour: "#009e73"', "colour: green",
      "colour", 'Write red, green and blue in hexadecimal, e.g. colour: "#d55e00"'),
     ("scale: 1.5", "scale: 100", "scale", "Correct the value"),
-    ("look: [{ body: block, scale: 1.2 }]", "look: [{ body: block }]", "look", "Give it colour, scale or hidden"),
+    ("look: [{ body: block, scale: 1.2 }]", "look: [{ body: block }]", "look", "Give it 'colour', 'scale' or 'hidden'"),
     # placing
     ("body: block, position_mm: [0, 100, 20], held", "body: blok, position_mm: [0, 100, 20], held",
      "body", "Did you mean block?"),
@@ -229,7 +229,7 @@ MISTAKES = [
      "held", "Leave it out"),
     ("body: block, position_mm: [0, 100, 20], held", "body: block, position: [0, 100, 20], held",
      "position", "Write position_m, position_mm"),
-    ("held: yes }]", "held: yes, removed: yes }]", "removed", "Leave out position_mm and held"),
+    ("held: yes }]", "held: yes, removed: yes }]", "removed", "Leave out position_mm and 'held'"),
     ("position_mm: [0, 100, 20], held: yes }]", "held: no }]",
      "position", "Add position_mm, velocity_mm_s, held: yes or removed: yes"),
     # conditions

@@ -318,7 +318,7 @@ class AtOnce(InShards):
 
     @soak.alone
     def test_two_that_share_the_people_say_that_all_are_done(self):
-        """The one that ends last has all people, whoever did them."""
+        """The program that ends last finds all people done, whichever program did them."""
         write_experiment(self.experiment, 20)
         command = [PROGRAM, "rehearse", self.experiment, "--people", "4", "--out", self.out]
         both = [subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) for _ in range(2)]

@@ -15,7 +15,7 @@ import needs  # program.py says where it is
 
 
 def commands(of=()):
-    """All commands, as their own help lists them: the program itself, then each with what belongs to it."""
+    """All commands, as their own help lists them: the program itself, then each subcommand with its own."""
     yield list(of)
     help = dihaptic(*of, "--help").stdout
     listed = re.search(r"^Subcommands:\n((?:  .*\n)+)", help, re.MULTILINE)

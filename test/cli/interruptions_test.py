@@ -127,7 +127,7 @@ class Interruptions(unittest.TestCase):
 
     @soak.alone
     def test_a_small_stack_is_enough(self):
-        """The servo touches its stack in advance, up to what ulimit -s leaves of it."""
+        """The servo touches its stack in advance, as far as ulimit -s allows."""
         with tempfile.TemporaryDirectory() as out:
             small = lambda: resource.setrlimit(resource.RLIMIT_STACK, (256 * 1024, 256 * 1024))
             result = dihaptic("run", "scenes/block-on-table.yaml", "--clock", "real", "--out", out, preexec_fn=small)

@@ -236,7 +236,7 @@ class Paradigms(unittest.TestCase):
             for hand in ("left", "right"):  # no hand lets it slip
                 self.assertGreater(0.8 * 2 * float(row[f"next_{hand}_grip_N"]), float(row[f"next_{hand}_load_N"]))
             tilts[row["condition"].split()[-1]].append(float(row["next_tilt_deg"]))
-        # simulated hands yield alike, so that the side with the weight is lower
+        # both simulated hands yield equally, so that the side with the weight is lower
         self.assertGreater(np.mean(tilts["right"]), np.mean(tilts["middle"]))
         self.assertLess(np.mean(tilts["left"]), np.mean(tilts["middle"]))
 

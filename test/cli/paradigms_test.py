@@ -16,7 +16,7 @@ from program import dihaptic
 
 
 class Rehearsal:
-    """Tables of all people who did an experiment, and what check says of it."""
+    """Tables of all people who did an experiment, and what `check` says about the experiment."""
 
     def __init__(self, test, name, people=2, **changes):
         folder = tempfile.TemporaryDirectory()

@@ -98,7 +98,7 @@ class Rehearsals(unittest.TestCase):
         self.assertEqual(result.returncode, 1)
         self.assertIn("sim-001: failed.", result.stderr)
         self.assertIn("cannot be written", result.stderr)
-        self.assertIn("the same command continues with them", result.stdout)
+        self.assertIn("run the same command again to continue with them", result.stdout)
         self.assertEqual(self.rehearse(out).returncode, 0)
 
     def test_refuses_a_folder_of_another_experiment_seed_or_population(self):
@@ -238,7 +238,7 @@ groups:
         self.assertIn("never ended 'reach' of trial 1", result.stderr)
 
     def test_refuses_what_cannot_be(self):
-        for arguments, message in [(["rehearse", self.experiment, "--shard", "4/3"], "--shard: error: 4/3: is not a part of a whole"),
+        for arguments, message in [(["rehearse", self.experiment, "--shard", "4/3"], "--shard: error: 4/3: is not a valid part"),
                                    (["rehearse", "experiments/lift-block.yaml"], "has no trials for people"),
                                    (["collect", self.folder], "is not the folder of a rehearsal"),
                                    (["run", self.experiment, "--real-objects"], "requires --simulate")]:

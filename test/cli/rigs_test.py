@@ -91,7 +91,7 @@ class Commands(unittest.TestCase):
             text = pathlib.Path("rigs/premium-misplaced.yaml").read_text()
             pathlib.Path(rig).write_text(text)
             os.mkdir(folder + "/taken.svg")
-            for out, message in [(rig, "is the rig file itself"), (folder + "/c.svg", "is a name for the picture"),
+            for out, message in [(rig, "is the rig file itself"), (folder + "/c.svg", "is the name of the picture"),
                                  (folder + "/none/c.yaml", "cannot be written: No such file or directory"),
                                  (folder + "/taken.yaml", "cannot be written: it is a folder")]:
                 began = time.monotonic()

@@ -176,7 +176,7 @@ class Seals(unittest.TestCase):
         assert result.returncode == 0, result.stderr
 
     def copy(self):
-        """Path of a copy of the rehearsal, and of a folder for what is collected of it."""
+        """Path of a copy of the rehearsal, and of a folder for the tables collected from it."""
         place = tempfile.TemporaryDirectory(dir=self.folder)
         self.addCleanup(place.cleanup)
         study = pathlib.Path(place.name, "study")

@@ -84,7 +84,7 @@ task:
                 ["report", session], ["export", session, "--bids", self.out + "/study"]]
 
     def test_no_command_hangs_or_crashes_on_what_is_no_file(self):
-        # by file: which commands cannot do without it
+        # by file: the commands that require it
         needed = {"raw.log": ["recover", "resume", "replay", "report", "export"],
                   "session.yaml": ["report", "export"],
                   "scene.yaml": ["replay", "resume"], "settings.yaml": ["replay", "resume"],
@@ -150,7 +150,7 @@ task:
                     pathlib.Path(there).write_text("id: S07\n" if name == "person.yaml" else "outcome\nreached\n")
                 self.replace(self.out + "/people/sim-001/" + file, kind)
                 result = subprocess.run([PROGRAM, "collect", self.out + "/people"], capture_output=True, text=True, timeout=patient(60))
-                # without person.yaml, or with an empty one, it is no session of a simulated person
+                # without person.yaml, or with an empty one, it is not a session of a simulated person
                 none = "no session is complete" in result.stdout
                 self.assertEqual(result.returncode, 1 if none else 2, file + kind + result.stderr)
                 self.assertRegex(result.stdout + result.stderr, f"{file}|session.yaml|no session is complete")

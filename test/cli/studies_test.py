@@ -82,7 +82,7 @@ class Studies(unittest.TestCase):
     def test_who_does_not_meet_the_criteria_is_not_added(self):
         result = self.participant("add", "S01", "--age", "17", "--handedness", "left", "--fact", "vision=normal")
         self.assertEqual(result.returncode, 1)
-        self.assertIn("age is 17, at least 18 is asked for; handedness is left, not right", result.stdout)
+        self.assertIn("age is 17; at least 18 is required; handedness is left, not right", result.stdout)
         self.assertEqual(self.log(), [("not included", "S01")])
         self.assertNotIn("S01", self.participant("list").stdout)
 
@@ -101,7 +101,7 @@ class Studies(unittest.TestCase):
                 self.assertNotIn("Ada", file.read_text() if file.is_file() else "")
             with open(key, "a") as table:
                 table.write("S03,Eve,\n")
-            self.refused(self.participant("add", "S03", *FACTS, *named), "belongs to a name already")
+            self.refused(self.participant("add", "S03", *FACTS, *named), "already belongs to a name")
             pathlib.Path(key).write_text(pathlib.Path(key).read_text().replace("S03,Eve,\n", ""))
             os.chmod(key, 0o644)
             self.refused(self.participant("show", "S01", "--key", key), "others may read it", "chmod 600")
@@ -256,7 +256,7 @@ class Studies(unittest.TestCase):
                    "  - { name: day3, experiment: heavy.yaml }\n")
         result = dihaptic("rehearse", self.study)
         self.assertEqual(result.returncode, 0, result.stderr)
-        why = r"the share of outcome = declined is 0 in \d+ trials; at least 1 is asked for"
+        why = r"the share of outcome = declined is 0 in \d+ trials; at least 1 is required"
         self.assertRegex(result.stdout, f"sim-002 stops before day2: {why}\ncomplete: ")
         self.assertIn("0 to do", dihaptic("rehearse", self.study).stdout)
         collected = dihaptic("collect", self.study, "--rehearsed", self.folder + "/rehearsal").stdout
@@ -451,7 +451,7 @@ class Studies(unittest.TestCase):
         roster = pathlib.Path(self.folder, "participants.yaml")
         whole = roster.read_text()
         for old, new, said in [("id: S01", "id: ..", "is not an identifier"), ("study: Two days", "study: Other", "is 'Other'"),
-                               ("participants:\n", "participants:\n" + whole[whole.index("  - id"):], "is there twice")]:
+                               ("participants:\n", "participants:\n" + whole[whole.index("  - id"):], "is listed twice")]:
             roster.write_text(whole.replace(old, new, 1))
             self.refused(self.participant("withdraw", new.split()[-1] if "id:" in new[:4] else "S01", "--delete-data"), said)
         roster.write_text(whole)
@@ -495,7 +495,7 @@ class Studies(unittest.TestCase):
 
     def test_a_broken_study_names_each_fault(self):
         for old, new, words in [
-            ("name: gradual", "name: abrupt", "'abrupt' is there twice"),
+            ("name: gradual", "name: abrupt", "'abrupt' is listed twice"),
             ("people: 2 }, ", "people: 0 }, ", "people"),
             ("name: day1", "name: day 1", "'day 1' is not a name"),
             ("least_gap_h: 20", "least_gap_h: 30", "is greater than most_gap_h"),

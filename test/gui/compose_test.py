@@ -1,4 +1,4 @@
-"""The open file's text beside the scene: checked and shown as one types, and saved when one wants it."""
+"""The open file's text beside the scene: checked and shown while the user types, and saved on request."""
 import glob
 import pathlib
 import re

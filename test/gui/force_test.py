@@ -41,7 +41,7 @@ class Force(Window):
         return self.felt.forces()
 
     def pushed(self):
-        """A busy machine may draw the first picture for longer than a window may be silent: then it is told to go on."""
+        """A busy machine may draw the first picture for longer than a window may be silent: the session is then continued."""
         for _ in range(6):
             end = time.monotonic() + patient(6)
             while time.monotonic() < end:

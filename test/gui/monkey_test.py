@@ -19,7 +19,7 @@ import soak
 TIME = float(os.environ.get("DIHAPTIC_MONKEY", soak.of(20, 600)))
 SEED = int(os.environ.get("DIHAPTIC_SEED", 1))
 
-# Neither what quits, nor what removes files in a dialog that chooses one.
+# Neither keys that quit the program, nor keys that remove files in a dialog for choosing one.
 KEYS = """F4 F5 F5 F5 F6 F6 F7 F8 F9 F10 Escape Return Return Tab Tab shift+Tab Up Down Left Right Prior Next Home End BackSpace
 space h v y 1 2 a s x comma minus period ctrl+e ctrl+e ctrl+z ctrl+shift+z ctrl+s ctrl+r ctrl+period ctrl+a ctrl+c ctrl+v
 ctrl+v ctrl+x ctrl+space shift+Insert ctrl+shift+o ctrl+Home ctrl+End ctrl+Up ctrl+shift+Left ctrl+plus alt+Left alt+Prior

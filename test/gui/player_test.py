@@ -19,7 +19,7 @@ class Player(Window):
         return self.recording().rstrip("/")
 
     def saved_at(self, folder):
-        """Times of the pictures that were saved, as their names have them."""
+        """Times of the saved pictures, from their names."""
         return sorted(float(os.path.basename(file)[3:-6]) for file in glob.glob(folder + "/at-*-s.png"))
 
     def save(self, folder):

@@ -31,7 +31,7 @@ class Small(Participants):
                 self.assertLessEqual(int(place["Y"]) + int(place["HEIGHT"]), height, name)
 
     def back(self):
-        """Keys go to the operator's window again: there is no window manager that would see to it."""
+        """Gives the keyboard back to the operator's window, which no window manager does here."""
         self.key("Escape")
         time.sleep(0.3)
         self.xdotool("windowfocus", self.name)

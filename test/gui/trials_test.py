@@ -12,7 +12,7 @@ import soak
 
 class Trials(Participants):
     def focus(self, window):
-        """Of a window that comes up: there is no window manager that would give it."""
+        """Gives a new window the keyboard, which no window manager does here."""
         self.xdotool("windowfocus", self.wait("the window", window).split()[-1])
         time.sleep(0.5)
 

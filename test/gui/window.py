@@ -183,7 +183,7 @@ class Window(unittest.TestCase):
         return np.frombuffer(raw, np.uint8).reshape((height, width) if of == "gray" else (height, width, 3))
 
     def recording(self):
-        """Folder of the session that runs, or the last one."""
+        """Folder of the running session, or else of the last one."""
         return self.wait("a session", lambda: sorted(glob.glob(self.out + "/*/")))[-1]
 
     def start(self):

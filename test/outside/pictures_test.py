@@ -33,7 +33,7 @@ def chunk(kind, data):
 
 
 def even(bits, colour, *samples, chunks=(), interlaced=False):
-    """A picture of 8 x 8 whose pixels are all alike."""
+    """A picture of 8 x 8 equal pixels."""
     digits = "".join(format(sample, f"0{bits}b") for sample in samples)
     rows = b""
     for width, height in ADAM7 if interlaced else ((EDGE, EDGE),):

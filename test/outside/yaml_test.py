@@ -1,4 +1,4 @@
-"""What this program writes as YAML 1.2, readers of YAML 1.1 (PyYAML, R's yaml) read alike. docs/outside.md has the sources.
+"""YAML 1.2 that this program writes means the same to readers of YAML 1.1 (PyYAML, R's yaml). docs/outside.md has the sources.
 
 Usage: outside/yaml_test.py PROGRAM, from the project's folder.
 """

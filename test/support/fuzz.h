@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size);
 
 namespace dihaptic::testing {
 
-/// The bytes as a file of that name, in a folder that has no other; it lasts until the next call.
+/// The bytes as a file with that name, in a folder that has no other; it lasts until the next call.
 inline std::string as_file(std::span<const uint8_t> bytes, const std::string& name) {
     static const TemporaryFolder folder;
     std::string file = folder.file(name);

@@ -117,7 +117,7 @@ Finding kind_of_disk(const std::string& type, System system) {
                 kWhat,
                 type +
                     ", over the network: other users' traffic affects its speed. Record on a disk "
-                    "of this machine, and copy",
+                    "of this machine, and copy the recordings afterwards",
                 {}};
     if (type == "tmpfs" || type == "ramfs")
         return {Verdict::note,
@@ -128,14 +128,14 @@ Finding kind_of_disk(const std::string& type, System system) {
         return {Verdict::lacks,
                 kWhat,
                 "of a live system, in memory: recordings are lost when it is switched off",
-                {"cd FOLDER    # of a disk of this machine; or write the stick by "
+                {"cd FOLDER    # on a disk of this machine; or write the stick with "
                  "packaging/image/stick, "
-                 "which gives it room for sessions"}};
+                 "which leaves room for sessions on it"}};
     if (type == "overlay" && system == System::container)
         return {Verdict::note,
                 kWhat,
-                "of the container: recordings are lost with it. Start it with a folder of the "
-                "host: docker run -v",
+                "of the container: recordings are lost when it is removed. Mount a folder of the "
+                "host: docker run -v HOST_FOLDER:CONTAINER_FOLDER",
                 {}};
     return {Verdict::ok, kWhat, type.empty() ? "of this machine" : type, {}};
 }

@@ -30,7 +30,7 @@ struct Rights {
 };
 Rights rights_now(int priority);
 
-/// The group whose members have the rights for real time and devices.
+/// The group whose members may use real-time scheduling and the devices.
 constexpr const char* kGroup = "haptics";
 
 /// Commands that add a udev rule, and that make the user a member of the group.

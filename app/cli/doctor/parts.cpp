@@ -19,8 +19,9 @@ struct Part {
 constexpr std::array kParts{
     Part{"dihaptic-mesh", "reads meshes", true},
     Part{"dihaptic-decompose", "cuts concave meshes", true},
-    Part{"dihaptic-host", "owns real devices, and takes their force away if all else fails", false},
-    Part{"dihaptic-gui", "is the window", false},
+    Part{"dihaptic-host", "owns the real devices, and switches their force off if all else fails",
+         false},
+    Part{"dihaptic-gui", "shows the operator's window", false},
 };
 
 /// Whether Dihaptic was installed from its packages, not built in its own folder.

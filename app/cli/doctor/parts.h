@@ -10,8 +10,8 @@
 namespace dihaptic::doctor {
 
 /// `companion`: the path of one of Dihaptic's programs; "" if it is missing. `paths`: PATH.
-/// `shipped`: the folder with the shipped files; "" if it is missing. `python`: that of the Python
-/// package.
+/// `shipped`: the folder with the shipped files; "" if it is missing. `python`: the folder of the
+/// Python package; "" if it is missing.
 Findings parts(const std::function<std::string(const std::string&)>& companion,
                const std::string& paths, const std::string& shipped, const std::string& python);
 

@@ -76,7 +76,7 @@ Findings look_from_outside(const Section& section) {
     } catch (const Error& e) {
         return {section.failed(e.problems().front().what)};
     } catch (const std::exception&) {
-        return {section.failed("the check of it failed")};
+        return {section.failed("this check failed")};
     }
 }
 

@@ -1,4 +1,4 @@
-// Tests the bars of the solvers missing in bench/room/test/friction_bars_test.cpp.
+// Tests the friction acceptance limits of those solvers that friction_bars_test.cpp leaves out.
 #include "bench/test/friction_bars.h"
 
 namespace dihaptic::bench {

@@ -28,7 +28,7 @@ class DataSet {
     /// Folder of the session's recordings, within the data set: "sub-S07", or "sub-S07/ses-day1" of
     /// a study's session.
     std::string place() const { return visit_.empty() ? subject_ : subject_ + "/" + visit_; }
-    /// The beginning of their names: "sub-S07", or "sub-S07_ses-day1".
+    /// The beginning of the names of its recordings' files: "sub-S07", or "sub-S07_ses-day1".
     std::string stem() const { return visit_.empty() ? subject_ : subject_ + "_" + visit_; }
     /// Throws Error when the session cannot be added: a simulation to people's data or a person to
     /// simulated data; a participant whose label belongs to another; a recording that the data set

@@ -219,7 +219,8 @@ void check(std::span<const LevelCount> counts, const PsychometricFitSettings& se
         throw Error("a known shape must be above 0", "give the slope or spread of the sigmoid");
 }
 
-/// Negative log likelihood when each level has its counted share of "yes".
+/// Negative log likelihood of the saturated model, in which the probability of "yes" at each level
+/// is the observed proportion.
 double saturated(std::span<const LevelCount> counts) {
     double sum = 0;
     for (const LevelCount& c : counts) {

@@ -96,7 +96,7 @@ class AttemptMeasures {
     std::span<const MotionSample> run_;  // the samples in the movement's states
     std::string no_onset_;  // reason why the movement has no onset; empty if it has one
     std::string no_end_;
-    bool continued_ = false;  // it had begun before its states
+    bool continued_ = false;  // the movement had begun before its states
     size_t onset_ = 0, peak_ = 0, end_ = 0;
     Vec3 along_W_, left_W_;
     /// In the run. In a channel, the speed by which the movement is found is that along the line:

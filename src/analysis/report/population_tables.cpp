@@ -219,7 +219,7 @@ std::vector<Table::Column> measured_columns(const SessionData& session) {
 }
 
 /// Lists the measures and answers of the last attempts at trials, by the study's group and session,
-/// and by round, block, condition, kind of trials and perturbation.
+/// and by round, block, condition, kind of trial and perturbation.
 void list_measures(PopulationTables& out, const std::string& title, const Sessions& sessions) {
     // group, session, round, block, condition, kind, perturbation
     using Key = std::array<std::string, 7>;

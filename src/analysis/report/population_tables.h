@@ -18,7 +18,7 @@ struct PopulationTables {
     Table adaptation{};  ///< a row per round and trial; empty without reaches
     Table thresholds{};  ///< a row per session and procedure; empty without procedures
     Table lifts{};       ///< a row per experiment, group of trials and figure; empty without lifts
-    Table measures{};    ///< a row per measure, round, condition and kind of trials
+    Table measures{};    ///< a row per measure, round, condition and kind of trial
 };
 PopulationTables population_tables(const std::vector<Sessions>& samples);
 

@@ -75,7 +75,8 @@ bool holds_cursor(const task::Task& task, const std::string& state) {
     });
 }
 
-/// A reach whose cursor was hidden showed no error, unless its end was shown later in the trial.
+/// In a reach with a hidden cursor the person saw no error, unless its end point was shown later in
+/// the trial.
 void note_hidden_cursor(SessionData& data) {
     if (!data.task.reach || !is_there(data.folder.file("phases.csv"))) return;
     const auto& during = data.task.reach->during;

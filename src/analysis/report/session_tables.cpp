@@ -15,7 +15,7 @@ void add_curve(Table& table, const AdaptationCurve& curve,
         const double single_rate = fits ? bias + fits->single_rate.predicted[i] : kUnmeasured;
         FigureLister row;
         row("round", curve.round, "", "name");
-        row("trial_num", trial.number, "1", "in the session");
+        row("trial_num", trial.number, "1", "number in the session, from 1");
         row("block", trial.block, "", "name");
         row("kind", trial.kind, "", "of the trial");
         row("unit", curve.unit, "", "unit of the values below");

@@ -79,10 +79,9 @@ std::string tables() {
                  people.thresholds.columns) +
            table("population-lifts.csv", "A row for each group of trials and figure.",
                  people.lifts.columns) +
-           table(
-               "population-measures.csv",
-               "A row for each measure, round, block, condition, kind of trials and perturbation.",
-               people.measures.columns);
+           table("population-measures.csv",
+                 "A row for each measure, round, block, condition, kind of trial and perturbation.",
+                 people.measures.columns);
 }
 
 /// The text before the tables is written by hand.

@@ -1,6 +1,6 @@
-// Solves a hundred thousand problems of bodies thrown together, from zero impulses; no
-// solver's starts were chosen for these problems. Counts how often each solver hands over, and how
-// often all of them miss.
+// Solves a hundred thousand random contact problems, each from zero impulses; no solver's starting
+// values were tuned on them. Counts how often each solver falls back on the next, and how often
+// none meets the tolerance.
 #include <gtest/gtest.h>
 
 #include "contact/test/problems.h"

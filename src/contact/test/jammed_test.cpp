@@ -13,7 +13,7 @@ namespace {
 
 struct Jammed {
     ContactProblem problem;
-    std::vector<Impulse> start;  ///< of the tick before
+    std::vector<Impulse> start;  ///< of the previous tick
 };
 
 /// A file has the numbers of bodies and contacts, and then the members of each in their order.

@@ -108,8 +108,8 @@ class HaplyGroup final : public DeviceGroup {
         connection_.open(url_, kSetUpTime);
         receive_first(connection_, reader_, message_, "list of devices");
         check_inventory(message_, devices_);
-        // without force, to learn whether the service accepts commands before a hand feels
-        // a force
+        // a force of zero, to learn whether the service accepts commands before a hand feels
+        // anything
         std::fill(forces_D_.begin(), forces_D_.end(), Vec3::Zero());
         connection_.send(writer_.write(forces_D_, true), kSetUpTime);
         receive_first(connection_, reader_, message_, "answer to a command");

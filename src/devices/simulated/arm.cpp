@@ -82,7 +82,7 @@ void Arm::end_step(double h, const State& sum) noexcept {
             continue;
         }
         rate = 0;
-        // a joint that friction holds must not creep by the step's movement
+        // a joint held by friction stays put: undo what it moved within this step
         if (old.rate[i] == 0) state_.q[i] = old.q[i];
     }
     stop_at_limits();

@@ -407,7 +407,7 @@ double Collision::walk(btBroadphasePair& pair, double h, int first, btPersistent
     const double way = approach(a_wrap, b_wrap, h);
     if (!(way > kEntered)) return 1;  // also if it is not a number
     const btPersistentManifold* known = manifold_of(pair);
-    // bodies may enter soft ones, as far as their contact allows
+    // bodies may enter soft ones, to the depth that their contact allows
     if (known != nullptr && is_soft(*known)) return 1;
     const bool swapped = known != nullptr && known->getBody0() != &a;
     out.setBodies(swapped ? &b : &a, swapped ? &a : &b);

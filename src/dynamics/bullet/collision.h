@@ -31,8 +31,8 @@ class Collision {
     void add(CollisionPart& part, bool can_move);
     /// To be called for each part of a body that moved or is about to move.
     void update_bounds(CollisionPart& part, double h);
-    /// Like update_bounds(), but the bounds only grow, because no pair may end within a step if its
-    /// contacts are in manifolds().
+    /// Like update_bounds(), but the bounds only grow, because a pair whose contacts are in
+    /// manifolds() must not be dropped within a step.
     void widen_bounds(CollisionPart& part, double h);
     /// From the next find_contacts() on the part has no contacts until show() is called and its
     /// bounds are updated.

@@ -133,7 +133,7 @@ class Joints {
         contact::Vec6 rates = contact::Vec6::Zero();           // for a bushing, before the step
         JointProperties properties = {};
         std::optional<Motor> motor = {};      // in this step
-        std::optional<double> led_from = {};  // the motor's target in the step before
+        std::optional<double> led_from = {};  // the motor's target in the previous step
         Gaps start = {};                      // at the start of the step
         Vec3 acts_at_W = Vec3::Zero();
     };

@@ -324,7 +324,7 @@ TEST(Distance, IsARodThatABallCirclesOn) {
     const double theta = 30 * kDegree;
     const double omega = std::sqrt(kGravity / (kArm * std::cos(theta)));
     World world = hanging(kArm * Vec3(std::sin(theta), 0, -std::cos(theta)));
-    // velocities are those of the middle of a step: here of the step before
+    // velocities are those of the middle of a step: here of the previous step
     const double before = omega * kStep;
     world.set_velocity(
         {0}, kArm * std::sin(theta) / kStep * Vec3(1 - std::cos(before), std::sin(before), 0));

@@ -246,7 +246,7 @@ class Shooting {
         world.set_velocity({0}, share * v);
         world.set_velocity({1}, (share - 1) * v);
         const double ideal = deepest_on(body, other, of_other, v);
-        // by then the centre of one is beyond that of the other
+        // at this overlap the centre of one is beyond that of the other
         const double passed = (thickness(points_) + thickness(of_other)) / 2;
         bool met = false;
         for (int i = 0; i < static_cast<int>(0.25 / (shot_.speed * kStep)) + 10; ++i) {

@@ -107,8 +107,8 @@ TEST_P(Felt, AFrictionlessPlaneIsStiffnessTimesDepthAndNothingAcross) {
     Bench bench(scene, hand, setup);
     bench.run([&](const frame::Frame& frame) {
         const frame::FingerFrame& f = frame.fingers[0];
-        // only the inertia of the proxy's own gram, at the peak acceleration of minimum jerk over
-        // 0.2 m in 1 s; a point has no mass
+        // the only drag is the inertia of the proxy's mass of one gram, at the peak acceleration of
+        // a minimum-jerk movement of 0.2 m in 1 s; a point has no mass
         const double drag = point() ? 1e-12 : 1.02 * scene.fingers[0].mass * 5.774 * 0.2;
         EXPECT_LT(f.f_sent_W.head<2>().norm(), drag);
         const double radius = point() ? haptics::kSkin : 0.008;

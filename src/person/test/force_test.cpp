@@ -105,7 +105,7 @@ TEST(Forces, AreLearnedAsForcesAndRotationsAsRotations) {
 
     const auto [both_turn, both_force] = learned("turned curl");
     EXPECT_NEAR(both_turn.z(), of_turn, 2 * kDegree);
-    // by then, the hand goes to the right of the way, and so does the force that pushes it
+    // after learning, the hand goes to the right of the way, and so does the force that pushes it
     EXPECT_NEAR(both_force.norm(), kCurl * of_force, 0.15 * kCurl);
 }
 

@@ -14,7 +14,7 @@
 namespace dihaptic::person::grip_test {
 namespace {
 
-/// What the fingers feel of an object of 2 N that is held.
+/// What the fingers feel while they hold an object that weighs 2 N.
 class Held : public ::testing::Test {
   protected:
     Held() : grip_(numb(), {memory()}, kTick) {

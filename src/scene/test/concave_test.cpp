@@ -229,7 +229,7 @@ TEST(Concave, WorksWherePiecesCannotBeKeptAndSaysSo) {
     EXPECT_NEAR(volume(files.read(kBody).pieces.hulls), 3e-6, 1e-12);
     EXPECT_FALSE(files.diagnostics.has_errors());
     EXPECT_NE(files.said().find("cannot be kept"), std::string::npos) << files.said();
-    EXPECT_NE(files.said().find("cut anew in each run"), std::string::npos);
+    EXPECT_NE(files.said().find("cut again in each run"), std::string::npos);
     EXPECT_TRUE(fs::is_regular_file(files.folder.file("cache/dihaptic")));
 }
 

@@ -128,7 +128,7 @@ TEST(Look, ThatCannotBeIsToldWithItsPlaceAndARemedy) {
              {seen("file: README.md, unit: mm"), "its name ends neither in .obj"},
              {seen("file: " + mesh), "unit: is missing"},
              {seen("file: " + mesh + ", unit: m"),
-              "a.ply is 20000 mm large, but the felt shape measures 20 mm"},
+              "a.ply measures 20000 mm, but the felt shape measures 20 mm"},
              {"finish: glossy", "'glossy' is not known. Use satin, matt or metal."},
          }) {
         EXPECT_NE(problems(body(keys)).find(said), std::string::npos) << keys << ":\n"

@@ -327,7 +327,7 @@ INSTANTIATE_TEST_SUITE_P(
             "1}\n",
             "both mass and density"},
         Bad{"bodies:\n  - {name: b, shape: box, size_m: [40, 40, 40], mass_g: 100}\n",
-            "warning: this shape is 40 m large. Check the unit"},
+            "warning: this shape measures 40 m. Check the unit"},
         Bad{"bodies:\n  - {name: b, shape: box, size_mm: [40, 40, 40], mass_kg: 100}\n",
             "warning: b: weighs 100 kg. Check the unit"},
         Bad{"bodies:\n  - {name: b, shape: ball, size_mm: [4, 4, 4], mass_g: 1}\n",

@@ -212,7 +212,7 @@ TEST(HugeNumbers, DivergeBeforeTheyOverflow) {
             EXPECT_EQ(grasp.servo->fault().kind, haptics::FaultKind::diverged) << x;
             EXPECT_EQ(grasp.told(), 0);
         }
-        // a merely absurd value is used
+        // a value that is absurd but finite is accepted
         PlantedGrasp grasp(settings_of(setting));
         grasp.grasp();
         grasp.servo->world().set_velocity({kBlock}, 1e8 * kEast);

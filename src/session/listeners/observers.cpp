@@ -304,7 +304,7 @@ void Observers::watch(Observer& observer, const Json& asked) {
     if (!wanted.is_array() || wanted.size() > kMostWatched || !every.is_number() ||
         !(every.get<double>() >= 0 && every.get<double>() <= 60000))
         throw Refusal{
-            fmt::format("watch is a list of at most {} expressions, and every_ms a "
+            fmt::format("'watch' must be a list of at most {} expressions, and 'every_ms' a "
                         "number from 0 to 60000.",
                         kMostWatched)};
     std::vector<task::RecordedValue> values;

@@ -160,7 +160,7 @@ void TrialController::Parts::greet() {
         }
         return;
     }
-    throw refused(path, "does not greet");
+    throw refused(path, "sent no greeting");
 }
 
 void TrialController::Parts::ask(const task::Ended& attempt) {

@@ -375,7 +375,7 @@ TEST_P(LiveOutlet, ThatCannotBeOpenedLeavesNoHalfSession) {
     options.out = files.folder.path() + "/sessions";
     const std::atomic<bool> stop{false};
     EXPECT_THROW(run_session(make_plan(files.request()), options, stop, {}), Error);
-    std::error_code none;  // it may not have come as far as making the folder
+    std::error_code none;  // the folder may not even have been made
     EXPECT_TRUE(!std::filesystem::exists(options.out) ||
                 std::filesystem::is_empty(options.out, none));
 }

@@ -94,7 +94,7 @@ TEST(LoadChecks, RefuseATorqueOnAHandleThatRendersNone) {
 
 TEST(LoadChecks, CompareLoadsOnABodyWithTheStep) {
     expect_said(said_of("kind: viscous, on: block, damping_Ns_m: 300"),
-                "throws about a body of 100 g in steps of 1 ms");
+                "throws a body of 100 g about in steps of 1 ms");
     expect_said(
         said_of("kind: spring, on: block, about: start, stiffness_N_mm: 90, damping_Ns_m: 200"),
         "9e+04 N/m and 200 N*s/m");

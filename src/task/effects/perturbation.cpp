@@ -20,7 +20,7 @@ Perturbation::Perturbation(const PerturbationSpec& spec, const Names& names,
     check_hed(spec.hed, spec.place, diagnostics);
     if (!any) {
         diagnostics.error(spec.place, spec.name, "perturbs nothing",
-                          "Give it visual, body, joint, loads or field.");
+                          "Give it 'visual', 'body', 'joint', 'loads' or 'field'.");
     }
 }
 

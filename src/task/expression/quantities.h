@@ -69,7 +69,7 @@ class Quantities {
     Quantities() : Quantities(Names{}) {}
     explicit Quantities(Names names);
 
-    /// The quantity of this name; nullopt if there is none.
+    /// The quantity with this name; nullopt if there is none.
     std::optional<Symbol> find(std::string_view name);
     /// Defines a number, which replaces an earlier one of the same name. Its value is 0 until it is
     /// set.

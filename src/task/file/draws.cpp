@@ -90,8 +90,8 @@ class Checker {
             error("name",
                   fmt::format("'{}' {}", draw_.name,
                               kinds == 0 ? "draws nothing" : "is drawn in several ways"),
-                  "Give it one of uniform, normal, exponential, choice, permutation and "
-                  "participant.");
+                  "Give it one of 'uniform', 'normal', 'exponential', 'choice', "
+                  "'permutation' and 'participant'.");
         }
         if (draw_.uniform) in_order(draw_.uniform->from, draw_.uniform->to);
         if (draw_.exponential) in_order(draw_.exponential->from, draw_.exponential->to);
@@ -105,7 +105,7 @@ class Checker {
     }
     bool in_order(std::optional<double> from, std::optional<double> to) {
         if (!from || !to || *from < *to) return true;
-        error("to", fmt::format("is {:g}, but from is {:g}", *to, *from),
+        error("to", fmt::format("is {:g}, but 'from' is {:g}", *to, *from),
               "Make 'to' greater than 'from'.");
         return false;
     }
@@ -115,8 +115,8 @@ class Checker {
                              below((d.from.value_or(-kInfinite) - d.mean) / d.sd);
         if (share >= kLeastShare) return;
         error("normal",
-              fmt::format("has only {:.2g} of its probability between from and to", share),
-              "Move from and to closer to the mean, or increase sd.");
+              fmt::format("has only {:.2g} of its probability between 'from' and 'to'", share),
+              "Move 'from' and 'to' closer to the mean, or increase 'sd'.");
     }
     void check_weights() {
         if (draw_.weights.empty()) return;
@@ -125,7 +125,7 @@ class Checker {
             error("weights",
                   fmt::format("there are {} for {} values, with a sum of {:g}",
                               draw_.weights.size(), draw_.choice.size(), sum),
-                  "Give each value of choice a weight, not all of them 0.");
+                  "Give each value of 'choice' a weight, not all of them 0.");
         }
     }
 

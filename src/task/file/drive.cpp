@@ -18,9 +18,9 @@ void check_form(const DriveSpec& spec, Diagnostics& diagnostics) {
         diagnostics.error(
             spec.place, "to",
             forms == 0 ? "gives no destination" : "gives several destinations at once",
-            "Give it to_mm, by_mm, angle_deg, along or path.");
+            "Give it to_mm, by_mm, angle_deg, 'along' or 'path'.");
     if (turns && (spec.path || !spec.along.empty()))
-        diagnostics.error(spec.place, "angle", "cannot be combined with along or path",
+        diagnostics.error(spec.place, "angle", "cannot be combined with 'along' or 'path'",
                           "Leave it out, or give to_mm or by_mm.");
 }
 

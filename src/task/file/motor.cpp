@@ -40,9 +40,9 @@ void check_form(const MotorSpec& spec, const scene::Joint& joint, Diagnostics& d
     const bool goes = goes_somewhere(spec);
     const bool follows = !spec.follow.empty();
     if (goes && follows)
-        error(to, "gives a second course, beside follow", "Keep either this key or follow.");
+        error(to, "gives a second course, besides 'follow'", "Keep either this key or 'follow'.");
     if (!goes && !follows && spec.push.empty())
-        error(to, "is missing, and so are follow and push",
+        error(to, "is missing, and so are 'follow' and 'push'",
               "Give the joint a destination, or a force or torque.");
     if (goes && !spec.duration) error("duration", "is missing", "Add e.g. duration_s: 0.8.");
     if (!goes && has_times(spec))

@@ -104,7 +104,7 @@ void check_number(const ProcedureSpec& spec, Diagnostics& diagnostics) {
         if (std::isfinite(given)) continue;
         diagnostics.error(spec.place, fmt::format("{}.{}", spec.kind(), key),
                           fmt::format("is missing as a limit of {}", spec.level),
-                          "Give lowest and highest, so that these trials can be checked.");
+                          "Give 'lowest' and 'highest', so that these trials can be checked.");
     }
 }
 
@@ -174,7 +174,7 @@ void check(const ProcedureSpec& spec, Diagnostics& diagnostics) {
         diagnostics.error(
             spec.place, spec.name,
             kinds == 0 ? "has no way to choose levels" : "has more than one way to choose levels",
-            "Give it one of staircase, quest, quest_plus and constant.");
+            "Give it one of 'staircase', 'quest', 'quest_plus' and 'constant'.");
         return;
     }
     check_number(spec, diagnostics);
@@ -197,14 +197,14 @@ void check(const ProcedureSpec& spec, Diagnostics& diagnostics) {
     check_levels(spec, diagnostics);
     if (spec.quest && !spec.logarithmic)
         diagnostics.error(spec.place, "logarithmic",
-                          "must be set, since the levels of quest are logarithms",
+                          "must be set, since the levels of 'quest' are logarithms",
                           "Add logarithmic: yes.");
     warn_of_levels(spec, diagnostics);
     if (spec.quest && !spec.known_shape())
         diagnostics.warning(spec.place, fmt::format("{}.sigmoid", spec.name),
                             "answers to quest lie only near the threshold and cannot determine the "
                             "shape of another function: the interval would be too narrow",
-                            "Leave out sigmoid.");
+                            "Leave out 'sigmoid'.");
     try {
         make_procedure(spec, 0);
     } catch (const Error& e) {

@@ -26,7 +26,7 @@ constexpr auto enum_names(Cursor) {
 struct Show {
     std::vector<std::string> targets;  ///< regions
     Cursor cursor = Cursor::yes;
-    std::string held_from;  ///< state; empty: the state before
+    std::string held_from;  ///< state; empty: the previous state
     bool object = true;     ///< the scene's object is shown
     Node bodies;            ///< name: yes or no
     Node fingers;           ///< name: yes or no; overrides `cursor`
@@ -37,10 +37,10 @@ struct Show {
         v("targets", targets, says("Regions that are shown."));
         v("cursor", cursor,
           says("Whether the fingers' proxies are shown; held: shown at their positions when the "
-               "state began, or when the state held_from ended."));
+               "state began, or when the state 'held_from' ended."));
         v("held_from", held_from,
           says("With cursor: held, the state at whose end the fingers' proxies were where they are "
-               "shown; the state before if omitted."));
+               "shown; the previous state if omitted."));
         v("object", object, says("Whether the scene's object is shown."));
         v("bodies", bodies, says("Individual bodies by name, each shown or not."));
         v("fingers", fingers,

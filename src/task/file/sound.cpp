@@ -17,7 +17,7 @@ void check(const SoundSpec& sound, Diagnostics& diagnostics) {
     if (kinds != 1)
         diagnostics.error(sound.place, sound.name,
                           kinds == 0 ? "has no sound" : "gives several sounds at once",
-                          "Give it one of tone_Hz, noise and file.");
+                          "Give it one of tone_Hz, 'noise' and 'file'.");
     if (sound.file.empty() && !sound.goes_on() && 2 * sound.ramp > sound.duration)
         diagnostics.error(sound.place, "ramp",
                           fmt::format("two ramps take longer than the duration of '{}', {:g} ms",

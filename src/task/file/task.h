@@ -427,7 +427,8 @@ struct Insert {
     void visit(Visitor& v) {
         v("kind", kind, says("Kind of the inserted trials, for the analysis."));
         v("conditions", conditions,
-          says("Conditions of these trials, in turn; that of the trial before if omitted."));
+          says("Conditions of these trials, in turn; if omitted, each takes the condition of the "
+               "preceding trial."));
         v("count", count,
           Field::number().within(1, 10000).required().says("Number of inserted trials."));
         v("gap", gap,
@@ -466,7 +467,7 @@ struct Block {
         v("kind", kind, says("Kind of the block's trials, for the analysis."));
         v("conditions", conditions, says("Conditions of the block; all if omitted."));
         v("once", once,
-          says("Whether the block is done once beside the rounds, before the first or after the "
+          says("Whether the block is done once outside the rounds, before the first or after the "
                "last, and belongs to none."));
         v("begins", begins,
           Field::text().says("State in which its trials begin; the first one if omitted."));

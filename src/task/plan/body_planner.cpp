@@ -52,11 +52,11 @@ void BodyPlanner::check_put(const StatePlace& place) {
               "Add position_mm, velocity_mm_s, held: yes or removed: yes.");
     if (place.velocity && (place.held || place.removed || body.fixed || body.driven))
         error(place.place, "velocity", "is only for a body that is free to move",
-              "Leave out velocity, or leave out held and removed, or make the body movable in the "
-              "scene.");
+              "Leave out 'velocity', or leave out 'held' and 'removed', or make the body movable "
+              "in the scene.");
     if (place.removed && (place.position || place.held))
-        error(place.place, "removed", "cannot be combined with position or held",
-              "Leave out position_mm and held.");
+        error(place.place, "removed", "cannot be combined with 'position' or 'held'",
+              "Leave out position_mm and 'held'.");
     if (place.held && body.fixed)
         error(place.place, "held",
               fmt::format("'{}' is fixed and stays in place anyway", place.body), "Leave it out.");

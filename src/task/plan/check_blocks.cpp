@@ -163,10 +163,10 @@ class BlockChecker {
                   "Name a perturbation, or write kind: baseline.");
         check_clamp(block.kind, block.perturb, block.place);
         if (block.ramp > 0 && block.perturb.empty())
-            error(block.place, "ramp", "needs a perturbation", "Add perturb.");
+            error(block.place, "ramp", "needs a perturbation", "Add 'perturb'.");
     }
 
-    /// Checks that the kind of trials, which determines their analysis, matches their perturbation.
+    /// Checks that each trial's kind, which determines its analysis, matches its perturbation.
     void check_clamp(TrialKind kind, const std::vector<std::string>& perturb, const Place& place) {
         const bool channels = kind == TrialKind::force_channel;
         if (!channels && kind != TrialKind::visual_clamp) return;

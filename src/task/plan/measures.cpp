@@ -138,7 +138,7 @@ class MeasureChecker {
         for (const auto& [key, name] : {std::pair{"from", &movement_.from}, {"to", &movement_.to}})
             look_up(regions, *name, place_, key, "not a region", diagnostics_);
         if (movement_.from == movement_.to && !movement_.to.empty())
-            error("to", "is the same region as from", "Name two different regions.");
+            error("to", "is the same region as 'from'", "Name two different regions.");
         if (movement_.during.empty())
             error("during", "is missing", "Name the states of the movement, e.g. during: [reach].");
         for (const std::string& name : movement_.during) state(name, "during");

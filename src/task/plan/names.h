@@ -24,7 +24,7 @@ class Names {
     const std::vector<std::string>& all() const {
         return std::get<Known<T>>(known_).names;
     }
-    /// Index of the T of this name, or -1 with an error.
+    /// Index of the T with this name, or -1 with an error.
     template <class T>
     int find(const std::string& name, const Place& place, std::string_view key,
              Diagnostics& diagnostics) const {

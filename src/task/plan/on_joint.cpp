@@ -99,7 +99,7 @@ void check_joint(const BodyPlace& place, const scene::Scene& scene, Diagnostics&
     if (!place.body.empty() || place.position)
         diagnostics.error(place.place, "joint",
                           "already determines the position of its second body",
-                          "Keep either joint or body.");
+                          "Keep either 'joint' or 'body'.");
     if (place.joint.index >= 0)
         check_coordinate(place, scene.joints[static_cast<size_t>(place.joint.index)], diagnostics);
 }

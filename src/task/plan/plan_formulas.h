@@ -7,7 +7,8 @@
 namespace dihaptic::task {
 
 /// Defines the task's draws, factors and variables in plan.quantities, compiles the formulas of
-/// plan.task, and stores their indices in them.
+/// plan.task, and stores in each the index
+/// of its compiled form.
 void plan_formulas(TaskPlan& plan, Diagnostics& diagnostics);
 
 /// Compiles the rules after trials and the conditions that end blocks. The plan's outcomes must be

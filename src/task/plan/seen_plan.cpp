@@ -201,9 +201,10 @@ void SeenPlanner::check_looks(const std::vector<LookSpec>& specs, Diagnostics& f
         if (named != 1)
             found.error(spec.place, "look",
                         named == 0 ? "does not name an object" : "names more than one object",
-                        "Give it one of body, finger and target.");
+                        "Give it one of 'body', 'finger' and 'target'.");
         if (spec.colour.empty() && spec.scale == 1 && !spec.hidden)
-            found.error(spec.place, "look", "changes nothing", "Give it colour, scale or hidden.");
+            found.error(spec.place, "look", "changes nothing",
+                        "Give it 'colour', 'scale' or 'hidden'.");
         scene::read_colour(spec.colour, spec.place, found);
     }
 }

@@ -33,7 +33,7 @@ class SeenPlanner : Planning {
     template <class T>
     void show_some(const Node& given, const char* key, size_t first, const Place& place,
                    TaskPlan::Looks& out);
-    /// The number of this name; nullopt, with a problem in the diagnostics, if there is none.
+    /// The number with this name; nullopt, with a problem in the diagnostics, if there is none.
     std::optional<TextNumber> number(const std::string& name, const Place& place, const char* key);
     std::vector<int> lines(const std::vector<std::string>& texts, const Place& place);
 

@@ -194,8 +194,8 @@ class StatePlanner : Planning {
         if (transitions != 1) {
             error(exit.place, "to",
                   transitions == 0 ? "leads nowhere" : "has more than one destination",
-                  "Give it exactly one of to (a state), outcome (the trial's result) and chooses "
-                  "(an interval).");
+                  "Give it exactly one of 'to' (a state), 'outcome' (the trial's result) and "
+                  "'chooses' (an interval).");
         }
         if (exit.ends_session && exit.outcome.empty())
             error(exit.place, "ends_session", "belongs to an exit with an outcome",

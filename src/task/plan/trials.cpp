@@ -180,7 +180,7 @@ void insert_trials(const Insert& insert, Random& random, std::vector<Trial>& tri
 
 /// The block's trials, in order. Conditions are shuffled with `own`, the participant's stream, if
 /// there is one, otherwise with the seed's stream. Positions of inserted trials always use the
-/// seed's stream: a learning curve then has the same kinds of trials in all participants.
+/// seed's stream: a learning curve then has the same kinds of trial in all participants.
 std::vector<Trial> trials_of(const Task& task, const Block& block, int round, int number,
                              Random& random, std::optional<Random> own) {
     Trial trial;

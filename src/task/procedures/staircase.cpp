@@ -24,9 +24,10 @@ void check(const StaircaseSettings& s) {
             "give at least one step, all above 0");
     require(positive(s.down_over_up), "down_over_up", "is not above 0",
             "give the ratio of the step down to the step up, e.g. 0.5488 for 2-down");
-    require(s.lowest < s.highest, "lowest", "is not below highest", "give lowest < highest");
+    require(s.lowest < s.highest, "lowest", "is not below 'highest'",
+            "make 'lowest' less than 'highest'");
     require(std::isfinite(s.start) && s.start >= s.lowest && s.start <= s.highest, "start",
-            "is not between lowest and highest", "start at a level in that range");
+            "is not between 'lowest' and 'highest'", "start at a level in that range");
     require(s.reversals >= 0 && s.trials >= 0 && s.reversals + s.trials > 0, "reversals",
             "and trials set no end", "give at least one of them, above 0");
     require(

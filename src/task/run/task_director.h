@@ -28,14 +28,16 @@ class TaskDirector {
     void operator()(const frame::Frame& last, std::span<const frame::Handle> handles,
                     frame::Commands& commands) noexcept;
 
-    /// Queues a key that the operator pressed, for a tick to take; from one thread.
+    /// Queues a key that the operator pressed, for a tick to take. Call from one thread only.
     void press(char key) noexcept { keys_.push(key); }
-    /// Passes on a click on a question's line; from any thread.
+    /// Forwards a click on the line of a question. May be called from any thread.
     void click(const Click& click) noexcept { clicked_.store(click, std::memory_order_relaxed); }
-    /// Passes on an external trigger; from any thread. `code`: 1 to 255, or kAnyTrigger.
+    /// Forwards an external trigger. `code`: 1 to 255, or kAnyTrigger. May be called from any
+    /// thread.
     void trigger(int code) noexcept { trigger_.store(code, std::memory_order_relaxed); }
     static constexpr int kAnyTrigger = -1;  ///< matches every expected code
-    /// Ends the trial in the next tick as skipped, without repetition; from any thread.
+    /// Ends the trial in the next tick as skipped, without repetition. May be called from any
+    /// thread.
     void skip() noexcept { skip_.store(true, std::memory_order_relaxed); }
     /// Makes the director ask `between`, which must outlive it, before each attempt. Call before
     /// the first tick.
@@ -59,7 +61,7 @@ class TaskDirector {
     Obstacle obstacle() const noexcept { return obstacle_; }
     /// Number of trials that an exit left out because it ended the session.
     size_t left_out() const noexcept { return queue_.left_out(); }
-    /// Share of completed trials, from any thread.
+    /// Share of completed trials. May be called from any thread.
     double share() const noexcept { return share_.load(std::memory_order_relaxed); }
 
   private:

@@ -28,7 +28,7 @@ void look_at(int index, size_t trial, const TrialNumbers& numbers, TaskPlan& pla
     if (std::isnan(given)) {
         diagnostics.error(f.place, f.key,
                           fmt::format("'{}' has no value in trial {}", f.text, trial + 1),
-                          "Use quantities that are known by then: a region can use regions that "
+                          "Use quantities that are already known: a region can use regions that "
                           "are listed before it.");
         return;
     }

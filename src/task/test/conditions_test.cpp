@@ -131,7 +131,7 @@ TEST(Conditions, AHandGripsWithTwoOfItsFingers) {
     Waiting task("{ when: gripped, body: block, finger: left, outcome: done }");
     task.press(kThumb);
     EXPECT_FALSE(task.tick());
-    task.press(kIndex, 0);  // touches without force
+    task.press(kIndex, 0);  // touches with zero force
     EXPECT_FALSE(task.tick());
     task.press(kIndex);
     EXPECT_TRUE(task.tick());

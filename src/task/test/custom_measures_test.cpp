@@ -63,7 +63,7 @@ TEST(CustomMeasures, AreTakenOfEachAttemptInItsStates) {
         double speed = 0, way = 0, entered = 0, waited = 0, z = 0;
         int phase = 0, ticks = 0;
         std::vector<double> x;       // [mm]
-        std::vector<double> speeds;  // in the reach [m/s]
+        std::vector<double> speeds;  // during the reach [m/s]
         std::vector<double> later;   // x from 50 to 100 ms after the reach's start [mm]
         double fast = -1;            // when the reach exceeds 0.1 m/s [s]
     };

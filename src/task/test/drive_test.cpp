@@ -179,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{kMarker, "      drive: [{ body: block, angle_deg: 9, duration_s: 2 }]\n",
                 "axis: is missing"},
         Mistake{kMarker, "      drive: [{ body: block, along: [0, 0, 3 mm], axis: [0, 0, 1] }]\n",
-                "cannot be combined with along"},
+                "cannot be combined with 'along'"},
         Mistake{kMarker, "      drive: [{ body: block, path: { times_s: [0], x_mm: [0] } }]\n",
                 "has fewer than two times"},
         Mistake{kMarker,

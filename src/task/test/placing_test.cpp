@@ -194,7 +194,7 @@ INSTANTIATE_TEST_SUITE_P(
                 "position: is missing, and so is any other key"},
         Mistake{kMarker, "      place: [{ body: block, position: [0, 0, 9] }]\n", "needs its unit"},
         Mistake{kMarker, "      place: [{ body: block, removed: yes, held: yes }]\n",
-                "cannot be combined with position or held"},
+                "cannot be combined with 'position' or 'held'"},
         Mistake{kMarker,
                 "      place: [{ body: block, held: yes }, { body: block, removed: yes }]\n",
                 "is placed twice"},

@@ -203,7 +203,8 @@ TEST(Seen, ConditionsAndStatesColourAndSizeThings) {
     EXPECT_EQ(conditions.size(), 2u);
 }
 
-/// In one condition, the cursor and the target are hidden in the reach, and the block throughout.
+/// In one condition, the cursor and the target are hidden during the reach, and the block is hidden
+/// throughout.
 TEST(Seen, ConditionsHideThings) {
     session::Files files;
     files.keep_first_block();

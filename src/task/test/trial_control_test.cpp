@@ -37,7 +37,7 @@ TEST(TrialControl, AnAnswerCountsForItsQuestionAlone) {
     EXPECT_EQ(between.answer(), nullptr) << "nobody has decided";
     between.ask(ended(2));
     between.decide(decision(first->number, 5));
-    EXPECT_EQ(between.answer(), nullptr) << "that was about the trial before";
+    EXPECT_EQ(between.answer(), nullptr) << "that was about the previous trial";
     between.decide(decision(2, 7));
     ASSERT_NE(between.answer(), nullptr);
     EXPECT_EQ(between.answer()->next, 7);

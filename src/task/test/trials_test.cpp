@@ -89,7 +89,7 @@ TEST(Order, IsOfEachParticipantAndTheSameAgain) {
     for (const char* participant : {"S01", "S02", "S03", "S04", "S05", "S06", "S07", "S08"})
         different.insert(conditions(participant));
     EXPECT_GT(different.size(), 3u);
-    // a curve over trials has the same kinds of trials for everyone
+    // a curve over trials has the same kinds of trial for everyone
     const auto kinds = [&](const char* participant) {
         std::vector<TrialKind> out;
         const session::Plan plan = session::make_plan(files.request(1, participant));

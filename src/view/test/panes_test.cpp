@@ -62,7 +62,7 @@ Eigen::Vector2d drawn_at(const Pane& pane, const Vec3& p_W) {
     return {(pane.left + pane.width * u) * kWidth, (1 - pane.bottom - pane.height * v) * kHeight};
 }
 
-/// A point in front of or behind the screen that both eyes see on it.
+/// A point in front of or behind the screen whose image for each eye lies on the screen.
 Vec3 random_point(Random& random, const display::Display& display) {
     const Vec3 on_screen = display.lower_left + random.uniform(0.2, 0.8) * display.right() +
                            random.uniform(0.2, 0.8) * display.up();

@@ -55,7 +55,7 @@ struct FakeDhd {
 
     /// Makes a device cut its force; `cause` is a DhdForceOff.
     std::function<void(size_t device, int cause)> cut;
-    /// Resets the library, with two omega.3.
+    /// Resets the library, with two omega.3 devices connected.
     std::function<void()> reset;
 };
 

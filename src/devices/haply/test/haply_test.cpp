@@ -210,7 +210,7 @@ TEST_F(Haply, ReadsAndPushesTheDevicesBehindTheService) {
     EXPECT_EQ(readings[1].status, kForceClamped);
     devices->deactivate();
     const auto received = service_->received();
-    ASSERT_EQ(received.size(), 52u);  // 50, and one without force before and after
+    ASSERT_EQ(received.size(), 52u);  // 50, and one with zero force before and after
     EXPECT_EQ(received.front()[0], Vec3::Zero());
     EXPECT_EQ(received[1][0], Vec3(0, 0, 1));
     EXPECT_EQ(received[1][1], Vec3(0, -5, 0));

@@ -45,7 +45,7 @@ inline NumberedRun expect_no_command_lost_or_doubled(DeviceGroup& devices,
     EXPECT_EQ(status | readings[0].status | readings[1].status, 0u);
 
     const auto received = service.received();
-    out.sent = sent + 1;  // one message without force, for the first state
+    out.sent = sent + 1;  // one message with zero force, for the first state
     EXPECT_EQ(received.size(), out.sent + static_cast<size_t>(ticks));
     for (int i = 1; i <= ticks && out.sent < received.size(); ++i, ++out.sent) {
         EXPECT_EQ(received[out.sent][0], Vec3(number(i), 0, 0)) << i;

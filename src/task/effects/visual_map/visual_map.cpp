@@ -53,14 +53,14 @@ void VisualEffect::check(Diagnostics& diagnostics) const {
     const bool moves_object = (moves_ & frame::kMovesObject) != 0;
     if (displaces(spec_) && !moves_object && (moves_ & frame::kMovesProxies) == 0)
         error(spec_.delay != 0 ? "delay" : "noise", "needs proxies or the object among moves",
-              "Add proxies to moves.");
+              "Add 'proxies' to 'moves'.");
     if (moves_object && object_ < 0)
-        error("moves", "the scene has no movable object", "Leave out object.");
+        error("moves", "the scene has no movable object", "Leave out 'object'.");
     if (spec_.size != 1 && !moves_object)
-        error("size", "needs the object among moves", "Add object to moves.");
+        error("size", "needs 'object' among 'moves'", "Add 'object' to 'moves'.");
     if (spec_.toward.index >= 0 && (spec_.angle != 0 || spec_.scale != kNoFactors))
         error("toward", "motion shown on a line can be neither rotated nor scaled",
-              "Leave out angle_deg and scale, or toward.");
+              "Leave out angle_deg and 'scale', or 'toward'.");
 }
 
 std::optional<Vec3> VisualEffect::axis() const {
